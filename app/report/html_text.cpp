@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/pictures/svg_text.hpp"
 
 namespace treadmark::app::report {
@@ -29,18 +30,15 @@ std::string html_text(std::string_view words) {
 std::string shown(const Number& number) {
   const double value = number.value;
   if (!std::isfinite(value)) return "–";
-  constexpr double kLarge = 1e7, kSmall = 1e-4, kRounding = 1e-12;
-  if (std::fabs(value) < kRounding) return "0";
+  constexpr double kLarge = 1e7, kSmall = 1e-4;
+  if (std::fabs(value) < io::kShownAsZero) return "0";
   const double size = std::fabs(value);
   // whole numbers in full, if that takes no more digits than asked for: counts
   if (size >= kLarge && value == std::round(value) && size < std::pow(10.0, std::min(number.digits, 15)))
     return fmt::format("{:.0f}", value);
   if (size >= kLarge || size < kSmall) return fmt::format("{:.{}e}", value, number.digits - 1);
   if (std::fabs(value - std::round(value)) < 1e-12 * size) return fmt::format("{:.0f}", value);
-  int decimals = std::max(0, number.digits - 1 - static_cast<int>(std::floor(std::log10(size))));
-  const double rounded = std::round(size * std::pow(10.0, decimals)) / std::pow(10.0, decimals);
-  if (decimals > 0 && std::log10(rounded) >= number.digits - decimals) --decimals;  // 99.996 in four digits: 100.0
-  return fmt::format("{:.{}f}", value, decimals);
+  return fmt::format("{:.{}f}", value, io::decimals_of(value, number.digits));
 }
 
 std::string html_id(std::string_view words) {

@@ -40,8 +40,7 @@ struct StabilityRun {
 
 /// The vehicle of a simulation file on straight, even track, whatever line the file has. Errors: Error(configuration)
 /// for speeds that are no range, wheels with full contact (differences over a discretised contact are no derivatives)
-/// and rails that bend; those of the file. May be cancelled; a fall
-/// that is stopped says so.
+/// and rails that bend; those of the file. May be cancelled; a fall that is stopped says so.
 StabilityRun run_stability(const StabilityRequest& request, const Progress& progress = {});
 
 /// What follows for the vehicle, in a sentence.

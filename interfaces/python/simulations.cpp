@@ -157,16 +157,30 @@ py::dict sweep(const Source& source, const std::filesystem::path& folder, bool r
 }
 
 /// What a verb found out about a vehicle or a track.
-struct FoundTrack {
-  std::shared_ptr<const app::TrackResult> result;
+template <class Result>
+struct Found {
+  std::shared_ptr<const Result> result;
 };
-struct FoundStability {
-  std::shared_ptr<const app::StabilityRun> result;
+using FoundTrack = Found<app::TrackResult>;
+using FoundStability = Found<app::StabilityRun>;
+struct AssessedRuns {
+  std::vector<app::AssessedRun> runs;
+  Strings channels;  ///< drawn over the distance
 };
-struct FoundAssessment {
-  std::shared_ptr<const std::vector<app::AssessedRun>> result;
-  Strings channels;
-};
+using FoundAssessment = Found<AssessedRuns>;
+
+/// Its class: texts for programs and people, and the folder of the verb.
+template <class Result, class Json, class Csv, class Summary, class Write>
+py::class_<Found<Result>> found_class(py::module_& module, const char* name, Json json, Csv csv, Summary summary,
+                                      Write write) {
+  return py::class_<Found<Result>>(module, name)
+      .def("json", [=](const Found<Result>& f) { return json(*f.result); })
+      .def("csv", [=](const Found<Result>& f) { return csv(*f.result); })
+      .def("summary", [=](const Found<Result>& f) { return summary(*f.result); })
+      .def("write_folder", [=](const Found<Result>& f, const std::filesystem::path& folder) {
+        with_files([&] { write(folder, *f.result); });
+      });
+}
 
 FoundTrack track(const std::filesystem::path& file, const Strings& overrides, const std::pair<double, double>& range,
                  int count, int layers) {
@@ -216,9 +230,9 @@ FoundAssessment assess(const Strings& results, const std::string& vehicle, doubl
     request.spectra = spectra;
     for (const auto& [name, begin, end, kind] : sections)
       request.sections.push_back({name, begin, end, static_cast<SectionKind>(place_of(kind, kSectionKinds))});
-    const auto runs =
-        std::make_shared<const std::vector<app::AssessedRun>>(app::assess_files(results, request, channels));
-    return FoundAssessment{runs, channels.empty() ? app::usual_channels(*runs->front().result) : channels};
+    AssessedRuns found{app::assess_files(results, request, channels), channels};
+    if (channels.empty()) found.channels = app::usual_channels(*found.runs.front().result);
+    return FoundAssessment{std::make_shared<const AssessedRuns>(std::move(found))};
   });
 }
 
@@ -266,28 +280,18 @@ void add_simulations(py::module_& module) {
           app::write_simulation_folder(folder, *s.result);
         });
       });
-  py::class_<FoundTrack>(module, "Track")
-      .def("json", [](const FoundTrack& t) { return app::track_json(*t.result); })
-      .def("csv", [](const FoundTrack& t) { return app::track_csv(*t.result); })
-      .def("svg", [](const FoundTrack& t) { return app::track_svg(*t.result); })
-      .def("summary", [](const FoundTrack& t) { return app::track_table(*t.result); })
-      .def("write_folder", [](const FoundTrack& t, const std::filesystem::path& folder) {
-        with_files([&] { app::write_track_folder(folder, *t.result); });
-      });
-  py::class_<FoundStability>(module, "Stability")
-      .def("json", [](const FoundStability& t) { return app::stability_json(*t.result); })
-      .def("csv", [](const FoundStability& t) { return app::stability_csv(*t.result); })
-      .def("svg", [](const FoundStability& t) { return app::stability_svg(*t.result); })
-      .def("summary", [](const FoundStability& t) { return app::stability_table(*t.result); })
-      .def("write_folder", [](const FoundStability& t, const std::filesystem::path& folder) {
-        with_files([&] { app::write_stability_folder(folder, *t.result); });
-      });
-  py::class_<FoundAssessment>(module, "Assessment")
-      .def("json", [](const FoundAssessment& a) { return app::assessment_json(*a.result); })
-      .def("csv", [](const FoundAssessment& a) { return app::assessment_csv(*a.result); })
-      .def("summary", [](const FoundAssessment& a) { return app::assessment_text(*a.result); })
-      .def("write_folder", [](const FoundAssessment& a, const std::filesystem::path& folder) {
-        with_files([&] { app::write_assessment_folder(folder, *a.result, a.channels); });
+  found_class<app::TrackResult>(module, "Track", app::track_json, app::track_csv, app::track_table,
+                                app::write_track_folder)
+      .def("svg", [](const FoundTrack& t) { return app::track_svg(*t.result); });
+  found_class<app::StabilityRun>(module, "Stability", app::stability_json, app::stability_csv, app::stability_table,
+                                 app::write_stability_folder)
+      .def("svg", [](const FoundStability& t) { return app::stability_svg(*t.result); });
+  found_class<AssessedRuns>(
+      module, "Assessment", [](const AssessedRuns& a) { return app::assessment_json(a.runs); },
+      [](const AssessedRuns& a) { return app::assessment_csv(a.runs); },
+      [](const AssessedRuns& a) { return app::assessment_text(a.runs); },
+      [](const std::filesystem::path& folder, const AssessedRuns& a) {
+        app::write_assessment_folder(folder, a.runs, a.channels);
       });
   module.def("track", track);
   module.def("stability", stability);

@@ -178,11 +178,7 @@ std::vector<Key> part_keys() {
         element_number<SurfaceSource>(axes[axis], kAnyNumber, "offset of the part in the frame of the rail",
                                       [axis](SurfaceSource& s) -> double& { return s.offset[axis]; }),
         "0"));
-  KeyInfo backend =
-      key_info("backend", KeyType::text, "surface representation of this part; without it that of the rail");
-  backend.pattern = kBackendPattern;
-  backend.matches = is_backend_name;
-  backend.like = kBackendLike;
+  KeyInfo backend = backend_key("backend", "surface representation of this part; without it that of the rail");
   keys.push_back({backend,
                   [](SurfaceSource& s, const CaseValue& v) { s.backend = v.text(); },
                   {},

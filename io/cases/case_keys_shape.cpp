@@ -23,13 +23,10 @@ class ShapeKeys {
     add_geometry();
     add_file_options();
     if (body_ == "wheel") add_seam();
-    KeyInfo backend = key_info(body_ + ".backend", KeyType::text,
-                               "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, "
-                               "offset-quadratic or offset-bilinear; "
-                               "without it the one that fits the shape");
-    backend.pattern = kBackendPattern;
-    backend.matches = is_backend_name;
-    backend.like = kBackendLike;
+    KeyInfo backend = backend_key(body_ + ".backend",
+                                  "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, "
+                                  "offset-quadratic or offset-bilinear; "
+                                  "without it the one that fits the shape");
     backend.scope = KeyScope::wheel_rail;
     CaseKey& representation = list_.add(backend);
     representation.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {

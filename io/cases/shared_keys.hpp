@@ -13,6 +13,15 @@
 
 namespace treadmark::io {
 
+/// A key whose value is the name of a representation.
+inline KeyInfo backend_key(std::string path, std::string doc) {
+  KeyInfo key = key_info(std::move(path), KeyType::text, std::move(doc));
+  key.pattern = kBackendPattern;
+  key.matches = is_backend_name;
+  key.like = kBackendLike;
+  return key;
+}
+
 /// A key that both kinds of case have in a member of the same name and type.
 template <class Place>
 CaseKey& shared_number(KeyList& list, const std::string& path, KeyLimits limits, const std::string& doc, Place place) {

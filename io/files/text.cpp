@@ -153,6 +153,14 @@ double twelve_digits(double value) {
   return rounded;
 }
 
+int decimals_of(double value, int digits) {
+  const auto decimals = [&](double size) {
+    return std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(size))));
+  };
+  const double size = std::abs(value), scale = std::pow(10.0, decimals(size));
+  return decimals(std::round(size * scale) / scale);
+}
+
 std::string to_base64(std::span<const std::byte> bytes) {
   static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text((bytes.size() + 2) / 3 * 4, '=');

@@ -38,6 +38,13 @@ std::size_t utf8_length(std::string_view text);
 /// Thread-safe.
 double twelve_digits(double value);
 
+/// In the units in which people read numbers, less than this is nothing but rounding and shown as 0.
+inline constexpr double kShownAsZero = 1e-12;
+
+/// Decimals with which a number, not 0, has so many significant digits; those it rounds up to count: 99.996 has one
+/// less in four digits. Never below 0.
+int decimals_of(double value, int digits);
+
 /// Base64 text (RFC 4648) of some bytes, padded with '='.
 std::string to_base64(std::span<const std::byte> bytes);
 

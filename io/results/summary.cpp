@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 
 namespace treadmark::io {
@@ -42,23 +43,25 @@ std::string four_decimals(double value) {
   return text == "-0.0000" ? text.substr(1) : text;
 }
 
+/// 0 for what is nothing but rounding.
+double without_rounding(double value) { return std::abs(value) < kShownAsZero ? 0.0 : value; }
+
 /// Five significant digits, without an exponent where the number is of ordinary size.
 std::string five_digits(double value) {
+  value = without_rounding(value);
   const double size = std::abs(value);
   if (!(size >= 1e-3 && size < 1e9)) return fmt::format("{:.5g}", value);
-  return fmt::format("{:.{}f}", value, std::max(0, 4 - static_cast<int>(std::floor(std::log10(size)))));
+  return fmt::format("{:.{}f}", value, decimals_of(value, 5));
 }
 
 std::string in_digits(double value, Label::Digits digits) {
-  constexpr double kRounding = 1e-12;  // in the units that are shown: less is nothing but rounding
-  if (std::abs(value) < kRounding) value = 0.0;
   switch (digits) {
     case Label::Digits::four_decimals:
       return four_decimals(value);
     case Label::Digits::five:
       return five_digits(value);
     case Label::Digits::four:
-      return fmt::format("{:.4g}", value);
+      return fmt::format("{:.4g}", without_rounding(value));
     case Label::Digits::whole:
       return fmt::format("{}", static_cast<int>(value));
   }

@@ -19,17 +19,13 @@ namespace {
 
 /// Overrides of keys that are not in another table mean the one that gives the model its name.
 void change_model(CaseTable& document, std::span<const CaseOverride> changes, const std::string& main_table,
-                  std::span<const std::string_view> others) {
+                  const TableKeys& tables) {
   for (const CaseOverride& change : changes) {
     const std::string_view head = std::string_view(change.path).substr(0, change.path.find('.'));
-    const bool in_other = std::ranges::find(others, head) != others.end();
+    const bool in_other = head != main_table && std::ranges::find(tables, head, &KeyInfo::path) != tables.end();
     change_value(document, in_other ? change.path : main_table + '.' + change.path, change);
   }
 }
-
-constexpr std::string_view kVehicleParts[] = {"bodies", "springs", "bump_stops", "wheelsets", "axles"};
-constexpr std::string_view kTrackParts[] = {"bodies", "springs", "bump_stops", "wheelsets", "rail",
-                                            "seats",  "varied",  "joints",     "lateral"};
 
 /// Reader of the table that gives the model its name.
 TableReader main_table(const TableReader& document, const std::string& key, const std::vector<KeyInfo>& known) {
@@ -177,7 +173,7 @@ std::vector<CaseOverride> parsed(std::span<const std::string> overrides) {
 
 VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
   CaseTable tables = parse_toml(text, name);
-  change_model(tables, changes, "vehicle", kVehicleParts);
+  change_model(tables, changes, "vehicle", vehicle_tables());
   const TableReader document(tables, {name, 1, 1}, "", vehicle_tables());
   const TableReader table = main_table(document, "vehicle", vehicle_keys());
   VehicleModel vehicle;
@@ -194,7 +190,7 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
 
 AnyTrack parse_any_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
   CaseTable tables = parse_toml(text, name);
-  change_model(tables, changes, "track", kTrackParts);
+  change_model(tables, changes, "track", track_tables());
   const TableReader document(tables, {name, 1, 1}, "", track_tables());
   const TableReader table = main_table(document, "track", track_keys());
   const bool flexible = table.text_or("kind", "lumped") == "flexible";

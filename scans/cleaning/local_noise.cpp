@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Cholesky>
+
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/cpu.hpp"
 #include "treadmark/core/median.hpp"
@@ -73,72 +75,31 @@ void gather(const BandPoints& points, const Band& band, std::size_t row, int col
   for (int i = samples.count; i % Window::kLanes != 0; ++i) samples.x[i] = samples.y[i] = samples.d[i] = 0.0f;
 }
 
-using Terms = std::array<double, Window::kTerms>;
+using Terms = Eigen::Matrix<double, Window::kTerms, 1>;
+using Factor = Eigen::LLT<Eigen::Matrix<double, Window::kTerms, Window::kTerms>>;
 
-Terms terms(double x, double y) { return {1.0, x, y, x * x, x * y, y * y}; }
+Terms terms(double x, double y) { return Terms{1.0, x, y, x * x, x * y, y * y}; }
 
-double value(const Terms& c, const Terms& t) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * t[i];
-  return sum;
+/// Of the normal matrix from the sums of WindowKernel, with so much added to the diagonal.
+Factor factor_of(const std::array<double, Window::kMoments>& moments, double added) {
+  constexpr std::size_t kAlong[] = {0, 1, 0, 2, 1, 0}, kAcross[] = {0, 0, 1, 0, 1, 2};  // powers of the terms
+  constexpr std::size_t kBegin[] = {0, 5, 9, 12, 14};                                   // of each power of y
+  Factor::MatrixType matrix;
+  for (int i = 0; i < Window::kTerms; ++i)
+    for (int k = 0; k < Window::kTerms; ++k)
+      matrix(i, k) = moments[kBegin[kAcross[i] + kAcross[k]] + kAlong[i] + kAlong[k]] + (i == k ? added : 0.0);
+  return Factor(matrix);
 }
 
-/// A positive definite matrix as L D L^T.
-class Factor {
- public:
-  /// From the sums of WindowKernel, with so much added to the diagonal.
-  Factor(const std::array<double, Window::kMoments>& moments, double added) {
-    constexpr std::size_t kAlong[] = {0, 1, 0, 2, 1, 0}, kAcross[] = {0, 0, 1, 0, 1, 2};  // powers of the terms
-    constexpr std::size_t kBegin[] = {0, 5, 9, 12, 14};                                   // of each power of y
-    for (std::size_t i = 0; i < kSize; ++i)
-      for (std::size_t k = 0; k <= i; ++k) {
-        double sum = moments[kBegin[kAcross[i] + kAcross[k]] + kAlong[i] + kAlong[k]] + (i == k ? added : 0.0);
-        for (std::size_t j = 0; j < k; ++j) sum -= lower_[i][j] * lower_[k][j] * diagonal_[j];
-        if (i == k)
-          diagonal_[i] = sum;
-        else
-          lower_[i][k] = sum / diagonal_[k];
-      }
-  }
-
-  Terms solve(Terms b) const {
-    forward(b);
-    for (std::size_t i = kSize; i-- > 0;) {
-      b[i] /= diagonal_[i];
-      for (std::size_t k = i + 1; k < kSize; ++k) b[i] -= lower_[k][i] * b[k];
-    }
-    return b;
-  }
-
-  /// b^T A^-1 b.
-  double form(Terms b) const {
-    forward(b);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < kSize; ++i) sum += b[i] * b[i] / diagonal_[i];
-    return sum;
-  }
-
- private:
-  static constexpr std::size_t kSize = Window::kTerms;
-
-  void forward(Terms& b) const {
-    for (std::size_t i = 0; i < kSize; ++i)
-      for (std::size_t k = 0; k < i; ++k) b[i] -= lower_[i][k] * b[k];
-  }
-
-  std::array<std::array<double, kSize>, kSize> lower_{};
-  std::array<double, kSize> diagonal_{};
-};
-
 struct WindowFit {
-  Terms c{};           ///< over the window's own coordinates
+  Terms c;             ///< over the window's own coordinates
   Factor factor;       ///< of the normal matrix
   double sigma = 0.0;  ///< scatter about the quadratic [m]
 };
 
 WindowFit fit_window(Window& samples, double least) {
   const auto count = static_cast<std::size_t>(samples.count);
-  Terms c{};
+  Terms c = Terms::Zero();
   double scale = 0.0;
   for (int round = 0;; ++round) {
     const WindowWeights weights = round == 0          ? WindowWeights::even
@@ -149,7 +110,7 @@ WindowFit fit_window(Window& samples, double least) {
     kernel().sums(samples, c.data(), weights, round < kAbsolute ? scale : kTukey * scale, moments.data(),
                   products.data());
     // surroundings that lie on one line leave terms open: those stay small
-    const Factor factor(moments, 1e-7 * std::max(moments[0], 1.0));
+    const Factor factor = factor_of(moments, 1e-7 * std::max(moments[0], 1.0));
     c = factor.solve(products);
     float middle = 0.0f, greatest = 0.0f;
     kernel().sizes(samples, c.data(), &middle, &greatest);
@@ -207,13 +168,13 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
       for (std::size_t i = own; i < own_end; ++i) {
         const Terms t = terms((points.a[i] - a0) / reach_a, (points.s[i] - s0) / reach_s);
         // a lone point draws the quadratic to itself: judged by what the others say of it (Cook and Weisberg 1982)
-        const double leverage = fit.factor.form(t);
+        const double leverage = fit.factor.matrixL().solve(t).squaredNorm();
         if (leverage > kMostLeverage) {
           points.state[i] = PointState::outlier;
           ++isolated[row];
           continue;
         }
-        if (!(std::fabs(points.d[i] - value(fit.c, t)) > limit * std::sqrt(1.0 - leverage))) continue;
+        if (!(std::fabs(points.d[i] - fit.c.dot(t)) > limit * std::sqrt(1.0 - leverage))) continue;
         ++(edge ? spared : outliers)[row];
         if (!edge) points.state[i] = PointState::outlier;
       }

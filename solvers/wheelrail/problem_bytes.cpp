@@ -9,7 +9,8 @@
 namespace treadmark::wheelrail {
 namespace {
 
-// Every structure is taken apart by name: a new member does not compile until it is written, too.
+// Structures are taken apart by name: a new member does not compile until it is written, too. Only Discretisation,
+// which has a base, cannot be: its own members are named one by one.
 
 template <class... T>
 void put_all(ByteWriter& out, const T&... values);

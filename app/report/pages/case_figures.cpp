@@ -28,13 +28,6 @@ double total(const Case& result, double io::PatchResult::*member) {
   return sum;
 }
 
-double largest(const Case& result, double io::PatchResult::*member) {
-  double most = NAN;
-  for (const io::PatchResult& patch : result.patches)
-    most = std::isnan(most) ? patch.*member : std::max(most, patch.*member);
-  return most;
-}
-
 double contact_area(const Case& result) {
   double sum = 0.0;
   for (const io::PatchResult& patch : result.patches) sum += patch.ncon * patch.fields.grid.cell_area();
@@ -93,6 +86,13 @@ Panel one(const char* label, const char* unit, std::vector<double> values) {
 }
 
 }  // namespace
+
+double largest(const Case& result, double io::PatchResult::*member) {
+  double most = NAN;
+  for (const io::PatchResult& patch : result.patches)
+    most = std::isnan(most) ? patch.*member : std::max(most, patch.*member);
+  return most;
+}
 
 FrameSet frames_of(const std::shared_ptr<const io::RunResult>& run, std::string name) {
   FrameSet set{std::move(name)};

@@ -29,6 +29,9 @@ ChartView case_chart(const io::RunResult& run);
 Table case_table(const io::RunResult& run);
 Table patch_table(const io::RunResult& run);
 
+/// Of the patches of a case; NaN without any.
+double largest(const io::CaseResult& result, double io::PatchResult::*member);
+
 /// Whether any patch of the run has contact fields.
 bool has_fields(const io::RunResult& run);
 

@@ -10,6 +10,7 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/case_figures.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -67,19 +68,16 @@ Cards::Card extreme(const io::RunResult& run, const char* label, const char* uni
           number > 0 ? fmt::format("case {}", number) : ""};
 }
 
-double largest_pressure(const io::CaseResult& c) {
-  double most = NAN;
-  for (const io::PatchResult& p : c.patches) most = std::isnan(most) ? p.pmax : std::max(most, p.pmax);
-  return most;
-}
+double largest_pressure(const io::CaseResult& c) { return largest(c, &io::PatchResult::pmax); }
 
 /// The case with the largest pressure.
 std::size_t worst_case(const io::RunResult& run) {
   std::size_t worst = 0;
-  for (std::size_t i = 0; i < run.cases.size(); ++i)
-    if (!(largest_pressure(run.cases[i]) <= largest_pressure(run.cases[worst])) &&
-        std::isfinite(largest_pressure(run.cases[i])))
-      worst = i;
+  double most = -kInfinity;
+  for (std::size_t i = 0; i < run.cases.size(); ++i) {
+    const double pressure = largest_pressure(run.cases[i]);
+    if (pressure > most && std::isfinite(pressure)) most = pressure, worst = i;
+  }
   return worst;
 }
 

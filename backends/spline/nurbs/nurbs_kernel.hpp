@@ -268,7 +268,7 @@ bool hit_points(const ViewArrays& view, const PatchPowers& patch, const TileArra
 // Indices of the points from low to high, which may be wider by kSlack; none where last < first.
 TREADMARK_LANES void indices(double low, double high, double first_point, double step, int count, int& first,
                              int& last) {
-  constexpr double kSlack = 1e-9;  // [m]
+  using nurbs_limits::kSlack;
   const double from = (low - kSlack - first_point) / step, to = (high + kSlack - first_point) / step;
   first = from < 0.0 ? 0 : from < count ? static_cast<int>(from) + 1 : count;
   last = to < 0.0 ? -1 : to < count ? static_cast<int>(to) : count - 1;

@@ -10,6 +10,7 @@ namespace treadmark::spline::nurbs_limits {
 constexpr double kBorder = 0.5 + 1e-9, kFurthest = 0.75;
 constexpr double kContraction = 0.5;  // greatest |E| of a regular leaf
 constexpr double kRounding = 1e-9;    // of ranges of s and t
+constexpr double kSlack = 1e-9;       // [m] rounding of boxes
 // Residuals [m] at which a last step of first order is exact: its error is their square times curvature.
 constexpr double kNear = 1e-8, kExact = 1e-11;
 

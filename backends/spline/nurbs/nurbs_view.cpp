@@ -8,7 +8,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kSlack = 1e-9;    // [m] rounding of boxes
+using nurbs_limits::kSlack;
 constexpr int kLeafHalvings = 8;   // of a patch into leaves, before lines look closer
 constexpr int kMostHalvings = 48;  // altogether
 constexpr double kSameHit = 1e-9;  // [m] hits nearer than this are the same one, found in two leaves
@@ -71,13 +71,20 @@ NurbsView::~NurbsView() {
   if (leaves_.capacity() <= kMostLeaves) std::swap(room_, spare_room());
 }
 
-NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing)
+NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing, Empty)
     : net_(net),
       X_SP_(X_SP),
       rectangle_{r.x_min - kSlack, r.x_max + kSlack, r.y_min - kSlack, r.y_max + kSlack},
       half_(X_SP, facing),
       side_(facing == Facing::up ? -1.0 : 1.0) {
-  begin();
+  std::swap(room_, spare_room());
+  candidates_.clear();
+  leaves_.clear();
+  rough_.clear();
+}
+
+NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing)
+    : NurbsView(net, X_SP, r, facing, Empty()) {
   for_patches_over(net, X_SP, rectangle_, half_, [&](int iu, int iv, const Vec3& low, const Vec3& high) {
     candidates_.push_back({{low.x(), high.x()}, {low.y(), high.y()}, side_ > 0.0 ? high.z() : -low.z(), iu, iv});
   });
@@ -86,12 +93,7 @@ NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, 
 
 NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing,
                      std::span<const PatchIndex> patches)
-    : net_(net),
-      X_SP_(X_SP),
-      rectangle_{r.x_min - kSlack, r.x_max + kSlack, r.y_min - kSlack, r.y_max + kSlack},
-      half_(X_SP, facing),
-      side_(facing == Facing::up ? -1.0 : 1.0) {
-  begin();
+    : NurbsView(net, X_SP, r, facing, Empty()) {
   for (const PatchIndex& patch : patches) {
     const ControlBox box(net.patch(patch.iu, patch.iv, X_SP));
     candidates_.push_back({{box.x.low - kSlack, box.x.high + kSlack},
@@ -101,13 +103,6 @@ NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, 
                            patch.iv});
   }
   sort_into_bins();
-}
-
-void NurbsView::begin() {
-  std::swap(room_, spare_room());
-  candidates_.clear();
-  leaves_.clear();
-  rough_.clear();
 }
 
 void NurbsView::sort_into_bins() {

@@ -44,7 +44,7 @@ struct PatchIndex {
 template <class Use>
 void for_patches_over(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, const FacingHalf& half,
                       const Use& use) {
-  constexpr double kSlack = 1e-9;  // [m] rounding of boxes
+  using nurbs_limits::kSlack;
   if (half.none || !(r.x_max >= r.x_min && r.y_max >= r.y_min)) return;
   const Mat3 turn = X_SP.rotation.transpose(), spread = turn.cwiseAbs();
   const Vec3 shift = turn * X_SP.origin, outwards_size = half.outwards.cwiseAbs();
@@ -126,7 +126,8 @@ class NurbsView {
     LeafRoot root{}, guessed{};
   };
 
-  void begin();
+  struct Empty {};
+  NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& rectangle, Facing facing, Empty);
   void sort_into_bins();
   void prepare(Candidate& candidate);
   void divide(const BezierPatch& bezier, const PatchPart& part);

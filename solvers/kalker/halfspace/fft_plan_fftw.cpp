@@ -26,10 +26,10 @@ class BlockPlan {
     if (lines % of_block != 0) rest_ = made(make(lines % of_block));
   }
 
-  /// execute(plan, first line)
   /// For a block or for what is left over.
   fftw_plan of(int lines) const { return (lines == of_block_ ? whole_ : rest_).get(); }
 
+  /// execute(plan, first line)
   template <class Execute>
   void run(const Execute& execute) const {
     if (!whole_) return;

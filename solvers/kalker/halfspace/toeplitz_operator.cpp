@@ -93,6 +93,11 @@ RealFft2d::StoreRows rows_to(std::span<double> field, int nx, int padded_nx) {
   };
 }
 
+RealFft2d ring_about(int nx, int ny) {
+  constexpr int kApart = 2;  // elements between the box and its image
+  return {good_fft_size(nx + kApart), ny == 1 ? 1 : good_fft_size(ny + kApart), ny};
+}
+
 std::vector<double> even_symbol(const RealFft2d& fft, const OffsetKernel& kernel) {
   const int nx = fft.nx(), ny = fft.ny();
   // One half-plane: the other one has the complex conjugate transform. Rows on the line between them count half.
@@ -182,17 +187,6 @@ Spectrum ToeplitzTransform::in_lines(Spectrum spectrum) const {
     for (int kx = 0; kx < fft_.lines(); ++kx)
       lines[fft_.place(kx, ky)] = spectrum[static_cast<std::size_t>(ky) * width + static_cast<std::size_t>(kx)];
   return lines;
-}
-
-Spectrum ToeplitzTransform::wrapped_kernel_spectrum(const OffsetKernel& kernel) const {
-  const int px = padded_nx(), py = padded_ny();
-  AlignedVector<double> field;
-  field.reserve(product(px, py));
-  const double scale = 1.0 / (static_cast<double>(px) * py);
-  for (int iy = 0; iy < py; ++iy, check_cancelled())
-    for (int ix = 0; ix < px; ++ix)
-      field.push_back(scale * kernel(2 * ix <= px ? ix : ix - px, 2 * iy <= py ? iy : iy - py));
-  return whole_spectrum(field);
 }
 
 void ToeplitzTransform::convolve(std::span<const std::complex<double>> kernel_spectrum, std::span<const double> field,

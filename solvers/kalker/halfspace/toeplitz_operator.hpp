@@ -24,6 +24,10 @@ void multiply(std::span<std::complex<double>> spectrum, std::span<const std::com
 void add_product(std::span<std::complex<double>> sum, std::span<const std::complex<double>> field,
                  std::span<const std::complex<double>> factor, double weight = 1.0);
 
+/// A periodic ring hardly larger than a box of nx columns and ny rows, its active ones: on it coefficients of influence
+/// have an inverse that makes a preconditioner. Wider rings do not save iterations.
+RealFft2d ring_about(int nx, int ny);
+
 /// Transform of a kernel that is the same at opposite offsets in both directions (hence real), on the ring of elements
 /// of `fft`, divided by their number, in the lines of `fft`. Offsets beyond the active rows count as zero. The kernel
 /// is called on any thread.
@@ -54,10 +58,6 @@ class ToeplitzTransform {
   Spectrum kernel_spectrum(const OffsetKernel& kernel) const;
   /// The spectrum in the lines of fft().
   Spectrum in_lines(Spectrum spectrum) const;
-  /// The same product, but the kernel is evaluated at all offsets of the padded field, |dix| <= padded_nx/2 and
-  /// |diy| <= padded_ny/2. For a symmetric decaying kernel the spectrum is then free of the ripples that a cut leaves,
-  /// so that its reciprocal makes a preconditioner.
-  Spectrum wrapped_kernel_spectrum(const OffsetKernel& kernel) const;
   /// field -> kernel * field. Sizes nx * ny; input and output may be the same.
   void convolve(std::span<const std::complex<double>> kernel_spectrum, std::span<const double> field,
                 std::span<double> result) const;

@@ -22,9 +22,6 @@ std::vector<double> reciprocal(std::vector<double> symbol, const RealFft2d& ring
   return symbol;
 }
 
-/// Elements of the ring on which coefficients are inverted.
-int ring_size(int n) { return good_fft_size(n + 2); }
-
 }  // namespace
 
 NormalOperator NormalOperatorCache::get(int nx, int ny, int first_row, const ContactProblem& problem) {
@@ -53,8 +50,8 @@ NormalOperator NormalOperatorCache::get(int nx, int ny, int first_row, const Con
 
 std::shared_ptr<NormalInfluence> NormalOperatorCache::make(int nx, int ny) {
   const double dx = table_->dx(), dy = table_->dy();
-  auto made = std::make_shared<NormalInfluence>(NormalInfluence{
-      ToeplitzTransform(nx, ny), {}, {}, RealFft2d(ring_size(nx), ny == 1 ? 1 : ring_size(ny), ny), {}, {}});
+  auto made =
+      std::make_shared<NormalInfluence>(NormalInfluence{ToeplitzTransform(nx, ny), {}, {}, ring_about(nx, ny), {}, {}});
   const auto coefficient = [&](int dix, int diy) {
     const double c = kernel_ ? kernel_->at(dix * dx, diy * dy).nn : (*table_)(dix, diy);
     return c / shear_modulus_ + (dix == 0 && diy == 0 ? sheet_ : 0.0);

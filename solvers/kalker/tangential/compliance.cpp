@@ -192,9 +192,6 @@ ComplianceBlock inverse(const ComplianceBlock& b) {
   return {m + d * half, d * b.xy, m - d * half};
 }
 
-/// Elements of the ring: hardly more than of the box, because wider rings do not save iterations.
-int ring_size(int n) { return good_fft_size(n + 2); }
-
 }  // namespace
 
 std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const RealFft2d& fft) {
@@ -210,7 +207,7 @@ std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const R
 }
 
 InverseCompliance::InverseCompliance(int nx, int ny, const ComplianceKernel& kernel)
-    : nx_(nx), fft_(ring_size(nx), ny == 1 ? 1 : ring_size(ny), ny) {
+    : nx_(nx), fft_(ring_about(nx, ny)) {
   symbol_ = ring_symbol(kernel, fft_);
   const double scale = 1.0 / (static_cast<double>(fft_.nx()) * fft_.ny());
   for (ComplianceBlock& b : symbol_) {

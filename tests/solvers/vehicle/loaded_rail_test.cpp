@@ -189,17 +189,6 @@ VehicleOnTrack on_shared_rails(const FlexibleTrack& track, double speed, double 
   return v;
 }
 
-SimulationSettings steps_of(double duration, double step) {
-  SimulationSettings s;
-  s.duration = duration;
-  s.position_tolerance = 1.0;
-  s.max_step = s.first_step = step;
-  s.min_step = 1e-4 * step;
-  s.max_travel = 1.0;
-  s.step.force_tolerance = 1e-6;
-  return s;
-}
-
 TEST(LoadedRail, WheelsetsRestOnTheRailThatBothDeflect) {
   const FlexibleTrack track = usual_zhai();
   const VehicleOnTrack v = on_shared_rails(track, 0.01, 1e-9);  // slow: dampers below move the deflection back
@@ -228,7 +217,7 @@ SystemState pushed(const VehicleOnTrack& v) {
 TEST(LoadedRail, EnergyIsBalanced) {
   for (const double step : {2e-5, 2e-4}) {
     const VehicleOnTrack v = on_shared_rails(usual_zhai(), 20.0, 1e-8);
-    Simulation s(v, pushed(v), steps_of(0.3, step));
+    Simulation s(v, pushed(v), equal_steps(0.3, step));
     while (!s.finished()) s.advance();
     EXPECT_GT(s.energy().turnover, 10.0);
     EXPECT_LT(std::abs(s.energy().integration_error(s.energy_at_start())), 1e-4 * s.energy().turnover) << step;
@@ -250,7 +239,7 @@ TEST(LoadedRail, AWavyRailBelowOneWheelMovesTheOther) {
   for (const bool shared : {true, false}) {
     const VehicleOnTrack v = on_shared_rails(track, kSpeed, 1e-8, shared,
                                              [](double x) { return kHeight * std::sin(2.0 * kPi * x / kWaveLength); });
-    Simulation s(v, find_equilibrium(v).state, steps_of(0.35, kStep));
+    Simulation s(v, find_equilibrium(v).state, equal_steps(0.35, kStep));
     Wave found[2] = {};
     double last = 0.0, span = 0.0;
     while (!s.finished()) {
@@ -287,7 +276,7 @@ TEST(LoadedRail, AWavyRailBelowOneWheelMovesTheOther) {
 }
 
 TEST(LoadedRail, GoesOnWithTheSameBits) {
-  const SimulationSettings settings = steps_of(0.15, 5e-5);
+  const SimulationSettings settings = equal_steps(0.15, 5e-5);
   const VehicleOnTrack first = on_shared_rails(usual_zhai(), 20.0, 1e-6);
   Simulation whole(first, pushed(first), settings);
   ByteWriter saved;

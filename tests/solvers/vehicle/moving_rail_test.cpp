@@ -225,17 +225,6 @@ VehicleOnTrack on_bending_rails(const FlexibleTrack& track, double speed, double
   return v;
 }
 
-SimulationSettings small_steps(double duration, double step) {
-  SimulationSettings s;
-  s.duration = duration;
-  s.position_tolerance = 1.0;
-  s.max_step = s.first_step = step;
-  s.min_step = 1e-4 * step;
-  s.max_travel = 1.0;
-  s.step.force_tolerance = 1e-6;
-  return s;
-}
-
 TEST(ContactOnRail, EquilibriumRestsOnTheDeflectedRail) {
   const FlexibleTrack track = short_zhai();
   const VehicleOnTrack v = on_bending_rails(track, 20.0, 1e-9);
@@ -251,7 +240,7 @@ TEST(ContactOnRail, EnergyIsBalanced) {
   const VehicleOnTrack v = on_bending_rails(short_zhai(), 20.0, 1e-8);
   SystemState start = find_equilibrium(v).state;
   start.q[0] += 0.01;
-  Simulation s(v, start, small_steps(0.3, 2e-5));
+  Simulation s(v, start, equal_steps(0.3, 2e-5));
   while (!s.finished()) s.advance();
   EXPECT_GT(s.energy().turnover, 10.0);
   EXPECT_LT(std::abs(s.energy().integration_error(s.energy_at_start())), 1e-4 * s.energy().turnover);
@@ -259,7 +248,7 @@ TEST(ContactOnRail, EnergyIsBalanced) {
 }
 
 TEST(ContactOnRail, GoesOnWithTheSameBits) {
-  const SimulationSettings settings = small_steps(0.15, 5e-5);
+  const SimulationSettings settings = equal_steps(0.15, 5e-5);
   const VehicleOnTrack first = on_bending_rails(short_zhai(), 20.0, 1e-6);
   const auto start_of = [](const VehicleOnTrack& v) {
     SystemState state = find_equilibrium(v).state;

@@ -225,17 +225,6 @@ TEST(RailJoint, MovingRailKeepsTheBalanceOfItsEnergy) {
   EXPECT_NEAR(put_in, dissipated + energy - at_start, 1e-5 * dissipated);
 }
 
-SimulationSettings steps_over_joint(double duration, double step) {
-  SimulationSettings s;
-  s.duration = duration;
-  s.position_tolerance = 1.0;
-  s.max_step = s.first_step = step;
-  s.min_step = 1e-6 * step;
-  s.max_travel = 1.0;
-  s.step.force_tolerance = 1e-6;
-  return s;
-}
-
 VehicleOnTrack before_joint(const FlexibleTrack& track, double speed, double ahead) {
   VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), {}, speed, kJointContact);
   const double load = 0.5 * v.system.wheelset_load[0], start = track.joints[0].x - ahead - RailOnSeats(track).middle();
@@ -255,7 +244,7 @@ TEST(RailJoint, PeaksOfADipAreThoseOfTheLinearSystem) {
   track.joints[0].dip_depth = kDepth;
   track.joints[0].dip_length = kLength;
   const VehicleOnTrack v = before_joint(track, kSpeed, kAhead);
-  Simulation s(v, find_equilibrium(v).state, steps_over_joint(0.1, kStep));
+  Simulation s(v, find_equilibrium(v).state, equal_steps(0.1, kStep, 1e-6));
   const double load = 0.5 * v.system.wheelset_load[0],
                stiffness = 1.5 * std::pow(kJointContact, 2.0 / 3.0) * std::cbrt(load);
   constexpr double kUnsprung = 0.5 * 1813.0;
@@ -304,7 +293,7 @@ TEST(RailJoint, EnergyOfAWheelThatPassesIsBalanced) {
   track.joints[0].dip_depth = 1e-3;
   track.joints[0].dip_length = 0.6;
   const VehicleOnTrack v = before_joint(track, 20.0, 1.0);
-  Simulation s(v, find_equilibrium(v).state, steps_over_joint(0.2, 1e-5));
+  Simulation s(v, find_equilibrium(v).state, equal_steps(0.2, 1e-5, 1e-6));
   double most = 0.0;
   while (!s.finished()) s.advance(), most = std::max(most, s.reactions()[0].normal_force);
   EXPECT_GT(most, 1.5 * 0.5 * v.system.wheelset_load[0]);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hertz_spring.hpp"
+#include "treadmark/solvers/vehicle/simulation.hpp"
 #include "treadmark/solvers/vehicle/vehicle_on_track.hpp"
 
 namespace treadmark::vehicle {
@@ -43,6 +44,18 @@ inline TrackModel rails_on_springs(double mass, double stiffness, double damping
   t.left_rail = "left_rail";
   t.right_rail = "right_rail";
   return t;
+}
+
+/// Steps of one length [s] that nothing but the forces shortens.
+inline SimulationSettings equal_steps(double duration, double step, double shortest = 1e-4) {
+  SimulationSettings s;
+  s.duration = duration;
+  s.position_tolerance = 1.0;
+  s.max_step = s.first_step = step;
+  s.min_step = shortest * step;
+  s.max_travel = 1.0;
+  s.step.force_tolerance = 1e-6;
+  return s;
 }
 
 inline VehicleOnTrack on_hertz_springs(const VehicleModel& model, const std::optional<TrackModel>& track, double speed,

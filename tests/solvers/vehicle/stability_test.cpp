@@ -270,13 +270,19 @@ FallResult fall(const Wheelset& w, const FallSettings& settings, double offset) 
   return judge_fall(history, settings);
 }
 
-/// The stop ends the growth of the sway and makes it less unstable: the limit cycle shrinks to the clearance at the
-/// linear critical speed, and beyond that decays by the eigenvalues, whose integral over time says when it is gone.
-TEST(FallingSpeed, EndsALimitCycleWhereTheEigenvaluesSay) {
+/// With a stop that limits its sway.
+Wheelset stopped_wheelset() {
   Wheelset w;
   w.lateral = 0.5e6;
   w.yaw = 1e6;
   w.clearance = 3e-3;
+  return w;
+}
+
+/// The stop ends the growth of the sway and makes it less unstable: the limit cycle shrinks to the clearance at the
+/// linear critical speed, and beyond that decays by the eigenvalues, whose integral over time says when it is gone.
+TEST(FallingSpeed, EndsALimitCycleWhereTheEigenvaluesSay) {
+  const Wheelset w = stopped_wheelset();
   const double critical = critical_by_hand(w);
   FallSettings settings{1.1 * critical, 0.8 * critical, 600.0, 0.8, 100.0, 1e-4};
   const auto by_hand = [&](double deceleration) {
@@ -307,10 +313,7 @@ TEST(FallingSpeed, EndsALimitCycleWhereTheEigenvaluesSay) {
 }
 
 TEST(FallingSpeed, SaysWhereThereIsNoLimitCycleAndWhereItLasts) {
-  Wheelset w;
-  w.lateral = 0.5e6;
-  w.yaw = 1e6;
-  w.clearance = 3e-3;
+  const Wheelset w = stopped_wheelset();
   const double critical = critical_by_hand(w);
   FallSettings settings{0.9 * critical, 0.85 * critical, 600.0, 1.0, 100.0, 1e-6};
   EXPECT_EQ(fall(w, settings, 2e-3).verdict, FallVerdict::none);
