@@ -153,6 +153,9 @@ class Run {
     constexpr double kPerMetre = 1e4;
     const auto total = static_cast<std::size_t>(kPerMetre * file_.settings.distance);
     auto last_kept = Clock::now(), last_told = last_kept - std::chrono::hours(1);
+    // Histories grow, and with them what a checkpoint costs: together no more than a twentieth of the time.
+    constexpr double kLeastApart = 20.0;  // times as long as the last one took
+    double apart = file_.settings.checkpoint;
     while (!simulation_->finished()) {
       if (progress.stop_requested()) return stop();
       const vehicle::SystemState before = simulation_->state();
@@ -173,10 +176,11 @@ class Run {
         progress.report(std::min(total, static_cast<std::size_t>(kPerMetre * x)), total,
                         fmt::format("x = {:.3f} m", x));
       }
-      if (!options_.checkpoint_file.empty() &&
-          std::chrono::duration<double>(now - last_kept).count() > file_.settings.checkpoint) {
+      if (!options_.checkpoint_file.empty() && std::chrono::duration<double>(now - last_kept).count() > apart) {
         keep_checkpoint();
         last_kept = Clock::now();
+        const double took = std::chrono::duration<double>(last_kept - now).count();
+        apart = std::max(file_.settings.checkpoint, kLeastApart * took);
       }
     }
   }

@@ -6,7 +6,7 @@
 usage: compare_counts.py BASELINE COUNTS --configuration WORDS [--update]
 
 COUNTS has a line a path: name, unit, units in one run, instructions of one run. BASELINE is a JSON file: counts a unit by
-configuration (compiler, kernels, tool) and path. Exit status: 0 no count grew by more than 5 %, 1 one did, 2 there is no
+configuration (compiler, kernels, tool) and path. Exit status: 0 no count grew by more than 5 %, 1 one did, 3 there is no
 baseline of this configuration. --update writes the counts into the baseline and exits with 0.
 """
 import argparse
@@ -69,7 +69,7 @@ def main():
     if not known:
         print(f"no baseline of this configuration in {options.baseline}: write one with --update on a version that is good",
               file=sys.stderr)
-        return 2
+        return 3
     for path in grown:
         print(f"{path} grew by more than {100 * (ALLOWED - 1):.0f} %", file=sys.stderr)
     return 1 if grown else 0

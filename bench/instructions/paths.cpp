@@ -6,9 +6,12 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_scene.hpp"
@@ -17,6 +20,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
+#include "treadmark/bench/solvers/solver_cases.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
@@ -107,20 +111,66 @@ MeasuredPath normal() {
   return {"solve", 1, [solve] { solve(); }, [problem, solve] { return check_normal(problem, solve()); }};
 }
 
-/// A case with a prescribed vertical force on elements of 0.5 mm, by a pair that has its coefficients: the scene
-/// without the rail's damage, the wheel with its flat or round.
-MeasuredPath whole_case(bool flat) {
-  auto input = std::get<io::WheelRailCase>(app::bench_case().cases.front().content);
-  input.rail.defects = {};
-  if (!flat) input.wheel.defects = {};
-  input.discretisation.dx = input.discretisation.ds = 0.5e-3;
-  const auto surface_of = [&](const auto& source, Body body) {
-    return app::read_surface(source, body, app::profile_radius(input, body)).surface;
+/// A contact of many elements, cold: a Hertzian one, whose pressures are known.
+MeasuredPath large(bool tangential) {
+  constexpr int kAcross = 142;
+  const auto hertz =
+      std::make_shared<const HertzCase>(tangential ? kAcross / 2 : kAcross, creepage_regimes()[1].creepage);
+  const auto check = [hertz, tangential]() -> std::string {
+    kalker::ContactSolver solver;
+    kalker::ContactSolution s = solver.solve_normal(hertz->problem);
+    const kalker::HertzShape& h = hertz->shape;
+    const double highest = 1.5 * h.force / (std::numbers::pi * h.semi_axis_x * h.semi_axis_y);
+    if (!(std::abs(s.max_pressure / highest - 1.0) < 0.01)) return "not the pressure of Hertz";
+    if (!tangential) return "";
+    solver.solve_tangential(hertz->problem, s);
+    return s.status == Status::ok && s.elements_slip > 0 && hertz->saturation(s) < 1.0 ? "" : "friction is not bounded";
   };
-  const auto pair = std::make_shared<wheelrail::Pair>(
-      wheelrail::Geometry{surface_of(input.rail, Body::rail), surface_of(input.wheel, Body::wheel), true, !flat});
-  const wheelrail::Problem problem = app::to_problem(input, !flat);
+  if (!tangential) return {"solve", 1, [hertz] { kalker::ContactSolver().solve_normal(hertz->problem); }, check};
+  const auto normal =
+      std::make_shared<const kalker::ContactSolution>(kalker::ContactSolver().solve_normal(hertz->problem));
+  const auto run = [hertz, normal] {
+    kalker::ContactSolution s = *normal;
+    kalker::ContactSolver().solve_tangential(hertz->problem, s);
+  };
+  return {"solve", 1, run, check};
+}
+
+/// Building a mesh of a body.
+MeasuredPath build(Body body) {
+  const auto run = [body] {
+    const Region& region = body == Body::rail ? scene().regions.rail : scene().regions.wheel;
+    return represent(scene().natural(body), {"mesh", kResolution, region}).surface;
+  };
+  const auto check = [run, body] { return app::check_surface(*run(), scene().view(body), kResolution).reason; };
+  return {"surface", 1, [run] { run(); }, check};
+}
+
+/// The scene without the rail's damage, the wheel with its flat or round, on elements of 0.5 mm.
+struct PairScene {
+  explicit PairScene(bool flat) {
+    auto input = std::get<io::WheelRailCase>(app::bench_case().cases.front().content);
+    input.rail.defects = {};
+    if (!flat) input.wheel.defects = {};
+    input.discretisation.dx = input.discretisation.ds = 0.5e-3;
+    const auto surface_of = [&](const auto& source, Body body) {
+      return app::read_surface(source, body, app::profile_radius(input, body)).surface;
+    };
+    geometry = {surface_of(input.rail, Body::rail), surface_of(input.wheel, Body::wheel), true, !flat};
+    problem = app::to_problem(input, !flat);
+  }
+  wheelrail::Geometry geometry;
+  wheelrail::Problem problem;
+};
+
+/// A case with a prescribed vertical force by a pair that has its coefficients. after_another: from the solution
+/// before.
+MeasuredPath whole_case(bool flat, bool after_another) {
+  const PairScene made(flat);
+  const auto pair = std::make_shared<wheelrail::Pair>(made.geometry);
+  wheelrail::Problem problem = made.problem;
   pair->solve(problem);
+  if (after_another) problem.history = kalker::HistoryUse::keep_going;
   const auto check = [pair, problem]() -> std::string {
     const wheelrail::PairSolution solution = pair->solve(problem);
     const double force = *problem.vertical_force, miss = solution.load.track.force.z() - force;
@@ -128,14 +178,49 @@ MeasuredPath whole_case(bool flat) {
   };
   // Never twice the same problem.
   const auto further = std::make_shared<bool>(false);
-  const auto run = [pair, problem, further] {
+  const auto run = [pair, problem, further, after_another] {
     wheelrail::Problem p = problem;
     *further = !*further;
-    if (*further) p.state.position.y += 1e-4;
+    if (*further) p.state.position.y += after_another ? 1e-5 : 1e-4;
     pair->solve(p);
   };
   return {"case", 1, run, check};
 }
+
+/// Steps of transient rolling over the flat at a given height, as simulations take them.
+MeasuredPath rolling() {
+  constexpr int kSteps = 5;
+  const PairScene made(true);
+  wheelrail::Problem problem = made.problem;
+  problem.state.position.z = wheelrail::Pair(made.geometry).solve(problem).z;
+  problem.regime = kalker::Regime::transient;
+  problem.vertical_force.reset();
+  problem.discretisation.usual_dq_relative = 1.0;
+  const auto pair = std::make_shared<wheelrail::Pair>(made.geometry);
+  const auto roll = [pair, problem] {
+    wheelrail::Problem p = problem;
+    std::vector<wheelrail::PairSolution> steps;
+    for (int i = 0; i < kSteps; ++i) {
+      steps.push_back(pair->solve(p));
+      p.history = kalker::HistoryUse::keep_going;
+      p.discretisation.dq_relative = 1.0 + 1e-4 * i;
+      const double travelled = p.discretisation.dq_relative * p.discretisation.dx;
+      p.state.position.x += travelled;
+      p.state.position.pitch -= travelled / p.wheelset.nominal_radius;
+    }
+    return steps;
+  };
+  const auto check = [roll, load = *made.problem.vertical_force]() -> std::string {
+    for (const wheelrail::PairSolution& step : roll())
+      if (step.status != Status::ok || !(std::abs(step.load.track.force.z() - load) < 0.5 * load))
+        return "a step has an unlikely force";
+    return "";
+  };
+  return {"step", kSteps, [roll] { roll(); }, check};
+}
+
+/// Not left out of this build.
+bool has_backend(std::string_view backend) { return std::ranges::count(backend_names(), backend) != 0; }
 
 struct Entry {
   std::string name;
@@ -153,14 +238,23 @@ std::vector<Entry> make_entries() {
                        [=] { return heights(backend, body, tilted); }});
       }
   for (const std::string backend : kDetectionBackends) {
-    if (std::ranges::count(backend_names(), backend) == 0) continue;  // left out of this build
+    if (!has_backend(backend)) continue;
     all.push_back({"search/cold/" + backend, [=] { return search(backend, true); }});
     all.push_back({"search/warm/" + backend, [=] { return search(backend, false); }});
     all.push_back({"distance/" + backend, [=] { return distance(backend); }});
   }
   all.push_back({"normal", normal});
-  all.push_back({"case/round", [] { return whole_case(false); }});
-  all.push_back({"case/flat", [] { return whole_case(true); }});
+  all.push_back({"large/normal", [] { return large(false); }});
+  all.push_back({"large/tangential", [] { return large(true); }});
+  for (const Body body : {Body::wheel, Body::rail})
+    if (has_backend("mesh"))
+      all.push_back(
+          {std::string("build/mesh/") + (body == Body::rail ? "rail" : "wheel"), [=] { return build(body); }});
+  for (const bool flat : {false, true})
+    for (const bool after : {false, true})
+      all.push_back({std::string("case/") + (flat ? "flat" : "round") + (after ? "/after_another" : ""),
+                     [=] { return whole_case(flat, after); }});
+  all.push_back({"rolling", rolling});
   return all;
 }
 

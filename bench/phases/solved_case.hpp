@@ -8,15 +8,18 @@
 
 namespace treadmark::bench {
 
-/// The wheel with a flat of `treadmark bench` on an undamaged rail, solved once.
+/// The wheel of `treadmark bench`, with its flat or round, on an undamaged rail, solved once.
 struct SolvedCase {
   wheelrail::Geometry geometry;
   wheelrail::Problem problem;
   wheelrail::PairSolution solution;
 };
 
-/// backend: of the wheel.
+/// With the flat. backend: of the wheel.
 const SolvedCase& solved_case(std::string_view backend);
+
+/// Both bodies as formulas, on elements of 0.5 mm.
+const SolvedCase& solved_case_of_half_a_millimetre(bool flat);
 
 /// Normal or whole problem of its patch.
 kalker::ContactProblem patch_problem(const SolvedCase& solved);

@@ -336,8 +336,10 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
                    "of wheels whose contact is a table: Kalker's coefficients with saturation, or a table of solutions "
                    "of the exact theory on Hertzian ellipses",
                    [](S& s) -> CreepForcesInput& { return s.creep_forces; });
-    list.number("checkpoint_s", kPositive, "time of the computer between two checkpoints",
-                [](S& s) -> double& { return s.checkpoint; });
+    list.number(
+        "checkpoint_s", kPositive,
+        "time of the computer between two checkpoints; twenty times what the last one took, where that is longer",
+        [](S& s) -> double& { return s.checkpoint; });
     list.number("output_every_mm", kNotNegative,
                 "distance travelled between two lines of the history; 0 = every step. The summary counts every step",
                 [](S& s) -> double& { return s.output_every; });

@@ -281,7 +281,8 @@ Instant PairStep::finish() {
   now.stiffness = previous_.stiffness;
   now.shares = tangential_share_;
   now.s = problem_.state.position.x;
-  const bool remember_solver = aligned();
+  // Steady contacts that follow each other start from one another too; single ones leave nothing behind.
+  const bool remember_solver = aligned() || problem_.history != kalker::HistoryUse::start;
   std::vector<std::uint64_t> taken;
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     Patch& patch = patches_[i];

@@ -45,7 +45,7 @@ class CompareCounts(unittest.TestCase):
     def test_other_configurations_are_not_compared(self):
         self.compare({"a": 1000}, "--update")
         other = self.compare({"a": 5000}, configuration="Clang 15")
-        self.assertEqual(other.returncode, 2)
+        self.assertEqual(other.returncode, 3)
         self.assertIn("no baseline of this configuration", other.stderr)
         self.compare({"a": 5000}, "--update", configuration="Clang 15")
         self.assertEqual(self.compare({"a": 1000}).returncode, 0)

@@ -36,6 +36,12 @@ struct WheelLanesInput {
   PieceLanes piece;
   const FlatLanes* flats;
   int flat_count;
+  /// See WheelRay::is_outermost: steepest chords by cell of y, towards where the lines go (null: they do not lean), and
+  /// the Lipschitz constants of the flats.
+  const double* chords;
+  double chords_begin, chords_per_length;
+  int chord_cells;
+  double max_d_theta, max_d_y;
 };
 
 struct WheelLanesHits {
@@ -45,7 +51,8 @@ struct WheelLanesHits {
   double f_theta[kWheelLanes], f_y[kWheelLanes], depth[kWheelLanes];
 };
 
-/// Newton's method for all lanes. Returns the lanes, one bit each, that settled on the piece and on the half facing +n.
+/// Newton's method for all lanes. Returns the lanes, one bit each, that settled on the piece and on the half facing +n,
+/// at what is proven the outermost hit.
 using WheelLanesKernel = unsigned (*)(const WheelLanesInput&, WheelLanesHits&);
 WheelLanesKernel wheel_lanes_generic();
 WheelLanesKernel wheel_lanes_avx2();  ///< nullptr where it is not compiled

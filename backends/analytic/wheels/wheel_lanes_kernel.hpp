@@ -98,6 +98,28 @@ TREADMARK_LANES Lanes profile(const PieceLanes& p, const Lanes& y, Lanes& slope)
   return h;
 }
 
+/// WheelRay::is_outermost, to which the numbers belong.
+TREADMARK_LANES Mask outermost(const WheelLanesInput& in, const Lanes& x, const Lanes& y, const Lanes& z,
+                               const Lanes& r, const Lanes& spin, const Lanes& depth) {
+  Lanes margin = (x * in.n_x + z * in.n_z) / r;
+  if (in.chords != nullptr) {
+    const double last = in.chord_cells - 1;
+    Lanes steepest = y;
+    for (int k = 0; k < kWheelLanes; ++k) {
+      const double cell = (y[k] - in.chords_begin) * in.chords_per_length;
+      steepest[k] = in.chords[cell > 0.0 ? static_cast<int>(cell < last ? cell : last) : 0];
+    }
+    margin -= steepest * in.n_y;
+  }
+  const Mask flat = depth > 0.0;
+  if (bits(flat) != 0) {
+    const double lean = in.n_y < 0.0 ? -in.n_y : in.n_y;
+    margin -= flat ? in.max_d_theta * magnitude(spin) / (r * r) + in.max_d_y * lean : all(0.0);
+  }
+  constexpr double kBeside = 1e-6;
+  return margin > kBeside;
+}
+
 unsigned wheel_lanes(const WheelLanesInput& in, WheelLanesHits& hits) {
   const Lanes o_x = load(hits.o_x), o_y = load(hits.o_y), o_z = load(hits.o_z), guess = load(hits.t);
   const Lanes closest = -(o_x * in.n_x + o_z * in.n_z) / in.a, spin = o_z * in.n_x - o_x * in.n_z;
@@ -131,7 +153,7 @@ unsigned wheel_lanes(const WheelLanesInput& in, WheelLanesHits& hits) {
   store(depth.by_theta, hits.f_theta), store(f_y, hits.f_y), store(depth.d, hits.depth);
   const Lanes y_hit = o_y + t * in.n_y;
   return bits(fine & settled & (slope > 0.0) & (t >= closest) & (t <= t_high) & (y_hit >= in.piece.y_low) &
-              (y_hit <= in.piece.y_high));
+              (y_hit <= in.piece.y_high) & outermost(in, x, y, z, r, spin, depth.d));
 }
 
 #undef TREADMARK_LANES

@@ -24,7 +24,7 @@ class WheelLines {
   struct Four;
   /// Casts lanes [0, count) of four, whose origins and guesses are set. found: their bits.
   unsigned cast(Four& four, int count, WheelRay& ray) const;
-  void write(std::size_t i, bool found, const WheelHit& hit) const;
+  void write(std::size_t i, bool found, const Four& four, int k) const;
   Vec2 slopes(const WheelHit& hit) const;
 
   const WheelBody& body_;

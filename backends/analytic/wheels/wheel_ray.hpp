@@ -23,6 +23,15 @@ class ChordSlopes {
   /// The other two: upper bound over y2 < y, lower bound over y2 > y.
   double greatest_left(double y) const { return left_most_[cell(y)]; }
   double least_right(double y) const { return right_least_[cell(y)]; }
+  /// The first two as arrays by cell.
+  struct Cells {
+    const double* slopes;
+    double begin, per_length;
+    int count;
+  };
+  Cells towards(bool right) const {
+    return {(right ? right_ : left_).data(), y_min_, per_length_, static_cast<int>(right_.size())};
+  }
   std::size_t memory_bytes() const { return 4 * right_.capacity() * sizeof(double); }
 
  private:

@@ -96,6 +96,10 @@ TEST(WheelLanes, KernelsAgreeWithEachOtherAndWithSingleRays) {
     in.n_x = n.x(), in.n_y = n.y(), in.n_z = n.z(), in.a = n.x() * n.x() + n.z() * n.z();
     in.radius = 0.46, in.r_max = body.r_max, in.near = WheelRay::kNear, in.exact = true;
     in.flats = body.narrow_flats.data(), in.flat_count = 2;
+    const ChordSlopes::Cells cells = body.chords.towards(n.y() > 0.0);
+    in.chords = cells.slopes, in.chord_cells = cells.count;
+    in.chords_begin = cells.begin, in.chords_per_length = cells.per_length;
+    in.max_d_theta = body.flats.max_d_theta(), in.max_d_y = body.flats.max_d_y();
     in.piece = body.pieces[static_cast<std::size_t>(body.curve.find(at.y(), 0))];
     WheelLanesHits first{};
     for (int k = 0; k < kWheelLanes; ++k) {
