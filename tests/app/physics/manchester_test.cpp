@@ -158,13 +158,14 @@ TEST(Manchester, StartsInTightCurvesWhereARunIntoThemEnds) {
 /// balance the loads of the rails.
 TEST(Manchester, LoadsInACurveByHand) {
   constexpr double kGravity = 9.81;
+  SurfaceStore store;
+  ContactTables tables;
   for (const double radius : {300.0, -600.0, 1500.0}) {
     SCOPED_TRACE(radius);
     const double speed = std::sqrt(0.8 * std::abs(radius));
     io::SimulationFile file = into_a_curve(radius, 0.0, speed);
     file.start += file.settings.distance;
-    SurfaceStore store;
-    const BuiltVehicle built = build_vehicle(file, store);
+    const BuiltVehicle built = build_vehicle(file, store, &tables);
     const vehicle::Equilibrium e = vehicle::find_equilibrium(built.vehicle);
     ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
     // The middle of the line below a body, seen from that below the car.
