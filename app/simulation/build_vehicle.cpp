@@ -92,8 +92,7 @@ class Builder {
       : file_(file), store_(store), kept_(kept) {}
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
-    const wheelrail::Geometry bodies =
-        geometry(wheel_source(file_, wheel), file_.rail(wheel.side), rail_region(wheel.side));
+    wheelrail::Geometry bodies = geometry(wheel_source(file_, wheel), file_.rail(wheel.side), rail_region(wheel.side));
     if (wheel.changes_over() && !bodies.round_wheel)
       throw Error(ErrorKind::configuration,
                   fmt::format("{} is not round: its contact cannot change over to a table", wheel_name(wheel)),
@@ -138,7 +137,7 @@ class Builder {
     io::SurfaceSource wheel = round_wheel(file_);
     wheel.backend = "";
     wheel.resolution = 0.0;
-    const wheelrail::Geometry bodies = geometry(wheel, table_rail(side), Region{});
+    wheelrail::Geometry bodies = geometry(wheel, table_rail(side), Region{});
     if (!bodies.round_wheel)
       throw Error(ErrorKind::configuration, "wheels with table contact must be round", wheel.where,
                   "give the shape of the round wheels as simulation.other_wheel");

@@ -204,7 +204,7 @@ class Assembly {
       const Vec3 from_section(arm.x(), 0.0, arm.z());
       if (freedom < kRotations)
         for (int r = 0; r < 3; ++r)
-          factor += motion[static_cast<std::size_t>(kRotations + r)] *
+          factor += motion[kRotations + static_cast<std::size_t>(r)] *
                     Vec3::Unit(r).cross(from_section).dot(Vec3::Unit(freedom));
       if (factor != 0.0) direction.emplace_back(placed.coordinate, sign * factor);
     }
@@ -303,7 +303,7 @@ class Assembly {
         for (const auto& [j, b] : term.direction) target(i, j) += term.value * a * b;
     }
     system_.damping = system_.dissipation;
-    for (std::size_t i = 0; i < system_.wheelsets.size(); ++i) couple_roll_and_yaw(system_.wheelsets[i]);
+    for (const Multibody::Wheelset& w : system_.wheelsets) couple_roll_and_yaw(w);
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (!w.elastic.empty()) couple_bending(w);
     for (const auto& [direction, stop, link] : stops_)

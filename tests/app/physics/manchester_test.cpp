@@ -154,39 +154,6 @@ TEST(Manchester, StartsInTightCurvesWhereARunIntoThemEnds) {
   }
 }
 
-/// Moments about the middle of the track: centrifugal forces at the heights of all bodies and weights where these stand
-/// balance the loads of the rails.
-TEST(Manchester, LoadsInACurveByHand) {
-  constexpr double kGravity = 9.81;
-  SurfaceStore store;
-  ContactTables tables;
-  for (const double radius : {300.0, -600.0, 1500.0}) {
-    SCOPED_TRACE(radius);
-    const double speed = std::sqrt(0.8 * std::abs(radius));
-    io::SimulationFile file = into_a_curve(radius, 0.0, speed);
-    file.start += file.settings.distance;
-    const BuiltVehicle built = build_vehicle(file, store, &tables);
-    const vehicle::Equilibrium e = vehicle::find_equilibrium(built.vehicle);
-    ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
-    // The middle of the line below a body, seen from that below the car.
-    const auto bend = [&](double x) { return x * x / (2.0 * radius); };
-    const vehicle::Multibody& system = built.vehicle.system;
-    double found = 0.0, by_height = 0.0, by_shift = 0.0;
-    for (std::size_t i = 0; i < e.reactions.size(); ++i) {
-      const auto set = static_cast<std::size_t>(built.vehicle.wheels[i].wheelset);
-      const double x = system.bodies[static_cast<std::size_t>(system.wheelsets[set].body)].position.x();
-      found += e.reactions[i].on_rail.force.z() * (e.reactions[i].contact_y + bend(x));
-    }
-    for (const vehicle::Multibody::Body& b : system.bodies) {
-      by_height += b.mass * speed * speed / radius * b.position.z();
-      by_shift += b.mass * kGravity * (e.state.q[b.coordinate[1]] + bend(b.position.x()));
-      if (b.wheelset >= 0) by_height -= b.inertia.y() * speed * speed / (system.wheelsets[0].nominal_radius * radius);
-    }
-    EXPECT_NEAR(found, by_height + by_shift, 0.01 * std::abs(by_height));
-    EXPECT_GT(std::abs(by_shift), 0.1 * std::abs(by_height)) << "what is to be seen";
-  }
-}
-
 TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
   check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=20"}, 2e-10);
 }
