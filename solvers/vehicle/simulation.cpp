@@ -250,7 +250,7 @@ void Simulation::take_step() {
   }
   next_step_ = h * step_factor(step.position_error, settings_.position_tolerance);
   if (changes_contact(step)) step = locate_event(step, h);
-  for (std::size_t i = 0; i < vehicle_->wheels.size(); ++i) vehicle_->wheels[i].element->accept();
+  for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->accept();
   accept(std::move(step));
 }
 
