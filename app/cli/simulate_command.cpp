@@ -99,9 +99,9 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   app::ContactTables tables(io::ContentCache::from_environment());
   run.settings = overrides;
   run.tables = &tables;
+  run.doubt = [](const std::string& message) { std::cerr << "doubt: " << message << '\n'; };
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
-    if (!result.message.empty()) std::cerr << "doubt: " << result.message << '\n';
     print_summary(options.json_file, app::to_json(result, {}),
                   app::statics_text(result) + '\n' + app::modes_text(result));
     return kOk;
@@ -145,7 +145,6 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       app::summary_text(result) + (own ? app::assessment_text(std::span(own, 1)) : "") + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';
-  if (result.status == "complete" && !result.message.empty()) std::cerr << "doubt: " << result.message << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
   if (const double steps = doubtful_steps(result); steps > 0.0)
     std::cerr << fmt::format(

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
@@ -91,8 +92,7 @@ class Builder {
       : file_(file), store_(store), kept_(kept) {}
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
-    const wheelrail::Geometry bodies =
-        geometry(wheel_source(file_, wheel), file_.rail(wheel.side), rail_region(wheel.side));
+    wheelrail::Geometry bodies = geometry(wheel_source(file_, wheel), file_.rail(wheel.side), rail_region(wheel.side));
     if (wheel.changes_over() && !bodies.round_wheel)
       throw Error(ErrorKind::configuration,
                   fmt::format("{} is not round: its contact cannot change over to a table", wheel_name(wheel)),
@@ -137,7 +137,7 @@ class Builder {
     io::SurfaceSource wheel = round_wheel(file_);
     wheel.backend = "";
     wheel.resolution = 0.0;
-    const wheelrail::Geometry bodies = geometry(wheel, table_rail(side), Region{});
+    wheelrail::Geometry bodies = geometry(wheel, table_rail(side), Region{});
     if (!bodies.round_wheel)
       throw Error(ErrorKind::configuration, "wheels with table contact must be round", wheel.where,
                   "give the shape of the round wheels as simulation.other_wheel");
@@ -345,21 +345,36 @@ std::string wheel_name(const io::WheelContactInput& wheel) {
   return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == Side::left ? "left" : "right");
 }
 
+namespace {
+
+/// A vehicle whose wheels lack their contacts. Finds errors that need none.
+vehicle::VehicleOnTrack outline(const io::SimulationFile& file, bool irregularities) {
+  vehicle::VehicleOnTrack v;
+  v.speed = file.settings.speed;
+  v.system = vehicle::assemble(file.vehicle, track_below(file), v.speed, file.settings.gravity);
+  v.line = build_line(file, v.system, irregularities);
+  for (const io::WheelContactInput& wheel : file.wheels)
+    v.wheels.push_back({wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()});
+  HistoryRecord::check(file, v);
+  vehicle::check(integration_settings(file));
+  return v;
+}
+
+}  // namespace
+
 BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables,
                            const Progress& progress) {
   ContactTables own;
   Builder builder(file, store, tables != nullptr ? *tables : own);
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;
-  v.speed = file.settings.speed;
-  built.check_rails = !file.check_rails.empty();
-  v.system = vehicle::assemble(file.vehicle, track_below(file), v.speed, file.settings.gravity);
-  v.line = build_line(file, v.system, true);
+  v = outline(file, true);
   v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
   std::optional<RailsBelow> rails;
   if (file.flexible_track) rails.emplace(file, v.system);
-  for (const io::WheelContactInput& wheel : file.wheels) {
-    vehicle::WheelOnRail on{wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()};
+  for (std::size_t i = 0; i < file.wheels.size(); ++i) {
+    const io::WheelContactInput& wheel = file.wheels[i];
+    vehicle::WheelOnRail& on = v.wheels[i];
     if (wheel.pitch) v.pitch_at_start.at(static_cast<std::size_t>(wheel.wheelset)) = *wheel.pitch;
     std::shared_ptr<vehicle::TableContact> from_table;
     const bool is_full = wheel.model == io::ContactModelInput::full;
@@ -389,7 +404,6 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
     if (rails) on.element = rails->upon(wheel, on.element);
     for (const io::CheckRailInput& rail : file.check_rails)
       if (rail.side == wheel.side) on.element = beside(rail, file, wheel, on);
-    v.wheels.push_back(std::move(on));
   }
   v.connect();
   const bool fields = !file.fields.pitch.empty() || !file.fields.position.empty();
@@ -403,10 +417,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   ContactTables none;
   Builder builder(file, store, none);
-  const vehicle::Multibody system =
-      vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity);
-  if (file.flexible_track) RailsBelow(file, system).below({0});
-  build_line(file, system, false);
+  const vehicle::VehicleOnTrack vehicle = outline(file, false);
+  if (file.flexible_track) RailsBelow(file, vehicle.system).below({0});
   for (const io::WheelContactInput& wheel : file.wheels) {
     const bool full = wheel.model == io::ContactModelInput::full;
     const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry(wheel.side);

@@ -23,7 +23,6 @@ struct BuiltVehicle {
   /// By wheel: the element, where the contact is solved in full; else null.
   std::vector<std::shared_ptr<vehicle::FullContact>> full;
   std::vector<UsedBodies> bodies;  ///< by wheel, as its full contact sees them
-  bool check_rails = false;        ///< there are some
   /// Of the wheels with defects; null where there are none.
   std::shared_ptr<const DefectDepth> defect_depth;
   double table_seconds = 0.0;  ///< spent on contact tables

@@ -58,40 +58,54 @@ void add_bending(const ContactReaction& reaction, Motion& m) {
 
 std::span<const MotionColumn> motion_columns() { return kMotion; }
 
-std::string column_prefix(const io::SimulationFile& file, std::size_t wheel) {
-  const auto is_full = [](const io::WheelContactInput& w) { return w.model == io::ContactModelInput::full; };
-  const auto first = std::ranges::find_if(file.wheels, is_full);
-  const auto watched = first == file.wheels.end() ? 0u : static_cast<std::size_t>(first - file.wheels.begin());
-  return wheel == watched ? "" : wheel_name(file.wheels.at(wheel)) + '.';
+namespace {
+
+std::size_t watched_wheel(const io::SimulationFile& file) {
+  const auto first = std::ranges::find(file.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
+  return first == file.wheels.end() ? 0u : static_cast<std::size_t>(first - file.wheels.begin());
 }
 
-HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation,
-                             const io::HistoryRequest& request)
-    : simulation_(simulation) {
-  const auto& wheels = simulation.vehicle().wheels;
-  const std::size_t watched = built.watched_wheel();
+}  // namespace
 
-  add("t_s", "s", "time", [&] { return simulation_.state().time; });
-  add("x_m", "m", "distance travelled",
-      [&] { return simulation_.vehicle().travel(simulation_.state().time).distance; });
-  add_wheel(watched, "", built.full[watched] != nullptr);
+std::string column_prefix(const io::SimulationFile& file, std::size_t wheel) {
+  return wheel == watched_wheel(file) ? "" : wheel_name(file.wheels.at(wheel)) + '.';
+}
+
+HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Simulation& simulation)
+    : HistoryRecord(file, simulation.vehicle(), &simulation) {}
+
+HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::VehicleOnTrack& vehicle,
+                             const vehicle::Simulation* simulation)
+    : vehicle_(vehicle), simulation_(simulation) {
+  const auto& wheels = vehicle.wheels;
+  const std::size_t watched = watched_wheel(file);
+
+  add("t_s", "s", "time", [&] { return simulation_->state().time; });
+  add("x_m", "m", "distance travelled", [&] { return vehicle_.travel(simulation_->state().time).distance; });
+  const auto is_full = [&](std::size_t i) { return file.wheels.at(i).model == io::ContactModelInput::full; };
+  add_wheel(watched, "", is_full(watched));
   for (std::size_t i = 0; i < wheels.size(); ++i)
-    if (i != watched) add_wheel(i, wheels[i].name + '.', built.full[i] != nullptr);
-  for (std::size_t i = 0; built.check_rails && i < wheels.size(); ++i)
+    if (i != watched) add_wheel(i, wheels[i].name + '.', is_full(i));
+  for (std::size_t i = 0; !file.check_rails.empty() && i < wheels.size(); ++i)
     add((i == watched ? "" : wheels[i].name + '.') + "check_N", "N",
         "of a check rail on the flange of " + wheels[i].name,
-        [this, i] { return simulation_.reactions()[i].check_force; });
+        [this, i] { return simulation_->reactions()[i].check_force; });
   add_energies();
   add_bodies();
-  if (simulation.vehicle().line) add_line();
+  if (vehicle.line) add_line(file.irregularities.has_value());
   add_running(watched);
-  add_accelerations(request);
-  keep_only(request);  // the last
+  add_accelerations(file.history);
+  keep_only(file.history);  // the last
+  if (file.assessment) io::fitting_columns(columns(), file.assessment->spectra, {file.path.string()});
 }
 
-void HistoryRecord::add_line() {
-  const auto now = [this] { return simulation_.state().time; };
-  const auto line = simulation_.vehicle().line;
+void HistoryRecord::check(const io::SimulationFile& file, const vehicle::VehicleOnTrack& vehicle) {
+  HistoryRecord(file, vehicle, nullptr);
+}
+
+void HistoryRecord::add_line(bool irregular) {
+  const auto now = [this] { return simulation_->state().time; };
+  const auto line = vehicle_.line;
   add("line.speed_m_s", "m/s", "speed of the vehicle", [=] { return line->travel(now()).speed; });
   if (line->setup().path) {
     add("line.place_m", "m", "place of the vehicle's x = 0 on the line", [=] { return line->point(now()).distance; });
@@ -100,8 +114,8 @@ void HistoryRecord::add_line() {
     add("line.cant_m", "m", "of the line there, positive where the left rail lies higher",
         [=] { return line->point(now()).cant.value; });
   }
-  if (line->setup().irregularities)
-    for (const vehicle::WheelOnRail& wheel : simulation_.vehicle().wheels) {
+  if (irregular)
+    for (const vehicle::WheelOnRail& wheel : vehicle_.wheels) {
       const auto rail = [=, set = static_cast<std::size_t>(wheel.wheelset), side = wheel.side] {
         return line->wheel(set, side, now()).rail;
       };
@@ -110,7 +124,7 @@ void HistoryRecord::add_line() {
       add("line." + wheel.name + ".rail_z_m", "m", "how far below its place", [=] { return rail().z; });
     }
   add("energy.line_J", "J", "work of the line and of torques on the vehicle",
-      [&] { return simulation_.energy().line; });
+      [&] { return simulation_->energy().line; });
 }
 
 void HistoryRecord::add(std::string name, std::string unit, std::string description, std::function<double()> value) {
@@ -118,8 +132,8 @@ void HistoryRecord::add(std::string name, std::string unit, std::string descript
 }
 
 void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool full) {
-  const std::string of = prefix.empty() ? " (" + simulation_.vehicle().wheels[wheel].name + ")" : "";
-  const auto reaction = [this, wheel]() -> const ContactReaction& { return simulation_.reactions()[wheel]; };
+  const std::string of = prefix.empty() ? " (" + vehicle_.wheels[wheel].name + ")" : "";
+  const auto reaction = [this, wheel]() -> const ContactReaction& { return simulation_->reactions()[wheel]; };
   add(prefix + "Q_N", "N", "vertical force on the rail" + of, [=] { return reaction().on_rail.force.z(); });
   add(prefix + "Ty_N", "N", "lateral creep force on the rail" + of, [=] { return reaction().lateral_creep_force; });
   add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of,
@@ -138,7 +152,7 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
       [=] { return static_cast<double>(reaction().doubts); });
   add(prefix + "friction_W", "W", "power dissipated by friction" + of,
       [=] { return reaction().frictional_power - reaction().rail_power; });
-  const auto motion = [this, wheel] { return simulation_.vehicle().motion(wheel, simulation_.state()); };
+  const auto motion = [this, wheel] { return vehicle_.motion(wheel, simulation_->state()); };
   for (const MotionColumn& column : kMotion)
     add(prefix + column.name, column.unit, column.description + of, [motion, reaction, place = column.place] {
       Motion m = motion();
@@ -149,70 +163,70 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
 
 void HistoryRecord::add_energies() {
   add("energy.mechanical_J", "J", "kinetic energy and potentials about the reference configuration",
-      [&] { return simulation_.energy().mechanical; });
-  add("energy.dampers_J", "J", "dissipated in dampers", [&] { return simulation_.energy().dampers; });
-  add("energy.drive_J", "J", "work that keeps up the speed", [&] { return simulation_.energy().drive; });
-  add("energy.friction_J", "J", "dissipated in the contacts", [&] { return simulation_.energy().friction; });
-  add("energy.elastic_J", "J", "stored in the contacts", [&] { return simulation_.energy().elastic; });
+      [&] { return simulation_->energy().mechanical; });
+  add("energy.dampers_J", "J", "dissipated in dampers", [&] { return simulation_->energy().dampers; });
+  add("energy.drive_J", "J", "work that keeps up the speed", [&] { return simulation_->energy().drive; });
+  add("energy.friction_J", "J", "dissipated in the contacts", [&] { return simulation_->energy().friction; });
+  add("energy.elastic_J", "J", "stored in the contacts", [&] { return simulation_->energy().elastic; });
   add("energy.integration_error_J", "J", "what the time integration gained",
-      [&] { return simulation_.energy().integration_error(simulation_.energy_at_start()); });
+      [&] { return simulation_->energy().integration_error(simulation_->energy_at_start()); });
   add("energy.contact_error_J", "J", "work on the contacts that they neither store nor dissipate",
-      [&] { return simulation_.energy().contact_error(simulation_.energy_at_start()); });
+      [&] { return simulation_->energy().contact_error(simulation_->energy_at_start()); });
 }
 
 void HistoryRecord::add_bodies() {
-  const auto& coordinates = simulation_.vehicle().system.coordinates;
+  const auto& coordinates = vehicle_.system.coordinates;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const vehicle::Coordinate& c = coordinates[i];
     if (c.body < 0) continue;
     const auto at = static_cast<Eigen::Index>(i);
     const std::string unit = unit_of(c);
     add(c.name + '_' + unit, unit, "displacement from the reference configuration",
-        [this, at] { return simulation_.state().q[at]; });
-    add(c.name + "_rate_" + unit + "_s", unit + "/s", "its rate", [this, at] { return simulation_.state().v[at]; });
+        [this, at] { return simulation_->state().q[at]; });
+    add(c.name + "_rate_" + unit + "_s", unit + "/s", "its rate", [this, at] { return simulation_->state().v[at]; });
   }
 }
 
 /// What running tests and wear ask of the wheels.
 void HistoryRecord::add_running(std::size_t watched) {
-  const vehicle::VehicleOnTrack& vehicle = simulation_.vehicle();
+  const vehicle::VehicleOnTrack& vehicle = vehicle_;
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
     const std::string prefix = i == watched ? "" : vehicle.wheels[i].name + '.';
     const std::string of = i == watched ? " (" + vehicle.wheels[i].name + ")" : "";
-    const auto reaction = [this, i]() -> const ContactReaction& { return simulation_.reactions()[i]; };
+    const auto reaction = [this, i]() -> const ContactReaction& { return simulation_->reactions()[i]; };
     add(prefix + "Y_over_Q", "1", "lateral over vertical force on the rail, 0 without contact" + of, [=] {
       const Vec3& force = reaction().on_rail.force;
       return force.z() > 0.0 ? force.y() / force.z() : 0.0;
     });
     add(prefix + "Tgamma_N", "N", "wear number: power of friction over speed" + of, [=, this] {
       const ContactReaction& r = reaction();
-      const double speed = simulation_.vehicle().motion(i, simulation_.state()).wheelset_velocity.x;
+      const double speed = vehicle_.motion(i, simulation_->state()).wheelset_velocity.x;
       return (r.frictional_power - r.rail_power) / speed;
     });
   }
   for (std::size_t set = 0; set < vehicle.system.wheelsets.size(); ++set)
     add(fmt::format("ws{}.sumY_N", set + 1), "N", "lateral force on both rails", [this, set] {
       double sum = 0.0;
-      for (std::size_t i = 0; i < simulation_.reactions().size(); ++i)
-        if (static_cast<std::size_t>(simulation_.vehicle().wheels[i].wheelset) == set)
-          sum += simulation_.reactions()[i].on_rail.force.y();
+      for (std::size_t i = 0; i < simulation_->reactions().size(); ++i)
+        if (static_cast<std::size_t>(vehicle_.wheels[i].wheelset) == set)
+          sum += simulation_->reactions()[i].on_rail.force.y();
       return sum;
     });
 }
 
 /// Of points that move little: a + (angular acceleration) x arm.
 void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
-  const vehicle::Multibody& system = simulation_.vehicle().system;
+  const vehicle::Multibody& system = vehicle_.system;
   const auto add_point = [&](const std::string& name, const std::string& what, const vehicle::Multibody::Body& body,
                              const Vec3& arm) {
     const auto place = [at = body.coordinate](Freedom f) { return at[static_cast<std::size_t>(f)]; };
-    const auto rate = [this, place](Freedom f) { return place(f) < 0 ? 0.0 : simulation_.acceleration()[place(f)]; };
+    const auto rate = [this, place](Freedom f) { return place(f) < 0 ? 0.0 : simulation_->acceleration()[place(f)]; };
     // As an instrument on the body shows it, which takes gravity along its axes for acceleration.
     const auto of_line = [this, at = Vec3(body.position + arm)] {
-      const auto& line = simulation_.vehicle().line;
-      return line ? line->felt_acceleration(at, simulation_.state().time) : Vec3(Vec3::Zero());
+      const auto& line = vehicle_.line;
+      return line ? line->felt_acceleration(at, simulation_->state().time) : Vec3(Vec3::Zero());
     };
-    const auto lean = [this, roll = place(Freedom::roll)] { return roll < 0 ? 0.0 : simulation_.state().q[roll]; };
+    const auto lean = [this, roll = place(Freedom::roll)] { return roll < 0 ? 0.0 : simulation_->state().q[roll]; };
     add(name + ".ay_m_s2", "m/s2", "lateral acceleration of " + what, [=, gravity = request.gravity] {
       return rate(Freedom::y) + rate(Freedom::yaw) * arm.x() - rate(Freedom::roll) * arm.z() + of_line().y() -
              gravity * lean();
@@ -223,7 +237,7 @@ void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
              of_line().z();
     });
   };
-  for (const vehicle::WheelOnRail& wheel : simulation_.vehicle().wheels) {
+  for (const vehicle::WheelOnRail& wheel : vehicle_.wheels) {
     const auto& set = system.wheelsets[static_cast<std::size_t>(wheel.wheelset)];
     const double y = wheel.side == wheelrail::Side::left ? -request.axle_box_y : request.axle_box_y;
     add_point("axle_box." + wheel.name, "the axle box of " + wheel.name,

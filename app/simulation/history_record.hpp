@@ -28,9 +28,12 @@ std::string column_prefix(const io::SimulationFile& file, std::size_t wheel);
 /// prefix.
 class HistoryRecord {
  public:
-  /// Errors: Error(configuration) for channels that are none.
-  HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation,
-                const io::HistoryRequest& request = {});
+  /// simulation: of the file's vehicle. Both must outlive this. Errors: those of check.
+  HistoryRecord(const io::SimulationFile& file, const vehicle::Simulation& simulation);
+
+  /// Finds the errors of a history before there is a simulation; vehicle: its wheels may lack their contacts. Errors:
+  /// Error(configuration) with the place of channels, also of those of spectra, that are none.
+  static void check(const io::SimulationFile& file, const vehicle::VehicleOnTrack& vehicle);
 
   std::vector<io::HistoryColumn> columns() const;
   /// Appends the present instant.
@@ -41,16 +44,19 @@ class HistoryRecord {
     io::HistoryColumn head;
     std::function<double()> value;
   };
+  HistoryRecord(const io::SimulationFile& file, const vehicle::VehicleOnTrack& vehicle,
+                const vehicle::Simulation* simulation);
   void add(std::string name, std::string unit, std::string description, std::function<double()> value);
   void add_wheel(std::size_t wheel, const std::string& prefix, bool full);
   void add_bodies();
-  void add_line();
+  void add_line(bool irregular);
   void add_energies();
   void add_running(std::size_t watched);
   void add_accelerations(const io::HistoryRequest& request);
   void keep_only(const io::HistoryRequest& request);
 
-  const vehicle::Simulation& simulation_;
+  const vehicle::VehicleOnTrack& vehicle_;
+  const vehicle::Simulation* simulation_;  ///< null: only names of columns are asked for
   std::vector<Column> columns_;
 };
 

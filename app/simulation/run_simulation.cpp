@@ -18,7 +18,6 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/stopwatch.hpp"
-#include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
@@ -48,6 +47,7 @@ class Run {
         result_.modes.push_back({mode.frequency, mode.damping_ratio, vehicle::describe(mode, built_.vehicle.system)});
     }
     say_if_unstable();
+    if (options_.doubt && !result_.message.empty()) options_.doubt(result_.message);
   }
 
   io::SimulationResult take() { return std::move(result_); }
@@ -139,10 +139,9 @@ class Run {
 
   void begin() {
     simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
-    record_.emplace(built_, *simulation_, file_.history);
+    record_.emplace(file_, *simulation_);
     summary_.emplace(built_, *simulation_);
     result_.columns = record_->columns();
-    if (file_.assessment) io::fitting_columns(result_.columns, file_.assessment->spectra);  // before time is spent
     if (kept_) return restore();
     record_->append(result_.values);
     summary_->note();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ struct SimulationOptions {
   bool resume = false;                ///< go on from that file, if there is one
   ContactTables* tables = nullptr;    ///< shared by runs; null: none are
   std::mutex* store_mutex = nullptr;  ///< held while files are written: the HDF5 library may not be thread-safe
+  /// Told what is doubtful about the start (the message of the result) before the vehicle runs; empty: nobody is.
+  std::function<void(const std::string&)> doubt = {};
 };
 
 /// Time of the computer that a simulation took; not part of its results.

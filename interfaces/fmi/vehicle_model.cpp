@@ -35,7 +35,7 @@ class VehicleModel final : public Model {
         tables_(io::ContentCache::from_environment()),
         built_(app::build_vehicle(file_, store_, &tables_)),
         simulation_(built_.vehicle, equilibrium_of(built_), app::integration_settings(file_)),
-        record_(built_, simulation_, file_.history) {
+        record_(file_, simulation_) {
     for (const io::HistoryColumn& column : record_.columns()) {
       Variable output;
       output.name = column.name;

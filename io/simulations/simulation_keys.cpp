@@ -313,7 +313,7 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
         "(dt ≤ 2 dx/V). Steps of two elements take half the time, but lateral creep forces then scatter by some per "
         "cent, because elements at the leading edge stick or slip as they happen to come in",
         [](S& s) -> double& { return s.max_step_elements; });
-    list.number("spectral_radius", {{}, 0.0, 1.0},
+    list.number("spectral_radius", {{}, 0.5, 1.0},
                 "of the time integration at infinite frequency: 1 = no numerical damping",
                 [](S& s) -> double& { return s.spectral_radius; });
     list.number(

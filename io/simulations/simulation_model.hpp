@@ -93,7 +93,7 @@ struct SimulationSettings {
   double from_midspan = 0.0;     ///< of a flexible track: place of x = 0 at the start from the middle of a bay [m]
   bool shared_rails = false;     ///< of a flexible track: one below all wheels of a side, else one below each wheel
   double rail_start = 0.0;       ///< place of the leading wheelset along the rails at the start [m]
-  double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0 ... 1
+  double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0.5 ... 1
   CreepForcesInput creep_forces = CreepForcesInput::shen_hedrick_elkins;
   double checkpoint = 10.0;   ///< time of the computer between two checkpoints [s]
   double output_every = 0.0;  ///< distance between two lines of output [m]; 0 = every step

@@ -25,6 +25,7 @@ struct PairMotion {
   double time = 0.0;                                 ///< [s]
   wheelrail::SixMotion wheelset, wheelset_velocity;  ///< [m], [rad], [m/s], [rad/s]
   RailMotion rail;
+  double curvature = 0.0;  ///< of the rail in the plane of the track, positive to the right [1/m]
 };
 
 /// How a patch's force gives way, in contact axes: d(force on the rail) = K d(wheel - rail displacement) + C

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "treadmark/solvers/vehicle/simulation.hpp"
 #include "treadmark/solvers/vehicle/wheel_loop.hpp"
 
 namespace treadmark::vehicle {
@@ -49,6 +51,18 @@ PairVector slope(const VehicleOnTrack& vehicle, std::size_t i, const PairMotion&
   return (force_at(vehicle, i, high) - force_at(vehicle, i, low)) / (2.0 * step);
 }
 
+/// Stiffness of springs and, where they act, bump stops.
+Matrix stiffness_of_springs(const VehicleOnTrack& vehicle, const SystemState& state,
+                            const std::optional<LineState>& line) {
+  Matrix stiffness = vehicle.system.stiffness;
+  for (std::size_t i = 0; i < vehicle.system.characteristics.size(); ++i) {
+    const CharacteristicForce& c = vehicle.system.characteristics[i];
+    const double offset = line ? line->stop_offsets[i] : 0.0;
+    stiffness += characteristic(c, c.direction.dot(state.q) + offset).stiffness * c.direction * c.direction.transpose();
+  }
+  return stiffness;
+}
+
 /// Wheelsets roll freely: of their pitch the rate is sought, and the angle stays.
 class Balance {
  public:
@@ -61,6 +75,7 @@ class Balance {
 
   SystemState start() const {
     SystemState state{0.0, Vector::Zero(system_.size()), Vector::Zero(system_.size())};
+    if (line_) settle(state);
     // Wheels into the rails as deep as their load takes, by the order of magnitude.
     constexpr double kHertz = 1e11;  // [N/m^1.5]
     for (std::size_t set = 0; set < system_.wheelsets.size(); ++set) {
@@ -79,8 +94,7 @@ class Balance {
 
   /// Imbalance of all coordinates. False: a wheel does not touch, or a contact cannot be solved.
   bool imbalance(const SystemState& state, Vector& r, std::vector<ContactReaction>& reactions, std::string& why) const {
-    r = system_.weight - system_.stiffness * state.q - system_.damping * state.v + vehicle_.other_forces(state, line_);
-    if (line_) r += line_->force;
+    r = without_contact(state);
     reactions = evaluate_wheels(vehicle_, state);
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       const PairMotion m = vehicle_.motion(i, state);
@@ -109,6 +123,18 @@ class Balance {
     return system.stiffness;
   }
 
+  /// Of a state in motion what the balance is sought from.
+  SystemState standing(SystemState state) const {
+    const Vector rates = state.v;
+    state.time = 0.0;
+    state.v.setZero();
+    for (const int c : rolling_) {
+      state.q[c] = 0.0;
+      state.v[c] = rates[c];
+    }
+    return state;
+  }
+
   SystemState moved(SystemState state, const Vector& step) const {
     const Vector held = state.q;
     state.q += step;
@@ -120,6 +146,34 @@ class Balance {
   }
 
  private:
+  Vector without_contact(const SystemState& state) const {
+    Vector r = system_.weight - system_.stiffness * state.q - system_.damping * state.v;
+    r += vehicle_.other_forces(state, line_);
+    if (line_) r += line_->force;
+    return r;
+  }
+
+  /// Balances all bodies on wheelsets that are held. In a tight curve a long car stands far inside of its place on the
+  /// line, off which its springs would throw wheels over the rails.
+  void settle(SystemState& state) const {
+    constexpr int kMost = 50;
+    constexpr double kSettled = 1e-9;  // [m]
+    std::vector<Eigen::Index> sprung;
+    for (Eigen::Index i = 0; i < system_.mass.size(); ++i) {
+      const int body = system_.coordinates[static_cast<std::size_t>(i)].body;
+      if (std::ranges::find(system_.wheelsets, body, &Multibody::Wheelset::body) == system_.wheelsets.end())
+        sprung.push_back(i);
+    }
+    if (sprung.empty()) return;
+    for (int i = 0; i < kMost; ++i) {
+      const Vector r = without_contact(state)(sprung);
+      const Matrix k = stiffness_of_springs(vehicle_, state, line_)(sprung, sprung);
+      const Vector step = k.completeOrthogonalDecomposition().solve(r);
+      state.q(sprung) += step;
+      if (!(step.cwiseAbs().maxCoeff() > kSettled)) return;
+    }
+  }
+
   const VehicleOnTrack& vehicle_;
   const Multibody& system_;
   std::optional<LineState> line_;  ///< at the start
@@ -168,14 +222,7 @@ PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const Syste
 }
 
 LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness) {
-  LinearSystem system{vehicle.system.stiffness, vehicle.system.damping};
-  const std::optional<LineState> line = vehicle.line_state(state.time);
-  for (std::size_t i = 0; i < vehicle.system.characteristics.size(); ++i) {
-    const CharacteristicForce& c = vehicle.system.characteristics[i];
-    const double offset = line ? line->stop_offsets[i] : 0.0;
-    system.stiffness +=
-        characteristic(c, c.direction.dot(state.q) + offset).stiffness * c.direction * c.direction.transpose();
-  }
+  LinearSystem system{stiffness_of_springs(vehicle, state, vehicle.line_state(state.time)), vehicle.system.damping};
   std::vector<PairTangent> tangents(vehicle.wheels.size());
   for_each_wheel(vehicle, [&](std::size_t i) { tangents[i] = linearised(vehicle, i, state, coarseness); });
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
@@ -186,20 +233,44 @@ LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState&
   return system;
 }
 
-Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
-  const Balance balance(vehicle);
-  Equilibrium found;
-  found.state = balance.start();
-  Vector r;
-  std::string why;
-  if (!balance.imbalance(found.state, r, found.reactions, why)) {
-    found.report = {Status::failed, 0, found.residual, "no start for the static equilibrium: " + why};
-    return found;
+namespace {
+
+/// The contact elements as they were, whatever happens in between.
+class KeptElements {
+ public:
+  explicit KeptElements(const VehicleOnTrack& vehicle) : vehicle_(vehicle) {
+    for (const WheelOnRail& wheel : vehicle.wheels) wheel.element->save(bytes_);
   }
+  ~KeptElements() {
+    ByteReader in(bytes_.bytes());
+    for (const WheelOnRail& wheel : vehicle_.wheels) wheel.element->restore(in);
+  }
+  KeptElements(const KeptElements&) = delete;
+  KeptElements& operator=(const KeptElements&) = delete;
+
+ private:
+  const VehicleOnTrack& vehicle_;
+  ByteWriter bytes_;
+};
+
+/// A vehicle that runs, but stays at its place on the line.
+VehicleOnTrack staying(VehicleOnTrack vehicle) {
+  LineSetup setup = vehicle.line->setup();
+  setup.stays = true;
+  vehicle.line = std::make_shared<const LineEffects>(vehicle.system, std::move(setup));
+  return vehicle;
+}
+
+/// From the state that was found.
+void iterate(const Balance& balance, const EquilibriumSettings& settings, Equilibrium& found, std::string& why) {
+  Vector r;
+  found.residual = std::numeric_limits<double>::infinity();
+  if (!balance.imbalance(found.state, r, found.reactions, why)) return;
   found.residual = balance.measure(r);
+  const int most = found.iterations + settings.max_iterations;
   constexpr double kWider = 10.0, kWidest = 100.0;
   double coarseness = 1.0;
-  for (; found.residual > settings.tolerance && found.iterations < settings.max_iterations; ++found.iterations) {
+  for (; found.residual > settings.tolerance && found.iterations < most; ++found.iterations) {
     const Vector step = balance.jacobian(found.state, coarseness).fullPivLu().solve(r);
     constexpr double kShortest = 1e-3;
     bool better = false;
@@ -221,6 +292,54 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
   }
   for (const auto& [wide, share] : {std::pair{20.0, 1.0}, {20.0, 0.4}, {100.0, 0.4}})
     if (found.residual > settings.acceptable) step_over_jumps(balance, wide, share, settings.tolerance, found);
+}
+
+/// Lets the vehicle run in until Newton's method finds the balance from where it has come: it steers as it would in a
+/// curve of that kind without end.
+void run_in(const VehicleOnTrack& vehicle, const Balance& balance, const EquilibriumSettings& settings,
+            Equilibrium& found, std::string& why) {
+  constexpr double kLength = 15.0, kStep = 5e-3;  // [m], [s]
+  constexpr int kPieces = 8;
+  const KeptElements kept(vehicle);
+  SimulationSettings run;
+  run.duration = kPieces * kLength / vehicle.speed;
+  run.position_tolerance = 1e-6;
+  run.max_step = kStep;
+  run.first_step = 1e-5;
+  run.max_travel = 0.1;
+  run.step.spectral_radius = 0.5;
+  try {
+    Simulation simulation(staying(vehicle), balance.start(), run);
+    for (int piece = 1; piece <= kPieces && found.residual > settings.acceptable; ++piece) {
+      while (!simulation.finished() && simulation.state().time * vehicle.speed < piece * kLength) simulation.advance();
+      Equilibrium now;
+      now.state = balance.standing(simulation.state());
+      now.iterations = found.iterations;
+      iterate(balance, settings, now, why);
+      found.iterations = now.iterations;
+      if (now.residual < found.residual) found = std::move(now);
+    }
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::numerical) throw;
+    why = e.message();
+  }
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
+  const Balance balance(vehicle);
+  Equilibrium found;
+  found.state = balance.start();
+  Vector r;
+  std::string why;
+  if (!balance.imbalance(found.state, r, found.reactions, why)) {
+    found.report = {Status::failed, 0, found.residual, "no start for the static equilibrium: " + why};
+    return found;
+  }
+  iterate(balance, settings, found, why);
+  if (found.residual > settings.acceptable && vehicle.line && vehicle.line->setup().path)
+    run_in(vehicle, balance, settings, found, why);
   if (found.residual > settings.doubtful)
     found.report = {
         Status::not_converged, found.iterations, found.residual,

@@ -25,10 +25,10 @@ struct Equilibrium {
 };
 
 /// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces,
-/// contact included, are in balance (Newton's method, contact linearised by differences, steps halved until the
-/// imbalance falls; where that ends too early, as forces of rough wheels jump with the elements in contact, further
-/// steps by slopes over wide differences, of which the nearest state counts). A state that is only doubtful has status
-/// ok and a message. Accepts nothing in the elements.
+/// contact included, are in balance. Newton's method, contact linearised by differences, steps halved until the
+/// imbalance falls; then, as forces of rough wheels jump with the elements, steps by slopes over wide differences; on
+/// curved lines then the same from where the vehicle has come after some running in at its place. A state that is only
+/// doubtful has status ok and a message. Leaves the elements as they were.
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
 
 /// Forces of everything, linear about a state: -K d(coordinates) - C d(rates).

@@ -52,6 +52,7 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
       bodies_(system.bodies),
       links_(system.links),
       stretches_(system.stretches),
+      leanings_(system.leanings),
       wheelsets_(system.wheelsets) {
   for (const CharacteristicForce& c : system.characteristics) stops_.emplace_back(c.link, c.freedom);
   for (const AxleTorque& torque : setup_.torques) {
@@ -118,7 +119,7 @@ LineState LineEffects::state(double time) const {
   add_inertia(out, now);
   if (setup_.path) add_links(out, now);
   for (std::size_t i = 0; i < torque_on_.size(); ++i) {
-    const double torque = torque_at(setup_.torques[i], time);
+    const double torque = torque_at(setup_.torques[i], clock(time));
     out.force[torque_on_[i].first] -= torque;
     if (torque_on_[i].second >= 0) out.force[torque_on_[i].second] += torque;
   }
@@ -174,11 +175,13 @@ void LineEffects::add_links(LineState& out, const Travel& travel) const {
       stretch[i][j] = apart[d], stretch[i][j + 3] = turned[d];
       rate[i][j] = travel.speed * apart_rate[d], rate[i][j + 3] = travel.speed * turned_rate[d];
     }
-    // The preload keeps the direction that it has here; balance has it along z of each body.
+    // Preloads lie along the mean of both frames; balance has them along z of each body.
+    const Vec3 tilt = 0.5 * (rotation_vector(a) + rotation_vector(b));
+    const Vec3 along = Vec3(Vec3::UnitZ() + tilt.cross(Vec3::UnitZ())).normalized();
     const auto add_preload = [&](int body, const Mat3& axes, double sign) {
       if (body < 0) return;
       const Multibody::Body& on = bodies_[static_cast<std::size_t>(body)];
-      const Vec3 force = sign * link.preload * (axes.transpose() * Vec3::UnitZ() - Vec3::UnitZ());
+      const Vec3 force = sign * link.preload * (axes.transpose() * along - Vec3::UnitZ());
       Vec3 moment = (link.point - on.position).cross(force);
       if (on.wheelset >= 0) moment.y() = 0.0;
       add(out.force, on.coordinate, force, moment);
@@ -203,6 +206,13 @@ void LineEffects::add_links(LineState& out, const Travel& travel) const {
     else
       out.spring_energy += 0.5 * s.value * by * by;
   }
+  for (const Multibody::Leaning& l : leanings_) {
+    const auto link = static_cast<std::size_t>(l.link), freedom = static_cast<std::size_t>(l.freedom);
+    for (const auto& [c, factor] : l.turn) {
+      out.spring[c] -= l.value * factor * stretch[link][freedom];
+      out.spring_rate[c] -= l.value * factor * rate[link][freedom];
+    }
+  }
   for (std::size_t i = 0; i < stops_.size(); ++i)
     out.stop_offsets[i] =
         stretch[static_cast<std::size_t>(stops_[i].first)][static_cast<std::size_t>(stops_[i].second)];
@@ -219,19 +229,21 @@ WheelOnLine LineEffects::wheel(std::size_t wheelset, wheelrail::Side side, doubl
   if (setup_.path) {
     const PathPoint p = setup_.path->at(s);
     out.spin = speed * p.turn();
+    out.curvature = p.turn().z();
     const double half = left ? -0.5 : 0.5;
-    y = {half * (p.gauge.value - setup_.gauge_at_rest), half * p.gauge.first, 0.0};
+    y = {half * (p.gauge.value - setup_.gauge_at_rest), half * p.gauge.first, half * p.gauge.second};
   }
   if (setup_.irregularities) {
     const RailOffsets rails = setup_.irregularities->at(s);
     const Along &by_y = left ? rails.left_y : rails.right_y, &by_z = left ? rails.left_z : rails.right_z;
-    y.value += by_y.value, y.first += by_y.first;
+    y.value += by_y.value, y.first += by_y.first, y.second += by_y.second;
     z = by_z;
     cross = {rails.right_z.value - rails.left_z.value, rails.right_z.first - rails.left_z.first, 0.0};
   }
   out.rail = {y.value,         z.value,         cross.value / setup_.base,
               speed * y.first, speed * z.first, speed * cross.first / setup_.base};
   out.rail_yaw = y.first;
+  out.curvature += y.second;
   return out;
 }
 

@@ -22,6 +22,7 @@ struct LineSetup {
   double gravity = 9.81;         ///< [m/s2]
   SpeedProfile speed;
   std::vector<AxleTorque> torques;
+  bool stays = false;  ///< runs, but stays at its place: the line never changes
 };
 
 /// What the line does to all coordinates at one time.
@@ -40,6 +41,7 @@ struct WheelOnLine {
   Vec3 spin = Vec3::Zero();  ///< of the frame, in its axes [rad/s]
   RailMotion rail;           ///< offsets of its rail in the frame and their rates along with the wheel
   double rail_yaw = 0.0;     ///< direction of the rail in the frame [rad]
+  double curvature = 0.0;    ///< of the rail in the frame's x-y plane [1/m]
 };
 
 /// A line under a vehicle as a function of time. Every body of the vehicle moves little about the path frame below it:
@@ -54,7 +56,7 @@ class LineEffects {
   LineEffects(const Multibody& system, LineSetup setup);
 
   /// At a time >= 0 [s].
-  Travel travel(double time) const { return travel_at(setup_.speed, time); }
+  Travel travel(double time) const { return travel_at(setup_.speed, clock(time)); }
   /// What the line does to the vehicle then.
   LineState state(double time) const;
   /// The line at a wheel then.
@@ -76,6 +78,7 @@ class LineEffects {
 
  private:
   struct Frame;
+  double clock(double time) const { return setup_.stays ? 0.0 : time; }
   Frame frame(double x, const Travel& travel) const;
   void add_inertia(LineState& out, const Travel& travel) const;
   void add_links(LineState& out, const Travel& travel) const;
@@ -86,6 +89,7 @@ class LineEffects {
   std::vector<Multibody::Body> bodies_;
   std::vector<Multibody::Link> links_;
   std::vector<Multibody::Stretch> stretches_;
+  std::vector<Multibody::Leaning> leanings_;
   std::vector<std::pair<int, Freedom>> stops_;  ///< link and direction
   std::vector<Multibody::Wheelset> wheelsets_;
   std::vector<std::pair<int, int>> torque_on_;  ///< coordinates of the axle's and the reaction's pitch; -1: none

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "treadmark/core/error.hpp"
 
@@ -203,7 +204,7 @@ class Assembly {
       const Vec3 from_section(arm.x(), 0.0, arm.z());
       if (freedom < kRotations)
         for (int r = 0; r < 3; ++r)
-          factor += motion[static_cast<std::size_t>(kRotations + r)] *
+          factor += motion[kRotations + static_cast<std::size_t>(r)] *
                     Vec3::Unit(r).cross(from_section).dot(Vec3::Unit(freedom));
       if (factor != 0.0) direction.emplace_back(placed.coordinate, sign * factor);
     }
@@ -302,12 +303,13 @@ class Assembly {
         for (const auto& [j, b] : term.direction) target(i, j) += term.value * a * b;
     }
     system_.damping = system_.dissipation;
-    for (std::size_t i = 0; i < system_.wheelsets.size(); ++i) couple_roll_and_yaw(system_.wheelsets[i]);
+    for (const Multibody::Wheelset& w : system_.wheelsets) couple_roll_and_yaw(w);
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (!w.elastic.empty()) couple_bending(w);
     for (const auto& [direction, stop, link] : stops_)
       system_.characteristics.push_back({spread(direction), stop->displacement, stop->force, link, stop->direction});
     balance_weight();
+    for (std::size_t link = 0; link < system_.links.size(); ++link) let_lean(link);
   }
 
   /// Angular momentum of a wheel set that turns with -V/R about an axle which rolls and yaws.
@@ -380,6 +382,51 @@ class Assembly {
       if (z < 0) throw Error(ErrorKind::configuration, "a wheelset must be free to move in z");
       system_.wheelset_load.push_back(system_.weight[z]);
     }
+  }
+
+  /// Second order of the potential of a link's preload P, which acts on b along z': -P z' . (x_b - x_a).
+  void let_lean(std::size_t number) {
+    const Multibody::Link& link = system_.links[number];
+    const double preload = link.preload;
+    if (preload == 0.0) return;
+    const auto add_arm = [&](int index, double force) {
+      if (index < 0) return;
+      const PlacedBody& body = bodies_[static_cast<std::size_t>(index)];
+      const double below = link.point.z() - body.spec.position.z();
+      for (const Freedom f : {Freedom::roll, Freedom::pitch}) {
+        const int c = body.coordinate[static_cast<std::size_t>(f)];
+        if (c < 0 || (f == Freedom::pitch && body.axle_boxes)) continue;
+        system_.stiffness(c, c) += force * below;
+      }
+    };
+    add_arm(link.a, -preload);
+    add_arm(link.b, preload);
+    // z' = z + turn x z.
+    add_leaning(number, Freedom::x, Freedom::pitch, -preload);
+    add_leaning(number, Freedom::y, Freedom::roll, preload);
+  }
+
+  void add_leaning(std::size_t number, Freedom aside, Freedom turn, double value) {
+    const Multibody::Link& link = system_.links[number];
+    Multibody::Leaning leaning{static_cast<int>(number), aside, {}, {}, value};
+    const auto holds_pitch = [&](int index) {
+      return index >= 0 && bodies_[static_cast<std::size_t>(index)].axle_boxes && turn == Freedom::pitch;
+    };
+    for (const auto& [index, other, sign] : {std::tuple{link.a, link.b, -1.0}, {link.b, link.a, 1.0}}) {
+      if (index < 0) continue;
+      const std::string& name = bodies_[static_cast<std::size_t>(index)].spec.name;
+      // What does not turn with an axle is held by what it is on.
+      const double share = holds_pitch(index) ? 0.0 : holds_pitch(other) ? 1.0 : 0.5;
+      add_point(name, "", {}, link.point, static_cast<int>(aside), sign, leaning.direction);
+      if (share == 0.0) continue;
+      add_point(name, "", {}, link.point, static_cast<int>(turn), share, leaning.turn);
+    }
+    for (const auto& [i, a] : leaning.turn)
+      for (const auto& [j, b] : leaning.direction) {
+        system_.stiffness(i, j) += value * a * b;
+        system_.stiffness(j, i) += value * a * b;
+      }
+    if (!leaning.turn.empty()) system_.leanings.push_back(std::move(leaning));
   }
 
   struct Term {

@@ -54,8 +54,9 @@ struct CharacteristicForce {
 
 /// Equations of motion of vehicle and track about their reference configuration, which travels at constant speed:
 ///   M q'' + C q' + K q = f + forces of bump stops and contacts.
-/// K q = f holds for a vehicle whose wheelsets cannot move: springs bear their preloads. C contains the gyroscopic
-/// coupling of the wheelsets' roll and yaw, that of bending wheelsets included. Immutable.
+/// K q = f holds for a vehicle whose wheelsets cannot move: springs bear their preloads. K contains what these do as
+/// bodies lean and move aside (the second order of their potential); weights act at the centres of mass. C contains the
+/// gyroscopic coupling of the wheelsets' roll and yaw, that of bending wheelsets included. Immutable.
 struct Multibody {
   std::vector<Coordinate> coordinates;
   Vector mass;                ///< diagonal of M
@@ -106,9 +107,18 @@ struct Multibody {
     double value = 0.0;  ///< stiffness or damping
     bool damper = false;
   };
+  /// Preloaded springs turn with the mean rotation of what they connect: along their stretch sideways the preload then
+  /// has a component. Its potential is value * (turn . q) * (stretch by the coordinates and by the line).
+  struct Leaning {
+    int link = -1;
+    Freedom freedom = Freedom::x;  ///< of the stretch, x or y
+    std::vector<std::pair<int, double>> direction, turn;
+    double value = 0.0;  ///< [N]
+  };
   std::vector<Body> bodies;
   std::vector<Link> links;
   std::vector<Stretch> stretches;
+  std::vector<Leaning> leanings;
 
   int size() const { return static_cast<int>(mass.size()); }
 };

@@ -25,20 +25,6 @@ double step_factor(double error, double tolerance) {
   return factor > kWorthShortening && factor < kWorthGrowing ? 1.0 : factor;
 }
 
-void check(const SimulationSettings& s) {
-  const auto require = [](bool good, const char* what) {
-    if (!good) throw Error(ErrorKind::configuration, fmt::format("{} must be positive and finite", what));
-  };
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
-  require(positive(s.duration), "the duration");
-  require(positive(s.position_tolerance), "the tolerance of positions");
-  require(positive(s.max_step) && positive(s.min_step) && s.min_step <= s.max_step,
-          "the longest and the shortest step");
-  require(positive(s.first_step), "the first step");
-  require(positive(s.max_travel), "the travel of a step");
-  require(positive(s.event_tolerance), "the tolerance of events");
-}
-
 EnergyBalance energy_of(const Multibody& s, const SystemState& state, const std::vector<ContactReaction>& reactions,
                         const std::optional<LineState>& line) {
   EnergyBalance e;
@@ -97,6 +83,23 @@ void get(ByteReader& in, Vector& v, Eigen::Index size) {
 }
 
 }  // namespace
+
+void check(const SimulationSettings& s) {
+  const auto require = [](bool good, const char* what) {
+    if (!good) throw Error(ErrorKind::configuration, fmt::format("{} must be positive and finite", what));
+  };
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  require(positive(s.duration), "the duration");
+  require(positive(s.position_tolerance), "the tolerance of positions");
+  require(positive(s.max_step) && positive(s.min_step), "the longest and the shortest step");
+  if (s.min_step > s.max_step)
+    throw Error(ErrorKind::configuration,
+                fmt::format("the shortest step of {:.6g} us exceeds the longest one of {:.6g} us", s.min_step * 1e6,
+                            s.max_step * 1e6));
+  require(positive(s.first_step), "the first step");
+  require(positive(s.max_travel), "the travel of a step");
+  require(positive(s.event_tolerance), "the tolerance of events");
+}
 
 Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const SimulationSettings& settings)
     : vehicle_(std::make_unique<VehicleOnTrack>(std::move(vehicle))),
@@ -247,7 +250,7 @@ void Simulation::take_step() {
   }
   next_step_ = h * step_factor(step.position_error, settings_.position_tolerance);
   if (changes_contact(step)) step = locate_event(step, h);
-  for (std::size_t i = 0; i < vehicle_->wheels.size(); ++i) vehicle_->wheels[i].element->accept();
+  for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->accept();
   accept(std::move(step));
 }
 

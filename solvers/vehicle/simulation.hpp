@@ -16,6 +16,8 @@ struct SimulationSettings {
   double event_tolerance = 1e-9;                               ///< of the time of an event [s]
   StepSettings step;
 };
+/// Errors: Error(configuration) for settings that make no sense.
+void check(const SimulationSettings& settings);
 
 /// A wheel that loses contact or regains it.
 struct ContactEvent {

@@ -30,7 +30,7 @@ void flip(wheelrail::SixMotion& q) { q.y = -q.y, q.roll = -q.roll, q.yaw = -q.ya
 PairMotion mirrored(PairMotion m) {
   flip(m.wheelset);
   flip(m.wheelset_velocity);
-  for (double* value : {&m.rail.y, &m.rail.roll, &m.rail.vy, &m.rail.vroll}) *value = -*value;
+  for (double* value : {&m.rail.y, &m.rail.roll, &m.rail.vy, &m.rail.vroll, &m.curvature}) *value = -*value;
   return m;
 }
 
@@ -66,11 +66,19 @@ RelativePlace relative_place(const wheelrail::Placement& nominal, const wheelrai
   return {moved.y(), moved.z(), m.wheelset.roll - m.rail.roll};
 }
 
-/// x where the normal through the contact point meets the axle: the pressure of a round wheel has no moment about it,
-/// also where yaw moves the contact ahead or behind.
-double below_the_axle(const Vec3& point, const Vec3& normal, const Pose& X_TWs) {
-  const Vec3 axle = X_TWs.rotation.col(1), arm = point - X_TWs.origin;
-  return axle.x() * (arm.y() * normal.z() - arm.z() * normal.y()) / (axle.y() * normal.z() - axle.z() * normal.y());
+/// Where the normal meets the axle: the pressure of a round wheel has no moment about it, also where yaw moves the
+/// contact ahead or behind. There a rail that bends has another direction, and so has the normal.
+void put_below_the_axle(Pose& X_TC, const Pose& X_TWs, double curvature) {
+  constexpr int kTimes = 2;  // the direction changes by less than a thousandth
+  const Mat3 upright = X_TC.rotation;
+  const Vec3 arm = X_TC.origin - X_TWs.origin;
+  for (int i = 0; i < kTimes; ++i) {
+    const Vec3 across = X_TC.rotation.col(2).cross(X_TWs.rotation.col(1));
+    const double x = -(arm.y() * across.y() + arm.z() * across.z()) / across.x();
+    X_TC.origin.x() = X_TWs.origin.x() + x;
+    if (curvature == 0.0) return;
+    X_TC.rotation = rotation_z(curvature * x) * upright;
+  }
 }
 
 ContactReaction not_covered(const ContactTable& table, const RelativePlace& place) {
@@ -121,9 +129,8 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   Pose X_TC{now.X_TW.origin + rotation_x(motion.rail.roll) * Vec3(0.0, elastic.arm_y, elastic.arm_z),
             rotation_x(angle)};
   // The arm ends on the undeformed wheel, the contact point lies on the rail.
-  const Vec3 normal = X_TC.rotation.col(2);
-  X_TC.origin -= elastic.penetration * normal;
-  X_TC.origin.x() = below_the_axle(X_TC.origin, normal, now.X_TWs);
+  X_TC.origin -= elastic.penetration * X_TC.rotation.col(2);
+  put_below_the_axle(X_TC, now.X_TWs, motion.curvature);
 
   problem_.state.position = motion.wheelset;
   problem_.state.velocity = motion.wheelset_velocity;
@@ -136,11 +143,12 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
 
   const Vec3 force = X_TC.rotation * Vec3(creep.force.x(), creep.force.y(), elastic.normal_force);
   const Vec3 moment = creep.moment * X_TC.rotation.col(2);
-  const auto about = [&](const Vec3& point) {
-    return wheelrail::Wrench{force, (X_TC.origin - point).cross(force) + moment};
+  const auto about = [&](const Vec3& point, const Vec3& at) {
+    return wheelrail::Wrench{force, (at - point).cross(force) + moment};
   };
-  r.on_rail = about(now.X_TR.origin);
-  const wheelrail::Wrench at_centre = about(now.X_TWs.origin);
+  // Friction takes what the creepages put in: forces act where these are those of both bodies.
+  r.on_rail = about(now.X_TR.origin, X_TC.origin);
+  const wheelrail::Wrench at_centre = about(now.X_TWs.origin, X_TC.apply({0.0, 0.0, elastic.penetration}));
   r.on_wheelset = {-at_centre.force, -at_centre.moment};
   r.longitudinal_creep_force = creep.force.x();
   r.lateral_creep_force = creep.force.y();

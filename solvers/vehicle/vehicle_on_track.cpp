@@ -82,6 +82,7 @@ PairMotion VehicleOnTrack::motion_on_line(std::size_t i, const SystemState& stat
                 wrap_angle(pitch_at_start[set] - on.travel.distance / radius(i) + u[4])};
   m.wheelset_velocity = {rate[0], rate[1], rate[2], rate[3], rate[5], rate[4]};
   m.rail = {on.rail.y + u[6], on.rail.z + u[7], on.rail.roll + u[8], rate[6], rate[7], rate[8]};
+  m.curvature = on.curvature;
   return m;
 }
 

@@ -103,6 +103,23 @@ TEST_F(BadSimulation, UnknownKeyOfAnOverride) {
   expect_refused({"wheel\\.flts"}, {"--set", "wheel.flts.0.depth_mm=1"});
 }
 
+TEST_F(BadSimulation, ChannelsThatAreNone) {
+  input.edit("simulation.toml", "speed_m_s = 20", "channels = [\"Q_N\", \"mass.zz_m\"]\nspeed_m_s = 20");
+  expect_refused({"simulation\\.toml:6:[0-9]+", "no channel", "did you mean 'mass\\.z_m'"});
+}
+
+TEST_F(BadSimulation, SpectraOfChannelsThatAreNotKept) {
+  input.edit("simulation.toml", "speed_m_s = 20", "channels = [\"Q_N\"]\nspeed_m_s = 20");
+  input.edit("simulation.toml", "[case]", "[assessment]\nspectra = [\"mass.z_m\"]\n\n[case]");
+  expect_refused({"simulation\\.toml", "no channel", "mass\\.z_m"});
+}
+
+TEST_F(BadSimulation, StepsOfAFlexibleTrackThatAreTooLong) {
+  input.share_rails();
+  expect_refused({"shortest step of 60 us exceeds the longest one of 50 us"},
+                 {"--set", "simulation.min_step_us=60", "--set", "simulation.speed_m_s=0.5"});
+}
+
 TEST_F(BadSimulation, VehicleThatIsNotThere) {
   input.edit("simulation.toml", "vehicle = \"vehicle.toml\"", "vehicle = \"absent.toml\"");
   expect_refused({"absent\\.toml", "simulation\\.toml:4:[0-9]+"});

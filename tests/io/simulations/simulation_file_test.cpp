@@ -282,6 +282,7 @@ TEST_F(SimulationText, ErrorsOfSettings) {
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nduration_s = 1"),
               HasSubstr("distance_m and simulation.duration_s exclude each other"));
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nspectral_radius = 1.1"), HasSubstr("must be at most 1"));
+  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nspectral_radius = 0.4"), HasSubstr("must be at least 0.5"));
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\ntolerance_um = 0"), HasSubstr("must be greater than 0"));
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nfields.pitch_deg = [3, 2]"),
               HasSubstr("simulation.fields.pitch_deg must increase"));

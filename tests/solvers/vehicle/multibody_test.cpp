@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/random.hpp"
@@ -28,12 +31,15 @@ TEST(Multibody, WheelsetsCarryWhatIsAboveThem) {
   EXPECT_LT(rest.cwiseAbs().maxCoeff(), 1e-9);
 }
 
+/// Without preloads stiffness is that of springs alone.
+constexpr double kWeightless = 0.0;
+
 TEST(Multibody, SpringsActAtTheirPoints) {
   VehicleModel v = wheel_on_mass(1800.0, 9000.0, 2e6, 0.0);
   v.bodies[0].free = {false, true, true, true, false, true};
   v.springs = {spring("mass", "wheelset", {0.4, -1.0, -0.46}, {0, 3e5, 1e6, 0, 0, 0}),
                spring("mass", "wheelset", {0.4, 1.0, -0.46}, {2e5, 3e5, 1e6, 7e3, 0, 0})};
-  const Multibody s = assemble(v, {}, 20.0, kGravity);
+  const Multibody s = assemble(v, {}, 20.0, kWeightless);
   const int y = coordinate(s, "mass.y"), z = coordinate(s, "mass.z"), roll = coordinate(s, "mass.roll"),
             yaw = coordinate(s, "mass.yaw");
   EXPECT_DOUBLE_EQ(s.stiffness(z, z), 2e6);
@@ -55,7 +61,7 @@ TEST(Multibody, RigidMotionsStrainNothing) {
                       {1e4, 2e4, 3e4, 1e2, 2e2, 3e2}),
                spring("b", "wheelset", {0, 0, -0.5}, {1e5, 1e5, 1e5, 1e5, 1e5, 1e5})};
   v.wheelsets = {{"wheelset", 0.46}};
-  const Multibody s = assemble(v, {}, 20.0, kGravity);
+  const Multibody s = assemble(v, {}, 20.0, kWeightless);
   Random random(7);
   const Vec3 shift(random.uniform(), random.uniform(), random.uniform()),
       turn(random.uniform(), random.uniform(), random.uniform());
@@ -74,6 +80,109 @@ TEST(Multibody, RigidMotionsStrainNothing) {
       EXPECT_NEAR(force[i], 0.0, 1e-6) << c.name;
     }
   }
+}
+
+/// A car above a frame above the ground, on eight springs.
+VehicleModel two_storeys() {
+  VehicleModel v;
+  constexpr std::array<bool, kFreedoms> all{true, true, true, true, true, true};
+  v.bodies = {body("car", 8000.0, {4e3, 9e3, 9e3}, {0, 0, -1.7}, all),
+              body("frame", 2000.0, {1e3, 2e3, 2e3}, {0, 0, -0.7}, all),
+              body("wheelset", 1000.0, {1, 1, 1}, {0, 0, -0.46}, kVertical)};
+  for (const double x : {-1.2, 1.2})
+    for (const double y : {-1.0, 1.0}) {
+      v.springs.push_back(spring("frame", "car", {x, y, -0.9}, {2e5, 3e5, 4e5, 0, 0, 0}));
+      v.springs.push_back(spring("frame", kGround, {0.8 * x, 0.9 * y, -0.4}, {3e6, 4e6, 2e6, 0, 0, 0}));
+    }
+  v.wheelsets = {{"wheelset", 0.46}};
+  return v;
+}
+
+/// Potential of springs and weights, for rotations of any size: roll, yaw, pitch one after the other, springs in axes
+/// that are turned by the means of the angles. Compressed so far that the vehicle stands at rest where it is.
+double potential(const VehicleModel& v, const Multibody& s, const Vector& q) {
+  struct Placed {
+    Vec3 origin, angles;
+    Mat3 rotation;
+  };
+  const auto turned = [](const Vec3& a) { return Mat3(rotation_x(a.x()) * rotation_z(a.z()) * rotation_y(a.y())); };
+  const auto placed = [&](const std::string& name, const Vec3& position) {
+    Placed p{position, Vec3::Zero(), Mat3::Identity()};
+    for (int i = 0; i < s.size(); ++i) {
+      const Coordinate& c = s.coordinates[static_cast<std::size_t>(i)];
+      if (!c.name.starts_with(name + '.')) continue;
+      const int f = static_cast<int>(c.freedom);
+      (f < 3 ? p.origin[f] : p.angles[f - 3]) += q[i];
+    }
+    p.rotation = turned(p.angles);
+    return p;
+  };
+  double sum = 0.0;
+  for (const BodySpec& b : v.bodies)
+    sum -= b.mass * kGravity * (placed(b.name, b.position).origin.z() - b.position.z());
+  for (const SpringSpec& spring : v.springs) {
+    const auto end = [&](const std::string& name) {
+      const auto b = std::ranges::find(v.bodies, name, &BodySpec::name);
+      if (b == v.bodies.end()) return std::pair(spring.position, Vec3(Vec3::Zero()));
+      const Placed p = placed(name, b->position);
+      return std::pair(Vec3(p.origin + p.rotation * (spring.position - b->position)), p.angles);
+    };
+    const auto [a, angles_a] = end(spring.body_a);
+    const auto [b, angles_b] = end(spring.body_b);
+    const double load = (spring.body_b == "car" ? 8000.0 : -10000.0) * kGravity / 4.0;
+    const Vec3 u = turned(0.5 * (angles_a + angles_b)).transpose() * (b - a),
+               stretch = u + Vec3(0.0, 0.0, load / spring.stiffness[2]);
+    for (int i = 0; i < 3; ++i) sum += 0.5 * spring.stiffness[static_cast<std::size_t>(i)] * stretch[i] * stretch[i];
+  }
+  return sum;
+}
+
+TEST(Multibody, PreloadedSpringsLeanAsTheirPotentialSays) {
+  const VehicleModel v = two_storeys();
+  const Multibody s = assemble(v, {}, 20.0, kGravity), elastic = assemble(v, {}, 20.0, kWeightless);
+  constexpr double kStep = 2e-3;
+  const Eigen::Index n = s.size();
+  const auto at = [&](Eigen::Index i, double by_i, Eigen::Index j, double by_j) {
+    Vector q = Vector::Zero(n);
+    q[i] += by_i;
+    q[j] += by_j;
+    return potential(v, s, q);
+  };
+  double most = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (s.coordinates[static_cast<std::size_t>(i)].name == "wheelset.z") continue;
+    // At rest nothing pulls.
+    EXPECT_NEAR((at(i, kStep, i, 0.0) - at(i, -kStep, i, 0.0)) / (2.0 * kStep), 0.0, 0.1) << i;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (s.coordinates[static_cast<std::size_t>(j)].name == "wheelset.z") continue;
+      const double second =
+          (at(i, kStep, j, kStep) - at(i, kStep, j, -kStep) - at(i, -kStep, j, kStep) + at(i, -kStep, j, -kStep)) /
+          (4.0 * kStep * kStep);
+      const double by_weight = s.stiffness(i, j) - elastic.stiffness(i, j);
+      most = std::max(most, std::abs(by_weight));
+      EXPECT_NEAR(second, s.stiffness(i, j), 150.0)
+          << s.coordinates[static_cast<std::size_t>(i)].name << ' ' << s.coordinates[static_cast<std::size_t>(j)].name;
+    }
+  }
+  EXPECT_GT(most, 3e4);
+}
+
+/// On springs that do not give way sideways a body is an inverted pendulum.
+TEST(Multibody, ABodyOnTwoSpringsRollsAsAnInvertedPendulum) {
+  constexpr double kMass = 9000.0, kInertia = 5e3, kHeight = 1.1, kStiffness = 1e5, kHalf = 1.0;
+  VehicleModel v = wheel_on_mass(1800.0, kMass, 0.0, 0.0);
+  v.bodies[0] = body("mass", kMass, {kInertia, 1, 1}, {0, 0, -0.46 - kHeight}, {false, true, true, true, false, false});
+  v.springs = {spring("wheelset", "mass", {0, -kHalf, -0.46}, {0, 1e12, kStiffness, 0, 0, 0}),
+               spring("wheelset", "mass", {0, kHalf, -0.46}, {0, 1e12, kStiffness, 0, 0, 0})};
+  const Multibody s = assemble(v, {}, 20.0, kGravity);
+  const int y = coordinate(s, "mass.y"), roll = coordinate(s, "mass.roll");
+  const Eigen::Matrix2d k{{s.stiffness(y, y), s.stiffness(y, roll)}, {s.stiffness(roll, y), s.stiffness(roll, roll)}};
+  const double flexibility = k.inverse()(1, 1), by_hand = 2.0 * kStiffness * kHalf * kHalf - kMass * kGravity * kHeight;
+  EXPECT_NEAR(1.0 / flexibility, by_hand, 1e-3 * by_hand);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> modes(
+      k, Eigen::Vector2d(kMass, kInertia).asDiagonal().toDenseMatrix());
+  const double frequency = by_hand / (kInertia + kMass * kHeight * kHeight);
+  EXPECT_NEAR(modes.eigenvalues()[0], frequency, 1e-3 * frequency);
 }
 
 TEST(Multibody, ADamperBehindASpring) {
