@@ -65,9 +65,9 @@ TEST(WrittenCase, ARollingWheelStaysOne) {
       "velocity_km_h = 100\nrolling = \"nominal\"\n",
       "rolling.toml");
   const std::string text = case_file_text(file, {});
-  EXPECT_THAT(text, HasSubstr("rolling = \"nominal\""));
+  EXPECT_THAT(text, HasSubstr("velocity_km_h = 100\nrolling = 'nominal'"));
   EXPECT_THAT(text, ::testing::Not(HasSubstr("vpitch")));
-  expect_both_round_trips(file);
+  expect_same_cases(file, parse_case_text(text, "again.toml"));
 }
 
 TEST(WrittenCase, InputOfTheReferenceProgramReadsAsTheSame) {
