@@ -334,7 +334,7 @@ std::string explained(const Start& start) {
       continue;
     }
     const std::string key = line.substr(from, to - from);
-    const Json& about = schema_at(schema, table.empty() ? key : table + '.' + key);
+    const Json& about = schema_at(schema, table.empty() ? key : fmt::format("{}.{}", table, key));
     if (off) line = "# " + line.substr(1);
     if (off && to == line.size() - 1) line += " = " + about.value("default", Json(0)).dump();
     out += with_comment(line, meaning_of(about));

@@ -47,14 +47,12 @@ void print_state(const io::StudyFile& study, const SweepOptions& options) {
                            state.not_begun.size());
   std::cout << (state.written ? "sweep.csv and sweep.h5 are written\n"
                               : "sweep.csv and sweep.h5 are not written yet\n");
-  if (const std::vector<std::string> jobs = app::slurm_jobs(options.output_folder); !jobs.empty()) {
-    const std::string queue = app::slurm_queue(jobs);
-    std::cout << fmt::format("jobs {}: {}", fmt::join(jobs, ", "),
-                             queue.empty() ? "none waits or runs\n" : '\n' + queue);
-  }
+  if (const std::vector<std::string> jobs = app::slurm_jobs(options.output_folder); !jobs.empty())
+    std::cout << fmt::format("jobs {}: squeue -j {} shows whether they wait or run\n", fmt::join(jobs, ", "),
+                             fmt::join(jobs, ","));
 }
 
-/// Writes the jobs, and submits them where that can be done.
+/// Writes the jobs and what submits them.
 int slurm_command(const io::StudyFile& study, const SweepOptions& options) {
   namespace fs = std::filesystem;
   app::StudyOptions wanted;
@@ -70,16 +68,8 @@ int slurm_command(const io::StudyFile& study, const SweepOptions& options) {
   request.tasks = options.slurm_tasks;
   if (!options.report_file.empty()) request.report = fs::absolute(options.report_file);
   const app::SlurmScripts scripts = app::write_slurm_scripts(study, request);
-  if (!app::has_slurm()) {
-    std::cout << "sbatch is not here. Where it is:\n";
-    if (scripts.tasks > 0) std::cout << "  sbatch --parsable " << scripts.array.string() << '\n';
-    std::cout << "  sbatch " << (scripts.tasks > 0 ? "--dependency=afterany:JOB " : "") << scripts.merge.string()
-              << '\n';
-    return kOk;
-  }
-  const std::vector<std::string> jobs = app::submit_slurm_scripts(request, scripts);
-  if (scripts.tasks > 0) std::cout << fmt::format("job {}: {} tasks\n", jobs.front(), scripts.tasks);
-  std::cout << fmt::format("job {}: gathers the runs\n", jobs.back());
+  std::cout << fmt::format("{} tasks and a job that gathers their runs; submit them with: sh {}\n", scripts.tasks,
+                           scripts.submit.string());
   return kOk;
 }
 
@@ -161,13 +151,13 @@ Command add_sweep(CLI::App& verb) {
       verb.add_flag("--merge", options->merge, "Solve nothing: gather the runs, all of which must be finished")
           ->excludes(runs);
   CLI::Option* status =
-      verb.add_flag("--status", options->status, "Say how many runs are finished, and which jobs wait or run")
+      verb.add_flag("--status", options->status, "Say how many runs are finished, and the numbers of submitted jobs")
           ->excludes(runs)
           ->excludes(merge);
   CLI::Option* slurm =
       verb.add_flag("--slurm", options->slurm,
-                    "Write, and submit where sbatch is, a job array of Slurm for the runs that are not "
-                    "finished, and a job that gathers them behind it")
+                    "Write a job array of Slurm for the runs that are not finished, a job that gathers them "
+                    "behind it, and a script that submits both")
           ->excludes(runs)
           ->excludes(merge)
           ->excludes(status);

@@ -2,13 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/slurm_jobs.hpp"
 
-#include <sys/wait.h>
-
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -79,30 +73,27 @@ std::string index_ranges(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
-struct Answer {
-  int status = 0;
-  std::string text;  ///< both streams
-};
-
-Answer ask(const std::string& shell_command) {
-  const auto close = [](std::FILE* stream) { ::pclose(stream); };
-  std::unique_ptr<std::FILE, decltype(close)> stream(::popen((shell_command + " 2>&1 </dev/null").c_str(), "r"), close);
-  if (!stream) refuse("no other program can be started");
-  Answer answer;
-  std::array<char, 4096> part{};
-  while (const std::size_t size = std::fread(part.data(), 1, part.size(), stream.get()))
-    answer.text.append(part.data(), size);
-  const int status = ::pclose(stream.release());
-  answer.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return answer;
-}
-
-std::string submit(const std::string& arguments) {
-  Answer answer = ask("sbatch --parsable " + arguments);
-  if (answer.status != 0) refuse("sbatch refuses the job: " + answer.text);
-  // The number, and behind a semicolon the cluster.
-  return answer.text.substr(0, answer.text.find_first_of(";\n"));
-}
+/// Gives the jobs to Slurm unless earlier ones of the folder still wait or run. after: what the second one waits for.
+constexpr const char* kSubmit = R"(#!/bin/sh
+# Submits the jobs beside this file, and writes their numbers into the file jobs.
+set -e
+cd "$(dirname "$0")" if[-f jobs] &&
+                                [-n "$(squeue -h -j " $(paste - sd, jobs) " 2>/dev/null)"]; then
+  echo "jobs $(paste -sd' ' jobs) of this study still wait or run: scancel $(paste -sd' ' jobs) ends them" >&2
+  exit 1
+fi
+)";
+constexpr const char* kSubmitBoth = R"(array=$(sbatch --parsable array.sh)
+array=${array%%;*}
+# Also behind tasks that fail: what they left unsolved is told by the job itself.
+merge=$(sbatch --parsable --dependency=afterany:"$array" merge.sh)
+printf '%s\n' "$array" "${merge%%;*}" >jobs
+echo "job $array: the runs; job ${merge%%;*}: gathers them"
+)";
+constexpr const char* kSubmitMerge = R"(merge=$(sbatch --parsable merge.sh)
+printf '%s\n' "${merge%%;*}" >jobs
+echo "job ${merge%%;*}: gathers the runs, all of which are finished"
+)";
 
 }  // namespace
 
@@ -117,20 +108,20 @@ SlurmScripts write_slurm_scripts(const io::StudyFile& study, const SlurmRequest&
 
   const fs::path folder = request.folder / "slurm";
   make_folder(folder);
-  SlurmScripts scripts{folder / "array.sh", folder / "merge.sh", open.size()};
+  const SlurmScripts scripts{folder / "submit.sh", open.size()};
   if (!open.empty())
-    write_file(scripts.array, script_head(request, "treadmark", "task_%a.log") +
-                                  fmt::format("#SBATCH --array={}\n#SBATCH --requeue\n", index_ranges(open)) +
-                                  fmt::format("first=$((SLURM_ARRAY_TASK_ID * {} + 1))\n", share) +
-                                  sweep_call(request, fmt::format("--runs \"$first-$((first + {}))\"", share - 1)));
+    write_file(folder / "array.sh",
+               script_head(request, "treadmark", "task_%a.log") +
+                   fmt::format("#SBATCH --array={}\n#SBATCH --requeue\n", index_ranges(open)) +
+                   fmt::format("first=$((SLURM_ARRAY_TASK_ID * {} + 1))\n", share) +
+                   sweep_call(request, fmt::format("--runs \"$first-$((first + {}))\"", share - 1)));
   std::string merge = "--merge";
   if (!request.report.empty()) merge += " --report " + shell_word(request.report.string());
-  write_file(scripts.merge,
+  write_file(folder / "merge.sh",
              script_head(request, "treadmark-merge", "merge.log") + "#SBATCH --requeue\n" + sweep_call(request, merge));
+  write_file(scripts.submit, std::string(kSubmit) + (open.empty() ? kSubmitMerge : kSubmitBoth));
   return scripts;
 }
-
-bool has_slurm() { return ask("command -v sbatch").status == 0; }
 
 std::vector<std::string> slurm_jobs(const fs::path& folder) {
   std::vector<std::string> jobs;
@@ -139,28 +130,6 @@ std::vector<std::string> slurm_jobs(const fs::path& folder) {
   for (std::string job; text >> job;)
     if (std::ranges::all_of(job, [](char c) { return c >= '0' && c <= '9'; })) jobs.push_back(job);
   return jobs;
-}
-
-std::vector<std::string> submit_slurm_scripts(const SlurmRequest& request, const SlurmScripts& scripts) {
-  if (const std::vector<std::string> before = slurm_jobs(request.folder); !slurm_queue(before).empty())
-    refuse(fmt::format("jobs {} of this study still wait or run", fmt::join(before, " and ")),
-           fmt::format("--status shows them; scancel {} ends them", fmt::join(before, " ")));
-  std::vector<std::string> jobs;
-  std::string behind;
-  if (scripts.tasks > 0) {
-    jobs.push_back(submit(shell_word(scripts.array.string())));
-    // Also behind tasks that fail: what they left unsolved is told by the job itself.
-    behind = "--dependency=afterany:" + jobs.back() + ' ';
-  }
-  jobs.push_back(submit(behind + shell_word(scripts.merge.string())));
-  write_file(request.folder / kJobsFile, fmt::format("{}\n", fmt::join(jobs, "\n")));
-  return jobs;
-}
-
-std::string slurm_queue(const std::vector<std::string>& jobs) {
-  if (jobs.empty()) return {};
-  Answer answer = ask(fmt::format("squeue -h -o '%.18i %.16j %.10T %.12M %R' -j {}", fmt::join(jobs, ",")));
-  return answer.status == 0 ? answer.text : std::string();
 }
 
 }  // namespace treadmark::app

@@ -20,25 +20,15 @@ struct SlurmRequest {
 };
 
 struct SlurmScripts {
-  std::filesystem::path array, merge;  ///< to be given to sbatch; in the folder slurm of the results
-  std::size_t tasks = 0;               ///< those with runs that are not finished; 0: there is nothing to solve
+  std::filesystem::path submit;  ///< gives both jobs to sbatch; beside them in the folder slurm of the results
+  std::size_t tasks = 0;         ///< those with runs that are not finished; 0: there is nothing to solve
 };
 
-/// Writes both scripts for the runs that are not finished. Errors: Error(configuration) for names and options that
-/// cannot stand in a script.
+/// Writes the jobs for the runs that are not finished, and what submits them: the program itself starts no others.
+/// Errors: Error(configuration) for names and options that cannot stand in a script.
 SlurmScripts write_slurm_scripts(const io::StudyFile& study, const SlurmRequest& request);
-
-/// Whether programs of Slurm are in the search path.
-bool has_slurm();
 
 /// Numbers of the jobs of a folder, those of the last submission; empty: there are none.
 std::vector<std::string> slurm_jobs(const std::filesystem::path& folder);
-
-/// Submits the array, and the other job behind it. Errors: Error(configuration) with what sbatch says, and where
-/// earlier jobs of the folder still wait or run.
-std::vector<std::string> submit_slurm_scripts(const SlurmRequest& request, const SlurmScripts& scripts);
-
-/// What squeue says of these jobs, a line a job or task; empty: they are gone, or there is no squeue.
-std::string slurm_queue(const std::vector<std::string>& jobs);
 
 }  // namespace treadmark::app
