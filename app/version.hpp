@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace treadmark::app {
 
@@ -10,5 +11,17 @@ std::string version();       ///< "0.1.0"
 std::string git_revision();  ///< short commit hash of the sources, "unknown" outside a repository
 /// Parts that are in and those left out (core/parts.hpp), and the licence that the binary thereby has, for --version.
 std::string build_description();
+std::string licence();  ///< that the program has with what it is linked to, as SPDX expression
+
+/// What the program is made with.
+struct LinkedLibrary {
+  std::string name, version;  ///< as found when the program was built
+  std::string licence;        ///< SPDX expression
+  std::string shared;         ///< beginning of the name of the shared library that is loaded; empty: headers alone
+};
+std::vector<LinkedLibrary> linked_libraries();
+
+/// All of this as JSON, for programs.
+std::string version_json();
 
 }  // namespace treadmark::app

@@ -97,20 +97,31 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
   std::cout << input.file << ": " << input.outcome << '\n';
 }
 
-enum class InputKind { profile, study, simulation, cases };
+/// Files that are read and built, and no more.
+struct PlainKind {
+  bool (*is)(const std::filesystem::path& file);
+  void (*check)(const std::string& name, const std::vector<std::string>& overrides);
+};
+constexpr PlainKind kPlainKinds[] = {{io::is_study_file, check_study_file},
+                                     {io::is_simulation_file, check_simulation_file},
+                                     {io::is_vehicle_file, check_vehicle_file},
+                                     {io::is_track_file, check_track_file},
+                                     {io::is_import_file, check_import_file}};
 
-InputKind kind_of(const std::string& name) {
-  if (app::is_profile_file(name)) return InputKind::profile;
-  if (io::is_study_file(name)) return InputKind::study;
-  return io::is_simulation_file(name) ? InputKind::simulation : InputKind::cases;
+/// Null for profiles and cases.
+const PlainKind* plain_kind_of(const std::string& name) {
+  if (app::is_profile_file(name)) return nullptr;
+  const auto found = std::ranges::find_if(kPlainKinds, [&](const PlainKind& kind) { return kind.is(name); });
+  return found == std::end(kPlainKinds) ? nullptr : &*found;
 }
 
 /// By the names of the case files.
 std::map<std::string, std::filesystem::path> picture_folders(const CheckOptions& options) {
   if (options.output_folder.empty()) return {};
   std::vector<std::string> names;
-  std::ranges::copy_if(options.cases, std::back_inserter(names),
-                       [](const std::string& name) { return kind_of(name) == InputKind::cases; });
+  std::ranges::copy_if(options.cases, std::back_inserter(names), [](const std::string& name) {
+    return !app::is_profile_file(name) && plain_kind_of(name) == nullptr;
+  });
   const std::vector<std::filesystem::path> folders = output_folders(options.output_folder, names);
   std::map<std::string, std::filesystem::path> by_name;
   for (std::size_t k = 0; k < names.size(); ++k) by_name[names[k]] = folders[k];
@@ -124,20 +135,12 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
   for (const std::string& name : options.cases) {
     CheckedInput& input = inputs.emplace_back();
     input.file = name;
-    switch (kind_of(name)) {
-      case InputKind::profile:
-        check_profile_file(options, input);
-        break;
-      case InputKind::study:
-        check_study_file(name, options.overrides);
-        break;
-      case InputKind::simulation:
-        check_simulation_file(name, options.overrides);
-        break;
-      case InputKind::cases:
-        check_case_file(options, pictures[name], input);
-        break;
-    }
+    if (app::is_profile_file(name))
+      check_profile_file(options, input);
+    else if (const PlainKind* kind = plain_kind_of(name))
+      kind->check(name, options.overrides);
+    else
+      check_case_file(options, pictures[name], input);
   }
   write_report_file(options.report_file, [&] { return app::report::check_page(inputs); });
   return kOk;

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 
+#include <fmt/format.h>
+
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
@@ -9,6 +11,7 @@
 #include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
 namespace treadmark::cli {
@@ -41,6 +44,23 @@ void check_simulation_file(const std::string& name, const std::vector<std::strin
   print_notes(file.notes, false);
   for (const std::string& text : app::line_summary(file)) std::cout << name << ": " << text << '\n';
   std::cout << name << ": a simulation, no errors\n";
+}
+
+void check_vehicle_file(const std::string& name, const std::vector<std::string>& overrides) {
+  const VehicleModel vehicle = io::read_vehicle_file(name, overrides);
+  std::cout << fmt::format("{}: vehicle \"{}\": {} bodies, {} wheelsets, {} springs and bump stops; no errors\n", name,
+                           vehicle.name, vehicle.bodies.size(), vehicle.wheelsets.size(),
+                           vehicle.springs.size() + vehicle.bump_stops.size());
+}
+
+void check_track_file(const std::string& name, const std::vector<std::string>& overrides) {
+  const io::AnyTrack track = io::read_any_track_file(name, overrides);
+  if (const auto* lumped = std::get_if<TrackModel>(&track))
+    std::cout << fmt::format("{}: track \"{}\": {} bodies, {} springs; no errors\n", name, lumped->name,
+                             lumped->bodies.size(), lumped->springs.size());
+  else
+    std::cout << fmt::format("{}: track \"{}\": flexible rails on {} seats; no errors\n", name,
+                             std::get<FlexibleTrack>(track).name, std::get<FlexibleTrack>(track).seats.size());
 }
 
 std::string vehicle_schema() { return io::vehicle_file_schema(); }

@@ -67,6 +67,13 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
+void check_import_file(const std::string& name, const std::vector<std::string>& overrides) {
+  io::ImportSettings settings;
+  io::read_import_settings(name, settings);
+  for (const std::string& assignment : overrides) io::set_import_setting(settings, assignment);
+  std::cout << name << ": settings of an import, no errors\n";
+}
+
 std::string import_schema() { return io::import_settings_schema(); }
 
 Command add_import(CLI::App& verb) {

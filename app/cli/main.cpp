@@ -12,6 +12,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,6 +66,7 @@ constexpr const char* kNoMemory =
 
 constexpr const char* kFirstSteps =
     "\nFirst steps:\n"
+    "  treadmark new case                           a case file to start from (also study, vehicle, simulation ...)\n"
     "  treadmark run CASE.toml --report out.html    solve a case and look at it in a browser\n"
     "  treadmark check CASE.toml -o out             see what is understood, wheel over rail as a picture\n"
     "  treadmark import SCAN.ply -o wheel.slcw      a surface from a laser scan\n"
@@ -91,7 +93,8 @@ void require_verb(int argc, char** argv) {
 int parse_and_run(int argc, char** argv) {
   CLI::App program{"Treadmark: wheel-rail contact on any 3D surface"};
   program.set_version_flag(
-      "--version", "treadmark " + app::version() + " (" + app::git_revision() + ")\n" + app::build_description());
+      "--version", "treadmark " + app::version() + " (" + app::git_revision() + ")\n" + app::build_description(),
+      "Display version and parts of the program; with --json behind it also libraries and licences, for programs");
   program.require_subcommand(1);
   program.fallthrough();
   program.footer(
@@ -112,6 +115,11 @@ int parse_and_run(int argc, char** argv) {
   if (argc == 1) {
     std::cout << program.help() << kFirstSteps;
     return cli::kUsage;
+  }
+  using namespace std::string_view_literals;
+  if (argc == 3 && argv[1] == "--version"sv && argv[2] == "--json"sv) {
+    std::cout << app::version_json();
+    return cli::kOk;
   }
   require_verb(argc, argv);
   try {

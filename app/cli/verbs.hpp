@@ -51,6 +51,10 @@ Command add_left_out(CLI::App& verb);
 /// What treadmark check does with these files: a line about each, or an Error. In check_simulation.cpp.
 void check_study_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_simulation_file(const std::string& name, const std::vector<std::string>& overrides);
+void check_vehicle_file(const std::string& name, const std::vector<std::string>& overrides);
+void check_track_file(const std::string& name, const std::vector<std::string>& overrides);
+/// In import_command.cpp.
+void check_import_file(const std::string& name, const std::vector<std::string>& overrides);
 
 /// The contacts at an instant [s] of the results of a simulation as cases; simulation: its file, empty where it is to
 /// be looked for. In instant_file.cpp.

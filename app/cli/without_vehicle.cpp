@@ -18,6 +18,12 @@ void check_study_file(const std::string& name, const std::vector<std::string>&) 
 void check_simulation_file(const std::string& name, const std::vector<std::string>&) {
   left_out("vehicle", "simulations such as " + name);
 }
+void check_vehicle_file(const std::string& name, const std::vector<std::string>&) {
+  left_out("vehicle", "vehicles such as " + name);
+}
+void check_track_file(const std::string& name, const std::vector<std::string>&) {
+  left_out("vehicle", "tracks such as " + name);
+}
 
 io::CaseFile cases_of_instant(const std::string& store, const std::string&, double, const std::vector<std::string>&) {
   left_out("vehicle", "results of simulations such as " + store);

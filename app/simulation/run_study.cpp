@@ -37,8 +37,11 @@ constexpr const char* kIdentityFile = "study.id";
 constexpr const char* kLockFile = "lock";
 constexpr auto kPoll = std::chrono::milliseconds(200);
 
-fs::path folder_of(const StudyOptions& options, const io::StudyRun& run) {
-  return options.folder / "runs" / fmt::format("run_{:04}", run.number);
+constexpr const char* kStore = "simulation.h5";
+constexpr const char* kCheckpoint = "unfinished.h5";
+
+fs::path folder_of(const fs::path& folder, const io::StudyRun& run) {
+  return folder / "runs" / fmt::format("run_{:04}", run.number);
 }
 
 /// The HDF5 library is for one thread at a time.
@@ -60,6 +63,7 @@ class Workers {
   bool complete() const { return std::ranges::count(finished_, 1) == static_cast<std::ptrdiff_t>(finished_.size()); }
 
   void work() {
+    if (options_.workers < 1) return;
     std::vector<std::thread> threads;
     const auto guarded = [this] {
       try {
@@ -77,8 +81,8 @@ class Workers {
   }
 
  private:
-  fs::path store_of(std::size_t i) const { return folder_of(options_, study_.runs[i]) / "simulation.h5"; }
-  fs::path checkpoint_of(std::size_t i) const { return folder_of(options_, study_.runs[i]) / "unfinished.h5"; }
+  fs::path store_of(std::size_t i) const { return folder_of(options_.folder, study_.runs[i]) / kStore; }
+  fs::path checkpoint_of(std::size_t i) const { return folder_of(options_.folder, study_.runs[i]) / kCheckpoint; }
   bool is_finished(std::size_t i) const { return fs::exists(store_of(i)); }
   /// The same, and removes the checkpoint if whoever finished it could not.
   bool found_finished(std::size_t i) const {
@@ -120,7 +124,7 @@ class Workers {
   /// False: somebody else is at it.
   bool solve(std::size_t i, SurfaceStore& surfaces) {
     const io::StudyRun& run = study_.runs[i];
-    const fs::path folder = folder_of(options_, run);
+    const fs::path folder = folder_of(options_.folder, run);
     make_folder(folder);
     const auto lock = FileLock::attempt(folder / kLockFile);
     if (!lock) return false;
@@ -183,12 +187,11 @@ void claim_folder(const io::StudyFile& study, const StudyOptions& options) {
   if (options.must_exist && !fs::exists(file))
     throw Error(ErrorKind::configuration, options.folder.string() + " holds no study to go on with", {},
                 "leave --resume out to begin one");
-  const std::string identity = study_identity(study);
   make_folder(options.folder / "runs");
   const FileLock lock = FileLock::wait(options.folder / kLockFile);
   if (!fs::exists(file))
-    write_file(file, identity);
-  else if (io::profiles::read_text(file, "study", {}) != identity)
+    write_file(file, study_identity(study));
+  else if (!same_study(io::profiles::read_text(file, "study", {}), study_identity(study, options.share), options.share))
     throw Error(ErrorKind::configuration, options.folder.string() + " holds the results of another study", {},
                 "choose another folder, or remove this one; runs, files, settings and build of Treadmark must be the "
                 "same to go on");
@@ -203,7 +206,7 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
   result.title = study.title;
   result.settings = options.settings;
   for (const io::StudyRun& run : study.runs) {
-    const fs::path store = folder_of(options, run) / "simulation.h5";
+    const fs::path store = folder_of(options.folder, run) / kStore;
     if (!fs::exists(store)) continue;
     const std::lock_guard lock(store_mutex());
     const io::SimulationResult simulation = io::read_simulation_head(store);
@@ -217,15 +220,34 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
 
 StudyOutcome run_study(const io::StudyFile& study, const StudyOptions& options, const Progress& progress) {
   check_study_figures(study);
+  io::StudyFile share = study;
+  std::erase_if(share.runs, [&](const io::StudyRun& run) { return !options.share.has(run); });
+  if (share.runs.empty())
+    throw Error(ErrorKind::configuration,
+                fmt::format("the study has no run {}: its runs are 1 to {}", options.share.first, study.runs.size()));
   claim_folder(study, options);
   StudyOutcome outcome;
-  outcome.runs_total = study.runs.size();
-  Workers workers(study, options, progress);
+  outcome.runs_total = share.runs.size();
+  Workers workers(share, options, progress);
   outcome.found_finished = workers.found();
   workers.work();
   outcome.complete = workers.complete();
-  outcome.study = gather(study, options);
+  outcome.study = gather(share, options);
   return outcome;
+}
+
+StudyState study_state(const io::StudyFile& study, const fs::path& folder) {
+  StudyState state;
+  state.written = fs::exists(folder / "sweep.csv") && fs::exists(folder / "sweep.h5");
+  for (const io::StudyRun& run : study.runs) {
+    const fs::path place = folder_of(folder, run);
+    auto& runs = fs::exists(place / kStore)                                               ? state.finished
+                 : fs::exists(place / kLockFile) && !FileLock::attempt(place / kLockFile) ? state.solved_now
+                 : fs::exists(place / kCheckpoint)                                        ? state.interrupted
+                                                                                          : state.not_begun;
+    runs.push_back(run.number);
+  }
+  return state;
 }
 
 void write_study_folder(const io::StudyFile& file, const StudyOptions& options, const io::StudyResult& study) {

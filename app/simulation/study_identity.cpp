@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/study_identity.hpp"
 
+#include <algorithm>
 #include <variant>
 
 #include <fmt/format.h>
@@ -30,9 +31,10 @@ std::string label_of(const io::StudyFile& study, const io::StudyRun& run) {
   return label;
 }
 
-std::string study_identity(const io::StudyFile& study) {
+std::string study_identity(const io::StudyFile& study, const io::RunRange& runs) {
   std::string text = fmt::format("treadmark {} {}\nbase {}\n", version(), git_revision(), io::sha256_file(study.base));
   for (const io::StudyRun& run : study.runs) {
+    if (!runs.has(run)) continue;
     text += fmt::format("run {}\n", run.number);
     for (const auto& [key, value] : swept_of(study, run)) text += fmt::format("  swept {}: {}\n", key, value);
     for (const std::string& setting : run.overrides) text += fmt::format("  set {}\n", setting);
@@ -41,6 +43,16 @@ std::string study_identity(const io::StudyFile& study) {
       text += fmt::format("  file {} {}\n", name, hash);
   }
   return text;
+}
+
+bool same_study(const std::string& all, const std::string& some, const io::RunRange& runs) {
+  if (runs.whole()) return all == some;
+  // The runs stand one behind the other in both.
+  const std::size_t first = std::min(some.find("\nrun "), some.size());
+  const std::string own = some.substr(first);
+  const std::size_t at = all.find(own), behind = at == std::string::npos ? at : at + own.size();
+  return all.compare(0, first, some, 0, first) == 0 && behind != std::string::npos &&
+         (behind == all.size() || all.compare(behind, 4, "run ") == 0);
 }
 
 }  // namespace treadmark::app

@@ -122,6 +122,19 @@ CaseValue element_value(const KeyInfo& list, const std::string& name, const Case
   return assignment.value;
 }
 
+/// Where the pitch rate follows from other keys it is that of their newest values.
+void keep_rolling(std::vector<CaseKey>& keys) {
+  constexpr std::string_view kFrom[] = {"wheelset.velocity_", "wheelset.nominal_radius_mm", "wheelset.rolling",
+                                        "roller."};
+  for (CaseKey& key : keys)
+    if (std::ranges::any_of(kFrom, [&](std::string_view name) { return key.info.path.starts_with(name); }))
+      key.set = [set = std::move(key.set)](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
+        set(c, v, folder);
+        auto& w = content_of<WheelRailCase>(c);
+        if (w.rolls_by_radius) w.state.velocity.pitch = rolling_rate(w);
+      };
+}
+
 }  // namespace
 
 std::span<const CaseKey> case_keys() {
@@ -136,6 +149,7 @@ std::span<const CaseKey> case_keys() {
     add_patch_geometry_keys(list);
     add_heat_keys(list);
     add_subsurface_keys(list);
+    keep_rolling(list.keys);
     return std::move(list.keys);
   }();
   return keys;

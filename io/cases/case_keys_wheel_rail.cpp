@@ -146,8 +146,13 @@ void add_wheelset(KeyList& list) {
   list.angle<W>("wheelset.pitch", kAnyNumber,
                 "pitch angle; it turns out-of-round wheels: material angle theta = -pitch is lowest",
                 [](W& c) -> double& { return c.state.position.pitch; });
-  list.number<W>("wheelset.velocity_m_s", kSpeed, "forward velocity",
-                 [](W& c) -> double& { return c.state.velocity.x; });
+  for (const std::string unit : {"m_s", "km_h"}) {
+    KeyInfo& velocity = list.number<W>("wheelset.velocity_" + unit, kSpeed, "forward velocity",
+                                       [](W& c) -> double& { return c.state.velocity.x; });
+    for (auto* limit : {&velocity.at_least, &velocity.at_most}) *limit = **limit / unit_of_key(velocity.path);
+    velocity.group = "wheelset.velocity";
+    velocity.alternative = unit;
+  }
   list.number<W>("wheelset.vy_m_s", kSpeed, "lateral velocity", [](W& c) -> double& { return c.state.velocity.y; });
   list.number<W>("wheelset.vz_m_s", kSpeed, "vertical velocity", [](W& c) -> double& { return c.state.velocity.z; });
   list.number<W>("wheelset.vroll_rad_s", kSpeed, "roll rate", [](W& c) -> double& { return c.state.velocity.roll; });
@@ -161,9 +166,11 @@ void add_wheelset(KeyList& list) {
   rate.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).state.velocity.pitch = v.number();
     content_of<W>(c).longitudinal_force.reset();
+    content_of<W>(c).rolls_by_radius = false;
   };
   rate.written = [written = rate.written](const Case& c, const std::filesystem::path& folder) {
-    return std::get<W>(c.content).longitudinal_force ? std::string() : written(c, folder);
+    const W& w = std::get<W>(c.content);
+    return w.longitudinal_force || w.rolls_by_radius ? std::string() : written(c, folder);
   };
   KeyInfo force = key_info(
       "wheelset.longitudinal_force_N", KeyType::number,
@@ -174,10 +181,28 @@ void add_wheelset(KeyList& list) {
   CaseKey& longitudinal = list.add(force);
   longitudinal.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).longitudinal_force = v.number();
+    content_of<W>(c).rolls_by_radius = false;
   };
   longitudinal.written = [](const Case& c, const std::filesystem::path&) {
     const auto& fx = std::get<W>(c.content).longitudinal_force;
     return fx ? exact_text(*fx, 1.0) : std::string();
+  };
+  KeyInfo rolling = key_info("wheelset.rolling", KeyType::choice,
+                             "the pitch rate of a wheel without drive and brakes: free = longitudinal_force_N = 0, "
+                             "nominal = -velocity/nominal_radius");
+  rolling.choices = {"free", "nominal"};
+  rolling.scope = KeyScope::wheel_rail;
+  rolling.group = "wheelset pitch rate";
+  rolling.alternative = "rolling";
+  CaseKey& rolls = list.add(rolling);
+  rolls.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    W& w = content_of<W>(c);
+    w.rolls_by_radius = v.text() == "nominal";
+    w.longitudinal_force.reset();
+    if (!w.rolls_by_radius) w.longitudinal_force = 0.0;
+  };
+  rolls.written = [](const Case& c, const std::filesystem::path&) {
+    return std::get<W>(c.content).rolls_by_radius ? toml_text("nominal") : std::string();
   };
 }
 

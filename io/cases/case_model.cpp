@@ -12,4 +12,9 @@ bool operator==(const ProfileOptions& a, const ProfileOptions& b) {
          a.error_handling == b.error_handling;
 }
 
+double rolling_rate(const WheelRailCase& c) {
+  const double rolled = c.roller ? c.roller->pitch_rate * c.roller->nominal_radius : c.state.velocity.x;
+  return -rolled / c.wheelset.nominal_radius;
+}
+
 }  // namespace treadmark::io

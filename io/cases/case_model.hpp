@@ -127,6 +127,7 @@ struct WheelRailCase {
   bool vertical_force_prescribed = true;
   double vertical_force = 0.0;               ///< F_z on the rail, track axes [N]
   std::optional<double> longitudinal_force;  ///< F_x on the rail, wheelset axes [N]: the pitch rate is then sought
+  bool rolls_by_radius = false;              ///< the pitch rate is rolling_rate, whatever velocity and radius become
   Regime regime = Regime::steady;
   HistoryUse history = HistoryUse::start;
   ReferenceSurface reference_surface = ReferenceSurface::plane;
@@ -148,6 +149,9 @@ struct WheelRailCase {
   /// contact reference, and steps of transient rolling may be longer than dt = 2 dx / V.
   bool moments_about_grid_origin = false, long_steps = false;
 };
+
+/// Pitch rate at which the nominal radius passes neither rail nor roller too fast or too slowly [rad/s].
+double rolling_rate(const WheelRailCase& c);
 
 /// Hertzian geometry (IPOTCN < 0): what is given and the grid that follows from it.
 struct HertzInput {

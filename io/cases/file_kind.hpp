@@ -10,5 +10,9 @@ namespace treadmark::io {
 /// False for other kinds of files, which are not opened. Throws Error(configuration) for TOML that cannot be read.
 bool is_simulation_file(const std::filesystem::path& file);
 bool is_study_file(const std::filesystem::path& file);
+/// [vehicle]; [track] with a name, which the track of a case has not; any table of the settings of an import.
+bool is_vehicle_file(const std::filesystem::path& file);
+bool is_track_file(const std::filesystem::path& file);
+bool is_import_file(const std::filesystem::path& file);
 
 }  // namespace treadmark::io

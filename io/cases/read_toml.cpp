@@ -297,9 +297,7 @@ void move_on(Case& next, const Case& previous, const std::function<bool(std::str
   const double dt = step_in_time(*to, next);
   SixMotion rates = to->state.velocity;
   // The rate that a force will ask for is not known yet, but it is close to that of free rolling.
-  if (to->longitudinal_force && rates.pitch == 0.0)
-    rates.pitch =
-        -(to->roller ? to->roller->pitch_rate * to->roller->nominal_radius : rates.x) / to->wheelset.nominal_radius;
+  if (to->longitudinal_force && rates.pitch == 0.0) rates.pitch = rolling_rate(*to);
   move(to->state.position, from->state.position, rates, kWheelset, dt, given);
   move(to->state.wheel_offset, from->state.wheel_offset, to->state.wheel_velocity, kDeviation, dt, given);
   for (const TrackMotion& m : kTrack)

@@ -119,8 +119,9 @@ SourcePosition place_of(const SourcePosition& where, const StudyFile& study, con
 }
 
 /// Reads the base as every run will; what is wrong is told at the place of the error, with the run.
-void check_runs(const StudyFile& study, const BaseTables& base) {
+void check_runs(const StudyFile& study, const BaseTables& base, const RunRange& checked) {
   for (const StudyRun& run : study.runs) {
+    if (!checked.has(run)) continue;
     try {
       base.read(run.overrides);
     } catch (const Error& e) {
@@ -143,7 +144,8 @@ std::string title_of(const CaseTable& document, const TableReader& study, const 
 
 }  // namespace
 
-StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
+StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides,
+                          const RunRange& checked) {
   const std::string text = read_text(file);
   CaseTable document = parse_toml(text, file.string());
   const std::vector<std::string> common = apply_to_study(document, overrides);
@@ -170,7 +172,7 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
       named ? named_base(study, document, file.parent_path()) : base_of(document, file, result.sha256);
   result.base = base.path;
   result.base_is_simulation = base.simulation;
-  check_runs(result, base);
+  check_runs(result, base, checked);
   return result;
 }
 

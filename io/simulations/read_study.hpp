@@ -18,8 +18,10 @@ namespace treadmark::io {
 /// Reads a study file (TOML, docs/simulation-files.md): [study] with the base it names, relative to its folder, or with
 /// the tables of the base beside it. The base is read once with the overrides of every run, so that every varied key
 /// and value is known to be right. overrides: "key.path=value", of the study ("study.vary.0.count=3") or of the base
-/// for all runs. Throws Error(configuration) with file:line:column. Safe to call from several threads.
-StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+/// for all runs. checked: the runs for which that is done, where others have done it for the rest. Throws
+/// Error(configuration) with file:line:column. Safe to call from several threads.
+StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides = {},
+                          const RunRange& checked = {});
 
 /// The base with the overrides of one run. Throws as above.
 std::variant<SimulationFile, CaseFile> read_study_run(const StudyFile& study, const StudyRun& run);

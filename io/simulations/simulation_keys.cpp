@@ -353,7 +353,9 @@ const TableKeys& simulation_keys() {
     TableKeys list{
         needed(key_info("vehicle", KeyType::path, "vehicle file")),
         key_info("track", KeyType::path, "track file; without it the track is rigid"),
-        needed(key_info("speed_m_s", KeyType::number, "at the start, more than 0", {{}, 0.0, 1000.0})),
+        key_info("speed_m_s", KeyType::number, "speed at the start, more than 0; this or the next one is required",
+                 {{}, 0.0, 1000.0}),
+        key_info("speed_km_h", KeyType::number, "speed at the start in km/h, in place of speed_m_s", {{}, 0.0, 3600.0}),
         table_key("speed_profile", KeyType::table, "speeds behind the start; without it the speed is constant",
                   speed_profile_keys()),
         table_key("torques", KeyType::table_list, "motors and brakes on axles", torque_keys()),

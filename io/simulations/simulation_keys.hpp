@@ -14,8 +14,8 @@ namespace treadmark::io {
 /// and docs/simulation-files.md come from them. Immutable; safe to use from several threads.
 using TableKeys = std::vector<KeyInfo>;
 
-inline constexpr double kMostValues = 10000;  ///< of a variation, and runs of a study
-inline constexpr double kMostSeats = 5000;    ///< of a flexible track
+inline constexpr double kMostValues = 100000;  ///< of a variation, and runs of a study
+inline constexpr double kMostSeats = 5000;     ///< of a flexible track
 
 /// The tables of vehicle and of track files, with the keys of each.
 const TableKeys& vehicle_tables();

@@ -20,11 +20,13 @@ double SimulationSettings::longest_step(double dx) const {
 namespace {
 
 double read_speed(const TableReader& simulation) {
-  const CaseValue& value = simulation.need("speed_m_s", "a simulation needs a speed");
-  const double speed = simulation.number("speed_m_s");
+  simulation.exclude("speed_m_s", "speed_km_h");
+  const std::string key = simulation.find("speed_km_h") != nullptr ? "speed_km_h" : "speed_m_s";
+  const CaseValue& value = simulation.need(key, "a simulation needs a speed");
+  const double speed = simulation.number(key);
   if (!(speed > 0.0))
-    throw Error(ErrorKind::configuration, "simulation.speed_m_s = 0: a simulation needs a speed", value.where,
-                "for a wheel that stands still use a case file");
+    throw Error(ErrorKind::configuration, fmt::format("simulation.{} = 0: a simulation needs a speed", key),
+                value.where, "for a wheel that stands still use a case file");
   return speed;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,6 +34,15 @@ struct StudyRun {
   int number = 0;                      ///< from 1
   std::vector<std::size_t> values;     ///< which value of each variation
   std::vector<std::string> overrides;  ///< those of the whole study, then its own
+};
+
+/// Some runs of a study, by number.
+struct RunRange {
+  int first = 1, last = std::numeric_limits<int>::max();
+
+  bool whole() const { return *this == RunRange{}; }
+  bool has(const StudyRun& run) const { return first <= run.number && run.number <= last; }
+  friend bool operator==(const RunRange&, const RunRange&) = default;
 };
 
 /// A number of somebody else, to be drawn beside the results.

@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <regex>
 
+#include <nlohmann/json.hpp>
+
+#include "treadmark/app/version.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
@@ -24,6 +28,30 @@ TEST(CommandLine, HelpAndVersion) {
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, HasSubstr("treadmark "));
   EXPECT_THAT(version.out, HasSubstr("binary is"));
+}
+
+TEST(CommandLine, VersionForProgramsNamesEveryLibraryThatIsLoaded) {
+  const ProgramResult r = run_program({"--version", "--json"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto version = nlohmann::json::parse(r.out);
+  EXPECT_EQ(version.at("parts").at("embree"), has_part("embree"));
+  EXPECT_EQ(version.at("licence") == "Apache-2.0", !has_part("fftw") && !has_part("cgal"));
+  std::vector<std::string> known{"linux-vdso", "ld-linux", "libc.",    "libm.",  "libgcc_s",
+                                 "libstdc++",  "libasan",  "libubsan", "libtsan"};
+  for (const app::LinkedLibrary& library : app::linked_libraries()) {
+    EXPECT_NE(library.version, "unknown") << library.name;
+    EXPECT_FALSE(library.licence.empty()) << library.name;
+    if (!library.shared.empty()) known.push_back(library.shared);
+  }
+  EXPECT_EQ(version.at("libraries").size(), app::linked_libraries().size());
+  const ProgramResult needed = RunningProgram({"readelf", "-d", TREADMARK_PROGRAM}).wait();
+  ASSERT_EQ(needed.status, 0);
+  const std::regex name(R"(\(NEEDED\).*\[(.*)\])");
+  int found = 0;
+  for (std::sregex_iterator it(needed.out.begin(), needed.out.end(), name), end; it != end; ++it, ++found)
+    EXPECT_TRUE(std::ranges::any_of(known, [&](const std::string& one) { return (*it)[1].str().starts_with(one); }))
+        << (*it)[1] << " is loaded, and cmake/TreadmarkDependencies.cmake does not say so";
+  EXPECT_GT(found, 3);
 }
 
 TEST(CommandLine, WrongUsageEndsWithTwo) {
@@ -56,7 +84,7 @@ TEST(CommandLine, ListsAndSchema) {
             "run\ncompare\ndiff\nbench\ngeometry\nconvert\n" + verb("import", "scans") + verb("scan", "scans") +
                 "measure\n" + verb("simulate", "vehicle") + verb("assess", "vehicle") + verb("sweep", "vehicle") +
                 verb("stability", "vehicle") + verb("track", "vehicle") + verb("fmu", "fmu") +
-                verb("report", "report") + verb("plot", "report") + "check\nlist\nschema\ncompletion\nman\n");
+                verb("report", "report") + verb("plot", "report") + "new\ncheck\nlist\nschema\ncompletion\nman\n");
 }
 
 /// What bash would offer for the last of these words.

@@ -67,6 +67,43 @@ max_rate_tangential_N_per_s = 4e6
   EXPECT_FALSE(plain.roller || plain.longitudinal_force || plain.rail_springs || plain.damping || plain.thermal);
 }
 
+TEST(TomlRolling, SpeedsMayBeGivenInKilometresAnHour) {
+  EXPECT_DOUBLE_EQ(one("wheelset.velocity_km_h = 72\n").state.velocity.x, 20.0);
+  EXPECT_THAT(error_of(kRail + "wheelset.velocity_km_h = 72\nwheelset.velocity_m_s = 20\n"),
+              HasSubstr("exclude each other"));
+  // What comes later counts, whatever its unit.
+  EXPECT_DOUBLE_EQ(
+      at(parse(kRail + "wheelset.velocity_m_s = 3\n[[cases]]\nwheelset.velocity_km_h = 36\n"), 0).state.velocity.x,
+      10.0);
+}
+
+TEST(TomlRolling, NominalFollowsVelocityAndRadius) {
+  const std::string rolling =
+      kRail + "wheelset.rolling = \"nominal\"\nwheelset.velocity_km_h = 72\nwheelset.nominal_radius_mm = 500\n";
+  EXPECT_DOUBLE_EQ(at(parse(rolling), 0).state.velocity.pitch, -40.0);
+  const CaseFile swept = parse(rolling +
+                               "[[cases]]\nwheelset.velocity_m_s = [5, -10]\n[[cases]]\nwheelset.nominal_radius_mm = "
+                               "400\n[[cases]]\nwheelset.vpitch_rad_s = -1\n");
+  EXPECT_DOUBLE_EQ(at(swept, 0).state.velocity.pitch, -10.0);
+  EXPECT_DOUBLE_EQ(at(swept, 1).state.velocity.pitch, 20.0);
+  EXPECT_DOUBLE_EQ(at(swept, 2).state.velocity.pitch, -50.0);
+  EXPECT_DOUBLE_EQ(at(swept, 3).state.velocity.pitch, -1.0);
+  EXPECT_DOUBLE_EQ(at(parse(rolling, {"wheelset.velocity_m_s=1"}), 0).state.velocity.pitch, -2.0);
+  // On a roller the surface of that counts.
+  EXPECT_DOUBLE_EQ(
+      at(parse(rolling + "roller = { nominal_radius_mm = 1000, pitch_rate_rad_s = 3 }\n"), 0).state.velocity.pitch,
+      -6.0);
+  EXPECT_THAT(error_of(rolling + "wheelset.vpitch_rad_s = -40\n"), HasSubstr("exclude each other"));
+}
+
+TEST(TomlRolling, FreeIsWithoutLongitudinalForce) {
+  EXPECT_EQ(one("wheelset.rolling = \"free\"\n").longitudinal_force, std::optional(0.0));
+  EXPECT_EQ(at(parse(kRail + "wheelset.rolling = \"free\"\n[[cases]]\nwheelset.rolling = \"nominal\"\n"), 0)
+                .longitudinal_force,
+            std::nullopt);
+  EXPECT_THAT(error_of(kRail + "wheelset.rolling = \"freely\"\n"), HasSubstr("nominal"));
+}
+
 TEST(TomlBalance, CasesSwitchPartsOff) {
   const CaseFile f = parse(
       kRail +

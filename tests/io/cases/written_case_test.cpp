@@ -59,6 +59,17 @@ void expect_both_round_trips(const CaseFile& file) {
   expect_same_cases(file, parse_case_text(toml, folder / "again.toml"));
 }
 
+TEST(WrittenCase, ARollingWheelStaysOne) {
+  const CaseFile file = parse_case_text(
+      "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\n[wheelset]\nvertical_force_N = 1e5\n"
+      "velocity_km_h = 100\nrolling = \"nominal\"\n",
+      "rolling.toml");
+  const std::string text = case_file_text(file, {});
+  EXPECT_THAT(text, HasSubstr("velocity_km_h = 100\nrolling = 'nominal'"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("vpitch")));
+  expect_same_cases(file, parse_case_text(text, "again.toml"));
+}
+
 TEST(WrittenCase, InputOfTheReferenceProgramReadsAsTheSame) {
   TREADMARK_REQUIRE_SHARED();
   const auto files = files_with(*shared / "data", ".inp");

@@ -92,7 +92,7 @@ TEST(SimulationSchema, HasLimitsAndDefaults) {
   const Json& simulation = schema.at("properties").at("simulation");
   EXPECT_EQ(simulation.at("properties").at("tolerance_um").at("default"), 0.1);
   EXPECT_EQ(simulation.at("properties").at("speed_m_s").at("maximum"), 1000.0);
-  EXPECT_EQ(simulation.at("required"), Json({"vehicle", "speed_m_s"}));
+  EXPECT_EQ(simulation.at("required"), Json({"vehicle"}));
   EXPECT_EQ(schema.at("required"), Json({"simulation"}));
   const Json springs = Json::parse(vehicle_file_schema()).at("properties").at("springs").at("items").at("properties");
   EXPECT_EQ(springs.at("stiffness_N_per_m").at("minItems"), 3);

@@ -272,6 +272,10 @@ TEST_F(SimulationText, ErrorsOfSettings) {
               HasSubstr("s.toml:6:13: simulation.speed_m_s = 0: a simulation needs a speed"));
   EXPECT_THAT(error("speed_m_s = 20\n", ""),
               HasSubstr("s.toml:3:1: simulation.speed_m_s is missing (a simulation needs a speed)"));
+  EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = 20\nspeed_km_h = 72"), HasSubstr("exclude each other"));
+  EXPECT_THAT(error("speed_m_s = 20", "speed_km_h = 0"),
+              HasSubstr("simulation.speed_km_h = 0: a simulation needs a speed"));
+  EXPECT_DOUBLE_EQ(parse(with(samples::kSimulation, "speed_m_s = 20", "speed_km_h = 72")).settings.speed, 20.0);
   EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = -1"), HasSubstr("must be at least 0"));
   EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = 1e6"), HasSubstr("must be at most 1000"));
   EXPECT_THAT(error("speed_m_s = 20\ndistance_m = 3", "speed_m_s = 1e-6\ndistance_m = 1e4"),

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""Makes a site of the documents: sphinx-build -c docs . FOLDER, from the root. What stands in docs/index.md is its navigation."""
+import pathlib
+import re
+
+project = "Treadmark"
+copyright = "Treadmark contributors"
+extensions = ["myst_parser"]
+html_theme = "furo"
+root_doc = "docs/index"
+include_patterns = ["README.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", "docs/*.md", "**/README.md"]
+exclude_patterns = ["build*", "out*", "shared", "**/node_modules", ".*"]
+html_title = "Treadmark"
+html_copy_source = False
+myst_heading_anchors = 4
+myst_enable_extensions = ["html_image"]
+# Programs and files of other kinds are shown as they are.
+highlight_language = "none"
+
+
+def add_navigation(app, name, source):
+    index = pathlib.Path(app.srcdir, "docs", "index.md").read_text(encoding="utf-8")
+    listed = re.findall(r"\]\(([\w-]+)\.md\)", index)
+    if name == root_doc:
+        for title, items in re.findall(r"^## (.*?)\n\n((?:- .*\n)+)", index, re.M):
+            pages = "\n".join(re.findall(r"\]\(([\w-]+)\.md\)", items))
+            source[0] += f"\n```{{toctree}}\n:hidden:\n:caption: {title}\n\n{pages}\n```\n"
+    elif not (name.startswith("docs/") and name.removeprefix("docs/") in listed):
+        source[0] = "---\norphan: true\n---\n" + source[0]
+    # The parser takes descriptions of pictures for YAML.
+    source[0] = re.sub(r'<img [^>]*>', lambda image: re.sub(r'(alt="[^"]*)"', lambda alt: alt[0].replace(": ", " – "), image[0]), source[0])
+
+
+def setup(app):
+    app.connect("source-read", add_navigation)

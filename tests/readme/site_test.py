@@ -1,0 +1,63 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""The documents make a site without a warning, in which every link and picture is there, and nothing comes from elsewhere.
+
+usage: site_test.py ROOT
+Exit status 77 where Sphinx is missing, unless CI=true.
+"""
+import html.parser
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import urllib.parse
+
+root = pathlib.Path(sys.argv[1])
+try:
+    import furo  # noqa: F401
+    import myst_parser  # noqa: F401
+    import sphinx  # noqa: F401
+except ImportError as error:
+    print(f"{error}: install python3-sphinx, python3-myst-parser and furo")
+    sys.exit(1 if os.environ.get("CI") == "true" else 77)
+
+
+class Page(html.parser.HTMLParser):
+    """Names that can be linked to, and what the page links to or loads."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.names, self.links, self.loads = set(), [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.names.update(given[key] for key in ("id", "name") if given.get(key))
+        if tag == "a" and given.get("href"):
+            self.links.append(given["href"])
+        if tag in ("img", "script", "link") and (given.get("src") or given.get("href")):
+            self.loads.append(given.get("src") or given["href"])
+
+
+with tempfile.TemporaryDirectory() as name:
+    site = pathlib.Path(name) / "site"
+    made = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", root / "docs", root, site], capture_output=True, text=True)
+    assert made.returncode == 0, made.stdout + made.stderr
+    pages = {path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
+    assert len(pages) > 40, len(pages)
+    wrong = []
+    for path, page in pages.items():
+        wrong += [f"{path.relative_to(site)} loads {load}" for load in page.loads if urllib.parse.urlparse(load).scheme in ("http", "https")]
+        for link in page.links + page.loads:
+            parts = urllib.parse.urlparse(link)
+            if parts.scheme:
+                continue
+            target = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
+            if not target.exists():
+                wrong.append(f"{path.relative_to(site)}: no {link}")
+            elif parts.fragment and target in pages and urllib.parse.unquote(parts.fragment) not in pages[target].names:
+                wrong.append(f"{path.relative_to(site)}: no place {link}")
+    assert not wrong, "\n".join(sorted(set(wrong)))
+    print(f"{len(pages)} pages, {sum(len(page.links) for page in pages.values())} links")
