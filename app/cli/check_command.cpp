@@ -97,11 +97,12 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
   std::cout << input.file << ": " << input.outcome << '\n';
 }
 
-enum class InputKind { profile, study, simulation, cases };
+enum class InputKind { profile, study, evolution, simulation, cases };
 
 InputKind kind_of(const std::string& name) {
   if (app::is_profile_file(name)) return InputKind::profile;
   if (io::is_study_file(name)) return InputKind::study;
+  if (io::is_evolution_file(name)) return InputKind::evolution;
   return io::is_simulation_file(name) ? InputKind::simulation : InputKind::cases;
 }
 
@@ -130,6 +131,9 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
         break;
       case InputKind::study:
         check_study_file(name, options.overrides);
+        break;
+      case InputKind::evolution:
+        check_evolution_file(name, options.overrides);
         break;
       case InputKind::simulation:
         check_simulation_file(name, options.overrides);

@@ -14,7 +14,8 @@ struct FileSchema {
 };
 constexpr FileSchema kSchemas[] = {{"case", io::case_file_schema},    {"import", import_schema},
                                    {"vehicle", vehicle_schema},       {"track", track_schema},
-                                   {"simulation", simulation_schema}, {"study", study_schema}};
+                                   {"simulation", simulation_schema}, {"study", study_schema},
+                                   {"evolve", evolve_schema}};
 
 }  // namespace
 

@@ -29,5 +29,6 @@ bool has_table(const std::filesystem::path& file, std::string_view key, std::str
 
 bool is_simulation_file(const std::filesystem::path& file) { return has_table(file, "simulation", "study"); }
 bool is_study_file(const std::filesystem::path& file) { return has_table(file, "study", ""); }
+bool is_evolution_file(const std::filesystem::path& file) { return has_table(file, "evolve", "study"); }
 
 }  // namespace treadmark::io

@@ -10,5 +10,7 @@ namespace treadmark::io {
 /// False for other kinds of files, which are not opened. Throws Error(configuration) for TOML that cannot be read.
 bool is_simulation_file(const std::filesystem::path& file);
 bool is_study_file(const std::filesystem::path& file);
+/// Whether it has a table [evolve]; as above.
+bool is_evolution_file(const std::filesystem::path& file);
 
 }  // namespace treadmark::io
