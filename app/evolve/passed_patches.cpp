@@ -35,7 +35,7 @@ damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool l
   out.power = std::max(0.0, -patch.frictional_power);
   const std::vector<Vec2> edges = io::row_edges(f, patch.reference_s);
   for (int iy = 0; iy < f.grid.ny; ++iy) {
-    const Vec2 low = edges[static_cast<std::size_t>(iy)], high = edges[static_cast<std::size_t>(iy) + 1];
+    const Vec2 &low = edges[static_cast<std::size_t>(iy)], &high = edges[static_cast<std::size_t>(iy) + 1];
     const Vec2 middle = 0.5 * (low + high);
     for (int ix = 0; ix < f.grid.nx; ++ix) {
       const std::size_t i = f.grid.index(ix, iy);

@@ -17,6 +17,7 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/evolve/passed_patches.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/damage/record.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
@@ -251,6 +252,14 @@ TEST_F(Evolution, GoesOnAfterAKillToTheSameBytes) {
           .wait();
   EXPECT_EQ(full.status, 1);
   EXPECT_THAT(full.err, HasSubstr("could not be written to standard output"));
+  if (has_part("report")) {
+    const std::string page = folder_.path() / "page.html";
+    ASSERT_EQ(run_program({"report", two, "-o", page}).status, 0);
+    std::ostringstream text;
+    text << std::ifstream(page).rdbuf();
+    for (const char* part : {"Over the generations", "Section at the chosen generation", "assumed", "generation 5"})
+      EXPECT_THAT(text.str(), HasSubstr(part));
+  }
   const auto json = nlohmann::json::parse(a.at("evolution.json"));
   EXPECT_EQ(json["generations"].size(), 6u);
   EXPECT_EQ(json["laws"][0]["source"], "assumed");
