@@ -64,10 +64,12 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
     const std::string per = by_metre ? "_per_m" : "", per_unit = by_metre ? "/m" : "";
     out.push_back({name + "_depth_mm", "mm", "largest depth removed", 1e3 * b.max_depth});
     out.push_back({name + "_slope", "1", "largest slope of the depth across", b.max_slope});
-    out.push_back({name + "_volume_mm3" + per, "mm3" + per_unit, "removed", 1e9 * sum_of(b.record.volume)});
+    out.push_back({fmt::format("{}_volume_mm3{}", name, per), fmt::format("mm3{}", per_unit), "removed",
+                   1e9 * sum_of(b.record.volume)});
     out.push_back(
         {name + "_volume_balance", "1", "volume of the geometry over that of the law, less 1", volume_balance(b)});
-    out.push_back({name + "_work_J" + per, "J" + per_unit, "of friction", sum_of(b.record.work)});
+    out.push_back(
+        {fmt::format("{}_work_J{}", name, per), fmt::format("J{}", per_unit), "of friction", sum_of(b.record.work)});
     out.push_back(
         {name + "_work_balance", "1", "work on the surface over that of the contacts, less 1", work_balance(b)});
     out.push_back({name + "_pressure_ever_MPa", "MPa", "largest up to here", 1e-6 * largest_of(b.record.pressure)});
