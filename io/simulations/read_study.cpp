@@ -152,7 +152,8 @@ std::string title_of(const CaseTable& document, const TableReader& study, const 
 StudyTables::StudyTables(const std::filesystem::path& file, std::string_view name,
                          std::span<const std::string> overrides) {
   const std::string text = read_text(file);
-  document = parse_toml(text, file.string());
+  CaseTable parsed = parse_toml(text, file.string());
+  document.swap(parsed);
   study.path = file;
   study.sha256 = sha256_hex(text);
   common_ = apply_to_study(document, name, overrides);
