@@ -35,12 +35,14 @@ def jobs():
         yield f"help-{verb}", [verb, "--help"]
     yield "help", ["--help"]
     yield "schema", ["schema"]
-    for topic in "backends profiles solvers verbs nonsense".split():
+    for topic in "backends laws profiles solvers verbs nonsense".split():
         yield f"list-{topic}", ["list", topic]
     results = ["-o", "OUT/results", "--json", "OUT/result.json", "--report", "OUT/report.html"]
     for case in sorted((ROOT / "examples").glob("*.toml")):
         text = case.read_text()
         if case.stem in SWEEPS:
+            yield f"check-{case.stem}", ["check", str(case)]
+        elif "[evolve]" in text:
             yield f"check-{case.stem}", ["check", str(case)]
         elif "[simulation]" in text:
             yield f"simulate-{case.stem}", ["simulate", str(case), "-o", "OUT/results", "--report", "OUT/report.html"]

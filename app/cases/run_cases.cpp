@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/app/cases/case_sequence.hpp"
+#include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
@@ -31,6 +32,19 @@ wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& st
           wheel.constant_profile()};
 }
 
+/// A result that says where it comes from, without cases.
+io::RunResult head_of(const io::CaseFile& file) {
+  io::RunResult run;
+  run.version = version();
+  run.git = git_revision();
+  run.threads = thread_count();
+  run.input_file = file.path.string();
+  run.input_sha256 = file.sha256;
+  run.cases_total = static_cast<int>(file.cases.size());
+  run.complete = file.cases.empty();
+  return run;
+}
+
 }  // namespace
 
 io::RunResult run_cases(const io::CaseFile& file, const Progress& progress) {
@@ -44,14 +58,27 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   const SampledRegions regions = sampled_regions(file);
   // Geometry first: a broken file is found before hours of work.
   std::vector<std::optional<wheelrail::Geometry>> geometries(file.cases.size());
-  const auto build_all = [&] {
+  io::RunResult run;
+  try {
+    const CancellationScope scope(progress.stop);
     for (std::size_t i = 0; i < file.cases.size(); ++i) {
       check_cancelled();
       if (const auto* input = std::get_if<io::WheelRailCase>(&file.cases[i].content))
         geometries[i] = geometry_of(*input, store, regions);
     }
-  };
+    run = solve_cases(file, geometries, progress);
+  } catch (const Cancelled&) {  // what is finished is whole
+    run = head_of(file);
+  }
+  run.geometry_sha256 = store.hashes();
+  run.surfaces = store.uses();
+  run.seconds = seconds_since(start);
+  return run;
+}
 
+io::RunResult solve_cases(const io::CaseFile& file, const std::vector<std::optional<wheelrail::Geometry>>& geometries,
+                          const Progress& progress) {
+  const auto start = Clock::now();
   std::vector<std::optional<io::CaseResult>> results(file.cases.size());
   std::vector<std::exception_ptr> errors(file.cases.size());
   std::mutex progress_mutex;
@@ -86,7 +113,6 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   const auto groups = groups_in_time(file);
   try {
     const CancellationScope scope(progress.stop);
-    build_all();
     parallel_for(groups.size(), [&](std::size_t g) {
       CaseSequence sequence(pool);
       for (const std::size_t i : groups[g]) {
@@ -100,15 +126,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   for (const auto& error : errors)
     if (error) std::rethrow_exception(error);
 
-  io::RunResult run;
-  run.version = version();
-  run.git = git_revision();
-  run.threads = thread_count();
-  run.input_file = file.path.string();
-  run.input_sha256 = file.sha256;
-  run.geometry_sha256 = store.hashes();
-  run.surfaces = store.uses();
-  run.cases_total = static_cast<int>(file.cases.size());
+  io::RunResult run = head_of(file);
   for (auto& result : results)
     if (result) run.cases.push_back(std::move(*result));
   run.complete = run.cases.size() == file.cases.size();

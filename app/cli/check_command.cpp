@@ -102,11 +102,10 @@ struct PlainKind {
   bool (*is)(const std::filesystem::path& file);
   void (*check)(const std::string& name, const std::vector<std::string>& overrides);
 };
-constexpr PlainKind kPlainKinds[] = {{io::is_study_file, check_study_file},
-                                     {io::is_simulation_file, check_simulation_file},
-                                     {io::is_vehicle_file, check_vehicle_file},
-                                     {io::is_track_file, check_track_file},
-                                     {io::is_import_file, check_import_file}};
+constexpr PlainKind kPlainKinds[] = {
+    {io::is_study_file, check_study_file},           {io::is_evolution_file, check_evolution_file},
+    {io::is_simulation_file, check_simulation_file}, {io::is_vehicle_file, check_vehicle_file},
+    {io::is_track_file, check_track_file},           {io::is_import_file, check_import_file}};
 
 /// Null for profiles and cases.
 const PlainKind* plain_kind_of(const std::string& name) {

@@ -6,9 +6,11 @@
 
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
@@ -35,6 +37,13 @@ void check_study_file(const std::string& name, const std::vector<std::string>& o
     check_run(input, surfaces);
   }
   std::cout << name << ": " << study.runs.size() << (study.runs.size() == 1 ? " run" : " runs") << ", no errors\n";
+}
+
+void check_evolution_file(const std::string& name, const std::vector<std::string>& overrides) {
+  const io::EvolutionFile file = io::read_evolution_file(name, overrides);
+  app::check_evolution(file);
+  std::cout << name << ": an evolution of " << file.positions.runs.size()
+            << (file.positions.runs.size() == 1 ? " position" : " positions") << ", no errors\n";
 }
 
 void check_simulation_file(const std::string& name, const std::vector<std::string>& overrides) {
@@ -67,5 +76,6 @@ std::string vehicle_schema() { return io::vehicle_file_schema(); }
 std::string track_schema() { return io::track_file_schema(); }
 std::string simulation_schema() { return io::simulation_file_schema(); }
 std::string study_schema() { return io::study_file_schema(); }
+std::string evolve_schema() { return io::evolve_file_schema(); }
 
 }  // namespace treadmark::cli

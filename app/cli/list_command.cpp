@@ -12,6 +12,7 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/model/theories.hpp"
+#include "treadmark/model/wear_law.hpp"
 
 namespace treadmark::cli {
 
@@ -52,9 +53,13 @@ int list_command(const std::string& what) {
   } else if (what == "remarks") {
     for (const RemarkRow& row : kRemarkRows)
       std::cout << fmt::format("{:<24} {:<6} {}\n", row.name, row.grave ? "doubt" : "remark", row.meaning);
+  } else if (what == "laws") {
+    for (const WearTheoryRow& row : kWearTheories)
+      std::cout << fmt::format("{:<10} {}\n{:<10} source: {}\n{:<10} for: {}\n{:<10} needs: {}\n", row.word, row.name,
+                               "", row.source, "", row.validity, "", row.keys);
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
-                "choose backends, profiles, remarks, solvers or verbs");
+                "choose backends, laws, profiles, remarks, solvers or verbs");
   }
   return kOk;
 }
@@ -63,7 +68,7 @@ int list_command(const std::string& what) {
 
 Command add_list(CLI::App& verb) {
   auto what = std::make_shared<std::string>();
-  verb.add_option("WHAT", *what, "backends, profiles, remarks, solvers or verbs")->required();
+  verb.add_option("WHAT", *what, "backends, laws, profiles, remarks, solvers or verbs")->required();
   return [what](const CommonOptions&) { return list_command(*what); };
 }
 

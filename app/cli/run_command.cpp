@@ -48,6 +48,8 @@ void choose_backends(io::CaseFile& file, const RunOptions& options) {
 
 void refuse_other_files(const std::string& name) {
   if (io::is_study_file(name)) throw Error(ErrorKind::configuration, name + " is a study", {}, "use treadmark sweep");
+  if (io::is_evolution_file(name))
+    throw Error(ErrorKind::configuration, name + " is an evolution", {}, "use treadmark evolve");
   if (io::is_simulation_file(name))
     throw Error(ErrorKind::configuration, name + " is a simulation", {}, "use treadmark simulate");
 }

@@ -12,9 +12,9 @@ struct FileSchema {
   const char* name;
   std::string (*text)();
 };
-constexpr FileSchema kSchemas[] = {{"case", io::case_file_schema},    {"import", import_schema},
-                                   {"vehicle", vehicle_schema},       {"track", track_schema},
-                                   {"simulation", simulation_schema}, {"study", study_schema}};
+constexpr FileSchema kSchemas[] = {
+    {"case", io::case_file_schema},    {"import", import_schema}, {"vehicle", vehicle_schema}, {"track", track_schema},
+    {"simulation", simulation_schema}, {"study", study_schema},   {"evolve", evolve_schema}};
 
 }  // namespace
 

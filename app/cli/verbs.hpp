@@ -50,6 +50,7 @@ Command add_left_out(CLI::App& verb);
 
 /// What treadmark check does with these files: a line about each, or an Error. In check_simulation.cpp.
 void check_study_file(const std::string& name, const std::vector<std::string>& overrides);
+void check_evolution_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_simulation_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_vehicle_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_track_file(const std::string& name, const std::vector<std::string>& overrides);
@@ -67,5 +68,6 @@ std::string vehicle_schema();  // the rest in check_simulation.cpp
 std::string track_schema();
 std::string simulation_schema();
 std::string study_schema();
+std::string evolve_schema();
 
 }  // namespace treadmark::cli

@@ -9,11 +9,15 @@ namespace treadmark::cli {
 Command add_simulate(CLI::App& verb) { return add_left_out(verb); }
 Command add_assess(CLI::App& verb) { return add_left_out(verb); }
 Command add_sweep(CLI::App& verb) { return add_left_out(verb); }
+Command add_evolve(CLI::App& verb) { return add_left_out(verb); }
 Command add_stability(CLI::App& verb) { return add_left_out(verb); }
 Command add_track(CLI::App& verb) { return add_left_out(verb); }
 
 void check_study_file(const std::string& name, const std::vector<std::string>&) {
   left_out("vehicle", "studies such as " + name);
+}
+void check_evolution_file(const std::string& name, const std::vector<std::string>&) {
+  left_out("vehicle", "evolutions such as " + name);
 }
 void check_simulation_file(const std::string& name, const std::vector<std::string>&) {
   left_out("vehicle", "simulations such as " + name);
@@ -33,5 +37,6 @@ std::string vehicle_schema() { left_out("vehicle", "the schema of vehicle files"
 std::string track_schema() { left_out("vehicle", "the schema of track files"); }
 std::string simulation_schema() { left_out("vehicle", "the schema of simulation files"); }
 std::string study_schema() { left_out("vehicle", "the schema of study files"); }
+std::string evolve_schema() { left_out("vehicle", "the schema of evolution files"); }
 
 }  // namespace treadmark::cli

@@ -173,7 +173,8 @@ struct Timeline {
 };
 
 struct Page {
-  std::string kind;  ///< "run", "check", "compare", "bench", "import", "simulation", "assessment" or "sweep"
+  std::string
+      kind;  ///< "run", "check", "compare", "bench", "import", "simulation", "assessment", "evolution" or "sweep"
   std::string title, lead;
   std::vector<Section> sections = {};
   std::optional<Timeline> timeline = {};

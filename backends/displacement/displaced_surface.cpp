@@ -48,6 +48,7 @@ class DisplacedSurface final : public Surface {
 
   std::string_view backend() const override { return backend_; }
   Facing facing() const override { return base_->facing(); }
+  bool constant_profile() const override { return base_->constant_profile() && field_->constant_along(); }
   std::vector<double> data_v() const override { return base_->data_v(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + base_->memory_bytes() + field_->memory_bytes(); }
   Box3 bounds() const override {

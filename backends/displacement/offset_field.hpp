@@ -42,6 +42,9 @@ class OffsetField {
   /// Conservative range over a rectangle (x = u, y = y of the rectangle).
   virtual OffsetRange range(const Rectangle& uy) const = 0;
 
+  /// Whether it is the same at every u.
+  virtual bool constant_along() const { return false; }
+
   /// Memory taken by the field.
   virtual std::size_t memory_bytes() const = 0;
 };

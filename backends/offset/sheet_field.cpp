@@ -3,6 +3,8 @@
 #include "treadmark/backends/offset/sheet_field.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <set>
 #include <utility>
 
 #include "treadmark/backends/offset/block_directory.hpp"
@@ -68,7 +70,8 @@ class SheetField final : public displacement::OffsetField {
         frame_(offsets_->frame),
         ranges_(grid(), directory_, frame_, kDegree),
         view_(view()),
-        kernel_(fastest()) {}
+        kernel_(fastest()),
+        constant_(alike_all_round()) {}
   SheetField(const SheetField&) = delete;  // the view points into it
   SheetField& operator=(const SheetField&) = delete;
 
@@ -102,6 +105,8 @@ class SheetField final : public displacement::OffsetField {
 
   displacement::OffsetRange range(const Rectangle& uy) const override { return ranges_.range(uy); }
 
+  bool constant_along() const override { return constant_; }
+
   std::size_t memory_bytes() const override {
     return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : own_.memory_bytes()) +
            directory_.memory_bytes() + ranges_.memory_bytes();
@@ -111,6 +116,17 @@ class SheetField final : public displacement::OffsetField {
   static constexpr float kFinest = 1e-13f;  ///< [m]
   float smallest() const { return std::max(kFinest, static_cast<float>(1e-3 * offsets_->tolerance)); }
   const SheetGrid& grid() const { return kDegree == 1 ? offsets_->grid : own_; }
+  /// Whether all columns of a whole turn have the same values.
+  bool alike_all_round() const {
+    if (frame_.turn == 0) return false;
+    std::set<std::int32_t> rows;  // of blocks
+    for (const SheetEntry& entry : offsets_->grid.blocks()) rows.insert(entry.key.bj);
+    for (int i = 1; i < frame_.turn; ++i)
+      for (const std::int32_t bj : rows)
+        for (int j = bj * kBlockJ; j < (bj + 1) * kBlockJ; ++j)
+          if (offsets_->grid.value(i, j) != offsets_->grid.value(0, j)) return false;
+    return true;
+  }
   static bool within(double s, double t) {
     constexpr double kFar = 1 << 30;
     return std::fabs(s) < kFar && std::fabs(t) < kFar;
@@ -148,6 +164,7 @@ class SheetField final : public displacement::OffsetField {
   RangePyramid ranges_;
   SheetView view_;
   SheetKernel kernel_;
+  bool constant_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 
 namespace treadmark::offset {
@@ -11,7 +12,7 @@ namespace treadmark::offset {
 constexpr int kBlockI = 8, kBlockJ = 64;  ///< voxels of a block, one OpenVDB leaf
 
 /// Values of one block, index = (i mod 8) * 64 + (j mod 64).
-using Block = std::array<float, kBlockI * kBlockJ>;
+using Block = std::array<float, std::size_t{kBlockI} * kBlockJ>;
 
 struct BlockKey {
   std::int32_t bi = 0, bj = 0;  ///< i / 8 and j / 64, rounded down

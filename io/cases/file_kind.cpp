@@ -26,12 +26,16 @@ const CaseEntry* entry_of(const CaseTable& table, std::string_view key) {
   return found == table.end() ? nullptr : &*found;
 }
 
+/// Whether there is such a table, and none of a study.
+bool has_without_study(const std::filesystem::path& file, std::string_view key) {
+  const CaseTable top = top_of(file);
+  return entry_of(top, key) != nullptr && entry_of(top, "study") == nullptr;
+}
+
 }  // namespace
 
-bool is_simulation_file(const std::filesystem::path& file) {
-  const CaseTable top = top_of(file);
-  return entry_of(top, "simulation") != nullptr && entry_of(top, "study") == nullptr;
-}
+bool is_simulation_file(const std::filesystem::path& file) { return has_without_study(file, "simulation"); }
+bool is_evolution_file(const std::filesystem::path& file) { return has_without_study(file, "evolve"); }
 bool is_study_file(const std::filesystem::path& file) { return entry_of(top_of(file), "study") != nullptr; }
 bool is_vehicle_file(const std::filesystem::path& file) { return entry_of(top_of(file), "vehicle") != nullptr; }
 bool is_track_file(const std::filesystem::path& file) {

@@ -21,12 +21,28 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Longer endings first.
-constexpr KeyUnit kUnits[] = {{"_mm_per_MPa", 1e-9, "m/Pa"}, {"_MPa_per_mm", 1e9, "Pa/m"}, {"_N_per_mm", 1e3, "N/m"},
-                              {"_per_m", 1.0, "1/m"},        {"_rad_s", 1.0, "rad/s"},     {"_rad_m", 1.0, "rad/m"},
-                              {"_mm_s", 1e-3, "m/s"},        {"_m_s", 1.0, "m/s"},         {"_km_h", 1.0 / 3.6, "m/s"},
-                              {"_mm3", 1e-9, "m3"},          {"_um", 1e-6, "m"},           {"_us", 1e-6, "s"},
-                              {"_GPa", 1e9, "Pa"},           {"_MPa", 1e6, "Pa"},          {"_deg", kDegree, "rad"},
-                              {"_rad", 1.0, "rad"},          {"_mm", 1e-3, "m"},           {"_N", 1.0, "N"}};
+constexpr KeyUnit kUnits[] = {{"_mm_per_MPa", 1e-9, "m/Pa"},
+                              {"_MPa_per_mm", 1e9, "Pa/m"},
+                              {"_N_per_mm", 1e3, "N/m"},
+                              {"_per_m", 1.0, "1/m"},
+                              {"_rad_s", 1.0, "rad/s"},
+                              {"_rad_m", 1.0, "rad/m"},
+                              {"_mm_s", 1e-3, "m/s"},
+                              {"_m_s", 1.0, "m/s"},
+                              {"_km_h", 1.0 / 3.6, "m/s"},
+                              {"_mm3", 1e-9, "m3"},
+                              {"_mm3_J", 1e-9, "m3/J"},
+                              {"_W_mm2", 1e6, "W/m2"},
+                              {"_ug_m_mm2", 1e-3, "kg/m3"},
+                              {"_km", 1e3, "m"},
+                              {"_um", 1e-6, "m"},
+                              {"_us", 1e-6, "s"},
+                              {"_GPa", 1e9, "Pa"},
+                              {"_MPa", 1e6, "Pa"},
+                              {"_deg", kDegree, "rad"},
+                              {"_rad", 1.0, "rad"},
+                              {"_mm", 1e-3, "m"},
+                              {"_N", 1.0, "N"}};
 
 }  // namespace
 

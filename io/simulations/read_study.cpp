@@ -40,10 +40,10 @@ struct BaseTables {
   }
 };
 
-/// The tables of a file without [study].
+/// The tables of a file without [study] or [evolve].
 BaseTables base_of(CaseTable tables, const std::filesystem::path& path, std::string sha256) {
   BaseTables base{path, std::move(tables), std::move(sha256), false};
-  std::erase_if(base.tables, [](const CaseEntry& entry) { return entry.key == "study"; });
+  std::erase_if(base.tables, [](const CaseEntry& entry) { return entry.key == "study" || entry.key == "evolve"; });
   base.simulation = find_entry(base.tables, "simulation") != nullptr;
   return base;
 }
@@ -55,29 +55,35 @@ BaseTables read_base(const std::filesystem::path& path) {
 
 BaseTables named_base(const TableReader& study, const CaseTable& document, const std::filesystem::path& folder) {
   for (const CaseEntry& entry : document)
-    if (entry.key != "study" && entry.key != "title")
-      throw Error(ErrorKind::configuration, fmt::format("{} stands beside study.base, which says it all", entry.key),
-                  entry.key_where, "change keys of the base in [[study.vary]], or leave study.base out");
+    if (entry.key != study.path() && entry.key != "title")
+      throw Error(ErrorKind::configuration,
+                  fmt::format("{} stands beside {}, which says it all", entry.key, study.path_of("base")),
+                  entry.key_where,
+                  fmt::format("change keys of the base in [[{}]], or leave {} out", study.path_of("vary"),
+                              study.path_of("base")));
   std::string name = study.text("base");
   std::replace(name.begin(), name.end(), '\\', '/');
   const std::filesystem::path path = (folder / name).lexically_normal();
   const SourcePosition& where = study.need("base").where;
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    throw Error(ErrorKind::configuration, fmt::format("study.base: there is no file {}", path.string()), where,
-                "names count from the folder of the study file");
-  if (path.extension() != ".toml") throw Error(ErrorKind::configuration, "study.base must be a .toml file", where);
+    throw Error(ErrorKind::configuration, fmt::format("{}: there is no file {}", study.path_of("base"), path.string()),
+                where, "names count from the folder of the study file");
+  if (path.extension() != ".toml")
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a .toml file", study.path_of("base")), where);
   if (is_study_file(path))
-    throw Error(ErrorKind::configuration, "study.base is a study itself", where, "name a simulation or case file");
+    throw Error(ErrorKind::configuration, fmt::format("{} is a study itself", study.path_of("base")), where,
+                "name a simulation or case file");
   return read_base(path);
 }
 
-/// Overrides of the study change its tables, the others are returned.
-std::vector<std::string> apply_to_study(CaseTable& document, std::span<const std::string> overrides) {
+/// Overrides of the study, below this table, change its tables, the others are returned.
+std::vector<std::string> apply_to_study(CaseTable& document, std::string_view table,
+                                        std::span<const std::string> overrides) {
   std::vector<std::string> others;
   for (const std::string& one : overrides) {
     const CaseOverride change = parse_override(one);
-    if (change.path == "title" || change.path.starts_with("study."))
+    if (change.path == "title" || change.path.starts_with(fmt::format("{}.", table)))
       change_value(document, change.path, change);
     else
       others.push_back(one);
@@ -144,36 +150,44 @@ std::string title_of(const CaseTable& document, const TableReader& study, const 
 
 }  // namespace
 
+StudyTables::StudyTables(const std::filesystem::path& file, std::string_view name,
+                         std::span<const std::string> overrides) {
+  const std::string text = read_text(file);
+  CaseTable parsed = parse_toml(text, file.string());
+  document.swap(parsed);
+  study.path = file;
+  study.sha256 = sha256_hex(text);
+  common_ = apply_to_study(document, name, overrides);
+  table = find_entry(document, name);
+  if (table == nullptr || !table->value.is_table())
+    throw Error(ErrorKind::configuration, fmt::format("[{}] is missing", name),
+                table == nullptr ? SourcePosition{file.string(), 1, 1} : table->value.where,
+                "see docs/simulation-files.md for studies, docs/evolve.md for evolutions");
+}
+
+void StudyTables::read_runs(const TableReader& reader, const RunRange& checked) {
+  study.title = title_of(document, reader, study.path);
+  study.variations = read_variations(reader);
+  check_not_varied(study.variations, common_);
+  study.runs = runs_of(study.variations, common_);
+  const bool named = reader.find("base") != nullptr;
+  if (!named && document.size() == 1)
+    reader.fail(fmt::format("{} is missing", reader.path_of("base")),
+                fmt::format("name a simulation or case file, or give its tables beside [{}]", reader.path()));
+  const BaseTables base =
+      named ? named_base(reader, document, study.path.parent_path()) : base_of(document, study.path, study.sha256);
+  study.base = base.path;
+  study.base_is_simulation = base.simulation;
+  check_runs(study, base, checked);
+}
+
 StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides,
                           const RunRange& checked) {
-  const std::string text = read_text(file);
-  CaseTable document = parse_toml(text, file.string());
-  const std::vector<std::string> common = apply_to_study(document, overrides);
-  const CaseEntry* table = find_entry(document, "study");
-  if (table == nullptr || !table->value.is_table())
-    throw Error(ErrorKind::configuration, "[study] is missing, this is no study file",
-                table == nullptr ? SourcePosition{file.string(), 1, 1} : table->value.where,
-                "see docs/simulation-files.md");
-  const TableReader study(table->value.table(), table->value.where, "study", study_keys());
-
-  StudyFile result;
-  result.path = file;
-  result.sha256 = sha256_hex(text);
-  result.title = title_of(document, study, file);
-  result.variations = read_variations(study);
-  check_not_varied(result.variations, common);
-  result.runs = runs_of(result.variations, common);
-  result.figures = read_figures(study, result.variations);
-
-  const bool named = study.find("base") != nullptr;
-  if (!named && document.size() == 1)
-    study.fail("study.base is missing", "name a simulation or case file, or give its tables beside [study]");
-  const BaseTables base =
-      named ? named_base(study, document, file.parent_path()) : base_of(document, file, result.sha256);
-  result.base = base.path;
-  result.base_is_simulation = base.simulation;
-  check_runs(result, base, checked);
-  return result;
+  StudyTables tables(file, "study", overrides);
+  const TableReader reader(tables.table->value.table(), tables.table->value.where, "study", study_keys());
+  tables.read_runs(reader, checked);
+  tables.study.figures = read_figures(reader, tables.study.variations);
+  return std::move(tables.study);
 }
 
 Base read_study_run(const StudyFile& study, const StudyRun& run) { return read_base(study.base).read(run.overrides); }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -27,6 +28,23 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
 std::variant<SimulationFile, CaseFile> read_study_run(const StudyFile& study, const StudyRun& run);
 
 /// Parts of the reader of study files. Error(configuration) at the place of what is wrong.
+
+/// A file with a table of runs: [study] or [evolve].
+struct StudyTables {
+  /// Parses the file and finds the table; overrides below it change it. Errors: as read_study_file.
+  StudyTables(const std::filesystem::path& file, std::string_view name, std::span<const std::string> overrides);
+  StudyTables(const StudyTables&) = delete;  // table points into the document
+  StudyTables& operator=(const StudyTables&) = delete;
+  /// Title, variations, runs and base of the study, from a reader of the table; every run is read once.
+  void read_runs(const TableReader& reader, const RunRange& checked = {});
+
+  CaseTable document;
+  const CaseEntry* table = nullptr;  ///< in the document
+  StudyFile study;                   ///< path and sha256 at first
+
+ private:
+  std::vector<std::string> common_;  ///< overrides of all runs
+};
 
 /// [[study.vary]].
 std::vector<Variation> read_variations(const TableReader& study);

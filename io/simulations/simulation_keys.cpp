@@ -7,6 +7,7 @@
 #include "treadmark/model/assessment.hpp"
 #include "treadmark/model/irregularities.hpp"
 #include "treadmark/model/track_layout.hpp"
+#include "treadmark/model/wear_law.hpp"
 
 namespace treadmark::io {
 
@@ -584,6 +585,74 @@ const TableKeys& vary_value_keys() {
   return keys;
 }
 
+const TableKeys& evolve_keys() {
+  static const TableKeys keys{
+      key_info("title", KeyType::text, "without it the name of the file"),
+      key_info("base", KeyType::path, "case file; its tables may stand beside [evolve] instead"),
+      key_info("distance_km", KeyType::number, "that the wheelset runs; required where [evolve.wheel] is", kPositive),
+      key_info("passages", KeyType::number, "of wheels over a rail; required where [evolve.rail] is", kPositive),
+      table_key("vary", KeyType::table_list, "positions: their product, the last one fastest, as in [[study.vary]]",
+                vary_keys()),
+      key_info("weights", KeyType::number_list,
+               "share of each position in the order of the product, made to sum up to 1; default: equal", kNotNegative),
+      with_default("0.05", key_info("max_depth_mm", KeyType::number, "most that an update may remove", kPositive)),
+      with_default("0.1",
+                   key_info("max_pressure_change", KeyType::number,
+                            "most that an update may change the largest pressure of a case, as a share", kPositive)),
+      with_default("0.001", key_info("smallest_step", KeyType::number,
+                                     "share of the whole that an update makes at least, whatever the limits say",
+                                     {0.0, {}, 1.0})),
+      key_info("updates", KeyType::integer, "so many equal updates instead of those that keep the limits",
+               {{}, 1.0, kMostValues}),
+      with_default("1", key_info("fields_every", KeyType::integer,
+                                 "contact fields of every so many generations are kept; 0: none", {{}, 0.0, {}})),
+      table_key("wheel", KeyType::table, "the wheel evolves", evolving_body_keys()),
+      table_key("rail", KeyType::table, "the rail evolves", evolving_body_keys())};
+  return keys;
+}
+
+const TableKeys& evolving_body_keys() {
+  static const TableKeys keys{
+      with_default("\"uniform\"",
+                   one_of("along", {"uniform", "local"},
+                          "the same all round or along the track, or each place by itself: cases of the base follow "
+                          "each other round the wheel or along the rail")),
+      with_default("1", key_info("du_mm", KeyType::number, "step of the cells along, where it is local", kPositive)),
+      with_default("0.5", key_info("dy_mm", KeyType::number, "step of the cells across", kPositive)),
+      with_default("1", key_info("smoothing_mm", KeyType::number,
+                                 "standard deviation of the Gaussian kernel over what an update removes; 0: none",
+                                 kNotNegative)),
+      needed(table_key("law", KeyType::table, "how contact removes depth", wear_law_keys()))};
+  return keys;
+}
+
+const TableKeys& wear_law_keys() {
+  static const TableKeys keys = [] {
+    std::vector<std::string> words;
+    for (const WearTheoryRow& row : kWearTheories) words.emplace_back(row.word);
+    return TableKeys{
+        needed(one_of("theory", words, "see `treadmark list laws`")),
+        needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it")),
+        key_info("hardness_GPa", KeyType::number, "archard: of the body that wears", kPositive),
+        key_info("k", KeyType::number_list, "archard: coefficient, one for each regime of slip speed", kNotNegative),
+        key_info("slip_m_s", KeyType::number_list, "archard: slip speeds between the regimes", kPositive),
+        with_default("0", key_info("k_seizure", KeyType::number,
+                                   "archard: coefficient at high pressures; 0: there is no such regime", kNotNegative)),
+        with_default("0.8", key_info("seizure_pressure_over_hardness", KeyType::number,
+                                     "archard: where high pressures begin", kPositive)),
+        key_info("t_gamma_area_MPa", KeyType::number_list,
+                 "t_gamma: points of a broken line (1 MPa = 1 N/mm²), which goes on straight behind the last",
+                 kNotNegative),
+        key_info("wear_rate_ug_m_mm2", KeyType::number_list, "t_gamma: mass by distance and area at these points",
+                 kNotNegative),
+        key_info("density_kg_m3", KeyType::number, "t_gamma: of the body that wears", kPositive),
+        key_info("volume_per_work_mm3_J", KeyType::number_list,
+                 "energy: coefficient, one for each regime of power by area", kNotNegative),
+        key_info("power_density_W_mm2", KeyType::number_list, "energy: powers by area between the regimes", kPositive)};
+  }();
+  return keys;
+}
+
 const TableKeys& figure_keys() {
   static const TableKeys keys{
       needed(key_info("file", KeyType::text, "a name without folders that ends with `.svg`")),
@@ -613,6 +682,12 @@ const TableKeys& mark_keys() {
 std::string vehicle_file_schema() { return schema_of("Treadmark vehicle file", vehicle_tables(), false); }
 std::string track_file_schema() { return schema_of("Treadmark track file", track_tables(), false); }
 std::string simulation_file_schema() { return schema_of("Treadmark simulation file", simulation_tables(), true); }
+std::string evolve_file_schema() {
+  TableKeys keys{needed(table_key("evolve", KeyType::table, "surfaces that contact changes", evolve_keys())),
+                 table_key("cases", KeyType::table_list, "of the base, a case file")};
+  return schema_of("Treadmark evolution file", std::move(keys), true);
+}
+
 std::string study_file_schema() {
   // Beside [study] the tables of its base may stand.
   TableKeys keys = study_tables();
@@ -626,5 +701,8 @@ std::string vehicle_key_table() { return key_table(vehicle_tables()); }
 std::string track_key_table() { return key_table(std::span(track_tables()).first(5)); }
 std::string simulation_key_table() { return key_table(simulation_tables()); }
 std::string study_key_table() { return key_table(study_tables()); }
+std::string evolve_key_table() {
+  return key_table(TableKeys{table_key("evolve", KeyType::table, "surfaces that contact changes", evolve_keys())});
+}
 
 }  // namespace treadmark::io

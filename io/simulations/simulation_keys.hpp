@@ -71,6 +71,13 @@ std::string track_file_schema();
 std::string simulation_file_schema();
 std::string study_file_schema();
 
+/// [evolve] of files of `treadmark evolve`, its [evolve.wheel] and [evolve.rail], and their [law].
+const TableKeys& evolve_keys();
+const TableKeys& evolving_body_keys();
+const TableKeys& wear_law_keys();
+std::string evolve_file_schema();
+std::string evolve_key_table();
+
 /// All keys as Markdown tables (docs/simulation-files.md); tables that a track shares with a vehicle once.
 std::string vehicle_key_table();
 std::string track_key_table();

@@ -83,8 +83,9 @@ TEST(CommandLine, ListsAndSchema) {
   EXPECT_EQ(run_program({"list", "verbs"}).out,
             "run\ncompare\ndiff\nbench\ngeometry\nconvert\n" + verb("import", "scans") + verb("scan", "scans") +
                 "measure\n" + verb("simulate", "vehicle") + verb("assess", "vehicle") + verb("sweep", "vehicle") +
-                verb("stability", "vehicle") + verb("track", "vehicle") + verb("fmu", "fmu") +
-                verb("report", "report") + verb("plot", "report") + "new\ncheck\nlist\nschema\ncompletion\nman\n");
+                verb("evolve", "vehicle") + verb("stability", "vehicle") + verb("track", "vehicle") +
+                verb("fmu", "fmu") + verb("report", "report") + verb("plot", "report") +
+                "new\ncheck\nlist\nschema\ncompletion\nman\n");
 }
 
 /// What bash would offer for the last of these words.

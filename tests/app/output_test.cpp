@@ -77,8 +77,8 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
 #undef VERB
        }) {
     const std::string name = verb;
-    if (name == "simulate" || name == "assess" || name == "sweep")
-      continue;  // tests/app/simulation/full_output_test.cpp
+    if (name == "simulate" || name == "assess" || name == "sweep" || name == "evolve")
+      continue;  // tests/app/simulation/full_output_test.cpp, tests/app/evolve/evolution_test.cpp
     ASSERT_TRUE(uses.contains(name)) << name << " needs a line here";
     const Use& use = uses.at(name);
     std::vector<std::string> arguments{"--quiet", name};

@@ -17,6 +17,7 @@ ALLOWED = {
     "core": ["core"],
     "model": ["core", "model"],
     "measures": ["core", "model", "measures"],
+    "damage": ["core", "model", "damage"],
     "geometry": ["core", "model", "geometry"],
     "io": ["core", "model", "io"],
     "pictures": ["core", "model", "io", "pictures"],
@@ -26,12 +27,12 @@ ALLOWED = {
     "solvers/kalker": ["core", "model", "solvers/kalker"],
     "solvers/wheelrail": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail"],
     "solvers/vehicle": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
-    "app": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "scans", "detection", "solvers", "app"],
-    "app/cli": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "scans", "detection", "solvers", "app", "interfaces/fmi"],
-    "interfaces": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "scans", "detection", "solvers", "app", "interfaces"],
-    "examples": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "scans", "detection", "solvers", "app"],
-    "bench": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "scans", "detection", "solvers", "app", "bench"],
-    "tests": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "scans", "detection", "solvers", "app", "interfaces", "tests"],
+    "app": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app"],
+    "app/cli": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces/fmi"],
+    "interfaces": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces"],
+    "examples": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app"],
+    "bench": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "bench"],
+    "tests": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces", "tests"],
 }
 
 # What programs that are linked with the shared library include.
@@ -54,7 +55,7 @@ HEAVY = {
 HEAVY_FREE = ("tests", "bench")
 
 # Know nothing of a surface but its contract (core/surface.hpp), so that surfaces made of others may stand in for them.
-CONTRACT_ONLY = ("detection/", "geometry/", "measures/", "solvers/")
+CONTRACT_ONLY = ("damage/", "detection/", "geometry/", "measures/", "solvers/")
 
 # What comes from files must never reach a shell, so the program and its libraries start no other programs.
 STARTS_PROGRAMS = re.compile(r"(?<![\w.>])(system|w?popen|v?fork|exec[lv]p?e?|posix_spawnp?)\s*\(")

@@ -10,6 +10,7 @@
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/app/report/pages/compare_page.hpp"
+#include "treadmark/app/report/pages/evolution_page.hpp"
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/app/report/pages/run_page.hpp"
@@ -17,6 +18,7 @@
 #include "treadmark/app/report/pages/sweep_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 
@@ -62,13 +64,14 @@ Page read_report(const fs::path& given) {
   if (has("compare.json")) return compare_page(folder);
   if (has("bench.json")) return bench_page(folder);
   if (has("report.json")) return import_page(folder);
+  if (has(io::kEvolutionIdentity)) return evolution_page(folder);
   if (has("study.id")) return sweep_page(read_study_folder(folder));
   for (const char* store : {"simulation.h5", "unfinished.h5"})
     if (has(store)) return simulation_in(folder / store);
   if (has("fields.h5")) return run_in(folder);
   throw Error(ErrorKind::input_data, "the folder holds no results", {folder.string()},
               "results are fields.h5 (run), compare.json, bench.json, report.json (import --report), simulation.h5 and "
-              "study.id (sweep)");
+              "study.id (sweep), evolution.id (evolve)");
 }
 
 }  // namespace treadmark::app::report

@@ -32,6 +32,7 @@ TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
       {"vehicle", "treadmark simulate", {"simulate", nowhere, "-o", "/nowhere/out", "--modes"}},
       {"vehicle", "treadmark assess", {"assess", "/nowhere/out", "--from", "2"}},
       {"vehicle", "treadmark sweep", {"sweep", nowhere, "--resume", "-o", "/nowhere/out"}},
+      {"vehicle", "treadmark evolve", {"evolve", nowhere, "-o", "/nowhere/out"}},
       {"vehicle", "treadmark stability", {"stability", nowhere, "--to", "50"}},
       {"vehicle", "treadmark track", {"track", nowhere, "--fit", "2"}},
       {"vehicle", "the schema of study files", {"schema", "study"}},

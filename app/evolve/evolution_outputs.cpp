@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "treadmark/app/evolve/run_evolution.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/histories/evolution_store.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using EvolutionJson = nlohmann::ordered_json;
+
+EvolutionJson evolved_number(double value) { return io::twelve_digits(value) + 0.0; }
+
+EvolutionJson json_of(const io::EvolvedCase& c) {
+  return {{"position", c.label},
+          {"case", c.number},
+          {"weight", evolved_number(c.weight)},
+          {"status", c.status},
+          {"patches", c.patches},
+          {"remarks", c.remarks},
+          {"doubts", c.doubts},
+          {"fn_N", evolved_number(c.fn)},
+          {"fx_N", evolved_number(c.fx)},
+          {"fs_N", evolved_number(c.fs)},
+          {"pmax_MPa", evolved_number(1e-6 * c.pmax)},
+          {"t_gamma_N", evolved_number(c.t_gamma)}};
+}
+
+EvolutionJson json_of(const io::Generation& g) {
+  EvolutionJson out = {{"generation", g.number}, {"progress", evolved_number(g.progress)}};
+  for (const io::EvolutionQuantity& q : io::quantities_of(g)) out[q.name] = evolved_number(q.value);
+  for (const io::EvolvedBody& b : g.bodies)
+    if (!b.surface_file.empty()) out[b.body == Body::wheel ? "wheel_file" : "rail_file"] = b.surface_file;
+  out["cases"] = EvolutionJson::array();
+  for (const io::EvolvedCase& c : g.cases) out["cases"].push_back(json_of(c));
+  return out;
+}
+
+}  // namespace
+
+std::string evolution_json(const io::EvolutionResult& result) {
+  EvolutionJson out = {{"treadmark", {{"version", result.version}, {"git", result.git}}},
+                       {"input", {{"file", result.input_file}, {"sha256", result.input_sha256}}},
+                       {"title", result.title},
+                       {"settings", result.settings},
+                       {"status", result.status},
+                       {"message", result.message},
+                       {"laws", EvolutionJson::array()}};
+  if (!result.generations.empty())
+    for (const io::EvolvedBody& b : result.generations.front().bodies)
+      out["laws"].push_back(
+          {{"body", b.body == Body::wheel ? "wheel" : "rail"}, {"theory", b.law}, {"source", b.source}});
+  out["generations"] = EvolutionJson::array();
+  for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
+  return out.dump(2) + '\n';
+}
+
+void write_evolution_folder(const std::filesystem::path& folder, const io::EvolutionResult& result) {
+  std::vector<std::filesystem::path> files;
+  files.reserve(result.generations.size());
+  for (const io::Generation& g : result.generations) files.push_back(folder / io::generation_file(g.number));
+  write_file(folder / "evolution.csv", io::evolution_csv(result));
+  io::write_evolution_store(folder / "evolution.h5", result, files);
+  write_file(folder / "evolution.json", evolution_json(result));
+}
+
+}  // namespace treadmark::app

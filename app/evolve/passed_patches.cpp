@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/evolve/passed_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::app {
+namespace {
+
+/// Coordinates on a body's own surface.
+struct SurfacePlace {
+  double u, y;
+};
+
+SurfacePlace place_on(Body body, bool left, const Pose& X_BT, const Vec3& point_T) {
+  const Vec3 p = X_BT.apply(point_T);
+  const double y = left ? -p.y() : p.y();
+  return body == Body::wheel ? SurfacePlace{std::atan2(p.x(), p.z()), y} : SurfacePlace{p.x(), y};
+}
+
+damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool left, const Pose& X_BT) {
+  const io::PatchFields& f = patch.fields;
+  damage::PassedPatch out;
+  out.velocity = patch.velocity;
+  out.length = f.grid.dx;
+  out.width = f.grid.dy;
+  out.power = std::max(0.0, -patch.frictional_power);
+  const std::vector<Vec2> edges = io::row_edges(f, patch.reference_s);
+  for (int iy = 0; iy < f.grid.ny; ++iy) {
+    const Vec2 &low = edges[static_cast<std::size_t>(iy)], &high = edges[static_cast<std::size_t>(iy) + 1];
+    const Vec2 middle = 0.5 * (low + high);
+    for (int ix = 0; ix < f.grid.nx; ++ix) {
+      const std::size_t i = f.grid.index(ix, iy);
+      if (f.state[i] == 0) continue;
+      const auto at = [&](const Vec2& sn) {
+        return place_on(body, left, X_BT, f.X_TC.apply({f.grid.x(ix), sn.x(), sn.y()}));
+      };
+      const auto [y_low, y_high] = std::minmax(at(low).y, at(high).y);
+      out.elements.push_back({at(middle).u, y_low, y_high, f.pressure[i], std::hypot(f.traction_x[i], f.traction_s[i]),
+                              std::hypot(f.slip_x[i], f.slip_s[i]), std::max(0.0, f.dissipation[i])});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io::CaseResult& result, Body body) {
+  const auto& input = std::get<io::WheelRailCase>(given.content);
+  const Pose X_BT = (body == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS).inverse();
+  std::vector<damage::PassedPatch> out;
+  for (const io::PatchResult& patch : result.patches) {
+    if (patch.shift || !patch.has_rolling || !(patch.velocity > 0.0))
+      throw Error(ErrorKind::configuration, "a case of an evolution must roll", given.where,
+                  "choose case.regime steady or transient, and a speed");
+    if (patch.fields.dissipation.empty() || patch.fields.slip_x.empty())
+      throw Error(ErrorKind::configuration, "a case of an evolution needs tractions and slip of its contacts",
+                  given.where, "choose a tangential model other than none, without a plastic layer");
+    out.push_back(passed_patch(patch, body, input.side == Side::left, X_BT));
+  }
+  return out;
+}
+
+double place_along(const io::WheelRailCase& input, Body body) {
+  if (body == Body::rail) return input.state.position.x;
+  const double theta = std::fmod(-input.state.position.pitch, 2.0 * kPi);
+  return theta < 0.0 ? theta + 2.0 * kPi : theta;
+}
+
+std::vector<damage::Stretch> stretches(const std::vector<double>& places, Body body, double length) {
+  const std::size_t n = places.size();
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return places[i]; });
+  std::vector<damage::Stretch> out(n);
+  const double turn = 2.0 * kPi;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double here = places[order[k]];
+    double before = k > 0 ? places[order[k - 1]] : NAN, after = k + 1 < n ? places[order[k + 1]] : NAN;
+    if (body == Body::wheel) {
+      if (k == 0) before = places[order[n - 1]] - turn;
+      if (k + 1 == n) after = places[order[0]] + turn;
+    } else {
+      if (n == 1) before = here - length, after = here + length;
+      if (k == 0 && n > 1) before = 2.0 * here - after;
+      if (k + 1 == n && n > 1) after = 2.0 * here - before;
+    }
+    if (!(after > here))
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("two cases of a position are at one place of the {}", body == Body::wheel ? "wheel" : "rail"), {},
+          "give every case of the base its own wheelset.pitch_deg (wheel) or wheelset.s_mm (rail)");
+    out[order[k]] = {here, 0.5 * (before + here), 0.5 * (here + after)};
+  }
+  return out;
+}
+
+}  // namespace treadmark::app

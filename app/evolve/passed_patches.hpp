@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/damage/passed_patch.hpp"
+#include "treadmark/damage/record.hpp"
+#include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/results/result_model.hpp"
+
+namespace treadmark::app {
+
+/// The patches of a solved case as the own surface of a body sees them: elements in contact, in the coordinates of the
+/// profile as it is given (for the right-hand side). Errors: Error(configuration) for cases that do not roll or have no
+/// tractions.
+std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io::CaseResult& result, Body body);
+
+/// Where along a body the contacts of a case are: x of a rail [m], theta of a wheel, within [0, 2 pi) [rad].
+double place_along(const io::WheelRailCase& input, Body body);
+
+/// What part of the body each case of a position stands for, in the order of the cases: up to the middle between
+/// neighbours; on a wheel the rest of the turn is shared by the first and the last, on a rail these have as much on
+/// their outer side as on the inner one (one alone: length). Errors: Error(configuration) for two cases at one place.
+std::vector<damage::Stretch> stretches(const std::vector<double>& places, Body body, double length);
+
+}  // namespace treadmark::app

@@ -1,0 +1,487 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/evolve/run_evolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/cases/solve_cases.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/evolve/passed_patches.hpp"
+#include "treadmark/app/simulation/file_lock.hpp"
+#include "treadmark/app/simulation/study_identity.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/app/version.hpp"
+#include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/damage/record.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/io/results/write_hdf5.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
+
+namespace treadmark::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSteepest = 0.5;  // slope of the depth across that an update may add [-]
+constexpr double kRailEnds = 0.6;  // of offsets on a rail beyond its contacts [m]
+
+/// A body that evolves, with what it was.
+struct Evolving {
+  io::EvolvingBody input;
+  io::SurfaceSource source;
+  double radius = 0.0;  ///< nominal, of a wheel [m]
+  std::shared_ptr<const NaturalSurface> base;
+  SurfaceCells cells;
+  double half_length = 0.0;  ///< of offsets on a rail [m]
+};
+
+/// Where a case of all of them comes from, and what part of each body it stands for.
+struct CasePlace {
+  int run = 0, number = 0;
+  double weight = 0.0;                   ///< of its run
+  int beside = 1;                        ///< cases of its run
+  std::vector<damage::Stretch> stretch;  ///< by body
+};
+
+const io::WheelRailCase& rolling_case(const io::Case& c) { return std::get<io::WheelRailCase>(c.content); }
+
+const io::SurfaceSource& source_of(const io::WheelRailCase& input, Body body) {
+  return body == Body::wheel ? input.wheel : input.rail;
+}
+
+const char* word_of(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
+
+class EvolutionRun {
+ public:
+  EvolutionRun(const io::EvolutionFile& file, const EvolutionOptions& options, const Progress& progress)
+      : file_(file), options_(options), progress_(progress) {
+    read_cases();
+    regions_ = sampled_regions(all_);
+    bodies_.reserve(file.bodies.size());
+    for (const io::EvolvingBody& body : file.bodies) bodies_.push_back(prepare(body));
+  }
+
+  io::EvolutionResult run() {
+    io::EvolutionResult result = head();
+    result.generations = io::read_evolution_folder(options_.folder).generations;
+    try {
+      const CancellationScope scope(progress_.stop);
+      evolve(result);
+    } catch (const Cancelled&) {
+      result.status = "interrupted";
+      result.message = "stopped; the same command goes on";
+    } catch (const Error& e) {
+      if (e.kind() != ErrorKind::numerical || result.generations.empty()) throw;
+      result.status = "failed";
+      result.message = e.what();
+    }
+    return result;
+  }
+
+ private:
+  using Records = std::vector<SurfaceRecord>;
+
+  io::EvolutionResult head() const {
+    io::EvolutionResult result;
+    result.version = version();
+    result.git = git_revision();
+    result.input_file = file_.positions.path.filename().string();
+    result.input_sha256 = file_.positions.sha256;
+    result.title = file_.positions.title;
+    result.settings = options_.settings;
+    return result;
+  }
+
+  void read_cases() {
+    all_.path = file_.positions.base;
+    all_.title = file_.positions.title;
+    int sequences = 0;
+    for (const io::StudyRun& run : file_.positions.runs) {
+      const auto cases = std::get<io::CaseFile>(io::read_study_run(file_.positions, run));
+      int most = 0;
+      for (const io::Case& c : cases.cases) {
+        const auto* input = std::get_if<io::WheelRailCase>(&c.content);
+        if (input == nullptr || input->roller)
+          throw Error(ErrorKind::configuration, "an evolution needs a wheel on a rail", c.where,
+                      "patches by themselves have no surface, rollers cannot evolve");
+        io::Case& own = all_.cases.emplace_back(c);
+        own.number = static_cast<int>(all_.cases.size());
+        own.sequence = sequences + c.sequence;
+        own.shown = true;
+        own.element_table = 0;
+        most = std::max(most, c.sequence + 1);
+        places_.push_back({run.number,
+                           c.number,
+                           file_.weights[static_cast<std::size_t>(run.number) - 1],
+                           static_cast<int>(cases.cases.size()),
+                           {}});
+      }
+      sequences += most;
+    }
+  }
+
+  Evolving prepare(const io::EvolvingBody& input) {
+    Evolving body;
+    body.input = input;
+    const io::WheelRailCase& first = rolling_case(all_.cases.front());
+    body.source = source_of(first, input.body);
+    body.radius = profile_radius(first, input.body);
+    body.base = natural_of(first, input.body);
+    double x_min = std::numeric_limits<double>::max(), x_max = -x_min;
+    for (const io::Case& c : all_.cases) {
+      const io::WheelRailCase& one = rolling_case(c);
+      if (natural_of(one, input.body) != body.base)
+        throw Error(ErrorKind::configuration,
+                    fmt::format("the positions have different surfaces of the {}, which evolves", word_of(input.body)),
+                    source_of(one, input.body).where, "what evolves is one surface; vary the other body");
+      x_min = std::min(x_min, one.state.position.x);
+      x_max = std::max(x_max, one.state.position.x);
+    }
+    body.half_length = std::max(-x_min, x_max) + kRailEnds;
+    damage::CellSettings cells{!input.local, input.du, input.dy, x_min - kRailEnds, x_max + kRailEnds};
+    if (input.body == Body::rail && !input.local && !body.base->constant_profile())
+      throw Error(ErrorKind::configuration, "the rail changes along the track", input.where,
+                  "let it evolve with along = \"local\"");
+    body.cells = damage::make_cells(*body.base->surface, input.body, body.radius, cells);
+    place_cases(input);
+    return body;
+  }
+
+  std::shared_ptr<const NaturalSurface> natural_of(const io::WheelRailCase& input, Body body) {
+    io::SurfaceSource source = source_of(input, body);
+    source.backend.clear();  // as given: a sampled one would be made all along
+    source.resolution = 0.0;
+    return store_.get(source, body, profile_radius(input, body), {}).natural;
+  }
+
+  /// Stretches of all cases on one body.
+  void place_cases(const io::EvolvingBody& body) {
+    for (std::size_t first = 0; first < places_.size();) {
+      const auto count = static_cast<std::size_t>(places_[first].beside);
+      std::vector<double> along;
+      along.reserve(count);
+      for (std::size_t i = first; i < first + count; ++i)
+        along.push_back(place_along(rolling_case(all_.cases[i]), body.body));
+      std::vector<damage::Stretch> stretch(count);
+      if (body.local) {
+        try {
+          stretch = stretches(along, body.body, 0.5 * body.du);
+        } catch (const Error& e) {
+          throw Error(e.kind(), e.message(), body.where, e.advice());
+        }
+      }
+      for (std::size_t i = 0; i < count; ++i) places_[first + i].stretch.push_back(stretch[i]);
+      first += count;
+    }
+  }
+
+  OffsetMap map_of(const Evolving& body, const SurfaceRecord& record) const {
+    return damage::offsets_of(body.cells, record.volume, body.half_length, word_of(body.input.body));
+  }
+
+  NaturalSurface evolved(const Evolving& body, const SurfaceRecord& record) const {
+    if (record.volume.rows().empty()) return *body.base;
+    return add_offsets(*body.base, map_of(body, record));
+  }
+
+  /// The surface of a body for a case: what evolves as these records leave it, in the representation that it asks for.
+  wheelrail::Geometry geometry_of(const io::WheelRailCase& input, const std::vector<NaturalSurface>& evolved_bodies,
+                                  std::vector<std::pair<std::string, RepresentedSurface>>& made) {
+    wheelrail::Geometry geometry;
+    for (const Body body : {Body::rail, Body::wheel}) {
+      const io::SurfaceSource& source = source_of(input, body);
+      const sampling::Region& region = body == Body::wheel ? regions_.wheel : regions_.rail;
+      const auto evolving = std::ranges::find(bodies_, body, [](const Evolving& b) { return b.input.body; });
+      std::shared_ptr<const Surface> surface;
+      bool constant = false;
+      if (evolving == bodies_.end()) {
+        const StoredSurface& stored = store_.get(source, body, profile_radius(input, body), region);
+        surface = stored.represented.surface;
+        constant = stored.constant_profile();
+      } else {
+        const NaturalSurface& natural = evolved_bodies[static_cast<std::size_t>(evolving - bodies_.begin())];
+        const std::string key = fmt::format("{} {} {:.17g}", word_of(body), source.backend, source.resolution);
+        auto known = std::ranges::find(made, key, [](const auto& m) { return m.first; });
+        if (known == made.end())
+          known = made.insert(made.end(), {key, represent(natural, {source.backend, source.resolution, region})});
+        surface = known->second.surface;
+        constant = natural.constant_profile();
+      }
+      (body == Body::rail ? geometry.rail : geometry.wheel) = std::move(surface);
+      (body == Body::rail ? geometry.prismatic_rail : geometry.round_wheel) = constant;
+    }
+    return geometry;
+  }
+
+  /// Contacts of all cases over the surfaces as these records leave them.
+  io::RunResult solve(const Records& records) {
+    std::vector<NaturalSurface> surfaces;
+    surfaces.reserve(bodies_.size());
+    for (std::size_t b = 0; b < bodies_.size(); ++b) surfaces.push_back(evolved(bodies_[b], records[b]));
+    std::vector<std::pair<std::string, RepresentedSurface>> made;
+    std::vector<std::optional<wheelrail::Geometry>> geometries;
+    geometries.reserve(all_.cases.size());
+    for (const io::Case& c : all_.cases) geometries.emplace_back(geometry_of(rolling_case(c), surfaces, made));
+    Progress inner;
+    inner.stop = progress_.stop;
+    io::RunResult run = solve_cases(all_, geometries, inner);
+    if (!run.complete) throw Cancelled();
+    for (std::size_t i = 0; i < run.cases.size(); ++i)
+      if (const io::CaseResult& c = run.cases[i]; c.status != Status::ok)
+        throw Error(ErrorKind::numerical, fmt::format("position {}, case {}: {}{}{}", label(i), places_[i].number,
+                                                      to_string(c.status), c.message.empty() ? "" : ": ", c.message));
+    return run;
+  }
+
+  std::string label(std::size_t i) const {
+    const io::StudyRun& run = file_.positions.runs[static_cast<std::size_t>(places_[i].run) - 1];
+    const std::string text = label_of(file_.positions, run);
+    return text.empty() ? std::to_string(run.number) : text;
+  }
+
+  /// What the whole amount would do at this speed, the volumes smoothed.
+  Records rates_of(const io::RunResult& run) const {
+    Records rates;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const Evolving& body = bodies_[b];
+      SurfaceRecord rate(body.cells.nu);
+      for (std::size_t i = 0; i < run.cases.size(); ++i) {
+        const CasePlace& place = places_[i];
+        const damage::Stretch& stretch = place.stretch[b];
+        const bool wheel = body.input.body == Body::wheel;
+        const double speed = std::fabs(run.cases[i].vs), turns = std::fabs(run.cases[i].vpitch) / (2.0 * kPi);
+        if (!(speed > 0.0) || !(turns > 0.0))
+          throw Error(ErrorKind::configuration, "the wheelset of a case of an evolution must move and turn",
+                      all_.cases[i].where, "give wheelset.velocity_m_s and wheelset.vpitch_rad_s");
+        // time for which the contacts of this case run, all in all, and passages over a point
+        double seconds = body.input.amount / speed * place.weight, count = seconds * (wheel ? turns : speed);
+        if (!body.input.local) {
+          seconds /= place.beside;
+          count /= place.beside;
+        } else {
+          seconds *= (stretch.end - stretch.begin) / (wheel ? 2.0 * kPi : 1.0);
+        }
+        for (const damage::PassedPatch& patch : passed_patches(all_.cases[i], run.cases[i], body.input.body))
+          damage::add_patch(rate, body.cells, body.input.law, patch, stretch, seconds, count);
+      }
+      damage::smooth(rate.volume, body.cells, body.input.smoothing);
+      rates.push_back(std::move(rate));
+    }
+    return rates;
+  }
+
+  io::Generation generation_of(const io::RunResult& run, const Records& records) const {
+    io::Generation g;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const Evolving& body = bodies_[b];
+      io::EvolvedBody& out = g.bodies.emplace_back();
+      out.body = body.input.body;
+      out.law = kWearTheories[static_cast<std::size_t>(body.input.law.theory)].word;
+      out.source = body.input.law.source;
+      out.cells = body.cells;
+      out.record = records[b];
+      const damage::DepthExtent extent = damage::depth_extent(body.cells, records[b].volume);
+      out.max_depth = extent.depth;
+      out.max_slope = extent.slope;
+      std::vector<Vec2> points;
+      points.reserve(static_cast<std::size_t>(body.cells.ny));
+      for (int j = 0; j < body.cells.ny; ++j) points.emplace_back(0.0, body.cells.y(j));
+      out.z.resize(points.size());
+      evolved(body, records[b]).surface->heights_at(Pose{}, points, {out.z, {}, {}});
+      for (double& z : out.z) z -= body.input.body == Body::wheel ? body.radius : 0.0;
+    }
+    for (std::size_t i = 0; i < run.cases.size(); ++i) {
+      const io::CaseResult& c = run.cases[i];
+      io::EvolvedCase& out = g.cases.emplace_back();
+      out.run = places_[i].run;
+      out.number = places_[i].number;
+      out.label = label(i);
+      out.status = to_string(c.status);
+      out.weight = places_[i].weight / places_[i].beside;
+      out.patches = static_cast<int>(c.patches.size());
+      out.remarks = static_cast<int>(c.remarks.size());
+      out.doubts = static_cast<int>(std::ranges::count_if(c.remarks, [](const Remark& r) { return r.grave(); }));
+      for (const io::PatchResult& p : c.patches) {
+        out.fn += p.fn, out.fx += p.fx, out.fs += p.fs;
+        out.pmax = std::max(out.pmax, p.pmax);
+        if (p.velocity > 0.0) out.t_gamma += std::max(0.0, -p.frictional_power) / p.velocity;
+      }
+    }
+    return g;
+  }
+
+  void write(io::Generation& g, const Records& records, io::RunResult run) const {
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      const Evolving& body = bodies_[b];
+      if (records[b].volume.rows().empty()) continue;
+      g.bodies[b].surface_file = fmt::format("{}_{:04}.vdb", word_of(body.input.body), g.number);
+      Representation wanted{"offset", std::min(body.cells.dy, body.input.du), {}};
+      if (body.input.body == Body::rail)
+        wanted.region.u_min = -body.half_length, wanted.region.u_max = body.half_length;
+      write_added_offsets(options_.folder / g.bodies[b].surface_file, *body.base, map_of(body, records[b]), wanted,
+                          fmt::format("{}, generation {}", file_.positions.title, g.number));
+    }
+    if (file_.fields_every > 0 && g.number % file_.fields_every == 0) {
+      run.threads = 0, run.seconds = 0.0;  // equal results give equal bytes
+      for (io::CaseResult& c : run.cases) c.seconds = c.search_s = c.distance_s = c.normal_s = c.tangential_s = 0.0;
+      run.settings = options_.settings;
+      io::write_hdf5(options_.folder / io::contacts_file(g.number), run);
+    }
+    io::write_generation(options_.folder / io::generation_file(g.number), g);
+  }
+
+  void report(const io::Generation& g) const {
+    constexpr std::size_t kParts = 1000;
+    if (progress_.report)
+      progress_.report(static_cast<std::size_t>(std::lround(kParts * g.progress)), kParts,
+                       fmt::format("generation {}", g.number));
+  }
+
+  double pressure_change(const io::Generation& before, const io::Generation& after) const {
+    double change = 0.0;
+    for (std::size_t i = 0; i < before.cases.size(); ++i)
+      change = std::max(change, std::fabs(after.cases[i].pmax / before.cases[i].pmax - 1.0));
+    return change;
+  }
+
+  void check_update(const Evolving& body, const SurfaceRecord& update) const {
+    const damage::DepthExtent extent = damage::depth_extent(body.cells, update.volume);
+    if (extent.slope > kSteepest)
+      throw Error(ErrorKind::numerical,
+                  fmt::format("an update of the {} removes {:.3g} mm with slopes of {:.2g}: the surface would fold",
+                              word_of(body.input.body), 1e3 * extent.depth, extent.slope),
+                  body.input.where, "allow less depth an update (more updates), or smooth more");
+  }
+
+  /// The largest share of the whole that keeps to the depth of an update.
+  double step_by_depth(const Records& rates) const {
+    double depth = 0.0;
+    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+      // the depth of a whole amount may be more than there is: in small parts it is even
+      constexpr double kPart = 1e-6;
+      SurfaceRecord part(bodies_[b].cells.nu);
+      damage::add_times(part, rates[b], kPart);
+      depth = std::max(depth, damage::depth_extent(bodies_[b].cells, part.volume).depth / kPart);
+    }
+    return depth > 0.0 ? file_.max_depth / depth : 1.0;
+  }
+
+  void evolve(io::EvolutionResult& result) {
+    Records records;
+    records.reserve(bodies_.size());
+    for (const Evolving& body : bodies_) records.emplace_back(body.cells.nu);
+    if (!result.generations.empty()) {
+      for (std::size_t b = 0; b < bodies_.size(); ++b) records[b] = result.generations.back().bodies[b].record;
+      report(result.generations.back());
+      if (result.generations.back().progress >= 1.0) return;
+    }
+    io::RunResult run = solve(records);
+    if (result.generations.empty()) {
+      io::Generation first = generation_of(run, records);
+      first.next_step = file_.updates > 0 ? 1.0 / file_.updates : 1.0;
+      write(first, records, run);
+      result.generations.push_back(std::move(first));
+    }
+    while (result.generations.back().progress < 1.0) {
+      advance(result, records, run);
+      report(result.generations.back());
+    }
+  }
+
+  void advance(io::EvolutionResult& result, Records& records, io::RunResult& run) {
+    const io::Generation& now = result.generations.back();
+    const Records rates = rates_of(run);
+    const bool adaptive = file_.updates == 0;
+    const double rest = 1.0 - now.progress;
+    double step = adaptive ? std::min({now.next_step, std::max(step_by_depth(rates), file_.smallest_step), rest})
+                           : std::min(1.0 / file_.updates, rest);
+    for (int refused = 0;; ++refused) {
+      Records trial;
+      for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        SurfaceRecord update(bodies_[b].cells.nu);
+        damage::add_times(update, rates[b], step);
+        check_update(bodies_[b], update);
+        trial.push_back(records[b]);
+        damage::add_times(trial.back(), update, 1.0);
+      }
+      io::RunResult solved = solve(trial);
+      io::Generation next = generation_of(solved, trial);
+      next.pressure_change = pressure_change(now, next);
+      const bool kept = next.pressure_change <= file_.max_pressure_change;
+      if (adaptive && !kept && step > file_.smallest_step) {
+        step = std::max(0.5 * step, file_.smallest_step);
+        continue;
+      }
+      constexpr double kNearlyAll = 1.0 - 1e-12;
+      next.number = now.number + 1;
+      next.step = step;
+      next.refused = refused;
+      next.limits_kept = !adaptive || kept;
+      next.progress = now.progress + step >= kNearlyAll ? 1.0 : now.progress + step;
+      next.next_step = step * std::min(2.0, 0.9 * file_.max_pressure_change / std::max(next.pressure_change, 1e-12));
+      if (!adaptive) next.next_step = 1.0 / file_.updates;
+      next.next_step = std::max(next.next_step, file_.smallest_step);
+      for (const Evolving& body : bodies_)
+        (body.input.body == Body::wheel ? next.distance : next.passages) = next.progress * body.input.amount;
+      write(next, trial, solved);
+      records = std::move(trial);
+      run = std::move(solved);
+      result.generations.push_back(std::move(next));
+      return;
+    }
+  }
+
+  const io::EvolutionFile& file_;
+  const EvolutionOptions& options_;
+  const Progress& progress_;
+  SurfaceStore store_;
+  io::CaseFile all_;  ///< cases of all positions
+  SampledRegions regions_;
+  std::vector<CasePlace> places_;
+  std::vector<Evolving> bodies_;
+};
+
+/// Holds the folder for this evolution, which must be the one that is there.
+void identify(const io::EvolutionFile& file, const EvolutionOptions& options) {
+  std::string identity = study_identity(file.positions) + fmt::format("evolution {}\n", file.positions.sha256);
+  for (const std::string& setting : options.settings) identity += fmt::format("  set {}\n", setting);
+  const fs::path marker = options.folder / io::kEvolutionIdentity;
+  if (!fs::exists(marker)) {
+    write_file(marker, identity);
+    return;
+  }
+  if (io::profiles::read_text(marker, "evolution", {}) != identity)
+    throw Error(ErrorKind::configuration, "the folder holds another evolution, or one of another build of Treadmark",
+                {options.folder.string()}, "choose another folder, or remove this one");
+}
+
+}  // namespace
+
+void check_evolution(const io::EvolutionFile& file) { EvolutionRun(file, {}, {}); }
+
+io::EvolutionResult run_evolution(const io::EvolutionFile& file, const EvolutionOptions& options,
+                                  const Progress& progress) {
+  if (options.must_exist && !fs::exists(options.folder / io::kEvolutionIdentity))
+    throw Error(ErrorKind::configuration, "there is no evolution to go on with", {options.folder.string()},
+                "leave --resume out to begin one");
+  EvolutionRun run(file, options, progress);
+  const FileLock lock = claim_folder(options.folder);
+  identify(file, options);
+  return run.run();
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/histories/evolution_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace treadmark::io {
+namespace {
+
+double sum_of(const CellSheet& sheet) {
+  double sum = 0.0;
+  for (const auto& [j, row] : sheet.rows())
+    for (const double value : row) sum += value;
+  return sum;
+}
+
+double largest_of(const CellSheet& sheet) {
+  double largest = 0.0;
+  for (const auto& [j, row] : sheet.rows())
+    for (const double value : row) largest = std::max(largest, value);
+  return largest;
+}
+
+double relative(double found, double expected) { return expected != 0.0 ? found / expected - 1.0 : found; }
+
+}  // namespace
+
+double volume_balance(const EvolvedBody& body) {
+  return relative(sum_of(body.record.volume), body.record.volume_by_law);
+}
+
+double work_balance(const EvolvedBody& body) {
+  return relative(sum_of(body.record.work), body.record.work_of_contacts);
+}
+
+std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
+  std::vector<EvolutionQuantity> out{
+      {"distance_km", "km", "rolled by the wheel", 1e-3 * g.distance},
+      {"passages", "1", "of wheels over the rail", g.passages},
+      {"step", "1", "share of the whole that led here", g.step},
+      {"refused_steps", "1", "steps that changed pressures too much", 1.0 * g.refused},
+      {"limits_kept", "1", "0: the smallest step changed more", g.limits_kept ? 1.0 : 0.0},
+      {"pressure_change", "1", "by the step, the largest", g.pressure_change}};
+  double pmax = 0.0, pressure = 0.0, t_gamma = 0.0, force = 0.0, doubts = 0.0;
+  for (const EvolvedCase& c : g.cases) {
+    pmax = std::max(pmax, c.pmax);
+    pressure += c.weight * c.pmax;
+    t_gamma += c.weight * c.t_gamma;
+    force += c.weight * c.fn;
+    doubts += c.doubts;
+  }
+  out.push_back({"pmax_MPa", "MPa", "largest pressure of all positions", 1e-6 * pmax});
+  out.push_back({"pmax_mean_MPa", "MPa", "largest pressure, mean of the positions by weight", 1e-6 * pressure});
+  out.push_back({"normal_force_N", "N", "sum over the patches, mean by weight", force});
+  out.push_back({"t_gamma_N", "N", "power of friction over rolling speed, mean by weight", t_gamma});
+  out.push_back({"doubts", "1", "remarks that doubt results", doubts});
+  for (const EvolvedBody& b : g.bodies) {
+    const std::string name = b.body == Body::wheel ? "wheel" : "rail";
+    // a rail that is the same everywhere is counted by the metre
+    const bool by_metre = b.body == Body::rail && b.cells.uniform();
+    const std::string per = by_metre ? "_per_m" : "", per_unit = by_metre ? "/m" : "";
+    out.push_back({name + "_depth_mm", "mm", "largest depth removed", 1e3 * b.max_depth});
+    out.push_back({name + "_slope", "1", "largest slope of the depth across", b.max_slope});
+    out.push_back({fmt::format("{}_volume_mm3{}", name, per), fmt::format("mm3{}", per_unit), "removed",
+                   1e9 * sum_of(b.record.volume)});
+    out.push_back(
+        {name + "_volume_balance", "1", "volume of the geometry over that of the law, less 1", volume_balance(b)});
+    out.push_back(
+        {fmt::format("{}_work_J{}", name, per), fmt::format("J{}", per_unit), "of friction", sum_of(b.record.work)});
+    out.push_back(
+        {name + "_work_balance", "1", "work on the surface over that of the contacts, less 1", work_balance(b)});
+    out.push_back({name + "_pressure_ever_MPa", "MPa", "largest up to here", 1e-6 * largest_of(b.record.pressure)});
+    out.push_back({name + "_sliding_m", "m", "largest sliding distance of a point", largest_of(b.record.sliding)});
+  }
+  return out;
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "treadmark/model/profile.hpp"
+#include "treadmark/model/surface_record.hpp"
+
+namespace treadmark::io {
+
+/// What came of an evolution, SI.
+
+/// A body at one generation.
+struct EvolvedBody {
+  Body body = Body::wheel;
+  std::string law, source;  ///< word of the theory, and where its numbers come from
+  SurfaceCells cells;
+  SurfaceRecord record;
+  double max_depth = 0.0;    ///< [m]
+  double max_slope = 0.0;    ///< of the depth across [-]
+  std::string surface_file;  ///< name in the folder
+  std::vector<double> z;     ///< height of the section of column 0 by row, profile coordinate z [m]; NaN: none
+};
+
+/// The contacts of a case at one generation.
+struct EvolvedCase {
+  int run = 0, number = 0;  ///< position, and case of its file, from 1
+  std::string label, status;
+  double weight = 0.0;
+  int patches = 0, remarks = 0, doubts = 0;
+  double fn = 0.0, fx = 0.0, fs = 0.0;  ///< sums over the patches [N]
+  double pmax = 0.0;                    ///< [Pa]
+  double t_gamma = 0.0;                 ///< power of friction over rolling speed [N]
+};
+
+struct Generation {
+  int number = 0;
+  double progress = 0.0;         ///< share of the whole
+  double distance = 0.0;         ///< that the wheel has rolled [m]; 0 where it does not evolve
+  double passages = 0.0;         ///< of wheels over the rail
+  double next_step = 0.0;        ///< share that the step control proposes
+  double step = 0.0;             ///< that led here
+  int refused = 0;               ///< steps that changed pressures too much before it
+  bool limits_kept = true;       ///< false: the smallest step changed more than the limits allow
+  double pressure_change = 0.0;  ///< by the step that led here, the largest, as a share
+  std::vector<EvolvedBody> bodies;
+  std::vector<EvolvedCase> cases;
+};
+
+struct EvolutionResult {
+  std::string version, git, input_file, input_sha256, title;
+  std::vector<std::string> settings;
+  std::string status = "complete", message;  ///< "interrupted", "failed"
+  std::vector<Generation> generations;
+};
+
+/// A number of a generation, for tables and charts.
+struct EvolutionQuantity {
+  std::string name;  ///< with its unit at the end
+  std::string unit, meaning;
+  double value = 0.0;
+};
+/// All of them in their order; names are the same in all generations of a result.
+std::vector<EvolutionQuantity> quantities_of(const Generation& generation);
+
+/// Relative differences between what the law takes and what the geometry has lost, and between the work that is stored
+/// on the surface and that of the contacts.
+double volume_balance(const EvolvedBody& body);
+double work_balance(const EvolvedBody& body);
+
+}  // namespace treadmark::io

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/histories/evolution_store.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/hdf5/hdf5_reader.hpp"
+#include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr const char* kGenerationFormat = "treadmark generation 1";
+constexpr const char* kEvolutionFormat = "treadmark evolution 1";
+
+/// Sheets of a record with names, units and meanings.
+struct SheetRow {
+  CellSheet SurfaceRecord::*sheet;
+  const char *name, *unit, *meaning;
+};
+constexpr SheetRow kSheets[] = {{&SurfaceRecord::volume, "volume", "m3", "removed from the cell"},
+                                {&SurfaceRecord::work, "work", "J", "of friction in the cell"},
+                                {&SurfaceRecord::sliding, "sliding", "m", "distance, mean over the cell"},
+                                {&SurfaceRecord::passages, "passages", "1", "of contacts over the cell"},
+                                {&SurfaceRecord::pressure, "pressure", "Pa", "largest"},
+                                {&SurfaceRecord::traction, "traction", "Pa", "largest"}};
+
+void write_sheet(const Hdf5GroupWriter& parent, const SheetRow& what, const CellSheet& sheet) {
+  std::vector<double> rows, values;
+  for (const auto& [j, row] : sheet.rows()) {
+    rows.push_back(j);
+    values.insert(values.end(), row.begin(), row.end());
+  }
+  const Hdf5GroupWriter group = parent.make_group(what.name);
+  group.write({"rows", {rows.size()}, "1", "numbers of the rows that are stored", true}, rows);
+  group.write({"values", {rows.size(), static_cast<std::size_t>(sheet.nu())}, what.unit, what.meaning, true}, values);
+}
+
+void read_sheet(const Hdf5GroupReader& parent, const SheetRow& what, const SurfaceCells& cells, CellSheet& sheet) {
+  const Hdf5GroupReader group = parent.open_group(what.name);
+  const std::vector<double> rows = group.numbers("rows");
+  const auto nu = static_cast<std::size_t>(sheet.nu());
+  const std::vector<double> values = group.numbers("values", {rows.size(), nu});
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const int j = static_cast<int>(rows[k]);
+    if (!(rows[k] >= 0.0) || j >= cells.ny || j != rows[k])
+      throw Error(ErrorKind::input_data, fmt::format("the sheet {} has a row {}", what.name, rows[k]),
+                  {parent.file(), 0, 0});
+    sheet.rows()[j].assign(values.begin() + static_cast<std::ptrdiff_t>(k * nu),
+                           values.begin() + static_cast<std::ptrdiff_t>((k + 1) * nu));
+  }
+}
+
+void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
+  const Hdf5GroupWriter group = root.make_group(body.body == Body::wheel ? "wheel" : "rail");
+  const SurfaceCells& c = body.cells;
+  const std::vector<Attribute> head{{"law", body.law},
+                                    {"source", body.source},
+                                    {"u0", c.u0},
+                                    {"du", c.du},
+                                    {"nu", c.nu},
+                                    {"y0", c.y0},
+                                    {"dy", c.dy},
+                                    {"ny", c.ny},
+                                    {"max_depth", body.max_depth},
+                                    {"max_slope", body.max_slope},
+                                    {"surface_file", body.surface_file},
+                                    {"volume_by_law", body.record.volume_by_law},
+                                    {"work_of_contacts", body.record.work_of_contacts}};
+  group.add(head);
+  group.write({"radius", {c.radius.size()}, "m", "of the rows of a wheel; 1 of a rail", true}, c.radius);
+  group.write({"section_z", {body.z.size()}, "m", "height of the section of the first column by row", true}, body.z);
+  for (const SheetRow& row : kSheets) write_sheet(group, row, body.record.*row.sheet);
+}
+
+EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
+  EvolvedBody body;
+  body.body = body.cells.body = which;
+  SurfaceCells& c = body.cells;
+  body.law = group.text("law"), body.source = group.text("source");
+  c.u0 = group.number("u0"), c.du = group.number("du"), c.nu = group.integer("nu");
+  c.y0 = group.number("y0"), c.dy = group.number("dy"), c.ny = group.integer("ny");
+  body.max_depth = group.number("max_depth"), body.max_slope = group.number("max_slope");
+  body.surface_file = group.text("surface_file");
+  if (c.nu < 1 || c.ny < 1) throw Error(ErrorKind::input_data, "an evolved surface has no cells", {group.file(), 0, 0});
+  const std::vector<std::size_t> rows{static_cast<std::size_t>(c.ny)};
+  c.radius = group.numbers("radius", rows);
+  body.z = group.numbers("section_z", rows);
+  body.record = SurfaceRecord(c.nu);
+  body.record.volume_by_law = group.number("volume_by_law");
+  body.record.work_of_contacts = group.number("work_of_contacts");
+  for (const SheetRow& row : kSheets) read_sheet(group, row, c, body.record.*row.sheet);
+  return body;
+}
+
+void write_cases(const Hdf5GroupWriter& root, const std::vector<EvolvedCase>& cases) {
+  const Hdf5GroupWriter group = root.make_group("cases");
+  const auto numbers = [&](const char* name, const char* unit, const char* meaning, auto get) {
+    std::vector<double> values;
+    values.reserve(cases.size());
+    for (const EvolvedCase& c : cases) values.push_back(get(c));
+    group.write({name, {values.size()}, unit, meaning}, values);
+  };
+  const auto texts = [&](const char* name, const char* meaning, std::string EvolvedCase::*member) {
+    std::vector<std::string> values;
+    values.reserve(cases.size());
+    for (const EvolvedCase& c : cases) values.push_back(c.*member);
+    group.write({name, {values.size()}, "1", meaning}, values);
+  };
+  numbers("run", "1", "position", [](auto& c) { return c.run; });
+  numbers("number", "1", "case of the position", [](auto& c) { return c.number; });
+  texts("label", "of the position", &EvolvedCase::label);
+  texts("status", "of the case", &EvolvedCase::status);
+  numbers("weight", "1", "share", [](auto& c) { return c.weight; });
+  numbers("patches", "1", "of contact", [](auto& c) { return c.patches; });
+  numbers("remarks", "1", "of the case", [](auto& c) { return c.remarks; });
+  numbers("doubts", "1", "grave ones of them", [](auto& c) { return c.doubts; });
+  numbers("fn", "N", "sum over the patches", [](auto& c) { return c.fn; });
+  numbers("fx", "N", "on the rail, sum over the patches", [](auto& c) { return c.fx; });
+  numbers("fs", "N", "on the rail, sum over the patches", [](auto& c) { return c.fs; });
+  numbers("pmax", "Pa", "largest pressure", [](auto& c) { return c.pmax; });
+  numbers("t_gamma", "N", "power of friction over rolling speed", [](auto& c) { return c.t_gamma; });
+}
+
+std::vector<EvolvedCase> read_cases_of(const Hdf5GroupReader& root) {
+  const Hdf5GroupReader group = root.open_group("cases");
+  const std::vector<std::string> labels = group.strings("label"), status = group.strings("status");
+  std::vector<EvolvedCase> cases(labels.size());
+  if (status.size() != labels.size())
+    throw Error(ErrorKind::input_data, "the cases of a generation do not fit together", {root.file(), 0, 0});
+  const auto numbers = [&](const char* name, auto set) {
+    const std::vector<double> values = group.numbers(name, {cases.size()});
+    for (std::size_t i = 0; i < values.size(); ++i) set(cases[i], values[i]);
+  };
+  for (std::size_t i = 0; i < cases.size(); ++i) cases[i].label = labels[i], cases[i].status = status[i];
+  numbers("run", [](auto& c, double v) { c.run = static_cast<int>(v); });
+  numbers("number", [](auto& c, double v) { c.number = static_cast<int>(v); });
+  numbers("weight", [](auto& c, double v) { c.weight = v; });
+  numbers("patches", [](auto& c, double v) { c.patches = static_cast<int>(v); });
+  numbers("remarks", [](auto& c, double v) { c.remarks = static_cast<int>(v); });
+  numbers("doubts", [](auto& c, double v) { c.doubts = static_cast<int>(v); });
+  numbers("fn", [](auto& c, double v) { c.fn = v; });
+  numbers("fx", [](auto& c, double v) { c.fx = v; });
+  numbers("fs", [](auto& c, double v) { c.fs = v; });
+  numbers("pmax", [](auto& c, double v) { c.pmax = v; });
+  numbers("t_gamma", [](auto& c, double v) { c.t_gamma = v; });
+  return cases;
+}
+
+}  // namespace
+
+void write_generation(const std::filesystem::path& path, const Generation& g) {
+  Hdf5Writer file(path);
+  const std::vector<Attribute> head{{"format", std::string(kGenerationFormat)},
+                                    {"units", "SI"},
+                                    {"number", g.number},
+                                    {"progress", g.progress},
+                                    {"distance", g.distance},
+                                    {"passages", g.passages},
+                                    {"next_step", g.next_step},
+                                    {"step", g.step},
+                                    {"refused", g.refused},
+                                    {"limits_kept", g.limits_kept ? 1 : 0},
+                                    {"pressure_change", g.pressure_change}};
+  file.root().add(head);
+  for (const EvolvedBody& body : g.bodies) write_body(file.root(), body);
+  write_cases(file.root(), g.cases);
+  file.commit();
+}
+
+Generation read_generation(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  const Hdf5GroupReader& root = file.root();
+  if (const std::string format = root.text("format"); format != kGenerationFormat)
+    throw Error(ErrorKind::input_data, fmt::format("\"{}\" where \"{}\" is read", format, kGenerationFormat),
+                {path.string(), 0, 0}, "give a folder that treadmark evolve wrote");
+  Generation g;
+  g.number = root.integer("number");
+  g.progress = root.number("progress");
+  g.distance = root.number("distance"), g.passages = root.number("passages");
+  g.next_step = root.number("next_step"), g.step = root.number("step");
+  g.refused = root.integer("refused");
+  g.limits_kept = root.integer("limits_kept") != 0;
+  g.pressure_change = root.number("pressure_change");
+  for (const Body body : {Body::wheel, Body::rail}) {
+    const char* name = body == Body::wheel ? "wheel" : "rail";
+    if (root.has(name)) g.bodies.push_back(read_body(root.open_group(name), body));
+  }
+  g.cases = read_cases_of(root);
+  return g;
+}
+
+void write_evolution_store(const std::filesystem::path& path, const EvolutionResult& result,
+                           const std::vector<std::filesystem::path>& generations) {
+  Hdf5Writer file(path);
+  const std::vector<Attribute> head{{"format", std::string(kEvolutionFormat)},
+                                    {"units", "SI"},
+                                    {"version", result.version},
+                                    {"git", result.git},
+                                    {"input", result.input_file},
+                                    {"sha256", result.input_sha256},
+                                    {"title", result.title},
+                                    {"settings", result.settings},
+                                    {"status", result.status},
+                                    {"message", result.message}};
+  file.root().add(head);
+  const Hdf5GroupWriter table = file.root().make_group("table");
+  if (!result.generations.empty()) {
+    std::vector<std::string> names;
+    const std::vector<EvolutionQuantity> first = quantities_of(result.generations.front());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      std::vector<double> values;
+      values.reserve(result.generations.size());
+      for (const Generation& g : result.generations) values.push_back(quantities_of(g)[k].value);
+      names.push_back(first[k].name);
+      table.write({first[k].name, {values.size()}, first[k].unit, first[k].meaning}, values);
+    }
+    table.add({kNames, names});
+  }
+  for (std::size_t i = 0; i < generations.size(); ++i)
+    file.root().copy_file(generations[i], fmt::format("generation_{:04}", i));
+  file.commit();
+}
+
+std::string generation_file(int number) { return fmt::format("generation_{:04}.h5", number); }
+std::string contacts_file(int number) { return fmt::format("contacts_{:04}.h5", number); }
+
+EvolutionResult read_evolution_folder(const std::filesystem::path& folder) {
+  EvolutionResult result;
+  result.input_file = folder.filename().string();
+  result.status = "unfinished";
+  if (const std::filesystem::path store = folder / "evolution.h5"; std::filesystem::exists(store)) {
+    const Hdf5Reader file(store);
+    const Hdf5GroupReader& root = file.root();
+    result.version = root.text("version"), result.git = root.text("git");
+    result.input_file = root.text("input"), result.input_sha256 = root.text("sha256");
+    result.title = root.text("title"), result.settings = root.texts("settings");
+    result.status = root.text("status"), result.message = root.text("message");
+  }
+  for (int k = 0; std::filesystem::exists(folder / generation_file(k)); ++k)
+    result.generations.push_back(read_generation(folder / generation_file(k)));
+  return result;
+}
+
+std::string evolution_csv(const EvolutionResult& result) {
+  std::string out = "generation";
+  if (!result.generations.empty())
+    for (const EvolutionQuantity& q : quantities_of(result.generations.front())) out += ',' + csv_cell(q.name);
+  out += '\n';
+  for (const Generation& g : result.generations) {
+    out += std::to_string(g.number);
+    for (const EvolutionQuantity& q : quantities_of(g)) out += ',' + csv_number(q.value);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace treadmark::io

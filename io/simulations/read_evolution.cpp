@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/simulations/read_evolution.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+
+namespace treadmark::io {
+namespace {
+
+const WearTheoryRow& theory_named(const std::string& word) {
+  return *std::ranges::find(kWearTheories, word, &WearTheoryRow::word);
+}
+
+WearLaw read_law(const TableReader& body) {
+  const CaseValue& value = body.need("law", "a law of wear has no numbers of its own: see `treadmark list laws`");
+  const TableReader table(*body.table("law"), value.where, body.path_of("law"), wear_law_keys());
+  const WearTheoryRow& row = theory_named(table.text("theory"));
+  WearLaw law;
+  law.theory = row.theory;
+  law.source = table.text("source");
+  if (law.source.empty())
+    table.fail(fmt::format("{} is empty", table.path_of("source")), "say where the numbers come from");
+  std::istringstream needed{std::string(row.keys)};
+  for (std::string key; needed >> key;) table.need(key, fmt::format("the law {} needs {}", row.word, row.keys));
+  law.hardness = table.number_or("hardness_GPa", 0.0);
+  law.k = table.numbers("k");
+  law.slip_limits = table.numbers("slip_m_s");
+  law.k_seizure = table.number_or("k_seizure", 0.0);
+  law.seizure_ratio = table.number_or("seizure_pressure_over_hardness", law.seizure_ratio);
+  law.t_gamma_area = table.numbers("t_gamma_area_MPa");
+  law.wear_rate = table.numbers("wear_rate_ug_m_mm2");
+  law.density = table.number_or("density_kg_m3", 0.0);
+  law.volume_per_work = table.numbers("volume_per_work_mm3_J");
+  law.power_limits = table.numbers("power_density_W_mm2");
+  try {
+    check(law);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", table.path(), e.message()), table.where(), e.advice());
+  }
+  return law;
+}
+
+EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, const char* amount) {
+  const TableReader table(*evolve.table(key), evolve.need(key).where, evolve.path_of(key), evolving_body_keys());
+  EvolvingBody out;
+  out.body = body;
+  out.where = table.where();
+  evolve.need(amount, fmt::format("{} evolves over it", body == Body::wheel ? "a wheel" : "a rail"));
+  out.amount = evolve.number(amount);
+  out.local = table.text_or("along", "uniform") == "local";
+  out.du = table.number_or("du_mm", 1e-3);
+  out.dy = table.number_or("dy_mm", 0.5e-3);
+  out.smoothing = table.number_or("smoothing_mm", 1e-3);
+  out.law = read_law(table);
+  return out;
+}
+
+std::vector<double> read_weights(const TableReader& evolve, std::size_t runs) {
+  std::vector<double> weights = evolve.numbers("weights");
+  if (weights.empty()) weights.assign(runs, 1.0);
+  if (weights.size() != runs)
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} has {} values for {} positions", evolve.path_of("weights"), weights.size(), runs),
+                evolve.need("weights").where, "one for each position, in the order of the product of evolve.vary");
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (!(sum > 0.0))
+    throw Error(ErrorKind::configuration, fmt::format("{} are all zero", evolve.path_of("weights")),
+                evolve.need("weights").where);
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+}  // namespace
+
+EvolutionFile read_evolution_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  StudyTables tables(file, "evolve", overrides);
+  const TableReader evolve(tables.table->value.table(), tables.table->value.where, "evolve", evolve_keys());
+  EvolutionFile out;
+  if (evolve.find("wheel") != nullptr) out.bodies.push_back(read_body(evolve, "wheel", Body::wheel, "distance_km"));
+  if (evolve.find("rail") != nullptr) out.bodies.push_back(read_body(evolve, "rail", Body::rail, "passages"));
+  if (out.bodies.empty())
+    evolve.fail("nothing evolves: neither [evolve.wheel] nor [evolve.rail] is there", "give one of them, with its law");
+  for (const auto& [body, amount] : {std::pair{"wheel", "distance_km"}, std::pair{"rail", "passages"}})
+    if (evolve.find(body) == nullptr && evolve.find(amount) != nullptr)
+      throw Error(ErrorKind::configuration, fmt::format("{} needs {}", evolve.path_of(amount), evolve.path_of(body)),
+                  evolve.need(amount).where, "it says how far that body evolves");
+  out.max_depth = evolve.number_or("max_depth_mm", 0.05e-3);
+  out.max_pressure_change = evolve.number_or("max_pressure_change", 0.1);
+  out.smallest_step = evolve.number_or("smallest_step", 1e-3);
+  if (evolve.find("updates") != nullptr) {
+    out.updates = evolve.integer("updates");
+    for (const char* limit : {"max_depth_mm", "max_pressure_change", "smallest_step"}) evolve.exclude("updates", limit);
+  }
+  if (evolve.find("fields_every") != nullptr) out.fields_every = evolve.integer("fields_every");
+  tables.read_runs(evolve);
+  if (tables.study.base_is_simulation)
+    evolve.fail("an evolution is of a case file, not of a simulation",
+                "name a case file with the positions of the wheel");
+  out.weights = read_weights(evolve, tables.study.runs.size());
+  out.positions = std::move(tables.study);
+  return out;
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "treadmark/model/profile.hpp"
+
+namespace treadmark {
+
+/// Cells on the own surface of a wheel or rail: columns along u (x of a rail [m], theta of a wheel [rad]), rows along
+/// the profile coordinate y [m]. Cell (i, j) lies round (u0 + i du, y0 + j dy). Of a wheel that is the same all round
+/// there is one column of a whole turn, of a rail that is the same everywhere one column of one metre.
+struct SurfaceCells {
+  Body body = Body::rail;
+  double u0 = 0.0, du = 1.0;  ///< [m] or [rad]
+  int nu = 1;
+  double y0 = 0.0, dy = 1e-3;  ///< [m]
+  int ny = 0;
+  /// Of every row: radius of the wheel, 1 of a rail; NaN where there is no surface.
+  std::vector<double> radius;
+
+  /// One column that stands for all.
+  bool uniform() const { return nu == 1; }
+  /// Whether the last column joins the first.
+  bool closed() const { return body == Body::wheel; }
+  double y(int j) const { return y0 + j * dy; }
+  double u(int i) const { return u0 + i * du; }
+  /// Of the projection along which depth is removed [m2].
+  double area(int j) const { return du * dy * radius[static_cast<std::size_t>(j)]; }
+};
+
+/// Values of cells, row by row; rows that nothing has touched take no memory.
+class CellSheet {
+ public:
+  explicit CellSheet(int nu = 1) : nu_(nu) {}
+
+  double at(int i, int j) const {
+    const auto row = rows_.find(j);
+    return row == rows_.end() ? 0.0 : row->second[static_cast<std::size_t>(i)];
+  }
+  /// A value to be changed; makes the row. References to other rows stay.
+  double& ref(int i, int j) {
+    std::vector<double>& row = rows_[j];
+    if (row.empty()) row.resize(static_cast<std::size_t>(nu_), 0.0);
+    return row[static_cast<std::size_t>(i)];
+  }
+  int nu() const { return nu_; }
+  /// By their number, increasing.
+  const std::map<int, std::vector<double>>& rows() const { return rows_; }
+  std::map<int, std::vector<double>>& rows() { return rows_; }
+  std::size_t memory_bytes() const { return rows_.size() * static_cast<std::size_t>(nu_) * sizeof(double); }
+
+ private:
+  int nu_;
+  std::map<int, std::vector<double>> rows_;
+};
+
+/// What contacts have done to the points of a surface.
+struct SurfaceRecord {
+  explicit SurfaceRecord(int nu = 1) : volume(nu), work(nu), sliding(nu), passages(nu), pressure(nu), traction(nu) {}
+
+  CellSheet volume;               ///< removed [m3]
+  CellSheet work;                 ///< of friction [J]
+  CellSheet sliding;              ///< distance [m]
+  CellSheet passages;             ///< of contacts over the cell
+  CellSheet pressure;             ///< largest [Pa]
+  CellSheet traction;             ///< largest [Pa]
+  double volume_by_law = 0.0;     ///< sum of what the law takes from the elements of the contacts [m3]
+  double work_of_contacts = 0.0;  ///< sum over the power that the contacts state [J]
+};
+
+}  // namespace treadmark

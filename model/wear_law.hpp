@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace treadmark {
+
+/// What a depth removed by wear follows from.
+enum class WearTheory {
+  archard,  ///< pressure times sliding distance, over hardness
+  t_gamma,  ///< power of friction over rolling speed, by area
+  energy,   ///< work of friction
+};
+
+/// A law with its numbers, SI. Every theory uses those that its row in kWearTheories names.
+struct WearLaw {
+  WearTheory theory = WearTheory::archard;
+  std::string source;  ///< where the numbers come from
+
+  double hardness = 0.0;            ///< [Pa]
+  std::vector<double> k;            ///< Archard's coefficient in each regime of slip speed [-]
+  std::vector<double> slip_limits;  ///< speeds between the regimes, increasing [m/s]
+  double k_seizure = 0.0;           ///< at pressures above seizure_ratio times the hardness; 0: no such regime
+  double seizure_ratio = 0.8;       ///< [-]
+
+  std::vector<double> t_gamma_area;  ///< points of a broken line, increasing [N/m2]; goes on straight behind the last
+  std::vector<double> wear_rate;     ///< at these points: mass by distance rolled and area of contact [kg/m3]
+  double density = 0.0;              ///< [kg/m3]
+
+  std::vector<double> volume_per_work;  ///< in each regime of power by area [m3/J]
+  std::vector<double> power_limits;     ///< of a whole patch between the regimes, increasing [W/m2]
+};
+
+/// One row a theory: its word in study files, what it is, where it holds, and the keys that it needs.
+struct WearTheoryRow {
+  WearTheory theory;
+  std::string_view word, name, source, validity;
+  std::string_view keys;  ///< needed ones, with blanks between them
+};
+
+/// Rows lie in the order of the enumerators.
+inline constexpr WearTheoryRow kWearTheories[] = {
+    {WearTheory::archard, "archard", "depth = k pressure sliding / hardness, k by regimes of slip speed and pressure",
+     "Archard 1953; regimes as Jendel 2002", "dry sliding of metals; k scatters by a factor of two and more",
+     "hardness_GPa k"},
+    {WearTheory::t_gamma, "t_gamma", "mass by distance and area from T gamma over the area of contact, a broken line",
+     "Lewis and Dwyer-Joyce 2004, Braghin et al. 2006", "twin-disc tests of the pair of steels that the line is from",
+     "t_gamma_area_MPa wear_rate_ug_m_mm2 density_kg_m3"},
+    {WearTheory::energy, "energy", "volume = coefficient times work of friction, by regimes of its power by area",
+     "Krause and Poll 1986", "mild and severe wear of dry wheels and rails; the power is that of the whole patch",
+     "volume_per_work_mm3_J"}};
+
+/// Errors: Error(configuration) that names the key for numbers that are missing, negative or out of order.
+void check(const WearLaw& law);
+
+}  // namespace treadmark

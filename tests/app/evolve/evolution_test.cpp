@@ -1,0 +1,344 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <thread>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/evolve/passed_patches.hpp"
+#include "treadmark/app/evolve/run_evolution.hpp"
+#include "treadmark/core/parts.hpp"
+#include "treadmark/damage/record.hpp"
+#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/io/simulations/read_evolution.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/tests/app/running_program.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
+#include "treadmark/tests/support/error_text.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string kLaw = R"(
+[evolve.wheel.law]
+theory = "archard"
+source = "assumed"
+hardness_GPa = 3.0
+k = [1e-4]
+)";
+
+/// A cylinder of 460 mm on a crown of 300 mm that spins too slowly by a tenth: one ellipse that slips everywhere.
+const std::string kHertz = R"([wheel]
+shape.start_y_mm = -60
+shape.arcs = [{ length_mm = 120, curvature_per_m = 0 }]
+[rail]
+shape.standard = "60E1"
+[track]
+cant_rad = 0.0
+[wheelset]
+y_mm = 0
+vertical_force_N = 60e3
+velocity_m_s = 2
+vpitch_rad_s = -3.9130434782608696
+[material]
+shear_modulus_GPa = 82.0
+poisson_ratio = 0.28
+[friction]
+coefficient = 0.05
+[discretisation]
+dx_mm = 0.4
+ds_mm = 0.4
+)";
+
+class Evolution : public ::testing::Test {
+ protected:
+  io::EvolutionFile file(const std::string& base, const std::string& evolve, const std::string& more = {}) {
+    folder_.write("base.toml", base);
+    return io::read_evolution_file(folder_.write("study.toml", "[evolve]\nbase = \"base.toml\"\n" + evolve + more));
+  }
+  std::string error(const std::string& base, const std::string& evolve, const std::string& more = {}) {
+    std::string message;
+    const std::string thrown = error_of([&] {
+      const io::EvolutionFile read = file(base, evolve, more);
+      message = run(read).message;
+    });
+    return thrown + message;
+  }
+  io::EvolutionResult run(const io::EvolutionFile& file, const std::string& out = "out") {
+    fs::remove_all(folder_.path() / out);
+    return app::run_evolution(file, {folder_.path() / out, false, {}});
+  }
+
+  TemporaryFolder folder_;
+};
+
+/// Depth of the rows of a body.
+std::vector<double> depths(const io::EvolvedBody& body) {
+  std::vector<double> out;
+  for (int j = 0; j < body.cells.ny; ++j) out.push_back(damage::depth_of(body.cells, body.record.volume.at(0, j), j));
+  return out;
+}
+
+/// Archard's depth in full slip below Hertz's pressure: k / H times slip speed and time, times the integral of the
+/// pressure along the row, over the circumference.
+TEST_F(Evolution, FullSlipBelowAnEllipseWearsByTheClosedForm) {
+  const double seconds = 1e3 / 2.0, slip_speed = 0.2;
+  const auto result =
+      run(file(kHertz, "distance_km = 1\nupdates = 1\n[evolve.wheel]\nsmoothing_mm = 0\ndy_mm = 0.4\n", kLaw));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  ASSERT_EQ(result.generations.size(), 2u);
+  const io::EvolvedBody& wheel = result.generations.back().bodies.front();
+  const double radius = 0.46;
+  const HertzEllipse ellipse =
+      hertz_by_force(0.5 / radius, 0.5 / 0.3, result.generations.front().cases.front().fn, 82e9 / 0.72);
+  EXPECT_NEAR(result.generations.front().cases.front().pmax, ellipse.largest_pressure(),
+              0.01 * ellipse.largest_pressure());
+  const double along = 0.5 * std::numbers::pi * ellipse.largest_pressure() * ellipse.semi_axis_x;
+  const double expected = 1e-4 / 3e9 * slip_speed * along * seconds / (2.0 * std::numbers::pi * radius);
+  const std::vector<double> found = depths(wheel);
+  const auto deepest = std::ranges::max_element(found) - found.begin();
+  EXPECT_NEAR(found[static_cast<std::size_t>(deepest)], expected, 0.01 * expected);
+  double middle = 0.0, all = 0.0;  // of the contact: the centre of what is removed
+  for (int j = 0; j < wheel.cells.ny; ++j) {
+    middle += found[static_cast<std::size_t>(j)] * wheel.cells.y(j);
+    all += found[static_cast<std::size_t>(j)];
+  }
+  middle /= all;
+  for (int j = 0; j < wheel.cells.ny; ++j) {
+    const double y = (wheel.cells.y(j) - middle) / ellipse.semi_axis_y;
+    if (std::fabs(y) > 0.8) continue;
+    EXPECT_NEAR(found[static_cast<std::size_t>(j)], expected * (1.0 - y * y), 0.02 * expected) << y;
+  }
+  EXPECT_LT(std::fabs(io::volume_balance(wheel)), 1e-9);
+  EXPECT_LT(std::fabs(io::work_balance(wheel)), 1e-6);
+  // Archard's volume is k / H times the work over the coefficient of friction, where everything slips
+  EXPECT_NEAR(damage::total(wheel.record.volume), 1e-4 / 3e9 / 0.05 * damage::total(wheel.record.work),
+              1e-6 * damage::total(wheel.record.volume));
+}
+
+TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
+  const auto result =
+      run(file(standard_case("1.0"), "distance_km = 2000\nupdates = 2\nfields_every = 2\n[evolve.wheel]\n", kLaw));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const io::EvolvedBody& wheel = result.generations.back().bodies.front();
+  EXPECT_EQ(wheel.surface_file, "wheel_0002.vdb");
+  EXPECT_GT(wheel.max_depth, 5e-6);
+  const std::string file = "shape.file = \"" + (folder_.path() / "out" / wheel.surface_file).string() + "\"\n";
+  const auto again = app::run_cases(io::parse_case_text(standard_case("1.0", file), folder_.path() / "again.toml"));
+  double pmax = 0.0;
+  for (const io::PatchResult& patch : again.cases.front().patches) pmax = std::max(pmax, patch.pmax);
+  EXPECT_NEAR(pmax, result.generations.back().cases.front().pmax, 1e-6 * pmax);
+  EXPECT_TRUE(fs::exists(folder_.path() / "out" / "contacts_0002.h5"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "out" / "contacts_0001.h5"));
+  for (const io::Generation& g : result.generations)
+    for (const io::EvolvedBody& b : g.bodies) EXPECT_LT(std::fabs(io::volume_balance(b)), 1e-9);
+}
+
+TEST_F(Evolution, LeftAndRightEvolveAlike) {
+  const std::string evolve = "distance_km = 100\nupdates = 1\n[evolve.wheel]\n";
+  const std::string right = standard_case("1.0") + "[[cases]]\nwheelset.y_mm = 2\nwheelset.yaw_deg = 0.2\n";
+  const std::string left =
+      standard_case("1.0") + "[case]\nside = \"left\"\n[[cases]]\nwheelset.y_mm = -2\nwheelset.yaw_deg = -0.2\n";
+  const auto one = run(file(right, evolve, kLaw)), other = run(file(left, evolve, kLaw));
+  ASSERT_EQ(one.status + other.status, "completecomplete");
+  const auto a = depths(one.generations.back().bodies.front()), b = depths(other.generations.back().bodies.front());
+  ASSERT_GT(*std::ranges::max_element(a), 0.0);
+  for (std::size_t j = 0; j < a.size(); ++j) EXPECT_NEAR(a[j], b[j], 1e-9 * *std::ranges::max_element(a));
+}
+
+/// The rail's own cells: volume and work of both bodies follow from the same contacts.
+TEST_F(Evolution, BothBodiesWearByTheSameWork) {
+  std::string rail_law = kLaw;
+  rail_law.replace(rail_law.find("wheel"), 5, "rail");
+  const auto result =
+      run(file(standard_case("1.0"), "distance_km = 1\npassages = 1000\nupdates = 1\n[evolve.wheel]\n[evolve.rail]\n",
+               kLaw + rail_law));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const auto& bodies = result.generations.back().bodies;
+  ASSERT_EQ(bodies.size(), 2u);
+  // 1000 m of rolling, and 1000 passages over a metre of rail
+  const double wheel = damage::total(bodies[0].record.work), rail = damage::total(bodies[1].record.work);
+  EXPECT_NEAR(wheel, rail, 1e-9 * rail);
+  EXPECT_NEAR(damage::total(bodies[0].record.volume), damage::total(bodies[1].record.volume), 1e-9 * rail);
+  EXPECT_EQ(bodies[1].surface_file, "rail_0001.vdb");
+}
+
+/// Explicit updates: halving them halves the error.
+TEST_F(Evolution, UpdatesConvergeWithOrderOne) {
+  std::vector<std::vector<double>> found;
+  for (const int updates : {2, 4, 8, 16}) {
+    const auto result = run(
+        file(kHertz, "distance_km = 2\nupdates = " + std::to_string(updates) + "\nfields_every = 0\n[evolve.wheel]\n",
+             kLaw));
+    ASSERT_EQ(result.status, "complete") << result.message;
+    found.push_back(depths(result.generations.back().bodies.front()));
+  }
+  std::vector<double> steps;
+  for (std::size_t k = 0; k + 1 < found.size(); ++k) {
+    double difference = 0.0;
+    for (std::size_t j = 0; j < found[k].size(); ++j)
+      difference = std::max(difference, std::fabs(found[k][j] - found[k + 1][j]));
+    steps.push_back(difference);
+  }
+  std::cout << "differences of depth [um]: " << 1e6 * steps[0] << ' ' << 1e6 * steps[1] << ' ' << 1e6 * steps[2]
+            << '\n';
+  EXPECT_NEAR(std::log2(steps[0] / steps[1]), 1.0, 0.4);
+  EXPECT_NEAR(std::log2(steps[1] / steps[2]), 1.0, 0.4);
+}
+
+/// Every generation sampled anew as a spline: the same evolution but for the error of the fit.
+TEST_F(Evolution, SplinesOfEveryGenerationEvolveAlike) {
+  const std::string evolve = "distance_km = 2000\nupdates = 3\nfields_every = 0\n[evolve.wheel]\n";
+  const auto offsets = run(file(standard_case("1.0"), evolve, kLaw));
+  const auto splines = run(file(
+      standard_case("1.0", "shape.standard = \"S1002\"\nbackend = \"spline\"\nresolution_mm = 0.5\n"), evolve, kLaw));
+  ASSERT_EQ(offsets.status + splines.status, "completecomplete");
+  const auto a = depths(offsets.generations.back().bodies.front()),
+             b = depths(splines.generations.back().bodies.front());
+  const double deepest = *std::ranges::max_element(a);
+  for (std::size_t j = 0; j < a.size(); ++j) EXPECT_NEAR(a[j], b[j], 0.01 * deepest);
+  const double p = offsets.generations.back().cases.front().pmax, q = splines.generations.back().cases.front().pmax;
+  EXPECT_NE(p, q);
+  EXPECT_NEAR(p, q, 1e-3 * p);
+}
+
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    std::ostringstream text;
+    text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+    if (entry.path().filename() != "lock") out[entry.path().filename().string()] = text.str();
+  }
+  return out;
+}
+
+TEST_F(Evolution, GoesOnAfterAKillToTheSameBytes) {
+  folder_.write("base.toml", standard_case("1.0"));
+  const std::string study = folder_.write(
+      "study.toml", "[evolve]\nbase = \"base.toml\"\ndistance_km = 2000\nupdates = 5\n[evolve.wheel]\n" + kLaw);
+  const std::string one = folder_.path() / "one", two = folder_.path() / "two";
+  ASSERT_EQ(run_program({"evolve", study, "-o", one, "--quiet"}).status, 0);
+  RunningProgram killed({"treadmark", "evolve", study, "-o", two});
+  while (killed.running() && !fs::exists(fs::path(two) / "generation_0002.h5"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  killed.send(SIGKILL);
+  killed.wait();
+  const ProgramResult rest = run_program({"evolve", study, "-o", two, "--resume", "--threads", "1"});
+  ASSERT_EQ(rest.status, 0) << rest.err;
+  EXPECT_THAT(rest.out, HasSubstr("distance_km"));
+  const auto a = contents(one), b = contents(two);
+  ASSERT_EQ(a.size(), b.size());
+  for (const auto& [name, bytes] : a) EXPECT_TRUE(b.contains(name) && b.at(name) == bytes) << name;
+  EXPECT_THAT(run_program({"evolve", study, "-o", two, "--set", "evolve.distance_km=3"}).err,
+              HasSubstr("another evolution"));
+  const ProgramResult full =
+      RunningProgram({"sh", "-c", "\"$0\" --quiet evolve \"$1\" -o \"$2\" > /dev/full", "treadmark", study, two})
+          .wait();
+  EXPECT_EQ(full.status, 1);
+  EXPECT_THAT(full.err, HasSubstr("could not be written to standard output"));
+  if (has_part("report")) {
+    const std::string page = folder_.path() / "page.html";
+    ASSERT_EQ(run_program({"report", two, "-o", page}).status, 0);
+    std::ostringstream text;
+    text << std::ifstream(page).rdbuf();
+    for (const char* part : {"Over the generations", "Section at the chosen generation", "assumed", "generation 5"})
+      EXPECT_THAT(text.str(), HasSubstr(part));
+  }
+  const auto json = nlohmann::json::parse(a.at("evolution.json"));
+  EXPECT_EQ(json["generations"].size(), 6u);
+  EXPECT_EQ(json["laws"][0]["source"], "assumed");
+}
+
+/// Limits of an update: none of them is exceeded, and everything is reached.
+TEST_F(Evolution, StepsKeepTheLimits) {
+  const auto result = run(file(
+      kHertz, "distance_km = 100\nmax_depth_mm = 0.02\nmax_pressure_change = 0.05\nfields_every = 0\n[evolve.wheel]\n",
+      kLaw));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  ASSERT_GT(result.generations.size(), 3u);
+  for (std::size_t k = 1; k < result.generations.size(); ++k) {
+    const io::Generation &before = result.generations[k - 1], &after = result.generations[k];
+    EXPECT_LE(after.bodies[0].max_depth - before.bodies[0].max_depth, 0.0201e-3);
+    EXPECT_TRUE(!after.limits_kept || after.pressure_change <= 0.05);
+  }
+  EXPECT_DOUBLE_EQ(result.generations.back().distance, 100e3);
+  EXPECT_LT(result.generations.back().cases.front().pmax, result.generations.front().cases.front().pmax);
+}
+
+TEST(EvolveDocs, TableOfKeysIsUpToDate) {
+  std::ostringstream text;
+  text << std::ifstream(TREADMARK_SOURCE_DIR "/docs/evolve.md").rdbuf();
+  EXPECT_NE(text.str().find(io::evolve_key_table()), std::string::npos) << "docs/evolve.md must contain:\n"
+                                                                        << io::evolve_key_table();
+}
+
+TEST(EvolveExamples, AreReadAndBuilt) {
+  for (const char* name : {"hollow-wheel.toml", "rounding-flat.toml"})
+    EXPECT_EQ(error_of([&] {
+                app::check_evolution(io::read_evolution_file(fs::path(TREADMARK_SOURCE_DIR) / "examples" / name));
+              }),
+              "")
+        << name;
+}
+
+TEST(Stretches, MakeUpTheTurn) {
+  const auto turn = 2.0 * std::numbers::pi;
+  const auto all = app::stretches({0.1, 6.2, 0.0}, Body::wheel, 0.0);
+  double sum = 0.0;
+  for (const auto& s : all) sum += s.end - s.begin;
+  EXPECT_NEAR(sum, turn, 1e-12);
+  EXPECT_NEAR(all[2].begin, 0.5 * (6.2 - turn), 1e-12);
+  EXPECT_NEAR(all[2].end, 0.05, 1e-12);
+  const auto rail = app::stretches({1.0, 1.2}, Body::rail, 0.5);
+  EXPECT_NEAR(rail[0].begin, 0.9, 1e-12);
+  EXPECT_NEAR(rail[1].end, 1.3, 1e-12);
+  EXPECT_THAT(error_of([] { app::stretches({1.0, 1.0}, Body::rail, 0.5); }), HasSubstr("at one place"));
+}
+
+TEST_F(Evolution, SaysWhatIsWrongAndWhere) {
+  const std::string base = standard_case("1.0"), good = "distance_km = 1\n[evolve.wheel]\n";
+  EXPECT_THAT(error(base, "distance_km = 1\n[evolve.wheel]\n"),
+              HasSubstr("study.toml:4:1: evolve.wheel.law is missing"));
+  EXPECT_THAT(error(base, "distance_km = 1\n"), HasSubstr("nothing evolves"));
+  EXPECT_THAT(error(base, "[evolve.wheel]\n", kLaw), HasSubstr("evolve.distance_km is missing"));
+  EXPECT_THAT(error(base, "passages = 3\n" + good, kLaw), HasSubstr("evolve.passages needs evolve.rail"));
+  EXPECT_THAT(error(base, "weights = [1, 2]\n" + good, kLaw), HasSubstr("2 values for 1 positions"));
+  EXPECT_THAT(error(base, "updates = 3\nmax_depth_mm = 0.1\n" + good, kLaw), HasSubstr("max_depth_mm"));
+  const auto law = [&](const std::string& from, const std::string& to) {
+    std::string text = kLaw;
+    text.replace(text.find(from), from.size(), to);
+    return error(base, good, text);
+  };
+  EXPECT_THAT(law("hardness_GPa = 3.0", "hardness_GPa = -3.0"),
+              HasSubstr("study.toml:9:16: evolve.wheel.law.hardness_GPa"));
+  EXPECT_THAT(law("hardness_GPa = 3.0\n", ""), HasSubstr("evolve.wheel.law.hardness_GPa is missing"));
+  EXPECT_THAT(law("archard", "archrd"), HasSubstr("study.toml:7:10"));
+  EXPECT_THAT(law("source = \"assumed\"\n", ""), HasSubstr("evolve.wheel.law.source is missing"));
+  EXPECT_THAT(law("k = [1e-4]", "k = [1e-4, 2e-4]"), HasSubstr("k has 2 values"));
+  EXPECT_THAT(law("k = [1e-4]", "kk = [1e-4]"), HasSubstr("unknown key 'evolve.wheel.law.kk'"));
+  EXPECT_THAT(
+      error(base, "distance_km = 1\n[[evolve.vary]]\nkey = \"wheelset.y_m\"\nvalues = [1]\n[evolve.wheel]\n", kLaw),
+      HasSubstr("study.toml:6:11: run 1 (wheelset.y_m = 1): unknown key 'wheelset.y_m'"));
+  EXPECT_THAT(error(base + "[case]\nregime = \"shift\"\n", good, kLaw), HasSubstr("must roll"));
+  EXPECT_THAT(error(base, "distance_km = 1e6\nupdates = 1\n[evolve.wheel]\nsmoothing_mm = 0\n", kLaw),
+              HasSubstr("would fold"));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
