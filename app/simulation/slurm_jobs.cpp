@@ -73,27 +73,27 @@ std::string index_ranges(const std::vector<std::size_t>& numbers) {
   return text;
 }
 
-/// Gives the jobs to Slurm unless earlier ones of the folder still wait or run. after: what the second one waits for.
-constexpr const char* kSubmit = R"(#!/bin/sh
+/// Gives the jobs to Slurm unless earlier ones of the folder still wait or run.
+constexpr const char* kSubmit = R"sh(#!/bin/sh
 # Submits the jobs beside this file, and writes their numbers into the file jobs.
 set -e
-cd "$(dirname "$0")" if[-f jobs] &&
-                                [-n "$(squeue -h -j " $(paste - sd, jobs) " 2>/dev/null)"]; then
+cd "$(dirname "$0")"
+if [ -f jobs ] && [ -n "$(squeue -h -j "$(paste -sd, jobs)" 2>/dev/null)" ]; then
   echo "jobs $(paste -sd' ' jobs) of this study still wait or run: scancel $(paste -sd' ' jobs) ends them" >&2
   exit 1
 fi
-)";
-constexpr const char* kSubmitBoth = R"(array=$(sbatch --parsable array.sh)
+)sh";
+constexpr const char* kSubmitBoth = R"sh(array=$(sbatch --parsable array.sh)
 array=${array%%;*}
 # Also behind tasks that fail: what they left unsolved is told by the job itself.
 merge=$(sbatch --parsable --dependency=afterany:"$array" merge.sh)
 printf '%s\n' "$array" "${merge%%;*}" >jobs
 echo "job $array: the runs; job ${merge%%;*}: gathers them"
-)";
-constexpr const char* kSubmitMerge = R"(merge=$(sbatch --parsable merge.sh)
+)sh";
+constexpr const char* kSubmitMerge = R"sh(merge=$(sbatch --parsable merge.sh)
 printf '%s\n' "${merge%%;*}" >jobs
 echo "job ${merge%%;*}: gathers the runs, all of which are finished"
-)";
+)sh";
 
 }  // namespace
 
