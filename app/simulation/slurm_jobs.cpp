@@ -108,7 +108,7 @@ SlurmScripts write_slurm_scripts(const io::StudyFile& study, const SlurmRequest&
 
   const fs::path folder = request.folder / "slurm";
   make_folder(folder);
-  const SlurmScripts scripts{folder / "submit.sh", open.size()};
+  SlurmScripts scripts{folder / "submit.sh", open.size()};
   if (!open.empty())
     write_file(folder / "array.sh",
                script_head(request, "treadmark", "task_%a.log") +
