@@ -19,7 +19,7 @@ struct LinkedLibrary {
   std::string licence;        ///< SPDX expression
   std::string shared;         ///< beginning of the name of the shared library that is loaded; empty: headers alone
 };
-std::vector<LinkedLibrary> linked_libraries();
+std::vector<LinkedLibrary> linked_libraries();  ///< in the order of cmake/TreadmarkDependencies.cmake
 
 /// All of this as JSON, for programs.
 std::string version_json();

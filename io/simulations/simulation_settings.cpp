@@ -31,7 +31,7 @@ double read_speed(const TableReader& simulation) {
 }
 
 std::vector<double> increasing(const TableReader& fields, std::string_view key) {
-  const std::vector<double> values = fields.numbers(key);
+  std::vector<double> values = fields.numbers(key);
   if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end())
     throw Error(ErrorKind::configuration, fmt::format("{} must increase", fields.path_of(key)), fields.need(key).where);
   return values;
