@@ -66,6 +66,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
       {"fmu", {{toml, "-o", path("wheel.fmu")}, "fmu"}},
       {"report", {{out}, "report"}},
       {"plot", {{out, "--what", "pressure", "-o", "-"}, "report"}},
+      {"new", {{"case", path("new.toml")}}},
       {"check", {{inp}}},
       {"list", {{"verbs"}}},
       {"schema", {{}}},
@@ -84,6 +85,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
     std::vector<std::string> arguments{"--quiet", name};
     arguments.insert(arguments.end(), use.arguments.begin(), use.arguments.end());
     for (const char* redirection : {"> /dev/full", ">&-"}) {
+      fs::remove(path("new.toml"));  // "new" overwrites nothing
       const ProgramResult r = run_to(redirection, arguments);
       EXPECT_GT(r.status, 0) << name << redirection;
       if (use.part == nullptr || has_part(use.part)) {
