@@ -15,8 +15,8 @@
 namespace treadmark::analytic {
 namespace {
 
-typedef double Lanes __attribute__((vector_size(32)));
-typedef long long Mask __attribute__((vector_size(32)));
+using Lanes = double __attribute__((vector_size(32)));
+using Mask = long long __attribute__((vector_size(32)));
 #define TREADMARK_LANES __attribute__((always_inline)) inline
 
 TREADMARK_LANES Lanes load(const double* p) { return Lanes{p[0], p[1], p[2], p[3]}; }

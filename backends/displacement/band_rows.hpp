@@ -142,9 +142,9 @@ void missing_terms(std::size_t n, const double* const along[5], const double* co
   }
 }
 
-typedef double FourHeights __attribute__((vector_size(32)));
-typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
-typedef long long FourBits __attribute__((vector_size(32)));
+using FourHeights = double __attribute__((vector_size(32)));
+using FourAnywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+using FourBits = long long __attribute__((vector_size(32)));
 
 inline std::uint8_t bend_of(const double* z, double before, double behind, const BendLimits& limits) {
   constexpr double kRounding = 1e-8;  // [m]

@@ -12,8 +12,8 @@ namespace treadmark::offset {
 
 namespace {
 
-typedef double Four __attribute__((vector_size(32)));
-typedef float FourSingle __attribute__((vector_size(16), aligned(4), may_alias));
+using Four = double __attribute__((vector_size(32)));
+using FourSingle = float __attribute__((vector_size(16), aligned(4), may_alias));
 
 /// Integers up to 2^30, rounded down, without a call.
 inline int down(double x) {
@@ -102,10 +102,10 @@ struct Smooth {
   }
 };
 
-typedef int FourIntegers __attribute__((vector_size(16)));
-typedef long long FourMasks __attribute__((vector_size(32)));
-typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
-typedef float TwoSingle __attribute__((vector_size(8), aligned(4), may_alias));
+using FourIntegers = int __attribute__((vector_size(16)));
+using FourMasks = long long __attribute__((vector_size(32)));
+using FourAnywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
+using TwoSingle = float __attribute__((vector_size(8), aligned(4), may_alias));
 
 [[gnu::always_inline]] inline Four four(const double* p) { return *reinterpret_cast<const FourAnywhere*>(p); }
 [[gnu::always_inline]] inline bool every(const FourMasks& m) { return (m[0] & m[1] & m[2] & m[3]) != 0; }

@@ -111,7 +111,7 @@ Section overview(const io::RunResult& run) {
 
 }  // namespace
 
-Page run_page(std::shared_ptr<const io::RunResult> run, std::string document) {
+Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string document) {
   Page page{"run", title_of(run->input_file), ""};
   page.lead = fmt::format(
       "{} {}", counted(run->cases.size(), "case"),

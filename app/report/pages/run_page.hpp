@@ -10,6 +10,6 @@
 namespace treadmark::app::report {
 
 /// Report of a run: cases of a wheel on a rail, or of one patch. document: JSON text of the result, may be empty.
-Page run_page(std::shared_ptr<const io::RunResult> run, std::string document);
+Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string document);
 
 }  // namespace treadmark::app::report

@@ -10,7 +10,7 @@
 namespace treadmark::spline {
 
 // Two numbers in one register (GCC and clang).
-typedef double NumberPair __attribute__((vector_size(16)));
+using NumberPair = double __attribute__((vector_size(16)));
 
 /// A homogeneous point (x w, y w, z w, w).
 struct Quad {

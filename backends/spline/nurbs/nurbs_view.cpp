@@ -36,6 +36,11 @@ double greatest_facing(const BezierPatch& bezier) {
 // Of a point, also one that is not over the view.
 int bin_of(double at, int bins) { return std::clamp(static_cast<int>(std::clamp(at, -1.0, 2000.0)), 0, bins - 1); }
 
+// In rows of so many.
+std::size_t index_of(int i, int j, int columns) {
+  return static_cast<std::size_t>(columns) * static_cast<std::size_t>(j) + static_cast<std::size_t>(i);
+}
+
 }  // namespace
 
 FacingHalf::FacingHalf(const Pose& X, Facing facing) : all(facing == Facing::up) {
@@ -128,7 +133,7 @@ void NurbsView::sort_into_bins() {
     const int y0 = bin_of((c.y.low - rectangle_.y_min) * per_y_, bins_y_),
               y1 = bin_of((c.y.high - rectangle_.y_min) * per_y_, bins_y_);
     for (int j = y0; j <= y1; ++j)
-      for (int i = x0; i <= x1; ++i) use(static_cast<std::size_t>(i + bins_x_ * j));
+      for (int i = x0; i <= x1; ++i) use(index_of(i, j, bins_x_));
   };
   for (const Candidate& c : candidates_) each_bin(c, [&](std::size_t bin) { ++bin_begin_[bin + 1]; });
   for (std::size_t i = 0; i + 1 < bin_begin_.size(); ++i) bin_begin_[i + 1] += bin_begin_[i];
@@ -193,7 +198,7 @@ bool NurbsView::hit(double x, double y, bool exact, bool all, NurbsHit& out) {
   if (!std::isfinite(x) || !std::isfinite(y)) return false;
   const int bin_x = bin_of((x - rectangle_.x_min) * per_x_, bins_x_),
             bin_y = bin_of((y - rectangle_.y_min) * per_y_, bins_y_);
-  const auto k = static_cast<std::size_t>(bin_x + bins_x_ * bin_y);
+  const std::size_t k = index_of(bin_x, bin_y, bins_x_);
   Search search{x, y, exact, all, out};
   out.hides_others = false;
   for (int i = bin_begin_[k]; i < bin_begin_[k + 1]; ++i) {
@@ -223,14 +228,14 @@ void NurbsView::hit_tile(const ViewArrays& view, const TileArrays& tile) {
       const ControlBox& box = l.leaf.box();
       for (int j = 0; j < tile.ny; ++j)
         for (int i = 0; over(box.y, y(j)) && i < tile.nx; ++i)
-          if (over(box.x, x(i))) open[static_cast<std::size_t>(i + tile.nx * j)] = 1;
+          if (over(box.x, x(i))) open[index_of(i, j, tile.nx)] = 1;
     }
   }
   NurbsHit found;
   for (int j = 0; j < tile.ny; ++j)
     for (int i = 0; i < tile.nx; ++i) {
       const long at = i + tile.stride * j;
-      if (open[static_cast<std::size_t>(i + tile.nx * j)] == 0) continue;
+      if (open[index_of(i, j, tile.nx)] == 0) continue;
       if (!hit(x(i), y(j), tile.dzdx != nullptr, false, found) || side_ * found.z <= side_ * tile.z[at]) continue;
       tile.z[at] = found.z;
       if (tile.dzdx != nullptr) tile.dzdx[at] = found.dzdx, tile.dzdy[at] = found.dzdy;
