@@ -7,8 +7,10 @@ import csv
 import dataclasses
 import difflib
 import html
+import importlib
 import json
 import math
+import os
 import pathlib
 from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence
 
@@ -578,9 +580,45 @@ def _sweep_of(raw: dict[str, Any]) -> Sweep:
     return Sweep(**raw)
 
 
-def sweep(source: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0) -> Sweep:
-    """Solves the runs of a study file that are not finished yet, into a folder, as ``treadmark sweep -o`` does."""
-    return _sweep_of(_treadmark.sweep(_source(source, set), pathlib.Path(output), resume, progress, threads))
+def sweep(source: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0,
+          client: Any = None, runs_per_task: int = 1) -> Sweep:
+    """Solves the runs of a study file that are not finished yet, into a folder, as ``treadmark sweep -o`` does.
+
+    client: a dask.distributed.Client, whose workers solve the runs, runs_per_task in one task, each on threads; they see study and folder under
+    the same names, and import this package in this version. What a worker that died has left, another one takes over from its last
+    checkpoint. The files in the folder are the same bytes however the runs were solved.
+    """
+    if client is not None:
+        _sweep_by(client, source, output, assignments(set), resume, progress, threads or 1, runs_per_task)
+        return _sweep_of(_treadmark.sweep(_source(source, set), pathlib.Path(output), True, None, threads, (0, 0)))
+    return _sweep_of(_treadmark.sweep(_source(source, set), pathlib.Path(output), resume, progress, threads, None))
+
+
+def _sweep_share(source: str, output: str, changes: list[str], threads: int, first: int, last: int) -> int:
+    """What a worker does: solves some runs. Returns how many of them are finished."""
+    raw = _treadmark.sweep(_source(source, changes), pathlib.Path(output), True, None, threads, (first, last))
+    if not raw["complete"]:
+        raise RuntimeError(f"runs {first} to {last} were interrupted")
+    return len(raw["runs"])
+
+
+def _sweep_by(client: Any, source: Path, output: Path, changes: list[str], resume: bool, progress: Progress, threads: int, size: int) -> None:
+    distributed = importlib.import_module("distributed")
+    source, output = os.path.abspath(source), os.path.abspath(output)
+    # Takes the folder for this study, so that the workers need not look at runs of others.
+    begun = _treadmark.sweep(_source(source, changes), pathlib.Path(output), resume, None, threads, (0, 0))
+    total, finished = begun["runs_total"], {run[0] for run in begun["runs"]}
+    shares = [(first, min(first + size - 1, total)) for first in range(1, total + 1, max(1, size))]
+    shares = [(first, last) for first, last in shares if not finished.issuperset(range(first, last + 1))]
+    tasks = [client.submit(_sweep_share, source, output, changes, threads, first, last, pure=False) for first, last in shares]
+    count = total - sum(last - first + 1 for first, last in shares)
+    try:
+        for task in distributed.as_completed(tasks):
+            count += task.result()
+            if progress is not None and progress(count, total, "") is False:
+                break
+    finally:
+        client.cancel(tasks)
 
 
 def read_result(file: Path) -> Result:
