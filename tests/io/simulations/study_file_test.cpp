@@ -190,7 +190,7 @@ TEST_F(Study, ErrorsOfVariations) {
   EXPECT_THAT(error("from = 0.1\n", ""), HasSubstr("study.vary.to needs study.vary.from"));
   EXPECT_THAT(error("count = 3\n", ""), HasSubstr("study.vary.count is missing"));
   EXPECT_THAT(error("count = 3", "count = 1"), HasSubstr("must be at least 2"));
-  EXPECT_THAT(error("count = 3", "count = 9999"), HasSubstr("a study of 39996 runs is too large"));
+  EXPECT_THAT(error("count = 3", "count = 99999"), HasSubstr("a study of 399996 runs is too large"));
   EXPECT_THAT(error("from = 0.1", "from = 0.1\nvalues = [1]"),
               HasSubstr("study.vary.values and study.vary.from exclude each other"));
   EXPECT_THAT(error("label = \"full\", ", ""), HasSubstr("study.vary.values.label is missing"));
