@@ -13,16 +13,15 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark {
 namespace {
 
-std::string_view word(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
-
 void require_same_body(Body shape, Body wanted, std::string_view what) {
   if (shape != wanted)
     throw Error(ErrorKind::configuration,
-                fmt::format("{} belongs to a {}, not to a {}", what, word(shape), word(wanted)));
+                fmt::format("{} belongs to a {}, not to a {}", what, body_name(shape), body_name(wanted)));
 }
 
 void check(const SurfaceSpec& spec) {

@@ -179,15 +179,16 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
 
 void add_times(SurfaceRecord& record, const SurfaceRecord& other, double times) {
   const auto sum = [times](CellSheet& to, const CellSheet& from) {
-    for (const auto& [j, row] : from.rows())
-      for (std::size_t i = 0; i < row.size(); ++i) to.ref(static_cast<int>(i), j) += times * row[i];
+    for (const auto& [j, row] : from.rows()) {
+      double* values = &to.ref(0, j);
+      for (std::size_t i = 0; i < row.size(); ++i) values[i] += times * row[i];
+    }
   };
   const auto larger = [](CellSheet& to, const CellSheet& from) {
-    for (const auto& [j, row] : from.rows())
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        double& value = to.ref(static_cast<int>(i), j);
-        value = std::max(value, row[i]);
-      }
+    for (const auto& [j, row] : from.rows()) {
+      double* values = &to.ref(0, j);
+      for (std::size_t i = 0; i < row.size(); ++i) values[i] = std::max(values[i], row[i]);
+    }
   };
   sum(record.volume, other.volume);
   sum(record.work, other.work);
@@ -217,14 +218,15 @@ void smooth_across(CellSheet& sheet, const SurfaceCells& cells, double deviation
   const int reach = static_cast<int>(weights.size()) - 1;
   CellSheet out(sheet.nu());
   for (const auto& [j, row] : sheet.rows()) {
+    if (std::ranges::count(row, 0.0) == static_cast<std::ptrdiff_t>(row.size())) continue;
     double sum = 0.0;
     for (int k = -reach; k <= reach; ++k)
       if (exists(cells, j + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];
     for (int k = -reach; k <= reach; ++k) {
       if (!exists(cells, j + k)) continue;
       const double share = weights[static_cast<std::size_t>(std::abs(k))] / sum;
-      for (std::size_t i = 0; i < row.size(); ++i)
-        if (row[i] != 0.0) out.ref(static_cast<int>(i), j + k) += share * row[i];
+      double* values = &out.ref(0, j + k);
+      for (std::size_t i = 0; i < row.size(); ++i) values[i] += share * row[i];
     }
   }
   sheet = std::move(out);

@@ -99,18 +99,18 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
 
 /// Files that are read and built, and no more.
 struct PlainKind {
-  bool (*is)(const std::filesystem::path& file);
+  io::FileKind kind;
   void (*check)(const std::string& name, const std::vector<std::string>& overrides);
 };
 constexpr PlainKind kPlainKinds[] = {
-    {io::is_study_file, check_study_file},           {io::is_evolution_file, check_evolution_file},
-    {io::is_simulation_file, check_simulation_file}, {io::is_vehicle_file, check_vehicle_file},
-    {io::is_track_file, check_track_file},           {io::is_import_file, check_import_file}};
+    {io::FileKind::study, check_study_file},           {io::FileKind::evolution, check_evolution_file},
+    {io::FileKind::simulation, check_simulation_file}, {io::FileKind::vehicle, check_vehicle_file},
+    {io::FileKind::track, check_track_file},           {io::FileKind::import, check_import_file}};
 
 /// Null for profiles and cases.
 const PlainKind* plain_kind_of(const std::string& name) {
   if (app::is_profile_file(name)) return nullptr;
-  const auto found = std::ranges::find_if(kPlainKinds, [&](const PlainKind& kind) { return kind.is(name); });
+  const auto found = std::ranges::find(kPlainKinds, io::file_kind(name), &PlainKind::kind);
   return found == std::end(kPlainKinds) ? nullptr : &*found;
 }
 

@@ -17,6 +17,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/files/replaced.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -325,7 +326,7 @@ std::string explained(const Start& start) {
       out += with_comment(line, meaning_of(schema_at(schema, table)));
       continue;
     }
-    const bool off = line.starts_with('#') && !line.starts_with("# ") && !line.starts_with("#  ");
+    const bool off = line.starts_with('#') && !line.starts_with("# ");
     const std::size_t from = off ? 1 : 0, to = std::min(line.find_first_of(" ="), line.size());
     if (to <= from || !std::ranges::all_of(line.substr(from, to - from), [](unsigned char c) {
           return std::isalnum(c) != 0 || c == '_' || c == '.';
@@ -342,16 +343,9 @@ std::string explained(const Start& start) {
   return out;
 }
 
-void replace_all(std::string& text, std::string_view word, const std::string& by) {
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + by.size()))
-    text.replace(at, word.size(), by);
-}
-
 void write_start(const Start& start, const std::filesystem::path& file) {
-  std::string text = explained(start);
-  replace_all(text, "FILE", file.filename().string());
-  replace_all(text, "STEM", file.stem().string());
-  write_file(file, text);
+  const std::string named = io::replaced(explained(start), "FILE", file.filename().string());
+  write_file(file, io::replaced(named, "STEM", file.stem().string()));
   std::cout << file.string() << '\n';
 }
 

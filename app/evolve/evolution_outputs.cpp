@@ -7,6 +7,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -34,7 +35,7 @@ EvolutionJson json_of(const io::Generation& g) {
   EvolutionJson out = {{"generation", g.number}, {"progress", evolved_number(g.progress)}};
   for (const io::EvolutionQuantity& q : io::quantities_of(g)) out[q.name] = evolved_number(q.value);
   for (const io::EvolvedBody& b : g.bodies)
-    if (!b.surface_file.empty()) out[b.body == Body::wheel ? "wheel_file" : "rail_file"] = b.surface_file;
+    if (!b.surface_file.empty()) out[body_name(b.body) + std::string("_file")] = b.surface_file;
   out["cases"] = EvolutionJson::array();
   for (const io::EvolvedCase& c : g.cases) out["cases"].push_back(json_of(c));
   return out;
@@ -52,8 +53,7 @@ std::string evolution_json(const io::EvolutionResult& result) {
                        {"laws", EvolutionJson::array()}};
   if (!result.generations.empty())
     for (const io::EvolvedBody& b : result.generations.front().bodies)
-      out["laws"].push_back(
-          {{"body", b.body == Body::wheel ? "wheel" : "rail"}, {"theory", b.law}, {"source", b.source}});
+      out["laws"].push_back({{"body", body_name(b.body)}, {"theory", b.law}, {"source", b.source}});
   out["generations"] = EvolutionJson::array();
   for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
   return out.dump(2) + '\n';

@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -94,10 +95,9 @@ std::vector<damage::Stretch> stretches(const std::vector<double>& places, Body b
       if (k + 1 == n && n > 1) after = 2.0 * here - before;
     }
     if (!(after > here))
-      throw Error(
-          ErrorKind::configuration,
-          fmt::format("two cases of a position are at one place of the {}", body == Body::wheel ? "wheel" : "rail"), {},
-          "give every case of the base its own wheelset.pitch_deg (wheel) or wheelset.s_mm (rail)");
+      throw Error(ErrorKind::configuration,
+                  fmt::format("two cases of a position are at one place of the {}", body_name(body)), {},
+                  "give every case of the base its own wheelset.pitch_deg (wheel) or wheelset.s_mm (rail)");
     out[order[k]] = {here, 0.5 * (before + here), 0.5 * (here + after)};
   }
   return out;

@@ -30,6 +30,7 @@
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -62,8 +63,6 @@ const io::WheelRailCase& rolling_case(const io::Case& c) { return std::get<io::W
 const io::SurfaceSource& source_of(const io::WheelRailCase& input, Body body) {
   return body == Body::wheel ? input.wheel : input.rail;
 }
-
-const char* word_of(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
 
 class EvolutionRun {
  public:
@@ -145,9 +144,10 @@ class EvolutionRun {
     for (const io::Case& c : all_.cases) {
       const io::WheelRailCase& one = rolling_case(c);
       if (natural_of(one, input.body) != body.base)
-        throw Error(ErrorKind::configuration,
-                    fmt::format("the positions have different surfaces of the {}, which evolves", word_of(input.body)),
-                    source_of(one, input.body).where, "what evolves is one surface; vary the other body");
+        throw Error(
+            ErrorKind::configuration,
+            fmt::format("the positions have different surfaces of the {}, which evolves", body_name(input.body)),
+            source_of(one, input.body).where, "what evolves is one surface; vary the other body");
       x_min = std::min(x_min, one.state.position.x);
       x_max = std::max(x_max, one.state.position.x);
     }
@@ -190,7 +190,7 @@ class EvolutionRun {
   }
 
   OffsetMap map_of(const Evolving& body, const SurfaceRecord& record) const {
-    return damage::offsets_of(body.cells, record.volume, body.half_length, word_of(body.input.body));
+    return damage::offsets_of(body.cells, record.volume, body.half_length, body_name(body.input.body));
   }
 
   NaturalSurface evolved(const Evolving& body, const SurfaceRecord& record) const {
@@ -214,7 +214,7 @@ class EvolutionRun {
         constant = stored.constant_profile();
       } else {
         const NaturalSurface& natural = evolved_bodies[static_cast<std::size_t>(evolving - bodies_.begin())];
-        const std::string key = fmt::format("{} {} {:.17g}", word_of(body), source.backend, source.resolution);
+        const std::string key = fmt::format("{} {} {:.17g}", body_name(body), source.backend, source.resolution);
         auto known = std::ranges::find(made, key, [](const auto& m) { return m.first; });
         if (known == made.end())
           known = made.insert(made.end(), {key, represent(natural, {source.backend, source.resolution, region})});
@@ -227,8 +227,13 @@ class EvolutionRun {
     return geometry;
   }
 
-  /// Contacts of all cases over the surfaces as these records leave them.
-  io::RunResult solve(const Records& records) {
+  /// Surfaces as records leave them, by body, and the contacts of all cases over them.
+  struct Solved {
+    std::vector<NaturalSurface> surfaces;
+    io::RunResult run;
+  };
+
+  Solved solve(const Records& records) {
     std::vector<NaturalSurface> surfaces;
     surfaces.reserve(bodies_.size());
     for (std::size_t b = 0; b < bodies_.size(); ++b) surfaces.push_back(evolved(bodies_[b], records[b]));
@@ -244,7 +249,7 @@ class EvolutionRun {
       if (const io::CaseResult& c = run.cases[i]; c.status != Status::ok)
         throw Error(ErrorKind::numerical, fmt::format("position {}, case {}: {}{}{}", label(i), places_[i].number,
                                                       to_string(c.status), c.message.empty() ? "" : ": ", c.message));
-    return run;
+    return {std::move(surfaces), std::move(run)};
   }
 
   std::string label(std::size_t i) const {
@@ -284,7 +289,8 @@ class EvolutionRun {
     return rates;
   }
 
-  io::Generation generation_of(const io::RunResult& run, const Records& records) const {
+  io::Generation generation_of(const Solved& solved, const Records& records) const {
+    const io::RunResult& run = solved.run;
     io::Generation g;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
@@ -301,7 +307,7 @@ class EvolutionRun {
       points.reserve(static_cast<std::size_t>(body.cells.ny));
       for (int j = 0; j < body.cells.ny; ++j) points.emplace_back(0.0, body.cells.y(j));
       out.z.resize(points.size());
-      evolved(body, records[b]).surface->heights_at(Pose{}, points, {out.z, {}, {}});
+      solved.surfaces[b].surface->heights_at(Pose{}, points, {out.z, {}, {}});
       for (double& z : out.z) z -= body.input.body == Body::wheel ? body.radius : 0.0;
     }
     for (std::size_t i = 0; i < run.cases.size(); ++i) {
@@ -328,7 +334,7 @@ class EvolutionRun {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
       if (records[b].volume.rows().empty()) continue;
-      g.bodies[b].surface_file = fmt::format("{}_{:04}.vdb", word_of(body.input.body), g.number);
+      g.bodies[b].surface_file = fmt::format("{}_{:04}.vdb", body_name(body.input.body), g.number);
       Representation wanted{"offset", std::min(body.cells.dy, body.input.du), {}};
       if (body.input.body == Body::rail)
         wanted.region.u_min = -body.half_length, wanted.region.u_max = body.half_length;
@@ -363,7 +369,7 @@ class EvolutionRun {
     if (extent.slope > kSteepest)
       throw Error(ErrorKind::numerical,
                   fmt::format("an update of the {} removes {:.3g} mm with slopes of {:.2g}: the surface would fold",
-                              word_of(body.input.body), 1e3 * extent.depth, extent.slope),
+                              body_name(body.input.body), 1e3 * extent.depth, extent.slope),
                   body.input.where, "allow less depth an update (more updates), or smooth more");
   }
 
@@ -389,15 +395,15 @@ class EvolutionRun {
       report(result.generations.back());
       if (result.generations.back().progress >= 1.0) return;
     }
-    io::RunResult run = solve(records);
+    Solved solved = solve(records);
     if (result.generations.empty()) {
-      io::Generation first = generation_of(run, records);
+      io::Generation first = generation_of(solved, records);
       first.next_step = file_.updates > 0 ? 1.0 / file_.updates : 1.0;
-      write(first, records, run);
+      write(first, records, solved.run);
       result.generations.push_back(std::move(first));
     }
     while (result.generations.back().progress < 1.0) {
-      advance(result, records, run);
+      advance(result, records, solved.run);
       report(result.generations.back());
     }
   }
@@ -418,7 +424,7 @@ class EvolutionRun {
         trial.push_back(records[b]);
         damage::add_times(trial.back(), update, 1.0);
       }
-      io::RunResult solved = solve(trial);
+      Solved solved = solve(trial);
       io::Generation next = generation_of(solved, trial);
       next.pressure_change = pressure_change(now, next);
       const bool kept = next.pressure_change <= file_.max_pressure_change;
@@ -437,9 +443,9 @@ class EvolutionRun {
       next.next_step = std::max(next.next_step, file_.smallest_step);
       for (const Evolving& body : bodies_)
         (body.input.body == Body::wheel ? next.distance : next.passages) = next.progress * body.input.amount;
-      write(next, trial, solved);
+      write(next, trial, solved.run);
       records = std::move(trial);
-      run = std::move(solved);
+      run = std::move(solved.run);
       result.generations.push_back(std::move(next));
       return;
     }

@@ -20,13 +20,12 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-const char* body_word(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
 
 /// A number that is all of the text.
 std::optional<double> whole_number(std::string_view text) {
@@ -100,8 +99,8 @@ geometry::Section section_of(const GeometryRequest& request, const std::string& 
       from_back = true;
     }
   if (const std::string why = geometry::wrong_body(section); !why.empty())
-    throw Error(ErrorKind::input_data, fmt::format("this is no {}: {}", body_word(body), why), {name},
-                fmt::format("give the profile of a {} here", body_word(body)));
+    throw Error(ErrorKind::input_data, fmt::format("this is no {}: {}", body_name(body), why), {name},
+                fmt::format("give the profile of a {} here", body_name(body)));
   return section;
 }
 
@@ -206,7 +205,7 @@ std::vector<double> parse_lengths_mm(const std::string& text) {
 std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest& request, const std::string& name,
                                                            Body body, double cant) {
   const std::string key =
-      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", name, body_word(body), body == Body::rail ? cant : 0.0, request.pitch,
+      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", name, body_name(body), body == Body::rail ? cant : 0.0, request.pitch,
                   request.x, request.scale_to_mm, request.backend, request.resolution);
   {
     const std::lock_guard lock(mutex_);

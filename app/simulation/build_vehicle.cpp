@@ -336,11 +336,6 @@ std::shared_ptr<vehicle::ContactElement> beside(const io::CheckRailInput& rail, 
 
 }  // namespace
 
-std::size_t BuiltVehicle::watched_wheel() const {
-  const auto first_full = std::ranges::find_if(full, [](const auto& element) { return element != nullptr; });
-  return first_full != full.end() ? static_cast<std::size_t>(first_full - full.begin()) : 0;
-}
-
 std::string wheel_name(const io::WheelContactInput& wheel) {
   return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == Side::left ? "left" : "right");
 }

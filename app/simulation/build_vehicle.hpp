@@ -26,9 +26,6 @@ struct BuiltVehicle {
   /// Of the wheels with defects; null where there are none.
   std::shared_ptr<const DefectDepth> defect_depth;
   double table_seconds = 0.0;  ///< spent on contact tables
-
-  /// The first wheel with full contact, else the first one: what summaries and pictures are about.
-  std::size_t watched_wheel() const;
 };
 
 /// "ws1_right"

@@ -60,9 +60,14 @@ std::span<const MotionColumn> motion_columns() { return kMotion; }
 
 namespace {
 
+/// The first wheel with full contact, else the first one: what summaries and pictures are about.
 std::size_t watched_wheel(const io::SimulationFile& file) {
   const auto first = std::ranges::find(file.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
   return first == file.wheels.end() ? 0u : static_cast<std::size_t>(first - file.wheels.begin());
+}
+
+bool is_full(const io::SimulationFile& file, std::size_t wheel) {
+  return file.wheels.at(wheel).model == io::ContactModelInput::full;
 }
 
 }  // namespace
@@ -82,10 +87,9 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
 
   add("t_s", "s", "time", [&] { return simulation_->state().time; });
   add("x_m", "m", "distance travelled", [&] { return vehicle_.travel(simulation_->state().time).distance; });
-  const auto is_full = [&](std::size_t i) { return file.wheels.at(i).model == io::ContactModelInput::full; };
-  add_wheel(watched, "", is_full(watched));
+  add_wheel(watched, "", is_full(file, watched));
   for (std::size_t i = 0; i < wheels.size(); ++i)
-    if (i != watched) add_wheel(i, wheels[i].name + '.', is_full(i));
+    if (i != watched) add_wheel(i, wheels[i].name + '.', is_full(file, i));
   for (std::size_t i = 0; !file.check_rails.empty() && i < wheels.size(); ++i)
     add((i == watched ? "" : wheels[i].name + '.') + "check_N", "N",
         "of a check rail on the flange of " + wheels[i].name,
@@ -267,8 +271,8 @@ void HistoryRecord::append(std::vector<double>& values) const {
   for (const Column& column : columns_) values.push_back(column.value());
 }
 
-HistorySummary::HistorySummary(const BuiltVehicle& built, const vehicle::Simulation& simulation)
-    : simulation_(simulation), watched_(built.watched_wheel()), has_pressure_(built.full[watched_] != nullptr) {}
+HistorySummary::HistorySummary(const io::SimulationFile& file, const vehicle::Simulation& simulation)
+    : simulation_(simulation), watched_(watched_wheel(file)), has_pressure_(is_full(file, watched_)) {}
 
 void HistorySummary::note() {
   const vehicle::ContactReaction& r = simulation_.reactions()[watched_];

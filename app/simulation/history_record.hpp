@@ -64,8 +64,8 @@ class HistoryRecord {
 /// counts. Every instant counts that is noted, whether it is written down or not. Not thread-safe.
 class HistorySummary {
  public:
-  /// Both must outlive this.
-  HistorySummary(const BuiltVehicle& built, const vehicle::Simulation& simulation);
+  /// simulation: of the file's vehicle; it must outlive this.
+  HistorySummary(const io::SimulationFile& file, const vehicle::Simulation& simulation);
 
   /// Takes the present instant into account; the first one is the start.
   void note();

@@ -140,7 +140,7 @@ class Run {
   void begin() {
     simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
     record_.emplace(file_, *simulation_);
-    summary_.emplace(built_, *simulation_);
+    summary_.emplace(file_, *simulation_);
     result_.columns = record_->columns();
     if (kept_) return restore();
     record_->append(result_.values);

@@ -10,6 +10,7 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app {
@@ -23,27 +24,21 @@ constexpr const char* kJobsFile = "slurm/jobs";
   throw Error(ErrorKind::configuration, message, {}, advice);
 }
 
-std::string replaced(std::string text, std::string_view what, std::string_view by) {
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-    text.replace(at, what.size(), by);
-  return text;
-}
-
 /// As one word of a shell.
-std::string shell_word(const std::string& text) { return '\'' + replaced(text, "'", "'\\''") + '\''; }
+std::string shell_word(const std::string& text) { return '\'' + io::replaced(text, "'", "'\\''") + '\''; }
 
 /// As the value of an option in a script for sbatch, in which % begins a pattern.
 std::string script_path(const fs::path& path) {
   const std::string text = path.string();
   if (text.find_first_of("\"\\\n") != std::string::npos)
     refuse(path.string() + " cannot stand in a script for sbatch", "choose a folder without quotes and backslashes");
-  return '"' + replaced(text, "%", "%%") + '"';
+  return '"' + io::replaced(text, "%", "%%") + '"';
 }
 
 std::string script_head(const SlurmRequest& request, const std::string& name, const std::string& log) {
   std::string text = fmt::format("#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --output={}\n#SBATCH --open-mode=append\n",
                                  name, script_path(request.folder / "slurm" / "LOG"));
-  text = replaced(text, "LOG\"", log + '"');
+  text = io::replaced(text, "LOG\"", log + '"');
   for (const std::string& option : request.options) {
     if (!option.starts_with('-') || option.find('\n') != std::string::npos)
       refuse(fmt::format("'{}' is no option of sbatch", option), "for example --slurm-option=--partition=short");

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
+#include <map>
 #include <utility>
 
 #include "treadmark/backends/offset/block_directory.hpp"
@@ -119,10 +119,13 @@ class SheetField final : public displacement::OffsetField {
   /// Whether all columns of a whole turn have the same values.
   bool alike_all_round() const {
     if (frame_.turn == 0) return false;
-    std::set<std::int32_t> rows;  // of blocks
-    for (const SheetEntry& entry : offsets_->grid.blocks()) rows.insert(entry.key.bj);
+    std::map<std::int32_t, int> rows;  // of blocks, how many; what is 0 all over a block is not stored
+    for (const SheetEntry& entry : offsets_->grid.blocks()) ++rows[entry.key.bj];
+    const int all_round = (frame_.turn + kBlockI - 1) / kBlockI;
+    for (const auto& [bj, blocks] : rows)
+      if (blocks != all_round) return false;
     for (int i = 1; i < frame_.turn; ++i)
-      for (const std::int32_t bj : rows)
+      for (const auto& [bj, blocks] : rows)
         for (int j = bj * kBlockJ; j < (bj + 1) * kBlockJ; ++j)
           if (offsets_->grid.value(i, j) != offsets_->grid.value(0, j)) return false;
     return true;

@@ -26,28 +26,20 @@ const CaseEntry* entry_of(const CaseTable& table, std::string_view key) {
   return found == table.end() ? nullptr : &*found;
 }
 
-/// Whether there is such a table, and none of a study.
-bool has_without_study(const std::filesystem::path& file, std::string_view key) {
-  const CaseTable top = top_of(file);
-  return entry_of(top, key) != nullptr && entry_of(top, "study") == nullptr;
-}
-
 }  // namespace
 
-bool is_simulation_file(const std::filesystem::path& file) { return has_without_study(file, "simulation"); }
-bool is_evolution_file(const std::filesystem::path& file) { return has_without_study(file, "evolve"); }
-bool is_study_file(const std::filesystem::path& file) { return entry_of(top_of(file), "study") != nullptr; }
-bool is_vehicle_file(const std::filesystem::path& file) { return entry_of(top_of(file), "vehicle") != nullptr; }
-bool is_track_file(const std::filesystem::path& file) {
-  // Cases have a table of this name, too.
+FileKind file_kind(const std::filesystem::path& file) {
   const CaseTable top = top_of(file);
+  const auto has = [&](std::string_view key) { return entry_of(top, key) != nullptr; };
+  if (has("study")) return FileKind::study;
+  if (has("evolve")) return FileKind::evolution;
+  if (has("simulation")) return FileKind::simulation;
+  if (has("vehicle")) return FileKind::vehicle;
   const CaseEntry* track = entry_of(top, "track");
-  return track != nullptr && track->value.is_table() && entry_of(track->value.table(), "name") != nullptr;
-}
-bool is_import_file(const std::filesystem::path& file) {
-  const CaseTable top = top_of(file);
-  constexpr std::string_view kTables[] = {"scan", "placement", "clean", "fit", "damage", "map"};
-  return std::ranges::any_of(kTables, [&](std::string_view name) { return entry_of(top, name) != nullptr; });
+  if (track != nullptr && track->value.is_table() && entry_of(track->value.table(), "name") != nullptr)
+    return FileKind::track;
+  constexpr std::string_view kOfImports[] = {"scan", "placement", "clean", "fit", "damage", "map"};
+  return std::ranges::any_of(kOfImports, has) ? FileKind::import : FileKind::other;
 }
 
 }  // namespace treadmark::io

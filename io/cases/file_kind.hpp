@@ -6,14 +6,22 @@
 
 namespace treadmark::io {
 
-/// Whether a .toml file has a table [simulation], or [evolve], and is no study; whether it has a table [study].
-/// False for other kinds of files, which are not opened. Throws Error(configuration) for TOML that cannot be read.
-bool is_simulation_file(const std::filesystem::path& file);
-bool is_study_file(const std::filesystem::path& file);
-bool is_evolution_file(const std::filesystem::path& file);
-/// [vehicle]; [track] with a name, which the track of a case has not; any table of the settings of an import.
-bool is_vehicle_file(const std::filesystem::path& file);
-bool is_track_file(const std::filesystem::path& file);
-bool is_import_file(const std::filesystem::path& file);
+/// What a .toml file describes, by the tables at its top.
+enum class FileKind {
+  study,       ///< [study], whatever its base is
+  evolution,   ///< [evolve]
+  simulation,  ///< [simulation]
+  vehicle,     ///< [vehicle]
+  track,       ///< [track] with a name, which the track of a case has not
+  import,      ///< any table of the settings of an import
+  other,       ///< cases, and files that are no .toml, which are not opened
+};
+
+/// Throws Error(configuration) for TOML that cannot be read. Thread-safe.
+FileKind file_kind(const std::filesystem::path& file);
+
+inline bool is_study_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::study; }
+inline bool is_evolution_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::evolution; }
+inline bool is_simulation_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::simulation; }
 
 }  // namespace treadmark::io

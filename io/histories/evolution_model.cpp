@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/histories/evolution_model.hpp"
+#include "treadmark/model/body_name.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
   out.push_back({"t_gamma_N", "N", "power of friction over rolling speed, mean by weight", t_gamma});
   out.push_back({"doubts", "1", "remarks that doubt results", doubts});
   for (const EvolvedBody& b : g.bodies) {
-    const std::string name = b.body == Body::wheel ? "wheel" : "rail";
+    const std::string name = body_name(b.body);
     // a rail that is the same everywhere is counted by the metre
     const bool by_metre = b.body == Body::rail && b.cells.uniform();
     const std::string per = by_metre ? "_per_m" : "", per_unit = by_metre ? "/m" : "";

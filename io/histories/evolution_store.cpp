@@ -10,7 +10,9 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/io/histories/result_origin.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -57,7 +59,7 @@ void read_sheet(const Hdf5GroupReader& parent, const SheetRow& what, const Surfa
 }
 
 void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
-  const Hdf5GroupWriter group = root.make_group(body.body == Body::wheel ? "wheel" : "rail");
+  const Hdf5GroupWriter group = root.make_group(body_name(body.body));
   const SurfaceCells& c = body.cells;
   const std::vector<Attribute> head{{"law", body.law},
                                     {"source", body.source},
@@ -188,7 +190,7 @@ Generation read_generation(const std::filesystem::path& path) {
   g.limits_kept = root.integer("limits_kept") != 0;
   g.pressure_change = root.number("pressure_change");
   for (const Body body : {Body::wheel, Body::rail}) {
-    const char* name = body == Body::wheel ? "wheel" : "rail";
+    const char* name = body_name(body);
     if (root.has(name)) g.bodies.push_back(read_body(root.open_group(name), body));
   }
   g.cases = read_cases_of(root);
@@ -198,17 +200,9 @@ Generation read_generation(const std::filesystem::path& path) {
 void write_evolution_store(const std::filesystem::path& path, const EvolutionResult& result,
                            const std::vector<std::filesystem::path>& generations) {
   Hdf5Writer file(path);
-  const std::vector<Attribute> head{{"format", std::string(kEvolutionFormat)},
-                                    {"units", "SI"},
-                                    {"version", result.version},
-                                    {"git", result.git},
-                                    {"input", result.input_file},
-                                    {"sha256", result.input_sha256},
-                                    {"title", result.title},
-                                    {"settings", result.settings},
-                                    {"status", result.status},
-                                    {"message", result.message}};
-  file.root().add(head);
+  file.root().add(origin_attributes(kEvolutionFormat, result));
+  const std::vector<Attribute> end{{"status", result.status}, {"message", result.message}};
+  file.root().add(end);
   const Hdf5GroupWriter table = file.root().make_group("table");
   if (!result.generations.empty()) {
     std::vector<std::string> names;
@@ -237,9 +231,7 @@ EvolutionResult read_evolution_folder(const std::filesystem::path& folder) {
   if (const std::filesystem::path store = folder / "evolution.h5"; std::filesystem::exists(store)) {
     const Hdf5Reader file(store);
     const Hdf5GroupReader& root = file.root();
-    result.version = root.text("version"), result.git = root.text("git");
-    result.input_file = root.text("input"), result.input_sha256 = root.text("sha256");
-    result.title = root.text("title"), result.settings = root.texts("settings");
+    read_origin(root, result);
     result.status = root.text("status"), result.message = root.text("message");
   }
   for (int k = 0; std::filesystem::exists(folder / generation_file(k)); ++k)

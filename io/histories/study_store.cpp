@@ -12,6 +12,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/io/histories/result_origin.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 
 namespace treadmark::io {
@@ -55,15 +56,7 @@ void write_sweep(const Hdf5GroupWriter& root, const StudyTable& table) {
 void write_study_store(const std::filesystem::path& path, const StudyResult& study) {
   const StudyTable table = study_table(study);
   Hdf5Writer file(path);
-  const std::vector<Attribute> identity{{"format", std::string(kStudyFormat)},
-                                        {"units", "SI"},
-                                        {"version", study.version},
-                                        {"git", study.git},
-                                        {"input", study.input_file},
-                                        {"sha256", study.input_sha256},
-                                        {"title", study.title},
-                                        {"settings", study.settings}};
-  file.root().add(identity);
+  file.root().add(origin_attributes(kStudyFormat, study));
   write_sweep(file.root(), table);
   for (const SimulationRun* run : table.runs)
     if (!run->store.empty()) file.root().copy_file(run->store, fmt::format("run_{:04}", run->number));
@@ -78,12 +71,7 @@ StudyResult read_study_head(const std::filesystem::path& path) {
                 fmt::format("the store of a study holds \"{}\" where \"{}\" is read", format, kStudyFormat),
                 {path.string(), 0, 0}, "give a file that treadmark sweep wrote");
   StudyResult study;
-  study.version = root.text("version");
-  study.git = root.text("git");
-  study.input_file = root.text("input");
-  study.input_sha256 = root.text("sha256");
-  study.title = root.text("title");
-  study.settings = root.texts("settings");
+  read_origin(root, study);
   return study;
 }
 

@@ -82,6 +82,4 @@ std::string shortened(std::string_view text, std::size_t letters) {
   return out;
 }
 
-std::string_view body_name(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
-
 }  // namespace treadmark::io

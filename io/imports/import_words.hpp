@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "treadmark/io/imports/import_report.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::io {
 
@@ -37,7 +38,5 @@ std::string place_text(const ImportReport& report, double u, std::string_view de
 
 /// The first letters of a text (UTF-8), with dots where it was cut.
 std::string shortened(std::string_view text, std::size_t letters);
-
-std::string_view body_name(Body body);
 
 }  // namespace treadmark::io

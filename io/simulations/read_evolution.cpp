@@ -10,6 +10,7 @@
 
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -52,7 +53,7 @@ EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, co
   EvolvingBody out;
   out.body = body;
   out.where = table.where();
-  evolve.need(amount, fmt::format("{} evolves over it", body == Body::wheel ? "a wheel" : "a rail"));
+  evolve.need(amount, fmt::format("a {} evolves over it", body_name(body)));
   out.amount = evolve.number(amount);
   out.local = table.text_or("along", "uniform") == "local";
   out.du = table.number_or("du_mm", 1e-3);

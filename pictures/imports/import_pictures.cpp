@@ -67,7 +67,7 @@ ImportPanel removed_bars(const io::ImportReport& report) {
 std::string import_heading(const io::ImportReport& report) {
   std::string out = report.inputs.empty() ? "no input" : shortened(report.inputs.front().file, 60);
   if (report.inputs.size() > 1) out += fmt::format(" and {} more", report.inputs.size() - 1);
-  out += fmt::format(", {}", io::body_name(report.body));
+  out += fmt::format(", {}", body_name(report.body));
   out += report.from_map ? ", a map of deviations" : fmt::format(", {} points", grouped(report.points_read));
   out += fmt::format(", unit {}", report.unit.empty() ? "unknown" : shortened(report.unit, 20));
   return report.unit_from.empty() ? out : out + fmt::format(" ({})", shortened(report.unit_from, 40));

@@ -12,6 +12,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -169,15 +170,15 @@ Page evolution_page(const fs::path& folder) {
       if (q.value > 0.0) cards.cards.push_back({q.meaning, fmt::format("{:.4g} {}", q.value, unit_shown(q.unit))});
   summary.blocks.emplace_back(std::move(cards));
   for (const io::EvolvedBody& b : last.bodies)
-    summary.blocks.emplace_back(Paragraph{
-        fmt::format("Law of the {}: {}. Its numbers: {}.", b.body == Body::wheel ? "wheel" : "rail", b.law, b.source)});
+    summary.blocks.emplace_back(
+        Paragraph{fmt::format("Law of the {}: {}. Its numbers: {}.", body_name(b.body), b.law, b.source)});
   page.sections.push_back(std::move(summary));
   page.sections.push_back({"numbers",
                            "Over the generations",
                            {Figure{"numbers", "Numbers over the generations", numbers_over_generations(result)}}});
   for (std::size_t b = 0; b < last.bodies.size(); ++b) {
     const io::EvolvedBody& body = last.bodies[b];
-    const std::string word = body.body == Body::wheel ? "wheel" : "rail";
+    const std::string word = body_name(body.body);
     Section section{word, body.body == Body::wheel ? "Wheel" : "Rail"};
     section.blocks.emplace_back(
         Figure{word + "-section", "Section at the chosen generation", section_by_generation(result, b)});

@@ -239,7 +239,7 @@ TEST(TableContact, ActionIsReaction) {
       r.on_rail.moment + marker.cross(r.on_rail.force) + r.on_wheelset.moment + centre.cross(r.on_wheelset.force);
   // Friction acts on each body where its creepage is taken: as far apart as the undeformed bodies are in each other.
   const double friction = std::hypot(r.longitudinal_creep_force, r.lateral_creep_force);
-  EXPECT_NEAR(sum.norm(), std::abs(r.least_gap) * friction, 1e-6 * r.on_rail.moment.norm());
+  EXPECT_NEAR(sum.norm(), std::abs(r.least_gap) * friction, 1e-9 * r.on_rail.moment.norm());
 }
 
 TEST(TableContact, FrictionTakesWhatTheForcesDoAndTheSpringDoesNotStore) {

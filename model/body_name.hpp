@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/model/profile.hpp"
+
+namespace treadmark {
+
+/// As files and messages name it.
+constexpr const char* body_name(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
+
+}  // namespace treadmark
