@@ -41,10 +41,11 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
   std::vector<EvolutionQuantity> out{
       {"distance_km", "km", "rolled by the wheel", 1e-3 * g.distance},
       {"passages", "1", "of wheels over the rail", g.passages},
-      {"step", "1", "share of the whole that led here", g.step},
+      {"step", "1", "share of the whole, of the step that led here", g.step},
       {"refused_steps", "1", "steps that changed pressures too much", 1.0 * g.refused},
       {"limits_kept", "1", "0: the smallest step changed more", g.limits_kept ? 1.0 : 0.0},
-      {"pressure_change", "1", "by the step, the largest", g.pressure_change}};
+      {"pressure_change", "1", "largest change of a case's largest pressure by the step, as a share",
+       g.pressure_change}};
   double pmax = 0.0, pressure = 0.0, t_gamma = 0.0, force = 0.0, doubts = 0.0;
   for (const EvolvedCase& c : g.cases) {
     pmax = std::max(pmax, c.pmax);
@@ -55,7 +56,7 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
   }
   out.push_back({"pmax_MPa", "MPa", "largest pressure of all positions", 1e-6 * pmax});
   out.push_back({"pmax_mean_MPa", "MPa", "largest pressure, mean of the positions by weight", 1e-6 * pressure});
-  out.push_back({"normal_force_N", "N", "sum over the patches, mean by weight", force});
+  out.push_back({"normal_force_N", "N", "normal force, sum over the patches, mean by weight", force});
   out.push_back({"t_gamma_N", "N", "power of friction over rolling speed, mean by weight", t_gamma});
   out.push_back({"doubts", "1", "remarks that doubt results", doubts});
   for (const EvolvedBody& b : g.bodies) {
@@ -65,15 +66,17 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
     const std::string per = by_metre ? "_per_m" : "", per_unit = by_metre ? "/m" : "";
     out.push_back({name + "_depth_mm", "mm", "largest depth removed", 1e3 * b.max_depth});
     out.push_back({name + "_slope", "1", "largest slope of the depth across", b.max_slope});
-    out.push_back({fmt::format("{}_volume_mm3{}", name, per), fmt::format("mm3{}", per_unit), "removed",
+    out.push_back({fmt::format("{}_volume_mm3{}", name, per), fmt::format("mm3{}", per_unit), "volume removed",
                    1e9 * sum_of(b.record.volume)});
     out.push_back(
         {name + "_volume_balance", "1", "volume of the geometry over that of the law, less 1", volume_balance(b)});
-    out.push_back(
-        {fmt::format("{}_work_J{}", name, per), fmt::format("J{}", per_unit), "of friction", sum_of(b.record.work)});
+    out.push_back({fmt::format("{}_work_J{}", name, per), fmt::format("J{}", per_unit), "work of friction",
+                   sum_of(b.record.work)});
     out.push_back(
         {name + "_work_balance", "1", "work on the surface over that of the contacts, less 1", work_balance(b)});
-    out.push_back({name + "_pressure_ever_MPa", "MPa", "largest up to here", 1e-6 * largest_of(b.record.pressure)});
+    out.push_back({name + "_pressure_ever_MPa", "MPa",
+                   "largest pressure that has passed; the present contacts have not",
+                   1e-6 * largest_of(b.record.pressure)});
     out.push_back({name + "_sliding_m", "m", "largest sliding distance of a point", largest_of(b.record.sliding)});
   }
   return out;

@@ -167,7 +167,8 @@ Page evolution_page(const fs::path& folder) {
   Cards cards;
   for (const io::EvolutionQuantity& q : io::quantities_of(last))
     if (q.name == "distance_km" || q.name == "passages" || q.name == "pmax_MPa" || q.name.ends_with("_depth_mm"))
-      if (q.value > 0.0) cards.cards.push_back({q.meaning, fmt::format("{:.4g} {}", q.value, unit_shown(q.unit))});
+      if (q.value > 0.0)
+        cards.cards.push_back({q.meaning, fmt::format("{} {}", shown({q.value, 4}), unit_shown(q.unit))});
   summary.blocks.emplace_back(std::move(cards));
   for (const io::EvolvedBody& b : last.bodies)
     summary.blocks.emplace_back(
