@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
