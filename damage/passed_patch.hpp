@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "treadmark/damage/stress_history.hpp"
+#include "treadmark/model/fatigue.hpp"
 
 namespace treadmark::damage {
 
@@ -24,15 +25,6 @@ struct PassedStress {
   double y_low = 0.0, y_high = 0.0;  ///< across, profile coordinate [m]
   std::size_t depth = 0;             ///< its number
   StressMeasures stress;
-};
-
-/// What a patch as a whole does to a body, for those measures that are asked for; 0 otherwise.
-struct ContactFatigue {
-  double friction = 0.0;        ///< utilised: traction over normal force [-]
-  double pressure_ratio = 0.0;  ///< largest pressure over the shear yield [-]
-  double fi_surf = 0.0;         ///< surface fatigue index [-]
-  double shakedown = 0.0;       ///< pressure_ratio over the limit of the shakedown map [-]
-  double damage = 0.0;          ///< of a passage by its T gamma [-]
 };
 
 /// A patch that rolls over one body.

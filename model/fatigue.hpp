@@ -58,6 +58,15 @@ inline constexpr FatigueMeasureRow kFatigueMeasures[] = {
      "Dang Van et al. 1989, as Ekberg, Kabo and Andersson 2002", "high-cycle fatigue without residual stresses",
      "depths_mm dang_van_slope dang_van_limit_MPa"}};
 
+/// What a contact as a whole does to a body, for those measures that are asked for; 0 otherwise.
+struct ContactFatigue {
+  double friction = 0.0;        ///< utilised: traction over normal force [-]
+  double pressure_ratio = 0.0;  ///< largest pressure over the shear yield [-]
+  double fi_surf = 0.0;         ///< surface fatigue index [-]
+  double shakedown = 0.0;       ///< pressure_ratio over the limit of the shakedown map [-]
+  double damage = 0.0;          ///< of a passage by its T gamma [-]
+};
+
 /// Errors: Error(configuration) that names the key for numbers that are missing, negative or out of order.
 void check(const FatigueSettings& settings);
 

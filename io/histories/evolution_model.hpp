@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/surface_record.hpp"
 
@@ -13,12 +14,22 @@ namespace treadmark::io {
 
 /// What came of an evolution, SI.
 
+/// What is known of the material of a body, and what the present contacts do to it.
+struct EvolvedFatigue {
+  std::string measures, source;  ///< words of kFatigueMeasures with blanks between them, and where the numbers are from
+  double shear_yield = 0.0, dang_van_limit = 0.0;  ///< [Pa]
+  std::vector<double> depths;                      ///< of the stresses of the record [m]
+  std::vector<ContactFatigue> contacts;            ///< by case: the largest of its patches
+  bool has(FatigueMeasure measure) const;
+};
+
 /// A body at one generation.
 struct EvolvedBody {
   Body body = Body::wheel;
   std::string law, source;  ///< word of the theory, and where its numbers come from
   SurfaceCells cells;
   SurfaceRecord record;
+  EvolvedFatigue fatigue;
   double max_depth = 0.0;    ///< [m]
   double max_slope = 0.0;    ///< of the depth across [-]
   std::string surface_file;  ///< name in the folder
