@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -76,6 +78,25 @@ std::string evolution_json(const io::EvolutionResult& result) {
   out["generations"] = EvolutionJson::array();
   for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
   return out.dump(2) + '\n';
+}
+
+std::string evolution_table(const io::EvolutionResult& result) {
+  if (result.generations.empty()) return "";
+  const auto shown = [](const std::string& name) {
+    return name == "distance_km" || name == "passages" || name == "pmax_MPa" || name == "t_gamma_N" ||
+           name.find("_depth_mm") != std::string::npos || name.find("_volume_mm3") != std::string::npos;
+  };
+  std::string text = fmt::format("{:>10}", "generation");
+  for (const io::EvolutionQuantity& q : io::quantities_of(result.generations.front()))
+    if (shown(q.name)) text += fmt::format("  {:>{}}", q.name, std::max<std::size_t>(q.name.size(), 10));
+  text += '\n';
+  for (const io::Generation& g : result.generations) {
+    text += fmt::format("{:>10}", g.number);
+    for (const io::EvolutionQuantity& q : io::quantities_of(g))
+      if (shown(q.name)) text += fmt::format("  {:>{}.5g}", q.value, std::max<std::size_t>(q.name.size(), 10));
+    text += '\n';
+  }
+  return text;
 }
 
 void write_evolution_folder(const std::filesystem::path& folder, const io::EvolutionResult& result) {

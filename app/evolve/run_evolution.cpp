@@ -476,6 +476,7 @@ class EvolutionRun {
       write(next, trial, solved.run);
       records = std::move(trial);
       run = std::move(solved.run);
+      io::forget_records(result.generations.back());  // generation_0001.h5 and its like have them
       result.generations.push_back(std::move(next));
       return;
     }

@@ -78,7 +78,13 @@ double work_balance(const EvolvedBody& body) {
   return relative(sum_of(body.record.work), body.record.work_of_contacts);
 }
 
+void forget_records(Generation& g) {
+  g.quantities = quantities_of(g);
+  for (EvolvedBody& b : g.bodies) b.record = SurfaceRecord(b.cells.nu, b.fatigue.depths.size());
+}
+
 std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
+  if (!g.quantities.empty()) return g.quantities;
   std::vector<EvolutionQuantity> out{
       {"distance_km", "km", "rolled by the wheel", 1e-3 * g.distance},
       {"passages", "1", "of wheels over the rail", g.passages},

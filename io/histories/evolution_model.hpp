@@ -47,6 +47,13 @@ struct EvolvedCase {
   double t_gamma = 0.0;                 ///< power of friction over rolling speed [N]
 };
 
+/// A number of a generation, for tables and charts.
+struct EvolutionQuantity {
+  std::string name;  ///< with its unit at the end
+  std::string unit, meaning;
+  double value = 0.0;
+};
+
 struct Generation {
   int number = 0;
   double progress = 0.0;         ///< share of the whole
@@ -59,23 +66,21 @@ struct Generation {
   double pressure_change = 0.0;  ///< by the step that led here, the largest, as a share
   std::vector<EvolvedBody> bodies;
   std::vector<EvolvedCase> cases;
+  std::vector<EvolutionQuantity> quantities;  ///< kept once records are forgotten; empty before
 };
 
 struct EvolutionResult {
   std::string version, git, input_file, input_sha256, title;
   std::vector<std::string> settings;
   std::string status = "complete", message;  ///< "interrupted", "failed"
-  std::vector<Generation> generations;
+  std::vector<Generation> generations;       ///< the last one with its records, others may have forgotten them
 };
 
-/// A number of a generation, for tables and charts.
-struct EvolutionQuantity {
-  std::string name;  ///< with its unit at the end
-  std::string unit, meaning;
-  double value = 0.0;
-};
-/// All of them in their order; names are the same in all generations of a result.
+/// All quantities in their order; names are the same in all generations of a result.
 std::vector<EvolutionQuantity> quantities_of(const Generation& generation);
+
+/// Empties the sheets of its records, which are most of its memory; quantities_of stays as it is.
+void forget_records(Generation& generation);
 
 /// Relative differences between what the law takes and what the geometry has lost, and between the work that is stored
 /// on the surface and that of the contacts.

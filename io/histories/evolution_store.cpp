@@ -307,8 +307,10 @@ EvolutionResult read_evolution_folder(const std::filesystem::path& folder) {
     read_origin(root, result);
     result.status = root.text("status"), result.message = root.text("message");
   }
-  for (int k = 0; std::filesystem::exists(folder / generation_file(k)); ++k)
+  for (int k = 0; std::filesystem::exists(folder / generation_file(k)); ++k) {
+    if (k > 0) forget_records(result.generations.back());
     result.generations.push_back(read_generation(folder / generation_file(k)));
+  }
   return result;
 }
 

@@ -98,7 +98,7 @@ std::vector<SectionLine> endured(const io::EvolvedBody& b) {
 }
 
 /// Section, depth and what points have endured, of a body at the chosen generation.
-ChartView section_by_generation(const io::EvolutionResult& result, std::size_t body) {
+ChartView section_by_generation(const io::EvolutionResult& result, const fs::path& folder, std::size_t body) {
   const std::vector<SectionLine> lines = endured(result.generations.front().bodies[body]);
   ChartView view;
   view.x = Axis{"y", "mm"};
@@ -108,7 +108,8 @@ ChartView section_by_generation(const io::EvolutionResult& result, std::size_t b
     if (view.panels.back().label != line.panel) view.panels.push_back({line.panel, line.unit, false, {}});
     view.panels.back().series.push_back(Series{line.name, {}});
   }
-  for (const io::Generation& g : result.generations) {
+  for (const io::Generation& summary : result.generations) {
+    const io::Generation g = io::read_generation(folder / io::generation_file(summary.number));
     const io::EvolvedBody& b = g.bodies[body];
     ChartView::Curves curves;
     curves.y.resize(view.panels.size());
@@ -235,7 +236,7 @@ Page evolution_page(const fs::path& folder) {
     const std::string word = body_name(body.body);
     Section section{word, body.body == Body::wheel ? "Wheel" : "Rail"};
     section.blocks.emplace_back(
-        Figure{word + "-section", "Section at the chosen generation", section_by_generation(result, b)});
+        Figure{word + "-section", "Section at the chosen generation", section_by_generation(result, folder, b)});
     if (!body.cells.uniform() && !body.record.volume.rows().empty())
       section.blocks.emplace_back(Figure{word + "-depth", "Depth of the last generation", depth_map(body)});
     page.sections.push_back(std::move(section));

@@ -237,7 +237,13 @@ TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "contacts_0002.h5"));
   EXPECT_FALSE(fs::exists(folder_.path() / "out" / "contacts_0001.h5"));
   for (const io::Generation& g : result.generations)
-    for (const io::EvolvedBody& b : g.bodies) EXPECT_LT(std::fabs(io::volume_balance(b)), 1e-9);
+    for (const io::EvolutionQuantity& q : io::quantities_of(g))
+      if (q.name == "wheel_volume_balance") {
+        EXPECT_LT(std::fabs(q.value), 1e-9);
+      }
+  EXPECT_EQ(result.generations[1].bodies.front().record.memory_bytes(), 0u);  // the file has them
+  EXPECT_GT(io::read_generation(folder_.path() / "out" / io::generation_file(1)).bodies.front().record.memory_bytes(),
+            0u);
 }
 
 TEST_F(Evolution, LeftAndRightEvolveAlike) {
