@@ -215,7 +215,7 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
 
 Page sweep_page(const StudyOnDisk& disk) {
   const io::StudyTable table = io::study_table(disk.study);
-  Page page{"sweep", disk.study.title.empty() ? title_of(disk.study.input_file) : disk.study.title, ""};
+  Page page{"sweep", title_of(disk.study.title, disk.study.input_file), ""};
   page.lead = fmt::format("Study of {} over {}", counted(table.runs.size(), "run"), fmt::join(table.keys, ", "));
   page.full_data = "sweep.h5";
   page.sections.push_back(overview(disk, table));
