@@ -58,14 +58,14 @@ Ball ball_through(const std::vector<Deviator>& points) {
 }
 
 /// The smallest ball round the first count of some points that has others on its surface (Welzl 1991).
-Ball ball_round(const std::vector<Deviator>& points, std::size_t count, std::vector<Deviator> on_surface) {
+Ball ball_round(const std::vector<Deviator>& points, std::size_t count, const std::vector<Deviator>& on_surface) {
   constexpr std::size_t kMost = 7;  // points that make a ball in six dimensions
   Ball ball = ball_through(on_surface);
   for (std::size_t i = 0; i < count && on_surface.size() < kMost; ++i)
     if (!ball.holds(points[i])) {
       std::vector<Deviator> more = on_surface;
       more.push_back(points[i]);
-      ball = ball_round(points, i, std::move(more));
+      ball = ball_round(points, i, more);
     }
   return ball;
 }
