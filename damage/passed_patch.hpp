@@ -2,7 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
 #include <vector>
+
+#include "treadmark/damage/stress_history.hpp"
+#include "treadmark/model/fatigue.hpp"
 
 namespace treadmark::damage {
 
@@ -16,12 +20,25 @@ struct PassedElement {
   double dissipation = 0.0;          ///< power of friction by area [W/m2]
 };
 
+/// What points at a depth below a row of elements endure while the patch passes.
+struct PassedStress {
+  double y_low = 0.0, y_high = 0.0;  ///< across, profile coordinate [m]
+  std::size_t depth = 0;             ///< its number
+  StressMeasures stress;
+};
+
 /// A patch that rolls over one body.
 struct PassedPatch {
   double velocity = 0.0;             ///< rolling speed [m/s], > 0
   double length = 0.0, width = 0.0;  ///< of an element along and across, on the surface [m]
   double power = 0.0;                ///< of friction, as the solver states it [W], >= 0
+  double normal_force = 0.0;         ///< [N]
+  double traction_force = 0.0;       ///< its magnitude [N]
   std::vector<PassedElement> elements;
+  ContactFatigue fatigue;
+  std::vector<PassedStress> stresses;
+  /// Power of friction over rolling speed [N].
+  double t_gamma() const { return power / velocity; }
   double element_area() const { return length * width; }
   /// Of contact [m2].
   double area() const { return element_area() * static_cast<double>(elements.size()); }

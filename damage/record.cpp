@@ -60,15 +60,15 @@ bool exists(const SurfaceCells& cells, int j) {
 }
 
 /// Rows under an element; what hangs over the border of the surface goes to the rows that are there.
-Shares rows_of(const SurfaceCells& cells, const PassedElement& e) {
-  const double half = 0.5 * (e.y_high - e.y_low);
-  Shares rows = shares_of(0.5 * (e.y_low + e.y_high), std::max(half, 1e-12), 0.0, cells.y0, cells.dy);
+Shares rows_of(const SurfaceCells& cells, double y_low, double y_high) {
+  const double half = 0.5 * (y_high - y_low);
+  Shares rows = shares_of(0.5 * (y_low + y_high), std::max(half, 1e-12), 0.0, cells.y0, cells.dy);
   double there = 0.0;
   std::erase_if(rows, [&](const auto& row) { return !exists(cells, row.first); });
   for (const auto& row : rows) there += row.second;
   if (!(there > 0.0))
     throw Error(ErrorKind::input_data,
-                fmt::format("a contact at y = {:.3f} mm lies beside the surface that evolves", 1e3 * e.y_low), {},
+                fmt::format("a contact at y = {:.3f} mm lies beside the surface that evolves", 1e3 * y_low), {},
                 "the surface must go on beyond its contacts");
   for (auto& row : rows) row.second /= there;
   return rows;
@@ -149,7 +149,7 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
     record.volume_by_law += volume;
     // way of the surfaces over each other at the element's place, over the width that it has in the view of the cells
     const double swept = e.slip * patch.velocity * seconds * patch.length * (e.y_high - e.y_low);
-    for (const auto& [j, share_y] : rows_of(cells, e)) {
+    for (const auto& [j, share_y] : rows_of(cells, e.y_low, e.y_high)) {
       const double radius = cells.radius[static_cast<std::size_t>(j)], slid = swept / cells.area(j);
       double *volumes = &record.volume.ref(0, j), *works = &record.work.ref(0, j), *slides = &record.sliding.ref(0, j),
              *pressures = &record.pressure.ref(0, j), *tractions = &record.traction.ref(0, j);
@@ -171,10 +171,27 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
     along = shares_of(stretch.begin + half, half, 0.0, cells.u0, cells.du);
     for (auto& share : along) share.second *= 2.0 * half / cells.du;
   }
-  for (const int j : touched)
-    for (const auto& [i, part] : along)
-      if (const int column = wrapped(cells, i); column >= 0 && column < cells.nu)
-        record.passages.ref(column, j) += count * part;
+  for (auto& share : along) share.first = wrapped(cells, share.first);
+  std::erase_if(along, [&](const auto& share) { return share.first < 0 || share.first >= cells.nu; });
+  const auto raise = [&along](CellSheet& sheet, int j, double value) {
+    if (!(value > 0.0)) return;
+    for (const auto& [i, part] : along) sheet.ref(i, j) = std::max(sheet.ref(i, j), value);
+  };
+  for (const int j : touched) {
+    for (const auto& [i, part] : along) record.passages.ref(i, j) += count * part;
+    if (patch.fatigue.damage != 0.0)
+      for (const auto& [i, part] : along) record.damage.ref(i, j) += count * part * patch.fatigue.damage;
+    raise(record.t_gamma, j, patch.t_gamma());
+    raise(record.fi_surf, j, patch.fatigue.fi_surf);
+  }
+  for (const PassedStress& s : patch.stresses)
+    for (const auto& [j, share] : rows_of(cells, s.y_low, s.y_high)) {
+      StressRecord& at = record.stresses[s.depth];
+      raise(at.von_mises, j, s.stress.von_mises);
+      raise(at.shear, j, s.stress.shear);
+      raise(at.shakedown, j, s.stress.shakedown);
+      raise(at.dang_van, j, s.stress.dang_van);
+    }
 }
 
 void add_times(SurfaceRecord& record, const SurfaceRecord& other, double times) {
@@ -196,6 +213,17 @@ void add_times(SurfaceRecord& record, const SurfaceRecord& other, double times) 
   sum(record.passages, other.passages);
   larger(record.pressure, other.pressure);
   larger(record.traction, other.traction);
+  larger(record.t_gamma, other.t_gamma);
+  larger(record.fi_surf, other.fi_surf);
+  sum(record.damage, other.damage);
+  for (std::size_t k = 0; k < record.stresses.size(); ++k) {
+    StressRecord& to = record.stresses[k];
+    const StressRecord& from = other.stresses[k];
+    larger(to.von_mises, from.von_mises);
+    larger(to.shear, from.shear);
+    larger(to.shakedown, from.shakedown);
+    larger(to.dang_van, from.dang_van);
+  }
   record.volume_by_law += times * other.volume_by_law;
   record.work_of_contacts += times * other.work_of_contacts;
 }

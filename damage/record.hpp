@@ -30,12 +30,13 @@ struct Stretch {
 };
 
 /// Adds what a patch does in so many seconds: work, sliding and the volume that the law removes, split over cells by
-/// overlap so that sums are kept, and the largest pressure and traction. count: passages over every cell of the stretch
+/// overlap so that sums are kept, the largest pressure, traction, T gamma,
+/// surface index and stresses, and the damage of passages. count: passages over every cell of the stretch
 /// in that time. Errors: Error(input_data) where the patch lies beside the surface.
 void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& law, const PassedPatch& patch,
                const Stretch& stretch, double seconds, double count);
 
-/// Adds so many times another record; of pressures and tractions the larger ones are kept.
+/// Adds so many times another record with as many depths; of what is a largest value the larger ones are kept.
 void add_times(SurfaceRecord& record, const SurfaceRecord& other, double times);
 
 /// Spreads every value over its neighbours with Gaussian weights of this standard deviation [m], cut off at four of

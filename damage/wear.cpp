@@ -5,20 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/damage/broken_line.hpp"
+
 namespace treadmark::damage {
 namespace {
 
 double in_regime(const std::vector<double>& values, const std::vector<double>& limits, double where) {
   const auto above = std::ranges::lower_bound(limits, where);
   return values[static_cast<std::size_t>(above - limits.begin())];
-}
-
-/// A broken line through points; straight on behind the last one, level before the first.
-double on_line(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  if (at <= x.front()) return y.front();
-  const auto above = std::ranges::upper_bound(x, at);
-  const auto k = std::min(static_cast<std::size_t>(above - x.begin()), x.size() - 1);
-  return y[k - 1] + (at - x[k - 1]) * (y[k] - y[k - 1]) / (x[k] - x[k - 1]);
 }
 
 }  // namespace

@@ -58,18 +58,46 @@ class CellSheet {
   std::map<int, std::vector<double>> rows_;
 };
 
+/// What points at a depth below the cells have endured, the largest of all passages [Pa].
+struct StressRecord {
+  explicit StressRecord(int nu = 1) : von_mises(nu), shear(nu), shakedown(nu), dang_van(nu) {}
+
+  CellSheet von_mises;
+  CellSheet shear;      ///< amplitude on the plane where it is largest
+  CellSheet shakedown;  ///< shear yield that residual stresses need to keep a passage elastic
+  CellSheet dang_van;   ///< shear round the middle of the passage and weighted hydrostatic stress
+};
+
 /// What contacts have done to the points of a surface.
 struct SurfaceRecord {
-  explicit SurfaceRecord(int nu = 1) : volume(nu), work(nu), sliding(nu), passages(nu), pressure(nu), traction(nu) {}
+  /// Of so many columns, and stresses at so many depths.
+  explicit SurfaceRecord(int nu = 1, std::size_t depths = 0)
+      : volume(nu),
+        work(nu),
+        sliding(nu),
+        passages(nu),
+        pressure(nu),
+        traction(nu),
+        t_gamma(nu),
+        fi_surf(nu),
+        damage(nu),
+        stresses(depths, StressRecord(nu)) {}
 
-  CellSheet volume;               ///< removed [m3]
-  CellSheet work;                 ///< of friction [J]
-  CellSheet sliding;              ///< distance [m]
-  CellSheet passages;             ///< of contacts over the cell
-  CellSheet pressure;             ///< largest [Pa]
-  CellSheet traction;             ///< largest [Pa]
+  CellSheet volume;    ///< removed [m3]
+  CellSheet work;      ///< of friction [J]
+  CellSheet sliding;   ///< distance [m]
+  CellSheet passages;  ///< of contacts over the cell
+  CellSheet pressure;  ///< largest [Pa]
+  CellSheet traction;  ///< largest [Pa]
+  CellSheet t_gamma;   ///< largest of the contacts that passed [N]
+  CellSheet fi_surf;   ///< largest surface fatigue index above 0 of the contacts that passed [-]
+  CellSheet damage;    ///< sum over passages by their T gamma [-]
+  std::vector<StressRecord> stresses;
   double volume_by_law = 0.0;     ///< sum of what the law takes from the elements of the contacts [m3]
   double work_of_contacts = 0.0;  ///< sum over the power that the contacts state [J]
+
+  /// Of all sheets.
+  std::size_t memory_bytes() const;
 };
 
 }  // namespace treadmark

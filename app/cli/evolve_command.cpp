@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -21,25 +20,6 @@ struct EvolveOptions {
   std::vector<std::string> overrides;
 };
 
-std::string evolution_table(const io::EvolutionResult& result) {
-  if (result.generations.empty()) return "";
-  const auto shown = [](const std::string& name) {
-    return name == "distance_km" || name == "passages" || name == "pmax_MPa" || name == "t_gamma_N" ||
-           name.find("_depth_mm") != std::string::npos || name.find("_volume_mm3") != std::string::npos;
-  };
-  std::string text = fmt::format("{:>10}", "generation");
-  for (const io::EvolutionQuantity& q : io::quantities_of(result.generations.front()))
-    if (shown(q.name)) text += fmt::format("  {:>{}}", q.name, std::max<std::size_t>(q.name.size(), 10));
-  text += '\n';
-  for (const io::Generation& g : result.generations) {
-    text += fmt::format("{:>10}", g.number);
-    for (const io::EvolutionQuantity& q : io::quantities_of(g))
-      if (shown(q.name)) text += fmt::format("  {:>{}.5g}", q.value, std::max<std::size_t>(q.name.size(), 10));
-    text += '\n';
-  }
-  return text;
-}
-
 int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
   require_part("hdf5", "evolutions");
   require_part("openvdb", "evolutions");
@@ -53,7 +33,7 @@ int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
   const auto json = [&] { return app::evolution_json(result); };
   write_json_file(options.json_file, json);
   write_report_file(options.report_file, [&] { return app::report::read_report(options.output_folder); });
-  print_results(options.json_file, json, [&] { return evolution_table(result); });
+  print_results(options.json_file, json, [&] { return app::evolution_table(result); });
   if (result.status != "complete") {
     std::cerr << result.status << ": " << result.message << '\n';
     return kFailed;

@@ -10,6 +10,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/model/theories.hpp"
 #include "treadmark/model/wear_law.hpp"
@@ -54,9 +55,12 @@ int list_command(const std::string& what) {
     for (const RemarkRow& row : kRemarkRows)
       std::cout << fmt::format("{:<24} {:<6} {}\n", row.name, row.grave ? "doubt" : "remark", row.meaning);
   } else if (what == "laws") {
-    for (const WearTheoryRow& row : kWearTheories)
+    const auto print_row = [](const auto& row) {
       std::cout << fmt::format("{:<10} {}\n{:<10} source: {}\n{:<10} for: {}\n{:<10} needs: {}\n", row.word, row.name,
                                "", row.source, "", row.validity, "", row.keys);
+    };
+    for (const WearTheoryRow& row : kWearTheories) print_row(row);
+    for (const FatigueMeasureRow& row : kFatigueMeasures) print_row(row);
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
                 "choose backends, laws, profiles, remarks, solvers or verbs");

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -31,13 +33,27 @@ EvolutionJson json_of(const io::EvolvedCase& c) {
           {"t_gamma_N", evolved_number(c.t_gamma)}};
 }
 
+EvolutionJson json_of(const io::EvolvedFatigue& known, const ContactFatigue& c) {
+  EvolutionJson out = {{"utilised_friction", evolved_number(c.friction)}};
+  if (known.shear_yield > 0.0) out["pressure_over_shear_yield"] = evolved_number(c.pressure_ratio);
+  if (known.has(FatigueMeasure::fi_surf)) out["fi_surf"] = evolved_number(c.fi_surf);
+  if (known.has(FatigueMeasure::shakedown)) out["shakedown"] = evolved_number(c.shakedown);
+  if (known.has(FatigueMeasure::whole_life)) out["damage_per_passage"] = evolved_number(c.damage);
+  return out;
+}
+
 EvolutionJson json_of(const io::Generation& g) {
   EvolutionJson out = {{"generation", g.number}, {"progress", evolved_number(g.progress)}};
   for (const io::EvolutionQuantity& q : io::quantities_of(g)) out[q.name] = evolved_number(q.value);
   for (const io::EvolvedBody& b : g.bodies)
     if (!b.surface_file.empty()) out[body_name(b.body) + std::string("_file")] = b.surface_file;
   out["cases"] = EvolutionJson::array();
-  for (const io::EvolvedCase& c : g.cases) out["cases"].push_back(json_of(c));
+  for (std::size_t i = 0; i < g.cases.size(); ++i) {
+    out["cases"].push_back(json_of(g.cases[i]));
+    for (const io::EvolvedBody& b : g.bodies)
+      if (i < b.fatigue.contacts.size())
+        out["cases"].back()[body_name(b.body)] = json_of(b.fatigue, b.fatigue.contacts[i]);
+  }
   return out;
 }
 
@@ -54,9 +70,33 @@ std::string evolution_json(const io::EvolutionResult& result) {
   if (!result.generations.empty())
     for (const io::EvolvedBody& b : result.generations.front().bodies)
       out["laws"].push_back({{"body", body_name(b.body)}, {"theory", b.law}, {"source", b.source}});
+  if (!result.generations.empty())
+    for (const io::EvolvedBody& b : result.generations.front().bodies)
+      if (!b.fatigue.measures.empty())
+        out["fatigue"].push_back(
+            {{"body", body_name(b.body)}, {"measures", b.fatigue.measures}, {"source", b.fatigue.source}});
   out["generations"] = EvolutionJson::array();
   for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
   return out.dump(2) + '\n';
+}
+
+std::string evolution_table(const io::EvolutionResult& result) {
+  if (result.generations.empty()) return "";
+  const auto shown = [](const std::string& name) {
+    return name == "distance_km" || name == "passages" || name == "pmax_MPa" || name == "t_gamma_N" ||
+           name.find("_depth_mm") != std::string::npos || name.find("_volume_mm3") != std::string::npos;
+  };
+  std::string text = fmt::format("{:>10}", "generation");
+  for (const io::EvolutionQuantity& q : io::quantities_of(result.generations.front()))
+    if (shown(q.name)) text += fmt::format("  {:>{}}", q.name, std::max<std::size_t>(q.name.size(), 10));
+  text += '\n';
+  for (const io::Generation& g : result.generations) {
+    text += fmt::format("{:>10}", g.number);
+    for (const io::EvolutionQuantity& q : io::quantities_of(g))
+      if (shown(q.name)) text += fmt::format("  {:>{}.5g}", q.value, std::max<std::size_t>(q.name.size(), 10));
+    text += '\n';
+  }
+  return text;
 }
 
 void write_evolution_folder(const std::filesystem::path& folder, const io::EvolutionResult& result) {

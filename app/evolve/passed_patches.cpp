@@ -11,7 +11,9 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/damage/fatigue.hpp"
 #include "treadmark/model/body_name.hpp"
+#include "treadmark/solvers/kalker/subsurface/subsurface_stress.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -34,6 +36,8 @@ damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool l
   out.length = f.grid.dx;
   out.width = f.grid.dy;
   out.power = std::max(0.0, -patch.frictional_power);
+  out.normal_force = patch.fn;
+  out.traction_force = std::hypot(patch.fx, patch.fs);
   const std::vector<Vec2> edges = io::row_edges(f, patch.reference_s);
   for (int iy = 0; iy < f.grid.ny; ++iy) {
     const Vec2 &low = edges[static_cast<std::size_t>(iy)], &high = edges[static_cast<std::size_t>(iy) + 1];
@@ -44,7 +48,7 @@ damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool l
       const auto at = [&](const Vec2& sn) {
         return place_on(body, left, X_BT, f.X_TC.apply({f.grid.x(ix), sn.x(), sn.y()}));
       };
-      const auto [y_low, y_high] = std::minmax(at(low).y, at(high).y);
+      const auto [y_low, y_high] = std::minmax({at(low).y, at(high).y});
       out.elements.push_back({at(middle).u, y_low, y_high, f.pressure[i], std::hypot(f.traction_x[i], f.traction_s[i]),
                               std::hypot(f.slip_x[i], f.slip_s[i]), std::max(0.0, f.dissipation[i])});
     }
@@ -52,9 +56,62 @@ damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool l
   return out;
 }
 
+/// Tractions of a patch with as much free surface before and behind it as it is long: where points come from and go to.
+struct WiderTractions {
+  Grid2 grid;
+  std::vector<double> pressure, x, s;
+
+  explicit WiderTractions(const io::PatchFields& f) : grid(f.grid) {
+    const int more = f.grid.nx;
+    grid.nx += 2 * more;
+    grid.x0 -= more * grid.dx;
+    for (auto [to, from] : {std::pair{&pressure, &f.pressure}, {&x, &f.traction_x}, {&s, &f.traction_s}}) {
+      to->assign(grid.size(), 0.0);
+      for (int iy = 0; iy < grid.ny; ++iy)
+        for (int ix = 0; ix < f.grid.nx; ++ix) (*to)[grid.index(ix + more, iy)] = (*from)[f.grid.index(ix, iy)];
+    }
+  }
+};
+
+void add_stresses_of(damage::PassedPatch& out, const io::PatchResult& patch, const io::Case& given, Body body,
+                     bool left, const Pose& X_BT, const FatigueSettings& fatigue) {
+  const io::PatchFields& f = patch.fields;
+  if (const double least = std::max(f.grid.dx, f.grid.dy); fatigue.depths.front() < 0.999 * least)
+    throw Error(ErrorKind::configuration,
+                fmt::format("stresses at a depth of {:.3g} mm below elements of {:.3g} mm",
+                            1e3 * fatigue.depths.front(), 1e3 * least),
+                given.where, "choose smaller elements (discretisation.dx_mm and ds_mm), or greater depths_mm");
+  const WiderTractions wider(f);
+  const auto& input = std::get<io::WheelRailCase>(given.content);
+  std::vector<double> z = fatigue.depths;
+  if (body == Body::wheel)
+    for (double& depth : z) depth = -depth;  // the other half-space
+  const auto points =
+      kalker::subsurface_stress_on_grid({wider.grid, wider.pressure, wider.x, wider.s}, input.material, z);
+  const std::vector<Vec2> edges = io::row_edges(f, patch.reference_s);
+  const auto y_at = [&](const Vec2& sn) { return place_on(body, left, X_BT, f.X_TC.apply({0.0, sn.x(), sn.y()})).y; };
+  for (int iy = 0; iy < f.grid.ny; ++iy) {
+    const auto state = f.state.begin() + static_cast<std::ptrdiff_t>(f.grid.index(0, iy));
+    if (std::all_of(state, state + f.grid.nx, [](auto s) { return s == 0; })) continue;
+    const auto row = static_cast<std::size_t>(iy);
+    const auto [y_low, y_high] = std::minmax({y_at(edges[row]), y_at(edges[row + 1])});
+    for (std::size_t depth = 0; depth < z.size(); ++depth) {
+      std::vector<Mat3> history;
+      history.reserve(static_cast<std::size_t>(wider.grid.nx));
+      for (int ix = 0; ix < wider.grid.nx; ++ix)
+        history.push_back(points[depth * wider.grid.size() + wider.grid.index(ix, iy)].stress);
+      damage::StressMeasures found = damage::stress_measures(history, fatigue.dang_van_slope);
+      if (!fatigue.has(FatigueMeasure::subsurface)) found.von_mises = found.shear = found.shakedown = 0.0;
+      if (!fatigue.has(FatigueMeasure::dang_van)) found.dang_van = 0.0;
+      out.stresses.push_back({y_low, y_high, depth, found});
+    }
+  }
+}
+
 }  // namespace
 
-std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io::CaseResult& result, Body body) {
+std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io::CaseResult& result, Body body,
+                                                const FatigueSettings& fatigue) {
   const auto& input = std::get<io::WheelRailCase>(given.content);
   const Pose X_BT = (body == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS).inverse();
   std::vector<damage::PassedPatch> out;
@@ -66,8 +123,18 @@ std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io:
       throw Error(ErrorKind::configuration, "a case of an evolution needs tractions and slip of its contacts",
                   given.where, "choose a tangential model other than none, without a plastic layer");
     out.push_back(passed_patch(patch, body, input.side == Side::left, X_BT));
+    out.back().fatigue = damage::contact_fatigue(fatigue, out.back());
   }
   return out;
+}
+
+void add_stresses(std::vector<damage::PassedPatch>& patches, const io::Case& given, const io::CaseResult& result,
+                  Body body, const FatigueSettings& fatigue) {
+  if (fatigue.depths.empty()) return;
+  const auto& input = std::get<io::WheelRailCase>(given.content);
+  const Pose X_BT = (body == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS).inverse();
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    add_stresses_of(patches[k], result.patches[k], given, body, input.side == Side::left, X_BT, fatigue);
 }
 
 double place_along(const io::WheelRailCase& input, Body body) {

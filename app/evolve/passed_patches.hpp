@@ -8,13 +8,21 @@
 #include "treadmark/damage/record.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/model/fatigue.hpp"
 
 namespace treadmark::app {
 
 /// The patches of a solved case as the own surface of a body sees them: elements in contact, in the coordinates of the
-/// profile as it is given (for the right-hand side). Errors: Error(configuration) for cases that do not roll or have no
-/// tractions.
-std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io::CaseResult& result, Body body);
+/// profile as it is given (for the right-hand side), with what they do to it as wholes. Errors: Error(configuration)
+/// for cases that do not roll or have no tractions.
+std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io::CaseResult& result, Body body,
+                                                const FatigueSettings& fatigue = {});
+
+/// Adds to the patches of a case what points below their rows endure, at the depths of the settings: every point sees
+/// the stresses of the patch along its row, one after the other. Half-spaces, as in the contact problem. Errors:
+/// Error(configuration) for depths of less than an element.
+void add_stresses(std::vector<damage::PassedPatch>& patches, const io::Case& given, const io::CaseResult& result,
+                  Body body, const FatigueSettings& fatigue);
 
 /// Where along a body the contacts of a case are: x of a rail [m], theta of a wheel, within [0, 2 pi) [rad].
 double place_along(const io::WheelRailCase& input, Body body);

@@ -258,12 +258,39 @@ class EvolutionRun {
     return text.empty() ? std::to_string(run.number) : text;
   }
 
+  static SurfaceRecord empty_record(const Evolving& body) {
+    return SurfaceRecord(body.cells.nu, body.input.fatigue.depths.size());
+  }
+
+  io::EvolvedFatigue fatigue_of(const io::EvolvingBody& body, const io::RunResult& run) const {
+    const FatigueSettings& known = body.fatigue;
+    io::EvolvedFatigue out;
+    if (known.measures.empty()) return out;
+    for (const FatigueMeasure measure : known.measures)
+      out.measures += fmt::format("{}{}", out.measures.empty() ? "" : " ",
+                                  kFatigueMeasures[static_cast<std::size_t>(measure)].word);
+    out.source = known.source;
+    out.shear_yield = known.shear_yield, out.dang_van_limit = known.dang_van_limit;
+    out.depths = known.depths;
+    for (std::size_t i = 0; i < run.cases.size(); ++i) {
+      const auto patches = passed_patches(all_.cases[i], run.cases[i], body.body, known);
+      ContactFatigue& all = out.contacts.emplace_back();
+      for (const damage::PassedPatch& patch : patches) {
+        if (&patch == patches.data()) all = patch.fatigue;
+        for (const auto number : {&ContactFatigue::friction, &ContactFatigue::pressure_ratio, &ContactFatigue::fi_surf,
+                                  &ContactFatigue::shakedown, &ContactFatigue::damage})
+          all.*number = std::max(all.*number, patch.fatigue.*number);
+      }
+    }
+    return out;
+  }
+
   /// What the whole amount would do at this speed, the volumes smoothed.
   Records rates_of(const io::RunResult& run) const {
     Records rates;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
-      SurfaceRecord rate(body.cells.nu);
+      SurfaceRecord rate = empty_record(body);
       for (std::size_t i = 0; i < run.cases.size(); ++i) {
         const CasePlace& place = places_[i];
         const damage::Stretch& stretch = place.stretch[b];
@@ -280,7 +307,9 @@ class EvolutionRun {
         } else {
           seconds *= (stretch.end - stretch.begin) / (wheel ? 2.0 * kPi : 1.0);
         }
-        for (const damage::PassedPatch& patch : passed_patches(all_.cases[i], run.cases[i], body.input.body))
+        auto patches = passed_patches(all_.cases[i], run.cases[i], body.input.body, body.input.fatigue);
+        add_stresses(patches, all_.cases[i], run.cases[i], body.input.body, body.input.fatigue);
+        for (const damage::PassedPatch& patch : patches)
           damage::add_patch(rate, body.cells, body.input.law, patch, stretch, seconds, count);
       }
       damage::smooth(rate.volume, body.cells, body.input.smoothing);
@@ -300,6 +329,7 @@ class EvolutionRun {
       out.source = body.input.law.source;
       out.cells = body.cells;
       out.record = records[b];
+      out.fatigue = fatigue_of(body.input, run);
       const damage::DepthExtent extent = damage::depth_extent(body.cells, records[b].volume);
       out.max_depth = extent.depth;
       out.max_slope = extent.slope;
@@ -379,7 +409,7 @@ class EvolutionRun {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       // the depth of a whole amount may be more than there is: in small parts it is even
       constexpr double kPart = 1e-6;
-      SurfaceRecord part(bodies_[b].cells.nu);
+      SurfaceRecord part = empty_record(bodies_[b]);
       damage::add_times(part, rates[b], kPart);
       depth = std::max(depth, damage::depth_extent(bodies_[b].cells, part.volume).depth / kPart);
     }
@@ -389,7 +419,7 @@ class EvolutionRun {
   void evolve(io::EvolutionResult& result) {
     Records records;
     records.reserve(bodies_.size());
-    for (const Evolving& body : bodies_) records.emplace_back(body.cells.nu);
+    for (const Evolving& body : bodies_) records.push_back(empty_record(body));
     if (!result.generations.empty()) {
       for (std::size_t b = 0; b < bodies_.size(); ++b) records[b] = result.generations.back().bodies[b].record;
       report(result.generations.back());
@@ -418,7 +448,7 @@ class EvolutionRun {
     for (int refused = 0;; ++refused) {
       Records trial;
       for (std::size_t b = 0; b < bodies_.size(); ++b) {
-        SurfaceRecord update(bodies_[b].cells.nu);
+        SurfaceRecord update = empty_record(bodies_[b]);
         damage::add_times(update, rates[b], step);
         check_update(bodies_[b], update);
         trial.push_back(records[b]);
@@ -446,6 +476,7 @@ class EvolutionRun {
       write(next, trial, solved.run);
       records = std::move(trial);
       run = std::move(solved.run);
+      io::forget_records(result.generations.back());  // generation_0001.h5 and its like have them
       result.generations.push_back(std::move(next));
       return;
     }

@@ -19,7 +19,8 @@ struct EvolutionOptions {
 };
 
 /// Evolves the surfaces of a file, or goes on where the folder says it was stopped: results are the same bytes for any
-/// number of interruptions and threads. Every generation that stands is written at once: its surfaces (.vdb), its
+/// number of interruptions and threads. Every generation that stands is written at once (results keep the
+/// records of the last one): its surfaces (.vdb), its
 /// record (generation_0001.h5) and, if wanted, its contacts (contacts_0001.h5). Status "failed" where a contact cannot
 /// be solved, "interrupted" at a stop request. Errors: those of the readers, of surfaces and of solvers for input that
 /// makes no sense; Error(configuration) where the folder holds another evolution, or somebody else works in it.
@@ -32,5 +33,7 @@ void check_evolution(const io::EvolutionFile& file);
 /// evolution.json, evolution.csv and evolution.h5 into the folder, from its generations.
 void write_evolution_folder(const std::filesystem::path& folder, const io::EvolutionResult& result);
 std::string evolution_json(const io::EvolutionResult& result);
+/// For people: a line a generation.
+std::string evolution_table(const io::EvolutionResult& result);
 
 }  // namespace treadmark::app

@@ -11,6 +11,7 @@
 
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/app/simulation/run_study.hpp"
@@ -23,8 +24,10 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
+#include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
+#include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
@@ -162,6 +165,7 @@ struct Found {
   std::shared_ptr<const Result> result;
 };
 using FoundTrack = Found<app::TrackResult>;
+using FoundEvolution = Found<io::EvolutionResult>;
 using FoundStability = Found<app::StabilityRun>;
 struct AssessedRuns {
   std::vector<app::AssessedRun> runs;
@@ -193,6 +197,18 @@ FoundTrack track(const std::filesystem::path& file, const Strings& overrides, co
     request.count = count;
     request.layers = layers;
     return FoundTrack{std::make_shared<const app::TrackResult>(app::run_track(request))};
+  });
+}
+
+FoundEvolution evolve(const std::filesystem::path& file, const Strings& overrides, const std::filesystem::path& folder,
+                      bool resume, const py::object& progress, int threads) {
+  return with_progress(progress, threads, [&](const Progress& report) {
+    for (const char* part : {"hdf5", "openvdb"}) require_part(part, "evolutions");
+    const io::EvolutionFile read = io::read_evolution_file(file, overrides);
+    auto result =
+        std::make_shared<const io::EvolutionResult>(app::run_evolution(read, {folder, resume, overrides}, report));
+    app::write_evolution_folder(folder, *result);
+    return FoundEvolution{std::move(result)};
   });
 }
 
@@ -293,6 +309,11 @@ void add_simulations(py::module_& module) {
       [](const std::filesystem::path& folder, const AssessedRuns& a) {
         app::write_assessment_folder(folder, a.runs, a.channels);
       });
+  py::class_<FoundEvolution>(module, "Evolution")
+      .def("json", [](const FoundEvolution& e) { return app::evolution_json(*e.result); })
+      .def("csv", [](const FoundEvolution& e) { return io::evolution_csv(*e.result); })
+      .def("summary", [](const FoundEvolution& e) { return app::evolution_table(*e.result); });
+  module.def("evolve", evolve);
   module.def("track", track);
   module.def("stability", stability);
   module.def("assess", assess);

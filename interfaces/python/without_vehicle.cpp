@@ -6,7 +6,8 @@
 namespace treadmark::python {
 
 void add_simulations(py::module_& module) {
-  for (const char* name : {"simulate", "sweep", "read_sweep", "check_simulation", "track", "stability", "assess"})
+  for (const char* name :
+       {"simulate", "sweep", "read_sweep", "check_simulation", "evolve", "track", "stability", "assess"})
     module.def(name, [](const py::args&) { left_out("vehicle", "simulations and studies"); });
 }
 

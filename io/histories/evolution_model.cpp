@@ -27,7 +27,48 @@ double largest_of(const CellSheet& sheet) {
 
 double relative(double found, double expected) { return expected != 0.0 ? found / expected - 1.0 : found; }
 
+/// The largest of the present contacts, and of what points have endured.
+void add_fatigue(const EvolvedBody& b, const std::string& name, std::vector<EvolutionQuantity>& out) {
+  const EvolvedFatigue& f = b.fatigue;
+  const auto present = [&](double ContactFatigue::*member) {
+    double largest = f.contacts.front().*member;
+    for (const ContactFatigue& c : f.contacts) largest = std::max(largest, c.*member);
+    return largest;
+  };
+  const auto ever = [&](CellSheet StressRecord::*sheet) {
+    double largest = 0.0;
+    for (const StressRecord& s : b.record.stresses) largest = std::max(largest, largest_of(s.*sheet));
+    return largest;
+  };
+  if (f.contacts.empty()) return;
+  if (f.has(FatigueMeasure::fi_surf))
+    out.push_back(
+        {name + "_fi_surf", "1", "largest surface fatigue index, > 0: fatigue", present(&ContactFatigue::fi_surf)});
+  if (f.has(FatigueMeasure::shakedown))
+    out.push_back({name + "_shakedown", "1", "largest pressure over the limit of the shakedown map, > 1: flow",
+                   present(&ContactFatigue::shakedown)});
+  if (f.has(FatigueMeasure::whole_life))
+    out.push_back({name + "_damage", "1", "largest sum of the damage of passages", largest_of(b.record.damage)});
+  if (f.has(FatigueMeasure::subsurface)) {
+    out.push_back({name + "_von_mises_ever_MPa", "MPa", "largest von Mises stress at the depths that has passed",
+                   1e-6 * ever(&StressRecord::von_mises)});
+    out.push_back({name + "_shear_ever_MPa", "MPa", "largest shear amplitude at the depths that has passed",
+                   1e-6 * ever(&StressRecord::shear)});
+    out.push_back({name + "_yield_share_ever", "1",
+                   "largest shear yield that shakedown needs at the depths over that of the material, > 1: flow",
+                   ever(&StressRecord::shakedown) / f.shear_yield});
+  }
+  if (f.has(FatigueMeasure::dang_van))
+    out.push_back({name + "_dang_van_ever", "1", "largest equivalent stress of Dang Van over its limit, > 1: fatigue",
+                   ever(&StressRecord::dang_van) / f.dang_van_limit});
+}
+
 }  // namespace
+
+bool EvolvedFatigue::has(FatigueMeasure measure) const {
+  const std::string word = fmt::format(" {} ", kFatigueMeasures[static_cast<std::size_t>(measure)].word);
+  return fmt::format(" {} ", measures).find(word) != std::string::npos;
+}
 
 double volume_balance(const EvolvedBody& body) {
   return relative(sum_of(body.record.volume), body.record.volume_by_law);
@@ -37,7 +78,13 @@ double work_balance(const EvolvedBody& body) {
   return relative(sum_of(body.record.work), body.record.work_of_contacts);
 }
 
+void forget_records(Generation& g) {
+  g.quantities = quantities_of(g);
+  for (EvolvedBody& b : g.bodies) b.record = SurfaceRecord(b.cells.nu, b.fatigue.depths.size());
+}
+
 std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
+  if (!g.quantities.empty()) return g.quantities;
   std::vector<EvolutionQuantity> out{
       {"distance_km", "km", "rolled by the wheel", 1e-3 * g.distance},
       {"passages", "1", "of wheels over the rail", g.passages},
@@ -78,6 +125,7 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
                    "largest pressure that has passed; the present contacts have not",
                    1e-6 * largest_of(b.record.pressure)});
     out.push_back({name + "_sliding_m", "m", "largest sliding distance of a point", largest_of(b.record.sliding)});
+    add_fatigue(b, name, out);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/surface_record.hpp"
 
@@ -13,12 +14,22 @@ namespace treadmark::io {
 
 /// What came of an evolution, SI.
 
+/// What is known of the material of a body, and what the present contacts do to it.
+struct EvolvedFatigue {
+  std::string measures, source;  ///< words of kFatigueMeasures with blanks between them, and where the numbers are from
+  double shear_yield = 0.0, dang_van_limit = 0.0;  ///< [Pa]
+  std::vector<double> depths;                      ///< of the stresses of the record [m]
+  std::vector<ContactFatigue> contacts;            ///< by case: the largest of its patches
+  bool has(FatigueMeasure measure) const;
+};
+
 /// A body at one generation.
 struct EvolvedBody {
   Body body = Body::wheel;
   std::string law, source;  ///< word of the theory, and where its numbers come from
   SurfaceCells cells;
   SurfaceRecord record;
+  EvolvedFatigue fatigue;
   double max_depth = 0.0;    ///< [m]
   double max_slope = 0.0;    ///< of the depth across [-]
   std::string surface_file;  ///< name in the folder
@@ -36,6 +47,13 @@ struct EvolvedCase {
   double t_gamma = 0.0;                 ///< power of friction over rolling speed [N]
 };
 
+/// A number of a generation, for tables and charts.
+struct EvolutionQuantity {
+  std::string name;  ///< with its unit at the end
+  std::string unit, meaning;
+  double value = 0.0;
+};
+
 struct Generation {
   int number = 0;
   double progress = 0.0;         ///< share of the whole
@@ -48,23 +66,21 @@ struct Generation {
   double pressure_change = 0.0;  ///< by the step that led here, the largest, as a share
   std::vector<EvolvedBody> bodies;
   std::vector<EvolvedCase> cases;
+  std::vector<EvolutionQuantity> quantities;  ///< kept once records are forgotten; empty before
 };
 
 struct EvolutionResult {
   std::string version, git, input_file, input_sha256, title;
   std::vector<std::string> settings;
   std::string status = "complete", message;  ///< "interrupted", "failed"
-  std::vector<Generation> generations;
+  std::vector<Generation> generations;       ///< the last one with its records, others may have forgotten them
 };
 
-/// A number of a generation, for tables and charts.
-struct EvolutionQuantity {
-  std::string name;  ///< with its unit at the end
-  std::string unit, meaning;
-  double value = 0.0;
-};
-/// All of them in their order; names are the same in all generations of a result.
+/// All quantities in their order; names are the same in all generations of a result.
 std::vector<EvolutionQuantity> quantities_of(const Generation& generation);
+
+/// Empties the sheets of its records, which are most of its memory; quantities_of stays as it is.
+void forget_records(Generation& generation);
 
 /// Relative differences between what the law takes and what the geometry has lost, and between the work that is stored
 /// on the surface and that of the contacts.

@@ -30,9 +30,36 @@ constexpr SheetRow kSheets[] = {{&SurfaceRecord::volume, "volume", "m3", "remove
                                 {&SurfaceRecord::sliding, "sliding", "m", "distance, mean over the cell"},
                                 {&SurfaceRecord::passages, "passages", "1", "of contacts over the cell"},
                                 {&SurfaceRecord::pressure, "pressure", "Pa", "largest"},
-                                {&SurfaceRecord::traction, "traction", "Pa", "largest"}};
+                                {&SurfaceRecord::traction, "traction", "Pa", "largest"},
+                                {&SurfaceRecord::t_gamma, "t_gamma", "N", "largest of the contacts that passed"},
+                                {&SurfaceRecord::fi_surf, "fi_surf", "1", "largest surface fatigue index above 0"},
+                                {&SurfaceRecord::damage, "damage", "1", "sum over passages by their T gamma"}};
 
-void write_sheet(const Hdf5GroupWriter& parent, const SheetRow& what, const CellSheet& sheet) {
+/// The same at a depth.
+struct StressRow {
+  CellSheet StressRecord::*sheet;
+  const char *name, *unit, *meaning;
+};
+constexpr StressRow kStressSheets[] = {
+    {&StressRecord::von_mises, "von_mises", "Pa", "largest"},
+    {&StressRecord::shear, "shear", "Pa", "largest amplitude of all planes"},
+    {&StressRecord::shakedown, "shakedown", "Pa", "largest shear yield that shakedown needs"},
+    {&StressRecord::dang_van, "dang_van", "Pa", "largest shear and weighted hydrostatic stress"}};
+
+/// Numbers of a contact.
+struct ContactRow {
+  double ContactFatigue::*number;
+  const char *name, *meaning;
+};
+constexpr ContactRow kContactNumbers[] = {
+    {&ContactFatigue::friction, "friction", "utilised: traction over normal force"},
+    {&ContactFatigue::pressure_ratio, "pressure_ratio", "largest pressure over shear yield"},
+    {&ContactFatigue::fi_surf, "fi_surf", "surface fatigue index"},
+    {&ContactFatigue::shakedown, "shakedown", "pressure ratio over the limit of the shakedown map"},
+    {&ContactFatigue::damage, "damage", "of a passage by its T gamma"}};
+
+template <class Row>
+void write_sheet(const Hdf5GroupWriter& parent, const Row& what, const CellSheet& sheet) {
   std::vector<double> rows, values;
   for (const auto& [j, row] : sheet.rows()) {
     rows.push_back(j);
@@ -43,7 +70,8 @@ void write_sheet(const Hdf5GroupWriter& parent, const SheetRow& what, const Cell
   group.write({"values", {rows.size(), static_cast<std::size_t>(sheet.nu())}, what.unit, what.meaning, true}, values);
 }
 
-void read_sheet(const Hdf5GroupReader& parent, const SheetRow& what, const SurfaceCells& cells, CellSheet& sheet) {
+template <class Row>
+void read_sheet(const Hdf5GroupReader& parent, const Row& what, const SurfaceCells& cells, CellSheet& sheet) {
   const Hdf5GroupReader group = parent.open_group(what.name);
   const std::vector<double> rows = group.numbers("rows");
   const auto nu = static_cast<std::size_t>(sheet.nu());
@@ -55,6 +83,49 @@ void read_sheet(const Hdf5GroupReader& parent, const SheetRow& what, const Surfa
                   {parent.file(), 0, 0});
     sheet.rows()[j].assign(values.begin() + static_cast<std::ptrdiff_t>(k * nu),
                            values.begin() + static_cast<std::ptrdiff_t>((k + 1) * nu));
+  }
+}
+
+std::string depth_group(std::size_t k) { return fmt::format("depth_{}", k + 1); }
+
+void write_fatigue(const Hdf5GroupWriter& body, const EvolvedFatigue& fatigue, const SurfaceRecord& record) {
+  const Hdf5GroupWriter group = body.make_group("fatigue");
+  const std::vector<Attribute> head{{"measures", fatigue.measures},
+                                    {"source", fatigue.source},
+                                    {"shear_yield", fatigue.shear_yield},
+                                    {"dang_van_limit", fatigue.dang_van_limit}};
+  group.add(head);
+  group.write({"depths", {fatigue.depths.size()}, "m", "below the surface, of the groups depth_1 ..."}, fatigue.depths);
+  for (const ContactRow& row : kContactNumbers) {
+    std::vector<double> values;
+    values.reserve(fatigue.contacts.size());
+    for (const ContactFatigue& c : fatigue.contacts) values.push_back(c.*row.number);
+    group.write({row.name, {values.size()}, "1", row.meaning}, values);
+  }
+  for (std::size_t k = 0; k < record.stresses.size(); ++k) {
+    const Hdf5GroupWriter at = group.make_group(depth_group(k));
+    for (const StressRow& row : kStressSheets) write_sheet(at, row, record.stresses[k].*row.sheet);
+  }
+}
+
+void read_fatigue(const Hdf5GroupReader& body, const SurfaceCells& cells, EvolvedFatigue& fatigue,
+                  SurfaceRecord& record) {
+  if (!body.has("fatigue")) return;
+  const Hdf5GroupReader group = body.open_group("fatigue");
+  fatigue.measures = group.text("measures"), fatigue.source = group.text("source");
+  fatigue.shear_yield = group.number("shear_yield"), fatigue.dang_van_limit = group.number("dang_van_limit");
+  fatigue.depths = group.numbers("depths");
+  for (const ContactRow& row : kContactNumbers) {
+    const std::vector<double> values = group.numbers(row.name);
+    if (&row == kContactNumbers) fatigue.contacts.resize(values.size());
+    if (values.size() != fatigue.contacts.size())
+      throw Error(ErrorKind::input_data, "the contacts of a generation do not fit together", {group.file(), 0, 0});
+    for (std::size_t i = 0; i < values.size(); ++i) fatigue.contacts[i].*row.number = values[i];
+  }
+  record.stresses.assign(fatigue.depths.size(), StressRecord(cells.nu));
+  for (std::size_t k = 0; k < record.stresses.size(); ++k) {
+    const Hdf5GroupReader at = group.open_group(depth_group(k));
+    for (const StressRow& row : kStressSheets) read_sheet(at, row, cells, record.stresses[k].*row.sheet);
   }
 }
 
@@ -78,6 +149,7 @@ void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
   group.write({"radius", {c.radius.size()}, "m", "of the rows of a wheel; 1 of a rail", true}, c.radius);
   group.write({"section_z", {body.z.size()}, "m", "height of the section of the first column by row", true}, body.z);
   for (const SheetRow& row : kSheets) write_sheet(group, row, body.record.*row.sheet);
+  if (!body.fatigue.measures.empty()) write_fatigue(group, body.fatigue, body.record);
 }
 
 EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
@@ -97,6 +169,7 @@ EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
   body.record.volume_by_law = group.number("volume_by_law");
   body.record.work_of_contacts = group.number("work_of_contacts");
   for (const SheetRow& row : kSheets) read_sheet(group, row, c, body.record.*row.sheet);
+  read_fatigue(group, c, body.fatigue, body.record);
   return body;
 }
 
@@ -234,8 +307,10 @@ EvolutionResult read_evolution_folder(const std::filesystem::path& folder) {
     read_origin(root, result);
     result.status = root.text("status"), result.message = root.text("message");
   }
-  for (int k = 0; std::filesystem::exists(folder / generation_file(k)); ++k)
+  for (int k = 0; std::filesystem::exists(folder / generation_file(k)); ++k) {
+    if (k > 0) forget_records(result.generations.back());
     result.generations.push_back(read_generation(folder / generation_file(k)));
+  }
   return result;
 }
 

@@ -20,7 +20,8 @@ Generation read_generation(const std::filesystem::path& path);
 void write_evolution_store(const std::filesystem::path& path, const EvolutionResult& result,
                            const std::vector<std::filesystem::path>& generations);
 
-/// What a folder of an evolution holds: its generations, and its head where that is written. Errors: as above.
+/// What a folder of an evolution holds: its generations, all but the last one without their records (read_generation
+/// has them), and its head where that is written. Errors: as above.
 EvolutionResult read_evolution_folder(const std::filesystem::path& folder);
 
 /// Names in such a folder.

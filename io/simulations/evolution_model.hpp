@@ -6,6 +6,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/simulations/study_model.hpp"
+#include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/wear_law.hpp"
 
@@ -18,6 +19,7 @@ struct EvolvingBody {
   bool local = false;                          ///< every place by itself; else the same all along
   double du = 0.0, dy = 0.0, smoothing = 0.0;  ///< [m]
   WearLaw law;
+  FatigueSettings fatigue;
   SourcePosition where;  ///< of its table
 };
 

@@ -48,6 +48,45 @@ WearLaw read_law(const TableReader& body) {
   return law;
 }
 
+FatigueMeasure measure_named(const TableReader& table, const std::string& word) {
+  std::vector<std::string> known;
+  for (const FatigueMeasureRow& row : kFatigueMeasures) known.emplace_back(row.word);
+  check_name("measure", word, known, table.need("measures").where);
+  return std::ranges::find(kFatigueMeasures, word, &FatigueMeasureRow::word)->measure;
+}
+
+FatigueSettings read_fatigue(const TableReader& body) {
+  FatigueSettings out;
+  const CaseTable* given = body.table("fatigue");
+  if (given == nullptr) return out;
+  const TableReader table(*given, body.need("fatigue").where, body.path_of("fatigue"), fatigue_keys());
+  for (const std::string& word : table.words("measures")) {
+    const FatigueMeasure measure = measure_named(table, word);
+    if (out.has(measure)) table.fail(fmt::format("{} names {} twice", table.path_of("measures"), word));
+    out.measures.push_back(measure);
+    const FatigueMeasureRow& row = kFatigueMeasures[static_cast<std::size_t>(measure)];
+    std::istringstream needed{std::string(row.keys)};
+    for (std::string key; needed >> key;) table.need(key, fmt::format("the measure {} needs {}", row.word, row.keys));
+  }
+  if (out.measures.empty())
+    table.fail(fmt::format("{} is empty", table.path_of("measures")), "name some, or leave the table out");
+  out.source = table.text("source");
+  if (out.source.empty())
+    table.fail(fmt::format("{} is empty", table.path_of("source")), "say where the numbers come from");
+  out.shear_yield = table.number_or("shear_yield_MPa", 0.0);
+  if (out.has(FatigueMeasure::subsurface) || out.has(FatigueMeasure::dang_van)) out.depths = table.numbers("depths_mm");
+  out.dang_van_slope = table.number_or("dang_van_slope", 0.0);
+  out.dang_van_limit = table.number_or("dang_van_limit_MPa", 0.0);
+  out.t_gamma = table.numbers("t_gamma_N");
+  out.passage_damage = table.numbers("damage_per_passage");
+  try {
+    check(out);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", table.path(), e.message()), table.where(), e.advice());
+  }
+  return out;
+}
+
 EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, const char* amount) {
   const TableReader table(*evolve.table(key), evolve.need(key).where, evolve.path_of(key), evolving_body_keys());
   EvolvingBody out;
@@ -60,6 +99,7 @@ EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, co
   out.dy = table.number_or("dy_mm", 0.5e-3);
   out.smoothing = table.number_or("smoothing_mm", 1e-3);
   out.law = read_law(table);
+  out.fatigue = read_fatigue(table);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
 #include "treadmark/model/assessment.hpp"
+#include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/irregularities.hpp"
 #include "treadmark/model/track_layout.hpp"
 #include "treadmark/model/wear_law.hpp"
@@ -622,7 +623,9 @@ const TableKeys& evolving_body_keys() {
       with_default("1", key_info("smoothing_mm", KeyType::number,
                                  "standard deviation of the Gaussian kernel over what an update removes; 0: none",
                                  kNotNegative)),
-      needed(table_key("law", KeyType::table, "how contact removes depth", wear_law_keys()))};
+      needed(table_key("law", KeyType::table, "how contact removes depth", wear_law_keys())),
+      table_key("fatigue", KeyType::table, "what contact does to the material below, without changing it",
+                fatigue_keys())};
   return keys;
 }
 
@@ -649,6 +652,28 @@ const TableKeys& wear_law_keys() {
         key_info("volume_per_work_mm3_J", KeyType::number_list,
                  "energy: coefficient, one for each regime of power by area", kNotNegative),
         key_info("power_density_W_mm2", KeyType::number_list, "energy: powers by area between the regimes", kPositive)};
+  }();
+  return keys;
+}
+
+const TableKeys& fatigue_keys() {
+  static const TableKeys keys = [] {
+    std::string words;
+    for (const FatigueMeasureRow& row : kFatigueMeasures)
+      words += fmt::format("{}`\"{}\"`", words.empty() ? "" : ", ", row.word);
+    return TableKeys{
+        needed(key_info("measures", KeyType::text_list, words + ": see `treadmark list laws`")),
+        needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it")),
+        key_info("shear_yield_MPa", KeyType::number,
+                 "fi_surf, shakedown, subsurface: k of the material in cyclic shear", kPositive),
+        key_info("depths_mm", KeyType::number_list,
+                 "subsurface, dang_van: below the surface, increasing, from the size of an element on", kPositive),
+        key_info("dang_van_slope", KeyType::number, "dang_van: factor of the hydrostatic stress", kPositive),
+        key_info("dang_van_limit_MPa", KeyType::number, "dang_van: equivalent shear stress that is endured", kPositive),
+        key_info("t_gamma_N", KeyType::number_list,
+                 "whole_life: points of a broken line, which goes on straight behind the last", kNotNegative),
+        key_info("damage_per_passage", KeyType::number_list,
+                 "whole_life: at these points; 1: failure, negative: wear takes more than fatigue adds")};
   }();
   return keys;
 }

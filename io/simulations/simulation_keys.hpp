@@ -75,6 +75,7 @@ std::string study_file_schema();
 const TableKeys& evolve_keys();
 const TableKeys& evolving_body_keys();
 const TableKeys& wear_law_keys();
+const TableKeys& fatigue_keys();
 std::string evolve_file_schema();
 std::string evolve_key_table();
 

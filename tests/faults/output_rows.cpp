@@ -29,6 +29,26 @@ x = "simulation.speed_m_s"
 y = ["q_max_N"]
 )";
 
+const char* kShortEvolution = R"([evolve]
+base = "case.toml"
+distance_km = 100
+updates = 1
+
+[evolve.wheel]
+
+[evolve.wheel.law]
+theory = "archard"
+source = "assumed"
+hardness_GPa = 3.0
+k = [1e-4]
+
+[evolve.wheel.fatigue]
+measures = ["fi_surf", "subsurface"]
+source = "assumed"
+shear_yield_MPa = 300
+depths_mm = [3]
+)";
+
 #define RESULTS "run $case.toml -o $first;run $case.toml -o $second --set wheelset.vertical_force_N=70e3"
 #define SCANS "scan $case.toml -o $scan.ply --body rail --range-mm -40 60 --points 4000"
 #define RAIL "--resolution 8 --range-mm=-16,16"
@@ -93,6 +113,8 @@ const std::vector<OutputRow> kRows{
      "assess $simulated -o @assessed --json @assessed.json --csv @assessed.csv",
      "assess $simulated -o @assessed --json @assessed.json --csv @assessed.csv --vehicle freight", 2},
     {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0, true},
+    {"evolve", "vehicle hdf5 openvdb", "", "evolve $short-evolution.toml -o @evolve --json @evolve.json", nullptr, 0,
+     true},
     {"stability", "vehicle", "", STABILITY " --to 30", STABILITY " --to 25", 3},
     {"track", "vehicle", "", TRACK " --fit 1 --count 20", TRACK " --fit 1 --count 30", 2},
 };
@@ -123,6 +145,7 @@ OutputScene::OutputScene() : out_(std::filesystem::canonical(input_.folder()) / 
   input_.write("short.toml", input_.read("simulation.toml"));
   input_.edit("short.toml", "distance_m = 0.06\ncheckpoint_s = 0.02", "distance_m = 0.01\ncheckpoint_s = 0.0002");
   input_.write("short-study.toml", kShortStudy);
+  input_.write("short-evolution.toml", kShortEvolution);
 }
 
 std::vector<std::string> OutputScene::words(const std::string& command) const {

@@ -53,29 +53,78 @@ ChartView numbers_over_generations(const io::EvolutionResult& result) {
   return view;
 }
 
-/// Section and depth of a body at the chosen generation.
-ChartView section_by_generation(const io::EvolutionResult& result, std::size_t body) {
+/// A line over the section: what a row has of a sheet.
+struct SectionLine {
+  std::string panel, unit, name;
+  double scale = 1.0;
+  const CellSheet& (*sheet)(const SurfaceRecord& record, std::size_t depth) = nullptr;
+  std::size_t depth = 0;  ///< number of the depth below the surface
+};
+
+double largest_in_row(const CellSheet& sheet, int j) {
+  const auto row = sheet.rows().find(j);
+  return row == sheet.rows().end() ? 0.0 : *std::ranges::max_element(row->second);
+}
+
+/// What points have endured, as far as it was asked for.
+std::vector<SectionLine> endured(const io::EvolvedBody& b) {
+  using Record = const SurfaceRecord&;
+  std::vector<SectionLine> out{{"largest pressure up to here", "MPa", "pressure", 1e-6,
+                                [](Record r, std::size_t) -> const CellSheet& { return r.pressure; }},
+                               {"largest T gamma up to here", "N", "T gamma", 1.0,
+                                [](Record r, std::size_t) -> const CellSheet& { return r.t_gamma; }}};
+  if (b.fatigue.has(FatigueMeasure::fi_surf))
+    out.push_back({"largest surface fatigue index above 0 up to here", "", "index", 1.0,
+                   [](Record r, std::size_t) -> const CellSheet& { return r.fi_surf; }});
+  if (b.fatigue.has(FatigueMeasure::whole_life))
+    out.push_back(
+        {"damage of passages", "", "damage", 1.0, [](Record r, std::size_t) -> const CellSheet& { return r.damage; }});
+  const auto at_depths = [&](const std::string& panel, const std::string& unit, double scale, auto sheet) {
+    for (std::size_t k = 0; k < b.fatigue.depths.size(); ++k)
+      out.push_back({panel, unit, fmt::format("{:.3g} mm deep", kMilli * b.fatigue.depths[k]), scale, sheet, k});
+  };
+  if (b.fatigue.has(FatigueMeasure::subsurface)) {
+    at_depths("largest von Mises stress up to here", "MPa", 1e-6,
+              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].von_mises; });
+    at_depths("largest shear amplitude up to here", "MPa", 1e-6,
+              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].shear; });
+    at_depths("shear yield that shakedown needs over that of the material", "", 1.0 / b.fatigue.shear_yield,
+              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].shakedown; });
+  }
+  if (b.fatigue.has(FatigueMeasure::dang_van))
+    at_depths("Dang Van's stress over its limit", "", 1.0 / b.fatigue.dang_van_limit,
+              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].dang_van; });
+  return out;
+}
+
+/// Section, depth and what points have endured, of a body at the chosen generation.
+ChartView section_by_generation(const io::EvolutionResult& result, const fs::path& folder, std::size_t body) {
+  const std::vector<SectionLine> lines = endured(result.generations.front().bodies[body]);
   ChartView view;
   view.x = Axis{"y", "mm"};
   view.panels = {{"height z of the section", "mm", false, {Series{"section", {}}}},
-                 {"depth removed, mean along", "mm", false, {Series{"depth", {}}}},
-                 {"largest pressure up to here", "MPa", false, {Series{"pressure", {}}}}};
-  for (const io::Generation& g : result.generations) {
+                 {"depth removed, mean along", "mm", false, {Series{"depth", {}}}}};
+  for (const SectionLine& line : lines) {
+    if (view.panels.back().label != line.panel) view.panels.push_back({line.panel, line.unit, false, {}});
+    view.panels.back().series.push_back(Series{line.name, {}});
+  }
+  for (const io::Generation& summary : result.generations) {
+    const io::Generation g = io::read_generation(folder / io::generation_file(summary.number));
     const io::EvolvedBody& b = g.bodies[body];
     ChartView::Curves curves;
-    curves.y.assign(3, std::vector<std::vector<double>>(1));
+    curves.y.resize(view.panels.size());
+    for (std::size_t p = 0; p < view.panels.size(); ++p) curves.y[p].resize(view.panels[p].series.size());
     for (int j = 0; j < b.cells.ny; ++j) {
-      const double z = b.z[static_cast<std::size_t>(j)];
-      double volume = 0.0, pressure = 0.0;
-      for (int i = 0; i < b.cells.nu; ++i) {
-        volume += b.record.volume.at(i, j);
-        pressure = std::max(pressure, b.record.pressure.at(i, j));
-      }
-      const double area = b.cells.area(j) * b.cells.nu;
+      double volume = 0.0;
+      for (int i = 0; i < b.cells.nu; ++i) volume += b.record.volume.at(i, j);
       curves.x.push_back(in_file(kMilli * b.cells.y(j)));
-      curves.y[0][0].push_back(in_file(kMilli * z));
-      curves.y[1][0].push_back(in_file(kMilli * volume / area));
-      curves.y[2][0].push_back(in_file(1e-6 * pressure));
+      curves.y[0][0].push_back(in_file(kMilli * b.z[static_cast<std::size_t>(j)]));
+      curves.y[1][0].push_back(in_file(kMilli * volume / (b.cells.area(j) * b.cells.nu)));
+      std::size_t panel = 1, series = 0;
+      for (const SectionLine& line : lines) {
+        if (view.panels[panel].label != line.panel) ++panel, series = 0;
+        curves.y[panel][series++].push_back(in_file(line.scale * largest_in_row(line.sheet(b.record, line.depth), j)));
+      }
     }
     view.by_step.push_back(std::move(curves));
   }
@@ -174,6 +223,10 @@ Page evolution_page(const fs::path& folder) {
   for (const io::EvolvedBody& b : last.bodies)
     summary.blocks.emplace_back(
         Paragraph{fmt::format("Law of the {}: {}. Its numbers: {}.", body_name(b.body), b.law, b.source)});
+  for (const io::EvolvedBody& b : last.bodies)
+    if (!b.fatigue.measures.empty())
+      summary.blocks.emplace_back(Paragraph{fmt::format("Fatigue of the {}: {}. Its numbers: {}.", body_name(b.body),
+                                                        b.fatigue.measures, b.fatigue.source)});
   page.sections.push_back(std::move(summary));
   page.sections.push_back({"numbers",
                            "Over the generations",
@@ -183,7 +236,7 @@ Page evolution_page(const fs::path& folder) {
     const std::string word = body_name(body.body);
     Section section{word, body.body == Body::wheel ? "Wheel" : "Rail"};
     section.blocks.emplace_back(
-        Figure{word + "-section", "Section at the chosen generation", section_by_generation(result, b)});
+        Figure{word + "-section", "Section at the chosen generation", section_by_generation(result, folder, b)});
     if (!body.cells.uniform() && !body.record.volume.rows().empty())
       section.blocks.emplace_back(Figure{word + "-depth", "Depth of the last generation", depth_map(body)});
     page.sections.push_back(std::move(section));

@@ -3,8 +3,8 @@
 """Contact of wheels and rails, of any shape.
 
 All numbers are in SI units (m, N, Pa, rad, s); axes are x along the track, y to the right, z down; forces act on the rail. Whole files:
-``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``assess``, ``stability``, ``sweep``, ``track``. Profiles: ``geometry``,
-``measure``, ``profiles``. Single instants: ``Surface``, ``Pair``, ``Problem``.
+``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``assess``, ``stability``, ``sweep``, ``evolve``, ``track``. Profiles:
+``geometry``, ``measure``, ``profiles``. Single instants: ``Surface``, ``Pair``, ``Problem``.
 The handbook is docs/python.md.
 """
 from . import _treadmark
@@ -14,9 +14,9 @@ from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, Limi
                         measure, measure_files, measures_to_pandas, profiles)
 from ._solving import Pair, PatchSolver, Problem, Solution, State, hertz, settings
 from ._surfaces import Located, Surface, backends, register_backend
-from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Mode, Position, ScanImport, Simulation, Stability,
-                     Sweep, SweepRun, Track, Value, assess, bench, check, compare, import_scan, read_bench, read_comparison, read_import, read_result,
-                     read_simulation, read_sweep, report, run, simulate, stability, sweep, track)
+from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, Mode, Position, ScanImport, Simulation,
+                     Stability, Sweep, SweepRun, Track, Value, assess, bench, check, compare, evolve, import_scan, read_bench, read_comparison,
+                     read_import, read_result, read_simulation, read_sweep, report, run, simulate, stability, sweep, track)
 
 __version__: str = _treadmark.version()
 

@@ -509,6 +509,32 @@ def stability(file: Path, *, set: Changes = None, from_m_s: float = 10.0, to_m_s
     return Stability(_treadmark.stability(pathlib.Path(file), assignments(set), (from_m_s, to_m_s), count, tolerance, shown_Hz, threads))
 
 
+class Evolution(_Text):
+    """Surfaces that contact changes: a row a generation."""
+
+    def __init__(self, held: Any) -> None:
+        self._held = held
+
+    @property
+    def status(self) -> str:
+        """"complete", "interrupted" (the same call goes on) or "failed"."""
+        return str(self.document["status"])
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """The rows of evolution.csv, with its names and units. Needs pandas."""
+        return _table(self._held.csv())
+
+    def summary(self) -> str:
+        """For people."""
+        text: str = self._held.summary()
+        return text
+
+
+def evolve(file: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0) -> Evolution:
+    """Evolves the surfaces of a file with [evolve] into a folder, or goes on there, as ``treadmark evolve -o`` does."""
+    return Evolution(_treadmark.evolve(pathlib.Path(file), assignments(set), pathlib.Path(output), resume, progress, threads))
+
+
 class Assessment(_Found):
     """Runs against limits: a row a run, section, place and quantity."""
 

@@ -88,6 +88,18 @@ class Evolution : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
+const std::string kFatigue = R"(
+[evolve.wheel.fatigue]
+measures = ["fi_surf", "shakedown", "whole_life", "subsurface", "dang_van"]
+source = "guessed"
+shear_yield_MPa = 300
+depths_mm = [1.0, 2.0, 4.0]
+dang_van_slope = 0.3
+dang_van_limit_MPa = 250
+t_gamma_N = [15, 65, 175]
+damage_per_passage = [0, 1e-5, 0]
+)";
+
 /// Depth of the rows of a body.
 std::vector<double> depths(const io::EvolvedBody& body) {
   std::vector<double> out;
@@ -132,6 +144,84 @@ TEST_F(Evolution, FullSlipBelowAnEllipseWearsByTheClosedForm) {
               1e-6 * damage::total(wheel.record.volume));
 }
 
+/// Full slip below an ellipse: what the whole patch does follows from Hertz, what points have seen from its pressure.
+TEST_F(Evolution, FatigueOfAnEllipseIsThatOfHertz) {
+  const auto result = run(file(kHertz, "distance_km = 1\nupdates = 1\n[evolve.wheel]\ndy_mm = 0.4\n", kLaw + kFatigue));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const io::Generation& first = result.generations.front();
+  const double k = 300e6, friction = 0.05, force = first.cases.front().fn;
+  const HertzEllipse ellipse = hertz_by_force(0.5 / 0.46, 0.5 / 0.3, force, 82e9 / 0.72);
+  const double p0 = ellipse.largest_pressure();
+  const ContactFatigue& contact = first.bodies.front().fatigue.contacts.front();
+  EXPECT_NEAR(contact.friction, friction, 1e-3 * friction);
+  EXPECT_NEAR(contact.fi_surf, friction - k / p0, 0.03 * k / p0);  // the area of contact is counted in elements
+  EXPECT_NEAR(contact.pressure_ratio, p0 / k, 0.01 * p0 / k);
+  EXPECT_NEAR(contact.shakedown, contact.pressure_ratio / 3.772, 1e-3);
+  const double t_gamma = first.cases.front().t_gamma;
+  EXPECT_NEAR(t_gamma, friction * force * 0.2 / 1.9, 0.002 * t_gamma);  // slip speed over the mean of both surfaces
+  EXPECT_NEAR(contact.damage, 1e-5 * (175.0 - t_gamma) / 110.0, 1e-9 * std::fabs(contact.damage));
+
+  const io::EvolvedBody& wheel = result.generations.back().bodies.front();
+  const SurfaceRecord& record = wheel.record;
+  double deepest = 0.0;
+  int middle = 0;
+  for (const auto& [j, row] : record.pressure.rows())
+    if (row.front() > deepest) deepest = row.front(), middle = j;
+  EXPECT_NEAR(record.damage.at(0, middle), contact.damage * record.passages.at(0, middle),
+              1e-9 * std::fabs(record.damage.at(0, middle)));
+  EXPECT_NEAR(record.t_gamma.at(0, middle), t_gamma, 1e-9 * t_gamma);
+  EXPECT_EQ(record.fi_surf.rows().size(), 0u);  // below 0
+  ASSERT_EQ(record.stresses.size(), 3u);
+  // 2 mm is 0.4 half-axes deep: shear there is 0.21 to 0.25 of the largest pressure (circle, line), von Mises 0.55 to
+  // 0.62
+  EXPECT_GT(record.stresses[1].shakedown.at(0, middle), 0.20 * p0);
+  EXPECT_LT(record.stresses[1].shakedown.at(0, middle), 0.26 * p0);
+  EXPECT_GT(record.stresses[1].von_mises.at(0, middle), 0.53 * p0);
+  EXPECT_LT(record.stresses[1].von_mises.at(0, middle), 0.65 * p0);
+  // Dang Van: shear less a part of the pressure
+  EXPECT_LT(record.stresses[1].dang_van.at(0, middle), record.stresses[1].shear.at(0, middle));
+  EXPECT_GT(record.stresses[1].dang_van.at(0, middle), 0.0);
+  const io::Generation again = io::read_generation(folder_.path() / "out" / io::generation_file(1));
+  EXPECT_EQ(again.bodies.front().record.stresses[2].shear.rows(), record.stresses[2].shear.rows());
+  EXPECT_EQ(again.bodies.front().fatigue.contacts.front().fi_surf, wheel.fatigue.contacts.front().fi_surf);
+}
+
+/// Tractions on the bodies are opposite: below an ellipse that slips along x all over, stresses are mirror images.
+TEST_F(Evolution, WheelAndRailEndureTheSame) {
+  const auto of_rail = [](std::string text) { return text.replace(text.find("wheel"), 5, "rail"); };
+  const auto result = run(file(kHertz, "distance_km = 1\npassages = 1000\nupdates = 1\n[evolve.wheel]\n[evolve.rail]\n",
+                               kLaw + of_rail(kLaw) + kFatigue + of_rail(kFatigue)));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const auto& bodies = result.generations.back().bodies;
+  for (std::size_t depth = 0; depth < 3; ++depth) {
+    const auto largest = [&](std::size_t b) {
+      double most = 0.0;
+      for (const auto& [j, row] : bodies[b].record.stresses[depth].von_mises.rows()) most = std::max(most, row.front());
+      return most;
+    };
+    EXPECT_GT(largest(0), 100e6);
+    EXPECT_NEAR(largest(0), largest(1), 1e-3 * largest(1)) << depth;
+  }
+}
+
+TEST_F(Evolution, HistoriesOfAWholeWheelTakeTheMemoryThatIsStated) {
+  // 0.5 mm along and across, a band of 60 mm that contacts have reached, stresses at one depth
+  SurfaceRecord record(5781, 1);
+  for (int j = 0; j < 120; ++j) {
+    for (CellSheet SurfaceRecord::*sheet :
+         {&SurfaceRecord::volume, &SurfaceRecord::work, &SurfaceRecord::sliding, &SurfaceRecord::passages,
+          &SurfaceRecord::pressure, &SurfaceRecord::traction, &SurfaceRecord::t_gamma, &SurfaceRecord::fi_surf,
+          &SurfaceRecord::damage})
+      (record.*sheet).ref(0, j) = 1.0;
+    for (CellSheet StressRecord::*sheet :
+         {&StressRecord::von_mises, &StressRecord::shear, &StressRecord::shakedown, &StressRecord::dang_van})
+      (record.stresses.front().*sheet).ref(0, j) = 1.0;
+  }
+  std::cout << "memory of the histories [MB]: " << 1e-6 * static_cast<double>(record.memory_bytes()) << '\n';
+  EXPECT_EQ(record.memory_bytes(), 13u * 120u * 5781u * sizeof(double));
+  EXPECT_LT(record.memory_bytes(), 300u * 1000u * 1000u);
+}
+
 TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
   const auto result =
       run(file(standard_case("1.0"), "distance_km = 2000\nupdates = 2\nfields_every = 2\n[evolve.wheel]\n", kLaw));
@@ -147,7 +237,13 @@ TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
   EXPECT_TRUE(fs::exists(folder_.path() / "out" / "contacts_0002.h5"));
   EXPECT_FALSE(fs::exists(folder_.path() / "out" / "contacts_0001.h5"));
   for (const io::Generation& g : result.generations)
-    for (const io::EvolvedBody& b : g.bodies) EXPECT_LT(std::fabs(io::volume_balance(b)), 1e-9);
+    for (const io::EvolutionQuantity& q : io::quantities_of(g))
+      if (q.name == "wheel_volume_balance") {
+        EXPECT_LT(std::fabs(q.value), 1e-9);
+      }
+  EXPECT_EQ(result.generations[1].bodies.front().record.memory_bytes(), 0u);  // the file has them
+  EXPECT_GT(io::read_generation(folder_.path() / "out" / io::generation_file(1)).bodies.front().record.memory_bytes(),
+            0u);
 }
 
 TEST_F(Evolution, LeftAndRightEvolveAlike) {
@@ -289,7 +385,7 @@ TEST(EvolveDocs, TableOfKeysIsUpToDate) {
 }
 
 TEST(EvolveExamples, AreReadAndBuilt) {
-  for (const char* name : {"hollow-wheel.toml", "rounding-flat.toml"})
+  for (const char* name : {"hollow-wheel.toml", "rounding-flat.toml", "tired-rail.toml"})
     EXPECT_EQ(error_of([&] {
                 app::check_evolution(io::read_evolution_file(fs::path(TREADMARK_SOURCE_DIR) / "examples" / name));
               }),
@@ -336,6 +432,18 @@ TEST_F(Evolution, SaysWhatIsWrongAndWhere) {
       error(base, "distance_km = 1\n[[evolve.vary]]\nkey = \"wheelset.y_m\"\nvalues = [1]\n[evolve.wheel]\n", kLaw),
       HasSubstr("study.toml:6:11: run 1 (wheelset.y_m = 1): unknown key 'wheelset.y_m'"));
   EXPECT_THAT(error(base + "[case]\nregime = \"shift\"\n", good, kLaw), HasSubstr("must roll"));
+  const auto fatigue = [&](const std::string& from, const std::string& to) {
+    std::string text = kFatigue;
+    text.replace(text.find(from), from.size(), to);
+    return error(base, good, kLaw + text);
+  };
+  EXPECT_THAT(fatigue("shear_yield_MPa = 300\n", ""),
+              HasSubstr("study.toml:12:1: evolve.wheel.fatigue.shear_yield_MPa is missing"));
+  EXPECT_THAT(fatigue("shear_yield_MPa = 300", "shear_yield_MPa = -300"), HasSubstr("study.toml:15:19"));
+  EXPECT_THAT(fatigue("\"shakedown\"", "\"shakdown\""), HasSubstr("study.toml:13:12: measure 'shakdown' is not known"));
+  EXPECT_THAT(fatigue("source = \"guessed\"\n", ""), HasSubstr("evolve.wheel.fatigue.source is missing"));
+  EXPECT_THAT(fatigue("[1.0, 2.0, 4.0]", "[2.0, 1.0]"), HasSubstr("depths_mm must increase"));
+  EXPECT_THAT(fatigue("[1.0, 2.0, 4.0]", "[0.2]"), HasSubstr("0.2 mm below elements of 1 mm"));
   EXPECT_THAT(error(base, "distance_km = 1e6\nupdates = 1\n[evolve.wheel]\nsmoothing_mm = 0\n", kLaw),
               HasSubstr("would fold"));
 }

@@ -68,6 +68,25 @@ def test_modes(examples, program):
     assert len(modes.values) == 0 and modes.modes and modes.statics
 
 
+@needs("vehicle", "hdf5", "openvdb")
+def test_evolve(tmp_path, examples, program):
+    file, short = examples / "tired-rail.toml", {"evolve.passages": 1000, "discretisation.dx_mm": 2.0, "discretisation.ds_mm": 2.0,
+                                                  "evolve.rail.fatigue.depths_mm": [3.0]}
+    told = []
+    found = tm.evolve(file, tmp_path / "out", set=short, progress=lambda *what: told.append(what))
+    assert found.status == "complete" and told and (tmp_path / "out" / "rail_0001.vdb").exists()
+    words = [word for key, value in short.items() for word in ("--set", f"{key}={value}")]
+    assert found.document["generations"] == json.loads(program("evolve", file, "-o", tmp_path / "again", *words, "--json", "-"))["generations"]
+    last = found.document["generations"][-1]
+    assert last["rail_yield_share_ever"] > 0.5 and last["cases"][0]["rail"]["fi_surf"] < 0.0 and "passages" in found.summary()
+    table = found.to_pandas()
+    assert len(table) == len(found.document["generations"]) and table["rail_depth_mm"].iloc[-1] > 0.0
+    with pytest.raises(tm.InputError, match="another evolution"):
+        tm.evolve(file, tmp_path / "out")
+    with pytest.raises(tm.InputError, match="no evolution"):
+        tm.evolve(file, tmp_path / "new", resume=True)
+
+
 @needs("vehicle")
 def test_track(tmp_path, examples):
     found = tm.track(examples / "tracks" / "zhai-equivalent.toml", set={"scale_stiffness": 2.0}, count=20, fit=1)
