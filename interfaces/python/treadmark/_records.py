@@ -270,6 +270,7 @@ class Result:
     seconds: float = 0.0  #: wall clock
     input_file: str = ""
     input_sha256: str = ""
+    title: str = ""
     geometry_sha256: list[tuple[str, str]] = dataclasses.field(default_factory=list)
     settings: list[str] = dataclasses.field(default_factory=list)  #: changes of keys
     complete: bool = True  #: False where it was stopped: fewer cases than cases_total
