@@ -38,6 +38,7 @@ io::RunResult head_of(const io::CaseFile& file) {
   run.version = version();
   run.git = git_revision();
   run.threads = thread_count();
+  run.title = file.title;
   run.input_file = file.path.string();
   run.input_sha256 = file.sha256;
   run.cases_total = static_cast<int>(file.cases.size());

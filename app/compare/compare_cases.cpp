@@ -228,6 +228,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
     }
     done += file.cases.size();
   }
+  out.title = file.title;
   out.input_file = file.path.string();
   out.input_sha256 = file.sha256;
   out.geometry_sha256 = store.hashes();

@@ -17,6 +17,7 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
 #include "treadmark/scans/fit/section_levels.hpp"
@@ -107,8 +108,9 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
                             report.version));
   for (const auto& input : report.inputs) out.push_back(fmt::format("from {} (SHA-256 {})", input.file, input.sha256));
   out.push_back(fmt::format("unit of the scan: {} (from {}); this file: millimetres", report.unit, report.unit_from));
-  out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; fit error on points held out {:.3g} um",
-                            report.points_read, report.points_used, 1e6 * report.noise, 1e6 * report.held_out_error));
+  out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; error of the surface by points held out {}",
+                            report.points_read, report.points_used, 1e6 * report.noise,
+                            io::surface_error_text(report)));
   if (report.sections)
     out.push_back(fmt::format(
         "the {} sections are the scan's own points: smooth them where they are used (smoothing_lambda_mm3, SMOOTH)",

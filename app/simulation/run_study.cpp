@@ -205,6 +205,8 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
   result.input_sha256 = study.sha256;
   result.title = study.title;
   result.settings = options.settings;
+  for (const io::Variation& v : study.variations)
+    if (!v.key.empty() && !v.label.empty()) result.labels.emplace_back(v.key, v.label);
   for (const io::StudyRun& run : study.runs) {
     const fs::path store = folder_of(options.folder, run) / kStore;
     if (!fs::exists(store)) continue;

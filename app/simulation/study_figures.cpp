@@ -140,7 +140,7 @@ class Figures {
     pictures::SummaryChart chart;
     chart.title = figure.title;
     chart.key = figure.x;
-    chart.x_label = figure.x_label.empty() ? figure.x : figure.x_label;
+    chart.x_label = figure.x_label.empty() ? io::label_of_key(study_, figure.x) : figure.x_label;
     chart.quantity = figure.y.front();
     chart.y_label = label_of(chart.quantity, figure.y_label);
     chart.y_factor = shown_unit(chart.quantity).factor;

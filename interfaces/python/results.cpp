@@ -120,6 +120,7 @@ py::dict head_of(const io::RunResult& run) {
   d["git"] = run.git;
   d["threads"] = run.threads;
   d["seconds"] = run.seconds;
+  d["title"] = run.title;
   d["input_file"] = run.input_file;
   d["input_sha256"] = run.input_sha256;
   d["geometry_sha256"] = run.geometry_sha256;

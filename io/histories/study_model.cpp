@@ -26,6 +26,12 @@ const std::string* swept_value(const SimulationRun& run, const std::string& key)
   return nullptr;
 }
 
+const std::string& label_of_key(const StudyResult& study, const std::string& key) {
+  for (const auto& [name, label] : study.labels)
+    if (name == key) return label;
+  return key;
+}
+
 double summary_value(const SimulationRun& run, const std::string& name) {
   for (const NamedValue& one : run.summary)
     if (one.name == name) return one.value;

@@ -25,7 +25,9 @@ struct StudyResult {
   std::string version, git, input_file, input_sha256;
   std::string title;
   std::vector<std::string> settings;  ///< echo of overrides
-  std::vector<SimulationRun> runs;    ///< in any order
+  /// (key, label) of the keys that the study names otherwise.
+  std::vector<std::pair<std::string, std::string>> labels;
+  std::vector<SimulationRun> runs;  ///< in any order
 };
 
 /// The runs in the order of their numbers, with all keys and all names of summaries in order of first appearance.
@@ -41,6 +43,9 @@ StudyTable study_table(const StudyResult& study);
 
 /// Value of a swept key; nullptr where the run has none.
 const std::string* swept_value(const SimulationRun& run, const std::string& key);
+
+/// What a key is called: its label, else the key itself.
+const std::string& label_of_key(const StudyResult& study, const std::string& key);
 
 /// Value of the summary; NaN where the run has none.
 double summary_value(const SimulationRun& run, const std::string& name);

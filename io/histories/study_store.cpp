@@ -19,6 +19,8 @@ namespace treadmark::io {
 
 namespace {
 
+constexpr const char* kLabels = "labels";  // of swept keys, as kNames
+
 /// A dataset with a value of each run.
 template <class Value, class Get>
 void write_runs(const Hdf5GroupWriter& group, const StudyTable& table, Hdf5Dataset what, Get get) {
@@ -28,7 +30,7 @@ void write_runs(const Hdf5GroupWriter& group, const StudyTable& table, Hdf5Datas
   group.write(what, std::span<const Value>(values));
 }
 
-void write_sweep(const Hdf5GroupWriter& root, const StudyTable& table) {
+void write_sweep(const Hdf5GroupWriter& root, const StudyTable& table, const StudyResult& study) {
   const Hdf5GroupWriter sweep = root.make_group("sweep"), swept = sweep.make_group("swept"),
                         summary = sweep.make_group("summary");
   using Text = std::string;
@@ -38,6 +40,9 @@ void write_sweep(const Hdf5GroupWriter& root, const StudyTable& table) {
   write_runs<Text>(sweep, table, {"status", {}, "1", "of the run"}, [](auto& run) { return run.status; });
   write_runs<Text>(sweep, table, {"message", {}, "1", "of the run"}, [](auto& run) { return run.message; });
   swept.add({kNames, table.keys});
+  std::vector<Text> labels;
+  for (const Text& key : table.keys) labels.push_back(label_of_key(study, key));
+  swept.add({kLabels, labels});
   for (const std::string& key : table.keys)
     write_runs<Text>(swept, table, {key, {}, "1", "value of the key as written"}, [&](auto& run) {
       const Text* value = swept_value(run, key);
@@ -57,7 +62,7 @@ void write_study_store(const std::filesystem::path& path, const StudyResult& stu
   const StudyTable table = study_table(study);
   Hdf5Writer file(path);
   file.root().add(origin_attributes(kStudyFormat, study));
-  write_sweep(file.root(), table);
+  write_sweep(file.root(), table, study);
   for (const SimulationRun* run : table.runs)
     if (!run->store.empty()) file.root().copy_file(run->store, fmt::format("run_{:04}", run->number));
   file.commit();
@@ -72,6 +77,11 @@ StudyResult read_study_head(const std::filesystem::path& path) {
                 {path.string(), 0, 0}, "give a file that treadmark sweep wrote");
   StudyResult study;
   read_origin(root, study);
+  const Hdf5GroupReader swept = root.open_group("sweep").open_group("swept");
+  if (!swept.has_attribute(kLabels)) return study;
+  const std::vector<std::string> keys = swept.texts(kNames), labels = swept.texts(kLabels);
+  for (std::size_t i = 0; i < std::min(keys.size(), labels.size()); ++i)
+    if (keys[i] != labels[i]) study.labels.emplace_back(keys[i], labels[i]);
   return study;
 }
 

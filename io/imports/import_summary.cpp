@@ -165,7 +165,7 @@ void add_fit(Page& page, const ImportReport& report) {
   if (report.held_out_points > 0)
     page.row("points held out",
              fmt::format("{} of {} points; error of the surface {}", length_text(report.held_out_rms),
-                         grouped(report.held_out_points), length_text(report.held_out_error)));
+                         grouped(report.held_out_points), surface_error_text(report)));
   add_holes(page, report);
 }
 

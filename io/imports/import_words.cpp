@@ -45,6 +45,16 @@ std::string percent(std::size_t part, std::size_t whole) {
   return whole == 0 ? "-" : percent(static_cast<double>(part) / static_cast<double>(whole));
 }
 
+std::string surface_error_text(const ImportReport& report, std::string_view micro) {
+  if (report.held_out_points == 0) return "not known";
+  // The mean square of n residuals scatters by sqrt(2/n) of itself; two of these standard errors are told from nothing.
+  const double squared = report.held_out_error * report.held_out_error,
+               told = 2.0 * report.held_out_rms * report.held_out_rms *
+                      std::sqrt(2.0 / static_cast<double>(report.held_out_points));
+  if (squared > told) return length_text(report.held_out_error, micro);
+  return "below " + length_text(std::sqrt(squared + told), micro);
+}
+
 std::string length_text(double metres, std::string_view micro) {
   if (!std::isfinite(metres)) return "-";
   const double size = std::abs(metres);
@@ -54,8 +64,8 @@ std::string length_text(double metres, std::string_view micro) {
   return three(metres) + " m";
 }
 
-LengthUnit picture_unit(double metres) {
-  return std::abs(metres) < 2e-4 ? LengthUnit{"\u00b5m", 1e6} : LengthUnit{"mm", 1e3};
+PictureUnit picture_unit(double metres) {
+  return std::abs(metres) < 2e-4 ? PictureUnit{"\u00b5m", 1e6} : PictureUnit{"mm", 1e3};
 }
 
 std::string decimals(double value, int count) {

@@ -23,12 +23,16 @@ std::string percent(double part);
 /// A length [m] with three digits in um, mm or m, or "-" where it is not finite; micro is how the u of um is written.
 std::string length_text(double metres, std::string_view micro = "u");
 
+/// What points held out tell of the error of the surface's heights (rms): "6 um"; "below 2.6 um" where it does not
+/// stand out of the noise; "not known" where no points were held out.
+std::string surface_error_text(const ImportReport& report, std::string_view micro = "u");
+
 /// "mm" and "um" with what a length in metres is multiplied by; um for lengths below 0.2 mm.
-struct LengthUnit {
+struct PictureUnit {
   std::string name;
   double factor = 1e3;
 };
-LengthUnit picture_unit(double metres);
+PictureUnit picture_unit(double metres);
 
 /// Fixed decimals without an exponent where the number is of ordinary size, "-" where it is not finite.
 std::string decimals(double value, int count);

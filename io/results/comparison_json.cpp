@@ -116,6 +116,7 @@ void add_origin(Document& out, const Comparison& comparison) {
     out.object({{"file", file}, {"sha256", sha256}});
   }
   out.close(']');
+  if (!comparison.title.empty()) out.entries({{"title", comparison.title}});
   out.close('}');
   out.key("settings");
   out.open('[');
@@ -229,6 +230,7 @@ Comparison comparison_in(const JsonTree& root) {
   out.git = made.text("git");
   out.threads = made.at("threads").integer();
   out.seconds = made.number("seconds");
+  if (input.has("title")) out.title = input.text("title");
   out.input_file = input.text("file");
   out.input_sha256 = input.text("sha256");
   for (const JsonTree& file : input.at("geometry").items())

@@ -61,6 +61,7 @@ struct Comparison {
   std::string version, git;
   int threads = 1;       ///< that the comparison was allowed
   double seconds = 0.0;  ///< wall clock of it all [s]
+  std::string title;     ///< of the case file; empty: it has none
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;
   std::vector<std::string> settings;

@@ -37,6 +37,7 @@ void write_comparison_fields(const std::filesystem::path& path, const Comparison
                                          {"axes", std::string(kAxes)},
                                          {"version", comparison.version},
                                          {"git", comparison.git},
+                                         {"title", comparison.title},
                                          {"input", comparison.input_file},
                                          {"sha256", comparison.input_sha256},
                                          {"settings", comparison.settings},
@@ -60,6 +61,7 @@ Comparison read_comparison_fields(const std::filesystem::path& path) {
   Comparison out;
   out.version = root.text("version");
   out.git = root.text("git");
+  if (root.has_attribute("title")) out.title = root.text("title");
   out.input_file = root.text("input");
   out.input_sha256 = root.text("sha256");
   out.settings = root.texts("settings");

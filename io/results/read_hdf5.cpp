@@ -147,6 +147,7 @@ RunResult read_hdf5(const std::filesystem::path& path) {
   run.git = root.text("git");
   run.threads = root.integer("threads");
   run.seconds = root.number("seconds");
+  if (root.has_attribute("title")) run.title = root.text("title");
   run.input_file = root.text("input");
   run.input_sha256 = root.text("sha256");
   const std::vector<std::string> files = root.texts("geometry_files"), hashes = root.texts("geometry_sha256");

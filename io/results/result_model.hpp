@@ -213,6 +213,7 @@ struct RunResult {
   std::string version, git;
   int threads = 1;       ///< that the run was allowed
   double seconds = 0.0;  ///< wall clock of the whole run [s]
+  std::string title;     ///< of the case file; empty: it has none
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
   std::vector<SurfaceUse> surfaces;                                  ///< in the order in which the cases ask for them

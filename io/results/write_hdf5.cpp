@@ -224,6 +224,7 @@ std::vector<Attribute> attributes_of(const RunResult& run) {
   add("git", run.git);
   add("threads", run.threads);
   add("seconds", run.seconds);
+  if (!run.title.empty()) add("title", run.title);
   add("input", run.input_file);
   add("sha256", run.input_sha256);
   std::vector<std::string> files, hashes;

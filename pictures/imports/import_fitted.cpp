@@ -46,7 +46,7 @@ struct Course {
   Curve points;  ///< a [mm], distance [unit]
   std::size_t deepest = 0;
   double s = 0.0;  ///< [m]
-  io::LengthUnit unit;
+  io::PictureUnit unit;
 };
 
 std::optional<Course> course_of(const io::BandMap& map) {
@@ -131,7 +131,7 @@ ImportPanel deviation_panel(const io::ImportReport& report, const ImportPanel& s
   if (deviation.empty()) return out;
   double greatest = 0.0;
   for (const Vec2& p : deviation) greatest = std::max(greatest, std::abs(p.y()));
-  const io::LengthUnit unit = io::picture_unit(greatest);
+  const io::PictureUnit unit = io::picture_unit(greatest);
   Curve curve;
   for (const Vec2& p : deviation) curve.push_back({1e3 * p.x(), unit.factor * p.y()});
   out.chart =

@@ -88,7 +88,7 @@ ColourScale diverging_colours(const io::BandMap& map) {
   const double greatest = std::max(-extent->least, extent->greatest);
   const double usual = std::max(-extent->low, extent->high);
   const double limit = greatest > kFewTimes * usual && usual > 0.0 ? usual : greatest;
-  const io::LengthUnit unit = io::picture_unit(limit);
+  const io::PictureUnit unit = io::picture_unit(limit);
   out.unit = unit.name;
   out.factor = unit.factor;
   out.high = round_limit(limit * unit.factor);

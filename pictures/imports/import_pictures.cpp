@@ -110,7 +110,7 @@ constexpr double kTimesNoise = 3.0;  // ends of the colours of residuals
 ColourScale residual_colours(const io::ImportReport& report) {
   if (!(report.noise > 0.0 && std::isfinite(report.noise))) return diverging_colours(report.residual);
   const double limit = kTimesNoise * report.noise;
-  const io::LengthUnit unit = io::picture_unit(limit);
+  const io::PictureUnit unit = io::picture_unit(limit);
   ColourScale out{-limit * unit.factor, limit * unit.factor, Palette::diverging, false, false, unit.name, unit.factor};
   if (const auto extent = map_extent(report.residual, 0.0)) {
     out.below = extent->least < -limit;
@@ -131,7 +131,7 @@ ImportPanel histogram(const io::ImportReport& report) {
     top = std::max(top, static_cast<double>(count));
   }
   if (!(total > 0.0) || !(range > 1e-12 && range < 1e6)) return out;
-  const io::LengthUnit unit = io::picture_unit(range);
+  const io::PictureUnit unit = io::picture_unit(range);
   const double half = unit.factor * range, bin = 2.0 * half / static_cast<double>(counts.size());
   const double sigma = unit.factor * report.noise;
   const bool bell = std::isfinite(sigma) && sigma > 0.0;
@@ -166,7 +166,7 @@ std::string import_residual_svg(const io::ImportReport& report) {
                                            : "Mean of measured less fitted",
                         PixelRule::any));
   const auto extent = map_extent(report.noise_map, 1e-3);
-  const io::LengthUnit unit = io::picture_unit(extent ? extent->high : 1.0);
+  const io::PictureUnit unit = io::picture_unit(extent ? extent->high : 1.0);
   picture.add(map_panel(report, report.noise_map, sequential_colours(report.noise_map, unit.name, unit.factor),
                         "Noise: standard deviation of the points", PixelRule::any));
   picture.add(histogram(report));
@@ -179,7 +179,7 @@ std::string import_residual_svg(const io::ImportReport& report) {
                      {"residuals, largest", length(report.residual_max)},
                      {"points held out of the fit", grouped(report.held_out_points)},
                      {"residuals of these, rms", length(report.held_out_rms)},
-                     {"error of the surface they tell of", length(report.held_out_error)}});
+                     {"error of the surface they tell of", io::surface_error_text(report, "\u00b5")}});
   return picture.finish(report);
 }
 

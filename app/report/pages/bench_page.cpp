@@ -229,7 +229,7 @@ Table table_of(const std::vector<Row>& rows) {
 Page bench_page(const BenchReport& bench, std::string document) {
   const std::vector<Row> rows = rows_of(bench);
   const std::string& input = bench.input_file;
-  Page page{"bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
+  Page page{"bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of({}, input)),
             fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"),
                         bench.machine)};
   page.document = std::move(document);

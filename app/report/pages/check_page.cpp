@@ -36,7 +36,7 @@ Section section_of(const CheckedInput& input, std::size_t number) {
 }  // namespace
 
 Page check_page(const std::vector<CheckedInput>& inputs) {
-  Page page{"check", inputs.size() == 1 ? title_of(inputs.front().file) : "Check",
+  Page page{"check", inputs.size() == 1 ? title_of({}, inputs.front().file) : "Check",
             fmt::format("What was understood of {}", counted(inputs.size(), "file"))};
   Section overview{"overview", "Overview"};
   add_banners(inputs, overview);

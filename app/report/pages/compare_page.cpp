@@ -177,7 +177,7 @@ Page page_of(const std::shared_ptr<const io::Comparison>& data, std::string docu
              std::vector<Block> note) {
   const io::Comparison& comparison = *data;
   const ComparedCandidates all = compared(comparison);
-  Page page{"compare", title_of(comparison.input_file),
+  Page page{"compare", title_of(comparison.title, comparison.input_file),
             fmt::format("{} on {}, measured against {}", counted(all.candidates.size(), "representation"),
                         counted(all.cases.size(), "case"), comparison.truth)};
   page.document = std::move(document);

@@ -149,7 +149,7 @@ Page evolution_page(const fs::path& folder) {
   OptionalFiles files(folder);
   Page page;
   page.kind = "evolution";
-  page.title = result.title.empty() ? title_of(result.input_file) : result.title;
+  page.title = title_of(result.title, result.input_file);
   page.lead =
       fmt::format("{}, {:.0f} % of the whole", counted(result.generations.size(), "generation"), 100.0 * last.progress);
   page.document = files.text("evolution.json", "the results as JSON");

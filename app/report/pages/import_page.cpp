@@ -13,6 +13,7 @@
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/imports/import_words.hpp"
 
 namespace treadmark::app::report {
 
@@ -62,7 +63,9 @@ Cards cards_of(const io::ImportReport& report) {
                   fmt::format("{} points", removed_count(report))},
                  {"Residual", in_um(report.residual_rms), fmt::format("rms; largest {}", in_um(report.residual_max))},
                  {"Noise", in_um(report.noise), "standard deviation of the points"},
-                 {"Error of the surface", in_um(report.held_out_error), "by points that were held out"},
+                 // A fit whose heights show no error may still err in curvatures.
+                 {"Error of the surface", io::surface_error_text(report, "\u00b5"),
+                  "of heights, by points held out; curvatures and with them pressures err more"},
                  {"Holes", fmt::format("{}", report.holes.size()),
                   fmt::format("{} in all", in_unit(in_file(1e6 * report.hole_area), "mm²"))},
                  {"Damage", fmt::format("{}", report.damage.size()),

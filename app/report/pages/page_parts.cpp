@@ -31,7 +31,8 @@ Section origin_section(Facts facts) { return {"origin", "Origin", {std::move(fac
 
 double in_file(double value) { return std::isfinite(value) ? io::twelve_digits(value) + 0.0 : kNaN; }
 
-std::string title_of(const std::string& input_file) {
+std::string title_of(const std::string& title, const std::string& input_file) {
+  if (!title.empty()) return title;
   const std::string stem = std::filesystem::path(input_file).stem().string();
   return stem.empty() ? "result" : stem;
 }

@@ -28,8 +28,8 @@ Section origin_section(Facts facts);
 /// where it is not finite.
 double in_file(double value);
 
-/// "wheel-flat" of "some/where/wheel-flat.toml"; "result" of nothing.
-std::string title_of(const std::string& input_file);
+/// The title; without one "wheel-flat" of "some/where/wheel-flat.toml"; "result" of nothing.
+std::string title_of(const std::string& title, const std::string& input_file);
 
 /// "1 case", "3 cases".
 std::string counted(std::size_t count, const std::string& word);

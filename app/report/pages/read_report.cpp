@@ -47,7 +47,7 @@ Page simulation_in(const fs::path& store) {
   result->snapshot_scenes = std::move(snapshots.scenes);
   std::optional<AssessedRun> assessed;
   if (const fs::path file = store.parent_path() / "assessment.json"; fs::exists(file) && result->rows() > 1)
-    assessed = assess_result(title_of(result->input_file), result, request_in(file));
+    assessed = assess_result(title_of({}, result->input_file), result, request_in(file));
   return simulation_page(result, {}, assessed ? &*assessed : nullptr);
 }
 

@@ -112,7 +112,7 @@ Section overview(const io::RunResult& run) {
 }  // namespace
 
 Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string document) {
-  Page page{"run", title_of(run->input_file), ""};
+  Page page{"run", title_of(run->title, run->input_file), ""};
   page.lead = fmt::format(
       "{} {}", counted(run->cases.size(), "case"),
       std::ranges::any_of(run->cases, &io::CaseResult::has_wheelset) ? "of a wheel on a rail" : "of a contact patch");

@@ -70,21 +70,30 @@ std::string run_name(const io::SimulationRun& run) {
   return fmt::format("run {}{}{}", run.number, run.label.empty() ? "" : ": ", run.label);
 }
 
+/// A key as the study calls it, without the unit that its label may end with: the axis has one.
+std::string name_of_key(const io::StudyResult& study, const std::string& key) {
+  const std::string& label = io::label_of_key(study, key);
+  const std::string unit = " [" + unit_of_key(key) + "]";
+  return label.ends_with(unit) ? label.substr(0, label.size() - unit.size()) : label;
+}
+
 /// What tells the lines of a chart over one key apart: the values of all other keys.
-std::string line_name(const io::SimulationRun& run, const io::StudyTable& table, const std::string& key) {
+std::string line_name(const io::StudyResult& study, const io::SimulationRun& run, const io::StudyTable& table,
+                      const std::string& key) {
   std::string name;
   for (const std::string& other : table.keys) {
     if (other == key) continue;
     const std::string* value = io::swept_value(run, other);
-    name += fmt::format("{}{} {}", name.empty() ? "" : ", ", other, value ? *value : "–");
+    name += fmt::format("{}{} {}", name.empty() ? "" : ", ", name_of_key(study, other), value ? *value : "–");
   }
   return name.empty() ? "all runs" : name;
 }
 
 /// Quantities over a swept key, as the figure of forces by speed in papers: a line for each choice of the other keys.
-ChartView over_key(const io::StudyTable& table, const std::string& key, const std::vector<double>& x) {
+ChartView over_key(const io::StudyResult& study, const io::StudyTable& table, const std::string& key,
+                   const std::vector<double>& x) {
   ChartView view;
-  view.x = Axis{key, unit_of_key(key), false, {}};
+  view.x = Axis{name_of_key(study, key), unit_of_key(key), false, {}};
   for (const std::string& quantity : kQuantities) {
     const auto known = std::ranges::find(table.quantities, quantity, &io::NamedValue::name);
     if (known == table.quantities.end()) continue;
@@ -93,7 +102,7 @@ ChartView over_key(const io::StudyTable& table, const std::string& key, const st
     std::map<std::string, std::vector<std::size_t>> lines;
     std::vector<std::string> order;
     for (std::size_t i = 0; i < table.runs.size(); ++i) {
-      const std::string name = line_name(*table.runs[i], table, key);
+      const std::string name = line_name(study, *table.runs[i], table, key);
       if (!lines.contains(name)) order.push_back(name);
       lines[name].push_back(i);
     }
@@ -215,8 +224,10 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
 
 Page sweep_page(const StudyOnDisk& disk) {
   const io::StudyTable table = io::study_table(disk.study);
-  Page page{"sweep", disk.study.title.empty() ? title_of(disk.study.input_file) : disk.study.title, ""};
-  page.lead = fmt::format("Study of {} over {}", counted(table.runs.size(), "run"), fmt::join(table.keys, ", "));
+  Page page{"sweep", title_of(disk.study.title, disk.study.input_file), ""};
+  std::vector<std::string> names;
+  for (const std::string& key : table.keys) names.push_back(name_of_key(disk.study, key));
+  page.lead = fmt::format("Study of {} over {}", counted(table.runs.size(), "run"), fmt::join(names, ", "));
   page.full_data = "sweep.h5";
   page.sections.push_back(overview(disk, table));
   if (!table.runs.empty()) {
@@ -226,9 +237,10 @@ Page sweep_page(const StudyOnDisk& disk) {
     int number = 0;
     for (const std::string& key : table.keys)
       if (const auto x = numbers_of(table, key)) {
-        timeline.axes.push_back({key, unit_of_key(key), false, *x});
-        if (ChartView view = over_key(table, key, *x); !view.panels.empty())
-          summaries.blocks.emplace_back(Figure{fmt::format("summary-{}", ++number), "Over " + key, std::move(view),
+        const std::string name = name_of_key(disk.study, key);
+        timeline.axes.push_back({name, unit_of_key(key), false, *x});
+        if (ChartView view = over_key(disk.study, table, key, *x); !view.panels.empty())
+          summaries.blocks.emplace_back(Figure{fmt::format("summary-{}", ++number), "Over " + name, std::move(view),
                                                "A click on a point chooses its run."});
       }
     Axis runs{"run", ""};

@@ -66,6 +66,9 @@ std::shared_ptr<io::RunResult> sample(int cases) {
 TEST(RunPage, TablesHoldTheNumbers) {
   const Page page = run_page(sample(3), "");
   EXPECT_EQ(page.title, "flat");
+  const auto titled = std::make_shared<io::RunResult>(*sample(3));
+  titled->title = "Our wheel";
+  EXPECT_EQ(run_page(titled, "").title, "Our wheel");
   EXPECT_THAT(banners_of(page), Not(HasSubstr("failed")));
   const Table& cases = table_of(page, "cases");
   EXPECT_THAT(numbers_in(cases, "p_max"),

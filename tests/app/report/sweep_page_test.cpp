@@ -76,6 +76,25 @@ TEST_F(StoppedStudy, ChartsHaveALineForEachChoiceOfTheOtherKeys) {
   EXPECT_TRUE(has_figure(page, "picture-force.svg"));
 }
 
+TEST(SweepPage, CallsKeysAsTheStudyDoes) {
+  StudyOnDisk disk;
+  disk.study.labels = {{"wheelset.y_mm", "lateral shift [mm]"}};
+  for (int run = 1; run <= 3; ++run)
+    disk.study.runs.push_back({run,
+                               {{"wheelset.y_mm", std::to_string(run)}},
+                               "",
+                               "complete",
+                               "",
+                               {{"q_max_N", 1e4 * run, "N", "force"}},
+                               {}});
+  const Page page = sweep_page(disk);
+  EXPECT_EQ(page.lead, "Study of 3 runs over lateral shift");
+  const Figure& figure = figure_of(page, "summary-1");
+  EXPECT_EQ(figure.title, "Over lateral shift");
+  EXPECT_EQ(std::get<ChartView>(figure.view).x->label, "lateral shift");
+  EXPECT_EQ(std::get<ChartView>(figure.view).x->unit, "mm");
+}
+
 TEST_F(StoppedStudy, BrokenStoresAreNamed) {
   write_file(folder_.path() / "runs" / "run_0002" / "simulation.h5", "broken");
   EXPECT_THAT(error_of([&] { read_report(folder_.path()); }), HasSubstr("run_0002"));

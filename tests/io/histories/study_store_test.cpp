@@ -50,6 +50,7 @@ TEST_F(StudyStore, ItsHeadReadsBack) {
   study_.title = "Speeds <and> cants";
   study_.input_sha256 = "abc";
   study_.settings = {"a=1", "b=\"2\""};
+  study_.labels = {{"rail.cant", "cant of the rails"}};
   io::write_study_store(path_, study_);
   const io::StudyResult head = io::read_study_head(path_);
   EXPECT_EQ(head.title, study_.title);
@@ -57,6 +58,8 @@ TEST_F(StudyStore, ItsHeadReadsBack) {
   EXPECT_EQ(head.input_file, "study.toml");
   EXPECT_EQ(head.input_sha256, "abc");
   EXPECT_EQ(head.settings, study_.settings);
+  EXPECT_EQ(head.labels, study_.labels);
+  EXPECT_EQ(io::label_of_key(head, "vehicle.speed"), "vehicle.speed");
   EXPECT_THROW(io::read_study_head(study_.runs.front().store), Error);
 }
 

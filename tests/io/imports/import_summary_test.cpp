@@ -78,6 +78,15 @@ TEST(ImportWords, Numbers) {
   EXPECT_EQ(io::percent(0, 5), "0 %");
   EXPECT_EQ(io::percent(1, 3), "33.3 %");
   EXPECT_EQ(io::length_text(0.85e-3), "0.850 mm");
+  io::ImportReport held;
+  EXPECT_EQ(io::surface_error_text(held), "not known");
+  // 20 000 points of 30 um: their mean square is known to 1 %, so that 4.2 um are told from nothing.
+  held.held_out_points = 20000, held.held_out_rms = 30e-6, held.held_out_error = 0.0;
+  EXPECT_EQ(io::surface_error_text(held), "below 4.24 um");
+  held.held_out_error = 3e-6;
+  EXPECT_EQ(io::surface_error_text(held), "below 5.20 um");
+  held.held_out_error = 6e-6;
+  EXPECT_EQ(io::surface_error_text(held), "6.00 um");
   EXPECT_EQ(io::length_text(35e-6), "35.0 um");
   EXPECT_EQ(io::length_text(12.0), "12.0 m");
   EXPECT_EQ(io::length_text(std::nan("")), "-");

@@ -131,6 +131,7 @@ TEST(ComparisonJson, TellsItsOriginInTheTextOfARun) {
   run.git = comparison.git;
   run.threads = comparison.threads;
   run.geometry_sha256 = comparison.geometry_sha256;
+  run.title = comparison.title;
   run.input_file = comparison.input_file;
   run.input_sha256 = comparison.input_sha256;
   for (const double seconds : {160.0, 0.3729, 1e-5, 1.5e300, 1.0 / 3.0, 123456789012.0, 0.0}) {

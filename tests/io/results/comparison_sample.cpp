@@ -72,6 +72,7 @@ io::Comparison sample_comparison() {
   out.git = "0123abc";
   out.threads = 2;
   out.seconds = 1.25;
+  out.title = "Compared";
   out.input_file = "flat \"one\".toml";
   out.input_sha256 = "e3b0c442";
   out.geometry_sha256 = {{"a.prr", "11"}, {"b.slcw", "22"}};

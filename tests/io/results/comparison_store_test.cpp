@@ -31,6 +31,7 @@ TEST(ComparisonStore, FieldsOfAllCandidatesComeBack) {
   const io::Comparison read = io::read_comparison_fields(path);
   EXPECT_EQ(read.version, written.version);
   EXPECT_EQ(read.git, written.git);
+  EXPECT_EQ(read.title, written.title);
   EXPECT_EQ(read.input_file, written.input_file);
   EXPECT_EQ(read.input_sha256, written.input_sha256);
   EXPECT_EQ(read.settings, written.settings);

@@ -182,6 +182,7 @@ void expect_same_run(const io::RunResult& read, const io::RunResult& written) {
   EXPECT_EQ(read.git, written.git);
   EXPECT_EQ(read.threads, written.threads);
   EXPECT_EQ(read.seconds, written.seconds);
+  EXPECT_EQ(read.title, written.title);
   EXPECT_EQ(read.input_file, written.input_file);
   EXPECT_EQ(read.input_sha256, written.input_sha256);
   EXPECT_EQ(read.geometry_sha256, written.geometry_sha256);

@@ -52,6 +52,7 @@ io::RunResult sample_run() {
   run.git = "0123abc";
   run.threads = 2;
   run.seconds = 1.25;
+  run.title = "A flat, \"fresh\"";
   run.input_file = "flat \"one\".toml";
   run.input_sha256 = "e3b0c442";
   run.geometry_sha256 = {{"a.prr", "11"}, {"b.slcw", "22"}};
