@@ -46,6 +46,8 @@ class PairStep {
   void evaluate(double z);
   /// Tractions at a pitch rate of the wheelset. eps: relative accuracy.
   void solve_tangential(double pitch_rate, double eps);
+  /// Tractions were found before, in this step or at the instant before.
+  bool knows_earlier_shares() const { return !tangential_share_.empty(); }
   /// Greatest share of the normal forces by which friction can change the vertical force.
   double friction_share() const;
   /// How deep the wheel lies in the rail where that is beyond all contact mechanics [m], else 0.

@@ -26,8 +26,8 @@ namespace {
 /// Elements around the estimated contact that may become part of it without a new box.
 constexpr int kMargin = 2;
 
-/// Grids line up when they are displaced by whole elements up to this share of an element.
-constexpr double kLinedUp = 1e-6;
+/// More elements than this are neither copied for a mere chance nor is their work memory kept.
+constexpr std::size_t kManyElements = 65536;
 
 [[noreturn]] void refuse(const std::string& message, const std::string& advice = {}) {
   throw Error(ErrorKind::configuration, "normal contact: " + message, {}, advice);
@@ -120,9 +120,8 @@ struct LastCold {
            std::memcmp(p.gap.data(), gap.data(), p.gap.size_bytes()) == 0;  // bits: NaN means something
   }
   void keep(const ContactProblem& p, const ContactSolution& found) {
-    constexpr std::size_t kLargest = 65536;  // elements; more are not copied for a mere chance
     gap.clear();
-    if (p.gap.size() > kLargest || found.status != Status::ok) return;
+    if (p.gap.size() > kManyElements || found.status != Status::ok) return;
     problem = p;
     problem.gap = problem.extra_slip_x = problem.extra_slip_y = {};
     gap.assign(p.gap.begin(), p.gap.end());
@@ -138,7 +137,8 @@ struct NormalSolver::Workspace {
   Grid2 last_grid;
   std::vector<double> last_pressure;  ///< on last_grid; empty = none
 
-  /// Pressures of the last problem on another grid; false if there are none or the grids do not line up.
+  /// Pressures of the last problem on another grid, to the nearest element; false if there are none or elements are of
+  /// another size.
   bool take_last(const Grid2& grid, std::vector<double>& pressure) const;
   void solve_full(const ContactProblem& problem, const CombinedMaterial& material, ContactSolution& solution);
   void solve_full_or_recall(const ContactProblem& problem, ContactSolution& solution);
@@ -151,7 +151,6 @@ bool NormalSolver::Workspace::take_last(const Grid2& grid, std::vector<double>& 
   const double shift_x = (grid.x0 - last_grid.x0) / grid.dx, shift_y = (grid.y0 - last_grid.y0) / grid.dy;
   if (std::abs(shift_x) > 1e6 || std::abs(shift_y) > 1e6) return false;
   const int sx = static_cast<int>(std::lround(shift_x)), sy = static_cast<int>(std::lround(shift_y));
-  if (std::abs(shift_x - sx) > kLinedUp || std::abs(shift_y - sy) > kLinedUp) return false;
   bool any = false;
   for (int iy = 0; iy < grid.ny; ++iy)
     for (int ix = 0; ix < grid.nx; ++ix) {
@@ -284,6 +283,9 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   }
   last_grid = grid;
   last_pressure = pressure;
+  if (grid.size() <= kManyElements) return;
+  cg = {};
+  gap = {};
 }
 
 void NormalSolver::Workspace::solve_full_or_recall(const ContactProblem& problem, ContactSolution& solution) {

@@ -42,8 +42,8 @@ void FrictionNewton::linearise(const FrictionProblem& problem, const FrictionSta
   });
 }
 
-GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::span<const double> rhs,
-                                         std::span<double> x, double tolerance, int max_inner) {
+GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::span<double> rhs, std::span<double> x,
+                                         const GmresTarget& target, int max_inner) {
   const std::size_t n = problem.bound.size();
   PatchOperator& matrix = *problem.matrix;
   const std::vector<int>& ahead = matrix.patch().ahead;
@@ -114,18 +114,13 @@ GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::sp
       }
     });
   };
-  Field2 reduced(2 * n);
   for_each_element(n, [&](std::size_t i) {
-    if (kind_[i] == kAdhesion) {
-      reduced[i] = rhs[i];
-      reduced[n + i] = rhs[n + i];
-    } else if (kind_[i] == kSlip) {
-      reduced[i] = rhs[i] * tangent_[i] + rhs[n + i] * tangent_[n + i];
-    }
+    if (kind_[i] == kAdhesion) return;
+    rhs[i] = kind_[i] == kSlip ? rhs[i] * tangent_[i] + rhs[n + i] * tangent_[n + i] : 0.0;
+    rhs[n + i] = 0.0;
   });
-  Field2 solution(2 * n);
-  const GmresResult result = gmres_.solve(multiply, precondition, reduced, solution, tolerance, max_inner);
-  expand(solution, x);
+  const GmresResult result = gmres_.solve(multiply, precondition, rhs, x, target, max_inner);
+  expand(x, x);
   return result;
 }
 
@@ -138,8 +133,7 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
   state.update(problem);
   ++result.products;
   Field2 rhs(2 * n), known(2 * n), step(2 * n);
-  FrictionState trial;
-  double tolerance = kLoosestInner;
+  double relative = kLoosestInner;
   const double tractions = rms(state.traction) + r * rms(problem.rigid_slip);
   const double floor = kRoundOff * std::min(rms(problem.bound), kIdleBound * tractions);
   for (; result.steps < settings.max_steps; ++result.steps) {
@@ -179,11 +173,17 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
         rhs[n + i] = -rhs[n + i] - factor * state.traction[n + i];
       }
     });
-    const GmresResult inner = solve_linear(problem, rhs, step, tolerance, settings.max_inner);
+    // As exactly as the accuracy asks for where one more step may reach it.
+    const double wanted = 0.3 * settings.eps * rms(state.traction) * std::sqrt(static_cast<double>(2 * n));
+    const GmresTarget target = [&](double size) {
+      return wanted >= kTightestInner * size ? std::min(wanted, kLoosestInner * size) : relative * size;
+    };
+    const GmresResult inner = solve_linear(problem, rhs, step, target, settings.max_inner);
     result.products += inner.iterations;
     for_each_element(2 * n, [&](std::size_t k) { step[k] += known[k]; });
 
     // Backtracking on the violation.
+    FrictionState trial;  // in memory only now, when the linear solution needs none
     double length = 1.0;
     for (; length >= kShortestStep; length *= 0.5) {
       fill_by_blocks(trial.traction, 2 * n, [&](std::size_t k) { return state.traction[k] + length * step[k]; });
@@ -203,9 +203,8 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
       result.converged = true;
       break;
     }
-    // Quadratic convergence needs ever more exact steps, but not more exact ones than the accuracy asks for.
-    const double enough = 0.3 * settings.eps * rms(state.traction) / (std::min(1.0, ratio) * change);
-    tolerance = std::clamp(std::max(0.5 * ratio * ratio, enough), kTightestInner, kLoosestInner);
+    // Quadratic convergence needs ever more exact steps.
+    relative = std::clamp(0.5 * ratio * ratio, kTightestInner, kLoosestInner);
   }
   return result;
 }
@@ -230,7 +229,8 @@ Field2 FrictionNewton::sensitivity(const FrictionProblem& problem, const Frictio
     for (std::size_t k = 0; k < 2 * n; ++k) rhs[k] += caused[k];
   }
   for (double& value : rhs) value = -value;
-  solve_linear(problem, rhs, change, tolerance, max_inner);
+  solve_linear(
+      problem, rhs, change, [tolerance](double size) { return tolerance * size; }, max_inner);
   for (std::size_t k = 0; k < known.size(); ++k) change[k] += known[k];
   return change;
 }

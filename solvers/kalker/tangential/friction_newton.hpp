@@ -35,8 +35,9 @@ class FrictionNewton {
  private:
   /// The linear system of a step, for the present state.
   void linearise(const FrictionProblem& problem, const FrictionState& state);
-  GmresResult solve_linear(const FrictionProblem& problem, std::span<const double> rhs, std::span<double> x,
-                           double tolerance, int max_inner);
+  /// rhs is used up.
+  GmresResult solve_linear(const FrictionProblem& problem, std::span<double> rhs, std::span<double> x,
+                           const GmresTarget& target, int max_inner);
 
   /// Free directions: (1,0),(0,1) in adhesion; the tangent in slip (y part zero); nothing where the bound is zero.
   std::vector<char> kind_;

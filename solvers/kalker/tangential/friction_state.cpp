@@ -35,7 +35,6 @@ void limit_to_bound(std::span<double> traction, std::span<const double> bound) {
 void FrictionState::update(const FrictionProblem& problem) {
   const std::size_t n = problem.bound.size();
   slip.resize(2 * n);
-  residual.resize(2 * n);
   direction.resize(2 * n);
   slipping.resize(n);
   excess.resize(n);
@@ -56,14 +55,12 @@ void FrictionState::update(const FrictionProblem& problem) {
         direction[i] = zx / size;
         direction[n + i] = zy / size;
         excess[i] = size - bound;
-        residual[i] = traction[i] - bound * direction[i];
-        residual[n + i] = traction[n + i] - bound * direction[n + i];
+        const double rx = traction[i] - bound * direction[i], ry = traction[n + i] - bound * direction[n + i];
+        part += rx * rx + ry * ry;
       } else {
         direction[i] = direction[n + i] = excess[i] = 0.0;
-        residual[i] = r * sx;
-        residual[n + i] = r * sy;
+        part += (r * sx) * (r * sx) + (r * sy) * (r * sy);
       }
-      part += residual[i] * residual[i] + residual[n + i] * residual[n + i];
     }
     return part;
   });

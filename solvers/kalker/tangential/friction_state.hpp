@@ -18,7 +18,7 @@ struct FrictionProblem {
 };
 
 /// Tractions, their slip, and how far they are from a solution. With z = p - r S and r = 1/diagonal of A the conditions
-/// read p = z where |z| <= g (adhesion), else p = g z/|z| (slip); the difference is the residual (Alart and Curnier
+/// read p = z where |z| <= g (adhesion), else p = g z/|z| (slip), up to a difference that vanishes (Alart and Curnier
 /// 1991).
 struct FrictionState {
   Field2 traction;             ///< [Pa]
@@ -26,8 +26,7 @@ struct FrictionState {
   std::vector<char> slipping;  ///< by the trial traction z
   Field2 direction;            ///< z/|z| in slipping elements
   std::vector<double> excess;  ///< |z| - g in slipping elements [Pa]
-  Field2 residual;             ///< [Pa]
-  double violation = 0.0;      ///< rms of the residual [Pa]
+  double violation = 0.0;      ///< rms of the difference [Pa]
 
   /// Slip and residual of the present tractions. One product.
   void update(const FrictionProblem& problem);

@@ -13,7 +13,8 @@ namespace treadmark::kalker {
 namespace {
 
 /// Four partial sums a block, so that the loop is not bound by the latency of one addition. Fixed order: repeatable.
-double dot(std::span<const double> a, std::span<const double> b) {
+template <class Value>
+double dot(std::span<const Value> a, std::span<const double> b) {
   return sum_of_blocks(a.size(), [&](std::size_t begin, std::size_t end) {
     double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
     std::size_t i = begin;
@@ -28,48 +29,52 @@ double dot(std::span<const double> a, std::span<const double> b) {
   });
 }
 
-void add_scaled(std::span<double> y, double factor, std::span<const double> x) {
+void add_scaled(std::span<double> y, double factor, std::span<const float> x) {
   for_blocks(y.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) y[i] += factor * x[i];
   });
 }
 
-/// y = x / divisor; both may be the same.
-void divide(std::span<const double> x, double divisor, std::span<double> y) {
-  for_blocks(y.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) y[i] = x[i] / divisor;
-  });
+/// y = x / divisor, rounded.
+void divide(std::span<const double> x, double divisor, std::span<float> y) {
+  for_each_element(y.size(), [&](std::size_t i) { y[i] = static_cast<float>(x[i] / divisor); });
 }
 
 }  // namespace
 
 GmresResult Gmres::solve(const LinearMap& matrix, const LinearMap& preconditioner, std::span<const double> b,
-                         std::span<double> x, double tolerance, int max_iterations) {
+                         std::span<double> x, const GmresTarget& target, int max_iterations) {
   GmresResult result;
   std::fill(x.begin(), x.end(), 0.0);
-  const double b_norm = std::sqrt(dot(b, b));
-  if (!(b_norm > 0.0) || max_iterations < 1) return result;
-
-  const auto vector_at = [&](std::size_t j) -> std::vector<double>& {
+  if (max_iterations < 1) return result;
+  const std::size_t n = b.size();
+  const auto vector_at = [&](std::size_t j) -> std::vector<float>& {
     if (basis_.size() <= j) basis_.resize(j + 1);
-    basis_[j].resize(b.size());
+    basis_[j].resize(n);
     return basis_[j];
   };
+  image_.resize(n);
+  next_.resize(n);
+  const std::span<const double> next = next_;
   std::vector<std::vector<double>> triangle;  // column j has j + 1 entries
-  std::vector<double> cosine, sine, projected{b_norm};
-  work_.resize(b.size());
-  divide(b, b_norm, vector_at(0));
+  preconditioner(b, next_);
+  const double first = std::sqrt(dot(next, next));
+  if (!(first > 0.0)) return result;
+  const double enough = target(first);
+  std::vector<double> cosine, sine, projected{first};
+  divide(next, first, vector_at(0));
   std::size_t steps = 0;
   while (static_cast<int>(steps) < max_iterations) {
     check_cancelled();
     // Arnoldi step.
-    std::vector<double>& next = vector_at(steps + 1);
-    preconditioner(basis_[steps], work_);
-    matrix(work_, next);
+    const std::vector<float>& last = basis_[steps];
+    for_each_element(n, [&](std::size_t i) { x[i] = last[i]; });
+    matrix(x, image_);
+    preconditioner(image_, next_);
     std::vector<double> column(steps + 1);
     for (std::size_t j = 0; j <= steps; ++j) {
-      column[j] = dot(basis_[j], next);
-      add_scaled(next, -column[j], basis_[j]);
+      column[j] = dot(std::span<const float>(basis_[j]), next);
+      add_scaled(next_, -column[j], basis_[j]);
     }
     const double length = std::sqrt(dot(next, next));
     // Givens rotations turn the Hessenberg matrix into a triangle.
@@ -87,10 +92,11 @@ GmresResult Gmres::solve(const LinearMap& matrix, const LinearMap& preconditione
     projected.push_back(-sine[steps] * projected[steps]);
     projected[steps] *= cosine[steps];
     ++steps;
-    result.residual = std::abs(projected[steps]) / b_norm;
-    if (result.residual <= tolerance || !(length > 0.0)) break;
-    divide(next, length, next);
+    result.residual = std::abs(projected[steps]) / first;
+    if (std::abs(projected[steps]) <= enough || !(length > 0.0)) break;
+    divide(next, length, vector_at(steps));
   }
+  clear(x);
   if (steps == 0) {
     result.residual = 1.0;
     return result;
@@ -99,9 +105,7 @@ GmresResult Gmres::solve(const LinearMap& matrix, const LinearMap& preconditione
     for (std::size_t k = j + 1; k < steps; ++k) projected[j] -= triangle[k][j] * projected[k];
     projected[j] /= triangle[j][j];
   }
-  clear(std::span(work_));
-  for (std::size_t j = 0; j < steps; ++j) add_scaled(work_, projected[j], basis_[j]);
-  preconditioner(work_, x);
+  for (std::size_t j = 0; j < steps; ++j) add_scaled(x, projected[j], basis_[j]);
   result.iterations = static_cast<int>(steps);
   return result;
 }

@@ -14,7 +14,7 @@ namespace treadmark::kalker {
 namespace {
 
 /// Start values that violate the conditions by more than this share of the bound are not worth keeping.
-constexpr double kUsefulStart = 0.1;
+constexpr double kUsefulStart = 0.28;
 /// Accuracy of slip speeds in the iteration on friction, in multiples of eps.
 constexpr double kSlipAccuracy = 10.0;
 constexpr double kSensitivityAccuracy = 0.03;

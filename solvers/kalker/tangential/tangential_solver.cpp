@@ -20,7 +20,7 @@ namespace treadmark::kalker {
 
 namespace {
 
-constexpr double kAlignment = 1e-6;  ///< of two grids, in elements
+constexpr double kSameSize = 1e-6;  ///< of the elements of two grids, relative
 
 [[noreturn]] void refuse_problem(const std::string& message, const std::string& advice) {
   throw Error(ErrorKind::configuration, message, {}, advice);
@@ -55,14 +55,13 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
     refuse_problem("the coefficient of friction is negative", "check the friction law");
 }
 
-/// Index offset of `to` in `from`, if their elements line up.
+/// Index offset of `to` in `from`, to the nearest element: start values need not lie where they belong exactly.
 std::optional<std::array<int, 2>> offset_between(const Grid2& from, const Grid2& to) {
-  const auto close = [](double a, double b) { return std::abs(a - b) <= kAlignment * b; };
+  const auto close = [](double a, double b) { return std::abs(a - b) <= kSameSize * b; };
   if (!close(from.dx, to.dx) || !close(from.dy, to.dy)) return std::nullopt;
   const double ox = (to.x0 - from.x0) / to.dx, oy = (to.y0 - from.y0) / to.dy;
   // Grids that do not overlap have nothing to tell each other.
   if (!(ox > -to.nx && ox < from.nx && oy > -to.ny && oy < from.ny)) return std::nullopt;
-  if (std::abs(ox - std::round(ox)) > kAlignment || std::abs(oy - std::round(oy)) > kAlignment) return std::nullopt;
   return std::array<int, 2>{static_cast<int>(std::lround(ox)), static_cast<int>(std::lround(oy))};
 }
 
