@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/LU>
@@ -37,6 +38,8 @@ Vec3 force_on_top(const ContactReaction& r) { return {r.on_rail.force.y(), r.on_
 Vec3 along(const Vec3& direction, const Vec3& arm) {
   return {direction.y(), direction.z(), arm.y() * direction.z() - arm.z() * direction.y()};
 }
+
+Vec3 top(double y, double z, double roll) { return {y, z, roll}; }
 
 double size_of(const Vec3& force) { return (Vec3(1.0, 1.0, 1.0 / kArm).cwiseProduct(force)).cwiseAbs().maxCoeff(); }
 
@@ -125,7 +128,14 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
   }
   r.bending = bending_under(answer, force);
   rail_->press(wheel_, force, t.together * t.stiffness);
-  trial_ = Trial{motion, force, std::move(t), answer};
+  trial_ = Trial{
+      {motion.time, force, top(motion.wheelset.y, motion.wheelset.z, motion.wheelset.roll),
+       top(motion.wheelset_velocity.y, motion.wheelset_velocity.z, motion.wheelset_velocity.roll),
+       top(motion.rail.y, motion.rail.z, motion.rail.roll) + moved,
+       top(motion.rail.vy, motion.rail.vz, motion.rail.vroll) + rate, drift_with(motion.time, off, !t.patches.empty()),
+       t.stiffness, t.damping, t.wheel_stiffness, t.wheel_damping},
+      std::move(t),
+      answer};
 }
 
 ContactReaction ContactOnRail::at_rest(const PairMotion& motion) {
@@ -160,37 +170,38 @@ ContactReaction ContactOnRail::at_rest(const PairMotion& motion) {
   return r;
 }
 
-Vec3 ContactOnRail::predicted_force(const PairMotion& motion) const {
-  if (!trial_ || trial_->motion.time != motion.time) return rail_->counted_on(wheel_, motion.time);
-  // Again at the same time, for another motion of the wheel.
-  const PairMotion& was = trial_->motion;
-  const Tangents& t = trial_->tangents;
-  const auto top = [](double y, double z, double roll) { return Vec3(y, z, roll); };
-  const RailMotion &now = motion.rail, &before = was.rail;
-  const auto& [q, v] = std::pair{motion.wheelset, motion.wheelset_velocity};
-  const Vec3 wheel = top(q.y, q.z, q.roll) - top(was.wheelset.y, was.wheelset.z, was.wheelset.roll),
-             wheel_rate = top(v.y, v.z, v.roll) -
-                          top(was.wheelset_velocity.y, was.wheelset_velocity.z, was.wheelset_velocity.roll),
-             rail = top(now.y, now.z, now.roll) - top(before.y, before.z, before.roll),
-             rail_rate = top(now.vy, now.vz, now.vroll) - top(before.vy, before.vz, before.vroll);
-  const Vec3 force = trial_->force + t.together * (t.wheel_stiffness * wheel + t.wheel_damping * wheel_rate -
-                                                   t.stiffness * rail - t.damping * rail_rate);
+/// Drift by a force that was found beyond the one predicted for a time. Where contact begins or ends there is none.
+Vec3 ContactOnRail::drift_with(double time, const Vec3& off, bool touching) const {
+  if (!(time > last_.time && touching && last_.force.y() > 0.0)) return Vec3::Zero();
+  return (is_again(time) ? trial_->found.drift : last_.drift) + off / (time - last_.time);
+}
+
+/// By what was found before, at this time or at that of the last instant.
+Vec3 ContactOnRail::predicted_force(const PairMotion& motion, const LoadedRail::Answer& answer) const {
+  const Found& from = is_again(motion.time) ? trial_->found : last_;
+  const auto& [q, v, rail] = std::tie(motion.wheelset, motion.wheelset_velocity, motion.rail);
+  const Vec3 wheel = top(q.y, q.z, q.roll) - from.wheel, wheel_rate = top(v.y, v.z, v.roll) - from.wheel_rate,
+             moved = top(rail.y, rail.z, rail.roll) + answer.motion(from.force) - from.rail,
+             rate = top(rail.vy, rail.vz, rail.vroll) + answer.rate_under(from.force) - from.rail_rate;
+  const Mat3 by_force = from.stiffness * answer.compliance + from.damping * answer.rate_by_force;
+  const Vec3 change = from.wheel_stiffness * wheel + from.wheel_damping * wheel_rate - from.stiffness * moved -
+                      from.damping * rate + (motion.time - from.time) * from.drift;
+  const Vec3 force = from.force + (Mat3::Identity() + by_force).inverse() * change;
   return force.y() > 0.0 ? force : Vec3(Vec3::Zero());
 }
 
 ContactReaction ContactOnRail::moving(const PairMotion& motion) {
   const LoadedRail::Answer answer = rail_->after(wheel_, motion.time);
-  const Vec3 predicted = predicted_force(motion);
+  const Vec3 predicted = predicted_force(motion, answer);
   const PairMotion deflected = on_deflected(motion, bending_under(answer, predicted));
   ContactReaction r = contact_->evaluate(deflected);
   if (is_unsolved(r)) return r;
   agree(r, deflected, answer, predicted, tangents_of(r, deflected, answer));
-  trial_->motion = motion;
   // What presses feels the slope; creep is that against the rail's own motion.
   Vec3 normal = Vec3::Zero();
   for (std::size_t i = 0; i < r.tangents.size(); ++i)
     normal += r.tangents[i].normal_force * trial_->tangents.patches[i].normal;
-  r.on_wheelset.force.x() += normal.dot(rail_->slope(wheel_, trial_->force, answer));
+  r.on_wheelset.force.x() += normal.dot(rail_->slope(wheel_, trial_->found.force, answer));
   return r;
 }
 
@@ -204,27 +215,30 @@ bool ContactOnRail::settle(ContactReaction& r) {
     r.elastic_energy += rail.energy;
     r.frictional_power += rail.power;
     r.rail_power = rail.power;
-    rail_->settle(t.motion.time);
+    rail_->settle(t.found.time);
   }
-  if (!rail_->started()) return missed <= tolerance_ * std::max(rail_->load(wheel_), size_of(t.force));
+  if (!rail_->started()) return missed <= tolerance_ * std::max(rail_->load(wheel_), size_of(t.found.force));
   r.corrected += missed;
   return true;
 }
 
 void ContactOnRail::accept() {
   contact_->accept();
-  if (speaks_for_rail()) rail_->accept(trial_->motion.time);
+  if (speaks_for_rail()) rail_->accept(trial_->found.time);
+  last_ = trial_->found;
   trial_.reset();
 }
 
 void ContactOnRail::save(ByteWriter& out) const {
   if (speaks_for_rail()) rail_->save(out);
+  Found::each_number(last_, [&out](double number) { out.put(number); });
   contact_->save(out);
 }
 
 void ContactOnRail::restore(ByteReader& in) {
   trial_.reset();
   if (speaks_for_rail()) rail_->restore(in);
+  Found::each_number(last_, [&in](double& number) { in.get(number); });
   contact_->restore(in);
 }
 

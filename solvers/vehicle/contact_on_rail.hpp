@@ -46,19 +46,39 @@ class ContactOnRail : public ContactElement {
     Mat3 by_force = Mat3::Zero();      ///< what forces lose as they themselves move the rail
     Mat3 together = Mat3::Identity();  ///< forces in agreement with the rail over those without
   };
+  /// What was found at a time, and how it goes on: linear in the motions and in time.
+  struct Found {
+    double time = 0.0;
+    Vec3 force = Vec3::Zero();  ///< in agreement with the rail
+    /// Motions y, z and roll of the wheelset and of the rail's top, and rates.
+    Vec3 wheel = Vec3::Zero(), wheel_rate = Vec3::Zero(), rail = Vec3::Zero(), rail_rate = Vec3::Zero();
+    Vec3 drift = Vec3::Zero();                              ///< of the force without motion, as shapes roll by [N/s]
+    Mat3 stiffness = Mat3::Zero(), damping = Mat3::Zero();  ///< as in Tangents
+    Mat3 wheel_stiffness = Mat3::Zero(), wheel_damping = Mat3::Zero();  ///< as there
+    template <class Visit>
+    static void each_number(auto& found, Visit&& visit) {
+      visit(found.time);
+      for (auto* v : {&found.force, &found.wheel, &found.wheel_rate, &found.rail, &found.rail_rate, &found.drift})
+        for (Eigen::Index i = 0; i < v->size(); ++i) visit(v->data()[i]);
+      for (auto* m : {&found.stiffness, &found.damping, &found.wheel_stiffness, &found.wheel_damping})
+        for (Eigen::Index i = 0; i < m->size(); ++i) visit(m->data()[i]);
+    }
+  };
   struct Trial {
-    PairMotion motion;
-    Vec3 force;  ///< in agreement with the rail
+    Found found;
     Tangents tangents;
     LoadedRail::Answer answer;
   };
   ContactReaction at_rest(const PairMotion& motion);
   ContactReaction moving(const PairMotion& motion);
-  Vec3 predicted_force(const PairMotion& motion) const;
+  Vec3 predicted_force(const PairMotion& motion, const LoadedRail::Answer& answer) const;
   Tangents tangents_of(const ContactReaction& reaction, const PairMotion& motion,
                        const LoadedRail::Answer& answer) const;
   void agree(ContactReaction& reaction, const PairMotion& motion, const LoadedRail::Answer& answer,
              const Vec3& predicted, Tangents tangents);
+  Vec3 drift_with(double time, const Vec3& off, bool touching) const;
+  /// Whether this time has been evaluated before.
+  bool is_again(double time) const { return trial_ && trial_->found.time == time; }
   /// Of the wheels of a rail the first one speaks for it.
   bool speaks_for_rail() const { return wheel_ == 0; }
 
@@ -69,6 +89,7 @@ class ContactOnRail : public ContactElement {
   Vec3 marker_;
   double radius_;
   std::optional<Trial> trial_;
+  Found last_;  ///< accepted
 };
 
 }  // namespace treadmark::vehicle

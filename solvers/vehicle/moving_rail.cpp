@@ -148,8 +148,9 @@ const MovingRail::Answer& MovingRail::after(double time) {
   trial_time_ = time;
   motion_ = rate_ = no_motion(places());
   const std::vector<double> before = places_at(time_), now = places_at(time);
+  const double speed = travel_at(speed_, time).speed;
   for (RailInTime& plane : planes_) {
-    plane.step(trial_length_, before, now);
+    plane.step(trial_length_, before, now, speed);
     const std::vector<Eigen::Index> numbers = numbers_of(plane, places());
     motion_.free(numbers) = plane.motions().free;
     motion_.compliance(numbers, numbers) = plane.motions().compliance;

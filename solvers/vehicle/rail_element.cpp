@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/vehicle/rail_element.hpp"
 
+#include <algorithm>
+
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::vehicle {
@@ -73,6 +75,12 @@ RailShape RailElement::motion(double part) const { return at_top(beam_.deflectio
 RailGive RailElement::own_compliance(double part) const {
   return at_top(beam_.own_compliance(part),
                 sideways_ ? length_ * part * (1.0 - part) / sideways_->torsional_stiffness : 0.0);
+}
+
+RailGive RailElement::own_slope(double part) const {
+  constexpr double kPart = 1e-4;
+  const double from = std::max(0.0, part - kPart), to = std::min(1.0, part + kPart);
+  return (own_compliance(to) - own_compliance(from)) / ((to - from) * length_);
 }
 
 }  // namespace treadmark::vehicle

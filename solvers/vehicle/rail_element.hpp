@@ -44,6 +44,8 @@ class RailElement {
   RailShape motion(double part) const;
   /// Further motion under a force at this place while the ends stand still.
   RailGive own_compliance(double part) const;
+  /// How it grows along the rail [1/m], within the element at its ends.
+  RailGive own_slope(double part) const;
 
  private:
   RailShape at_top(const BeamVector& bending, const Eigen::Vector2d& roll) const;

@@ -83,16 +83,16 @@ void RailInTime::rest(const std::vector<double>& places, double speed) {
       compliance_at_rest_(i, j) = here.along(i % per, unit_q_.col(j));
       rates_at_rest_(i, j) = here.along(i % per, unit_v_.col(j));
       if (i / per != j / per) continue;
-      const auto own = [&](double at) { return rail_->place(at).own_compliance(i % per, j % per); };
-      compliance_at_rest_(i, j) += own(x);
-      rates_at_rest_(i, j) += 0.25 * speed / kStep * (own(x + kStep) - own(x - kStep));
+      compliance_at_rest_(i, j) += here.own_compliance(i % per, j % per);
+      rates_at_rest_(i, j) += 0.5 * speed * here.own_slope(i % per, j % per);
     }
   }
   begin(Column::Zero(forces));
 }
 
 void RailInTime::begin(const Column& forces) {
-  force_ = forces;
+  force_ = force_before_ = forces;
+  length_before_ = 0.0;
   q_ = unit_q_ * forces;
   v_ = unit_v_ * forces;
   a_ = Column::Zero(rail_->size());
@@ -129,7 +129,7 @@ const RailInTime::Column& RailInTime::by_unit(int coordinate) {
   return column;
 }
 
-void RailInTime::step(double h, const std::vector<double>& before, const std::vector<double>& now) {
+void RailInTime::step(double h, const std::vector<double>& before, const std::vector<double>& now, double speed) {
   const auto& [alpha, beta, gamma] = scheme_;
   end_ = {};
   Trial& t = trial_;
@@ -175,12 +175,12 @@ void RailInTime::step(double h, const std::vector<double>& before, const std::ve
       t.motion.compliance(i, j) += here.own_compliance(i % per, j % per);
       if (!(h > 0.0)) continue;
       // What is moved beyond the coordinates, as the force changes and, by half, as the place does: the other half is
-      // the slope there.
-      const double before_own = t.before[other].own_compliance(i % per, j % per),
-                   now_own = here.own_compliance(i % per, j % per);
-      const double by_change = 0.5 * (before_own + now_own) / h, by_place = 0.25 * (now_own - before_own) / h;
-      t.rate.compliance(i, j) += by_place + by_change;
-      t.rate.free[i] += (by_place - by_change) * force_[j];
+      // the slope there. The rate of the force by backward differences of second order, or friction would lack work.
+      const double ratio = length_before_ > 0.0 ? h / length_before_ : 0.0,
+                   of_change = here.own_compliance(i % per, j % per) / h;
+      t.rate.compliance(i, j) +=
+          of_change * (1.0 + 2.0 * ratio) / (1.0 + ratio) + 0.5 * speed * here.own_slope(i % per, j % per);
+      t.rate.free[i] += of_change * (ratio * ratio / (1.0 + ratio) * force_before_[j] - (1.0 + ratio) * force_[j]);
     }
   }
 }
@@ -240,7 +240,9 @@ void RailInTime::accept(const Column& forces) {
   q_.swap(end_.q);
   v_.swap(end_.v);
   a_.swap(end_.a);
+  force_before_ = force_;
   force_ = forces;
+  length_before_ = trial_.length;
   end_ = {};
 }
 
@@ -261,16 +263,18 @@ void RailInTime::move_on(int bay_elements) {
 }
 
 void RailInTime::save(ByteWriter& out) const {
-  for (const Column* column : {&force_, &q_, &v_, &a_}) add_rail_state(out, *column);
+  for (const Column* column : {&force_, &force_before_, &q_, &v_, &a_}) add_rail_state(out, *column);
+  out.put(length_before_);
 }
 
 bool RailInTime::restore(ByteReader& in) {
-  for (Column* column : {&force_, &q_, &v_, &a_}) {
+  for (Column* column : {&force_, &force_before_, &q_, &v_, &a_}) {
     std::vector<double> values;
     in.get(values);
     if (static_cast<Eigen::Index>(values.size()) != column->size()) return false;
     *column = Eigen::Map<const Column>(values.data(), column->size());
   }
+  in.get(length_before_);
   trial_ = {};
   end_ = {};
   return true;

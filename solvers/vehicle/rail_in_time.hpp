@@ -43,8 +43,8 @@ class RailInTime {
     Column free;
     Columns compliance;
   };
-  /// A step of this length [s] from forces that were accepted at the places before.
-  void step(double length, const std::vector<double>& before, const std::vector<double>& now);
+  /// A step of this length [s] from forces that were accepted at the places before. speed: at its end [m/s].
+  void step(double length, const std::vector<double>& before, const std::vector<double>& now, double speed);
   const Answer& motions() const { return trial_.motion; }
   /// Of the rail itself where the places are.
   const Answer& rates() const { return trial_.rate; }
@@ -95,6 +95,8 @@ class RailInTime {
   std::vector<RailOnSeats::Place> place_at_rest_;
 
   Column force_, q_, v_, a_;
+  Column force_before_;         ///< a step earlier
+  double length_before_ = 0.0;  ///< of that step [s]; 0: none
   Trial trial_;
   End end_;
   double factors_of_ = -1.0;  ///< length of a step

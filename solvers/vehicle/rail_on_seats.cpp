@@ -186,7 +186,7 @@ RailOnSeats::Place RailOnSeats::place(double x) const {
                             begin(), end()));
   const std::size_t e = element_at(x);
   const double part = part_of(e, x);
-  Place found{{}, elements_[e].motion(part), elements_[e].own_compliance(part)};
+  Place found{{}, elements_[e].motion(part), elements_[e].own_compliance(part), elements_[e].own_slope(part)};
   for (int i = 0; i < found.value.rows(); ++i) found.coordinate[static_cast<std::size_t>(i)] = coordinate(e, i);
   return found;
 }

@@ -41,7 +41,7 @@ class RailOnSeats {
   struct Place {
     std::array<int, 6> coordinate{};  ///< as many as value has rows
     RailShape value;
-    RailGive own_compliance;
+    RailGive own_compliance, own_slope;  ///< own_slope: of it along the rail [1/m]
     /// Of a motion by a column of coordinates.
     template <class Coordinates>
     double along(Eigen::Index motion, const Coordinates& q) const {

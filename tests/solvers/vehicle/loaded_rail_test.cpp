@@ -51,7 +51,10 @@ Wave on_bed(const FlexibleTrack& track, double f, double distance) {
 
 /// Vertical forces at two places.
 Eigen::VectorXd two(double first, double second) {
-  return (Eigen::VectorXd(6) << 0.0, first, 0.0, 0.0, second, 0.0).finished();
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(6);
+  forces[1] = first;
+  forces[4] = second;
+  return forces;
 }
 
 Eigen::VectorXd vertical(const Eigen::VectorXd& motions) { return motions(Eigen::seqN(1, motions.size() / 3, 3)); }
