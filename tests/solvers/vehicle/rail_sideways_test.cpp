@@ -472,21 +472,6 @@ TEST(ContactOnRailSideways, EnergyIsBalanced) {
   }
 }
 
-TEST(ContactOnRailSideways, Probe) {
-  const SpeedProfile braking{{0.0, 0.1, 0.25}, {20.0, 14.0, 22.0}};
-  for (const bool shared : {false, true})
-    for (const double h : {4e-5, 2e-5, 1e-5}) {
-      const VehicleOnTrack v = on_leaning_springs(calm_ends(side_track(0.545, 60), 15), 20.0, 1e-8, shared,
-                                                  shared ? braking : constant_speed(20.0));
-      Simulation s(v, kicked(v), equal_steps(0.15, h));
-      while (!s.finished()) s.advance();
-      const auto& e = s.energy();
-      std::printf("shared %d h %g turnover %g integration %.3e contact %.3e friction %g elastic %g work %g drive %g evals %g\n", shared, h, e.turnover,
-                  e.integration_error(s.energy_at_start()) / e.turnover, e.contact_error(s.energy_at_start()) / e.turnover,
-                  e.friction, e.elastic - s.energy_at_start().elastic, e.contact_work, e.drive, double(s.counts().evaluations)/double(s.counts().steps));
-    }
-}
-
 /// One evaluation a step: what the linearised contact and rail leave is small.
 TEST(ContactOnRailSideways, StepsNeedOneEvaluation) {
   const VehicleOnTrack v =
