@@ -100,6 +100,12 @@ class Surface {
   virtual std::size_t memory_bytes() const = 0;
   /// Whether the shape is one profile: a rail the same at every x, a wheel the same at every theta. False for a roller.
   virtual bool constant_profile() const { return false; }
+  /// Whether the shape is that one profile between u_min and u_max (see SurfacePoint::u; of a wheel any branch, at most
+  /// a turn), the same wherever this holds. Of surfaces that do not tell: only where all is.
+  virtual bool constant_between(double u_min, double u_max) const {
+    static_cast<void>(u_min), static_cast<void>(u_max);
+    return constant_profile();
+  }
   /// Lateral parameters v (see SurfacePoint) of the lines along u at which the data lie that the surface was fitted to,
   /// increasing. Empty: it was not, or does not tell.
   virtual std::vector<double> data_v() const { return {}; }

@@ -9,6 +9,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/detection/closest_gap.hpp"
+#include "treadmark/detection/rail_sections.hpp"
 
 namespace treadmark::detection {
 namespace {
@@ -86,6 +87,36 @@ class SampledWheel {
   const std::vector<double>&r_, &by_y_;
 };
 
+/// Whether the rail runs along x of T.
+bool runs_along(const Pose& X_TR) {
+  constexpr double kStraight = 1e-12;
+  const Vec3 along = X_TR.rotation.col(0);
+  return std::hypot(along.y(), along.z()) < kStraight;
+}
+
+/// Whether all of the wheel that is over the extent of a grid is its one profile.
+bool wheel_is_round(const BodyPair& bodies, const Grid2& g) {
+  if (bodies.wheel->constant_profile()) return true;
+  if (!bodies.wheel_profile) return false;
+  // Parts with less than the profile's least radius, and then some, are seen at other angles only if they are defects.
+  constexpr double kShare = 0.95;
+  double least = kInfinity;
+  for (const double r : bodies.wheel_profile->radius)
+    if (!std::isnan(r)) least = std::min(least, r);
+  // Forwards, square to the axle and without a part along z of T: how far ahead of the axle a point is tells its angle.
+  const Vec3 axle = bodies.X_TW.rotation.col(1), forwards = axle.cross(Vec3::UnitZ()).normalized();
+  double low = kInfinity, high = -kInfinity;
+  for (const double x : {g.x(0), g.x(g.nx - 1)})
+    for (const double y : {g.y(0), g.y(g.ny - 1)}) {
+      const Vec3 p = Vec3(x, y, 0.0) - bodies.X_TW.origin;
+      const double ahead = (forwards.x() * p.x() + forwards.y() * p.y()) / (kShare * least);
+      low = std::min(low, ahead), high = std::max(high, ahead);
+    }
+  if (!(low > -1.0 && high < 1.0)) return false;
+  const double lowest = lowest_angle(bodies.X_TW);
+  return bodies.wheel->constant_between(lowest + std::asin(low), lowest + std::asin(high));
+}
+
 /// Shift of a row's weighted middle over that of its ends: moments of the cubic part.
 double middle_share(PenetrationWeight weight) { return weight == PenetrationWeight::squared ? 3.0 / 7.0 : 3.0 / 5.0; }
 
@@ -97,15 +128,19 @@ double row_weight(PenetrationWeight weight, double c, double half) {
 }  // namespace
 
 bool ContactLocus::applies(const BodyPair& bodies) {
-  constexpr double kStraight = 1e-12;
-  const Vec3 along = bodies.X_TR.rotation.col(0);
-  return bodies.rail->constant_profile() && bodies.wheel->constant_profile() &&
-         std::hypot(along.y(), along.z()) < kStraight;
+  return bodies.rail->constant_profile() && bodies.wheel->constant_profile() && runs_along(bodies.X_TR);
+}
+
+bool ContactLocus::applies_over(const BodyPair& bodies, const Grid2& g) {
+  if (!runs_along(bodies.X_TR)) return false;
+  const double first = g.x(0), last = g.x(g.nx - 1), from = bodies.X_TR.origin.x();
+  return bodies.rail->constant_between(first - from, last - from) && wheel_is_round(bodies, g);
 }
 
 ContactLocus::ContactLocus(const BodyPair& bodies, const Grid2& g)
     : bodies_(bodies), x_low_(g.x(0)), x_high_(g.x(g.nx - 1)) {
   const auto profile = bodies.wheel_profile ? bodies.wheel_profile : whole_profile(*bodies.wheel);
+  wheel_angle_ = profile->angle;
   outline_ = trace({g.y0, g.dy, g.ny}, *profile, false);
 }
 
@@ -201,9 +236,10 @@ const ContactLocus::Outline& ContactLocus::fine_outline(int first_row, int last_
   y_min -= margin, y_max += margin;
   constexpr std::size_t kKept = 8;
   if (fine_.size() >= kKept) fine_.erase(fine_.begin());
-  fine_.push_back({first_row, last_row,
-                   trace({low, (high - low) / (kFineRows - 1), kFineRows},
-                         sample_profile(*bodies_.wheel, y_min, (y_max - y_min) / (kFineRows - 1), kFineRows), true)});
+  fine_.push_back(
+      {first_row, last_row,
+       trace({low, (high - low) / (kFineRows - 1), kFineRows},
+             sample_profile(*bodies_.wheel, wheel_angle_, y_min, (y_max - y_min) / (kFineRows - 1), kFineRows), true)});
   return fine_.back().outline;
 }
 

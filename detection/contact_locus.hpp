@@ -19,6 +19,9 @@ class ContactLocus {
  public:
   /// Whether both shapes are one profile and the rail runs along x of T.
   static bool applies(const BodyPair& bodies);
+  /// Whether they are where they may touch, over the extent of grid_T: a wheel beside its flats, a rail beside its
+  /// defects. Needs wheel_profile of a wheel that is not round.
+  static bool applies_over(const BodyPair& bodies, const Grid2& grid_T);
 
   /// grid_T: only its extent and lateral step count.
   ContactLocus(const BodyPair& bodies, const Grid2& grid_T);
@@ -58,6 +61,7 @@ class ContactLocus {
 
   BodyPair bodies_;
   double x_low_, x_high_;
+  double wheel_angle_ = 0.0;  ///< where the wheel's profile is taken [rad]
   Outline outline_;
   std::vector<double> wheel_y_;  ///< y on the profile of the wheel that each row of the outline shows
   struct Fine {

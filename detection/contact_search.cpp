@@ -74,15 +74,15 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     throw Error(ErrorKind::configuration,
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
-  const bool one_profile = !settings.mesh && ContactLocus::applies(bodies);
-  if ((settings.method == SearchMethod::locus && !settings.locus_rows && !one_profile) ||
+  if ((settings.method == SearchMethod::locus && !settings.locus_rows &&
+       (settings.mesh || !ContactLocus::applies(bodies))) ||
       (settings.locus_rows && !bodies.wheel->constant_profile()))
     throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel",
                 {}, "use the grid method");
   if (settings.locus_rows) {
     reference_locus_.emplace(bodies, *settings.locus_rows);
-  } else if (settings.method == SearchMethod::locus ||
-             (settings.method == SearchMethod::automatic && one_profile && settings.refine)) {
+  } else if (settings.method == SearchMethod::locus || (settings.method == SearchMethod::automatic && !settings.mesh &&
+                                                        settings.refine && ContactLocus::applies_over(bodies, g))) {
     locus_.emplace(bodies, g);
   } else {
     if (settings_.method == SearchMethod::automatic) settings_.method = SearchMethod::pruned_grid;

@@ -12,6 +12,7 @@ namespace treadmark::detection {
 /// Radii of a round wheel at equal steps of its own y, and their slopes; NaN where it has none. Immutable.
 struct SampledProfile {
   double first = 0.0, step = 0.0;  ///< [m]
+  double angle = 0.0;              ///< where on the wheel [rad]
   std::vector<double> radius, slope;
 
   int count() const { return static_cast<int>(radius.size()); }
@@ -23,9 +24,10 @@ struct ProfileLines {
   std::vector<double> y, radius, slope;
 };
 
-SampledProfile sample_profile(const Surface& wheel, double first, double step, int count);
+/// At an angle [rad], from y = first on.
+SampledProfile sample_profile(const Surface& wheel, double angle, double first, double step, int count);
 
-/// All of a round wheel, as the contact locus wants it; null for other wheels.
+/// The profile of a wheel that is round, or round but for some defects, as the contact locus wants it; null for others.
 std::shared_ptr<const SampledProfile> whole_profile(const Surface& wheel);
 
 /// Of the section of a wheel at an angle [rad].

@@ -62,13 +62,18 @@ class MovedSurface final : public Placed {
   using Placed::Placed;
   Facing facing() const override { return surface().facing(); }
   /// Shifted across and upright, a rail stays prismatic; a wheel would no longer turn about its axle.
-  bool constant_profile() const override {
-    const bool along = X_SB().rotation == Mat3::Identity();
-    const bool centred = facing() == Facing::up || (X_SB().origin.x() == 0.0 && X_SB().origin.z() == 0.0);
-    return along && centred && surface().constant_profile();
+  bool constant_profile() const override { return keeps_profile() && surface().constant_profile(); }
+  bool constant_between(double u_min, double u_max) const override {
+    const double before = facing() == Facing::up ? X_SB().origin.x() : 0.0;
+    return keeps_profile() && surface().constant_between(u_min - before, u_max - before);
   }
 
  private:
+  bool keeps_profile() const {
+    const bool along = X_SB().rotation == Mat3::Identity();
+    const bool centred = facing() == Facing::up || (X_SB().origin.x() == 0.0 && X_SB().origin.z() == 0.0);
+    return along && centred;
+  }
   void do_heights(const PlaneGrid& g, const HeightsOut& out) const override {
     surface().heights({seen_from_own(g.X_SP), g.grid}, out);
   }

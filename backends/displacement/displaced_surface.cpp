@@ -36,9 +36,9 @@ class DisplacedSurface final : public Surface {
       : base_(std::move(base)), field_(std::move(field)), body_(body), backend_(std::move(backend)) {
     const Box3 b = base_->bounds();
     const double pi = std::numbers::pi;
+    y_min_ = std::max(b.min.y(), -kFar), y_max_ = std::min(b.max.y(), kFar);
     const Rectangle everywhere{body == Body::wheel ? -pi : std::max(b.min.x(), -kFar),
-                               body == Body::wheel ? pi : std::min(b.max.x(), kFar), std::max(b.min.y(), -kFar),
-                               std::min(b.max.y(), kFar)};
+                               body == Body::wheel ? pi : std::min(b.max.x(), kFar), y_min_, y_max_};
     range_ = field_->range(everywhere);
     if (!std::isfinite(range_.low) || !std::isfinite(range_.high))
       throw Error(ErrorKind::configuration, "offsets of a surface must be bounded");
@@ -49,6 +49,10 @@ class DisplacedSurface final : public Surface {
   std::string_view backend() const override { return backend_; }
   Facing facing() const override { return base_->facing(); }
   bool constant_profile() const override { return base_->constant_profile() && field_->constant_along(); }
+  bool constant_between(double u_min, double u_max) const override {
+    return base_->constant_between(u_min, u_max) &&
+           (field_->constant_along() || field_->range({u_min, u_max, y_min_, y_max_}).zero());
+  }
   std::vector<double> data_v() const override { return base_->data_v(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + base_->memory_bytes() + field_->memory_bytes(); }
   Box3 bounds() const override {
@@ -83,6 +87,7 @@ class DisplacedSurface final : public Surface {
   std::string backend_;
   OffsetRange range_;
   double max_offset_ = 0.0;
+  double y_min_ = 0.0, y_max_ = 0.0;         ///< of the base [m]
   double rail_low_ = 0.0, rail_high_ = 0.0;  ///< of the base [m]
 };
 

@@ -21,6 +21,7 @@ class Renamed final : public Surface {
   Box3 bounds() const override { return made_->bounds(); }
   std::size_t memory_bytes() const override { return made_->memory_bytes(); }
   bool constant_profile() const override { return made_->constant_profile(); }
+  bool constant_between(double u_min, double u_max) const override { return made_->constant_between(u_min, u_max); }
   std::vector<double> data_v() const override { return made_->data_v(); }
 
  private:

@@ -158,7 +158,8 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
     solution.remarks.push_back({RemarkKind::step_rule, 0, violated});
   }
 
-  if (wheel_profile_ && !wheel_lines_ && p.discretisation.search == Discretisation::SearchGrid::reference_locus)
+  if (geometry_.wheel->constant_profile() && !wheel_lines_ &&
+      p.discretisation.search == Discretisation::SearchGrid::reference_locus)
     wheel_lines_ = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
   PairStep step(geometry_, p, next->previous, solvers_, solution.times, {wheel_profile_, wheel_lines_});
   const double known = next->previous.stiffness;

@@ -108,7 +108,7 @@ class Pair {
   Instant choose_previous(const Problem& problem) const;
 
   Geometry geometry_;
-  std::shared_ptr<const detection::SampledProfile> wheel_profile_;  ///< null unless the wheel is round
+  std::shared_ptr<const detection::SampledProfile> wheel_profile_;  ///< whole_profile(): null for rough wheels
   std::shared_ptr<const detection::ProfileLines> wheel_lines_;      ///< likewise, from the first search that wants them
   std::vector<kalker::ContactSolver> solvers_;                      ///< by number of the patch; keep coefficients
   std::shared_ptr<const State> state_;

@@ -199,6 +199,34 @@ TEST_P(Conformance, BesideTheProfileThereIsNothing) {
   }
 }
 
+TEST_P(Conformance, PartsOfOneProfileAreTheSame) {
+  constexpr int kParts = 24, kSections = 7;
+  const double step = (shape().u_max - shape().u_min) / kParts;
+  const bool rail = surface_->facing() == Facing::up;
+  const Grid2 section{
+      0.0, shape().y_min + 0.5e-3, 1.0, 1.3e-3, 1, static_cast<int>((shape().y_max - shape().y_min) / 1.3e-3) - 1};
+  std::vector<double> profile;
+  int parts = 0;
+  for (int part = 0; part < kParts; ++part) {
+    const double first = shape().u_min + part * step;
+    if (!surface_->constant_between(first, first + step)) continue;
+    ++parts;
+    for (int i = 0; i < kSections; ++i) {
+      const double u = first + (i + 0.5) * step / kSections;
+      const Pose X = rail ? Pose{Vec3(u, 0.0, 0.0), Mat3::Identity()} : Pose{Vec3::Zero(), rotation_y(u)};
+      const Fields f = evaluate(*surface_, X, section);
+      if (profile.empty()) profile = f.z;
+      for (std::size_t k = 0; k < profile.size(); ++k) ASSERT_TRUE(same(f.z[k], profile[k], 1e-12)) << u << ' ' << k;
+    }
+  }
+  if (!shape().spec.defects.empty()) {
+    EXPECT_FALSE(surface_->constant_between(shape().u_min, shape().u_max));
+  }
+  if (surface_->constant_profile()) {
+    EXPECT_EQ(parts, kParts);
+  }
+}
+
 TEST_P(Conformance, MovingEverythingChangesNothing) {
   constexpr double kTolerance = 1e-11;  // a metre of offset costs rounding of 1e-16 m, times the slope
   const Grid2 g = coarse_grid();

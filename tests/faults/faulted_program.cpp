@@ -41,7 +41,8 @@ FaultedProgram::FaultedProgram(const std::filesystem::path& under, const std::ve
                                    "TREADMARK_FAULT_UNDER=" + under.string(),
                                    "TREADMARK_FAULT_COUNTS=" + counts_file_.string(),
                                    "TREADMARK_FAULT_BYTES=" + std::to_string(kLeastBytes),
-                                   "TREADMARK_FAULT_CLOCK=1"};
+                                   "TREADMARK_FAULT_CLOCK=1",
+                                   "TREADMARK_CACHE=" + (under.parent_path() / "cache").string()};
   if (!fault.empty()) command.push_back("TREADMARK_FAULT=" + fault);
   if (!log.empty()) {
     std::ofstream(log, std::ios::binary | std::ios::trunc).flush();

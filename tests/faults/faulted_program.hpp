@@ -17,7 +17,7 @@ namespace treadmark::testing {
 class FaultedProgram {
  public:
   /// under: absolute, without links. fault: as TREADMARK_FAULT of shim/fault_shim.cpp, empty: none. log: where the
-  /// operations go, empty: nowhere.
+  /// operations go, empty: nowhere. Tables are kept beside `under`, where nothing fails, so that they are made once.
   FaultedProgram(const std::filesystem::path& under, const std::vector<std::string>& arguments,
                  const std::string& fault = {}, const std::filesystem::path& log = {});
   ~FaultedProgram();

@@ -104,6 +104,49 @@ TEST(LocusMethod, IsForConstantProfilesAlongTheTrackOnly) {
   EXPECT_THROW(ContactSearch(pair, s), Error);
 }
 
+/// A turn of a wheel with a flat of 60 mm, over a rail with a squat: where neither is near, profiles decide, with the
+/// patches that the grid finds; where one is, the grid.
+TEST(LocusMethod, IsUsedBesideDefects) {
+  WheelFlat flat;
+  flat.length = 0.06, flat.depth = 1e-3;
+  Squat squat;
+  squat.x_center = 0.5, squat.length = 0.04, squat.width = 0.03, squat.depth = 2e-4;
+  SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}},
+      wheel{Body::wheel, kRailRadius, StandardProfile{"S1002"}, {}};
+  rail.defects.squats = {squat}, wheel.defects.flats = {flat};
+  const Profiles p{create_surface(rail, "analytic"), create_surface(wheel, "analytic")};
+  const auto profile = detection::whole_profile(*p.wheel);
+  ASSERT_NE(profile, nullptr);
+  EXPECT_NE(profile->angle, 0.0);
+  int on_locus = 0, on_grid = 0;
+  for (const double from : {0.0, 0.5})
+    for (double pitch = -3.1; pitch < 3.1; pitch += 0.1) {
+      auto pair = placed(p, 1e-3, 0.001, 0.004, pitch);
+      pair.X_TR.origin.x() = -from;
+      pair.wheel_profile = profile;
+      SearchSettings s = fine_grid();
+      ContactSearch found(pair, s);
+      const bool locus = found.method() == SearchMethod::locus;
+      // The grid reaches 90 mm to both sides of the axle (0.21 rad), the flat 30 mm from its middle (0.07 rad).
+      EXPECT_EQ(locus, from == 0.0 && std::abs(pitch) > 0.29) << pitch;
+      (locus ? on_locus : on_grid) += 1;
+      if (!locus) continue;
+      s.method = SearchMethod::pruned_grid;
+      ContactSearch grid(pair, s);
+      const double depth = grid.at(grid.least_gap()).least_gap + grid.least_gap() + 1e-4;
+      const auto a = found.at(depth), b = grid.at(depth);
+      ASSERT_EQ(a.patches.size(), 1U);
+      ASSERT_EQ(b.patches.size(), 1U);
+      const auto &u = a.patches[0], &v = b.patches[0];
+      EXPECT_LT(std::hypot(u.x - v.x, u.y - v.y), 1e-5);
+      EXPECT_NEAR(u.inclination, v.inclination, 2e-4);
+      EXPECT_NEAR(u.least_gap, v.least_gap, 1e-7);
+      EXPECT_NEAR(u.weight, v.weight, 5e-3 * v.weight);
+    }
+  EXPECT_GT(on_locus, 40);
+  EXPECT_GT(on_grid, 60);
+}
+
 TEST(LocusMethod, KeepsTheGapWithoutContactAndIsNaNBesideTheRail) {
   const Profiles p = profiles("analytic");
   SearchSettings s = fine_grid();

@@ -19,6 +19,9 @@ class RevolvedSurface final : public Surface {
   std::string_view backend() const override { return "analytic"; }
   Facing facing() const override { return Facing::down; }
   bool constant_profile() const override { return body_.flats.empty(); }
+  bool constant_between(double u_min, double u_max) const override {
+    return !body_.flats.touches(0.5 * (u_min + u_max), 0.5 * (u_max - u_min));
+  }
   Box3 bounds() const override {
     return {{-body_.r_max, body_.curve.y_min(), -body_.r_max}, {body_.r_max, body_.curve.y_max(), body_.r_max}};
   }

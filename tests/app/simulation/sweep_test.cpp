@@ -44,6 +44,24 @@ class Sweep : public ::testing::Test {
       EXPECT_TRUE(bytes == input.read(other + '/' + file)) << file << " differs";
     }
   }
+  /// Four processes of mpirun do what one does.
+  void expect_same_under_mpirun(int runs, const std::vector<std::string>& options = {}) const {
+    try {
+      if (RunningProgram({"mpirun", "--version"}).wait().status != 0) throw std::runtime_error("mpirun does not run");
+    } catch (const std::exception& e) {
+      const char* in_ci = getenv("CI");
+      if (in_ci != nullptr && std::string(in_ci) == "true") FAIL() << e.what();
+      GTEST_SKIP() << e.what() << ": install openmpi-bin";
+    }
+    ASSERT_EQ(run("alone", options).status, 0);
+    std::vector<std::string> together{"mpirun", "--oversubscribe", "--allow-run-as-root", "-n", "4"};
+    const std::vector<std::string> each = command("together", options);
+    together.insert(together.end(), each.begin(), each.end());
+    const ProgramResult r = RunningProgram(together).wait();
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(std::ranges::count(r.out, '\n'), runs) << "one process prints the table: " << r.out;
+    expect_same("alone", "together");
+  }
   SampleSimulation input;
 };
 
@@ -125,24 +143,34 @@ TEST_F(Sweep, TheOtherProcessFinishesWhatAKilledOneLeft) {
   expect_same("undisturbed", "shared");
 }
 
-TEST_F(Sweep, ProcessesOfMpirunGiveTheSameBytes) {
-  try {
-    if (RunningProgram({"mpirun", "--version"}).wait().status != 0) throw std::runtime_error("mpirun does not run");
-  } catch (const std::exception& e) {
-    const char* in_ci = getenv("CI");
-    if (in_ci != nullptr && std::string(in_ci) == "true") FAIL() << e.what();
-    GTEST_SKIP() << e.what() << ": install openmpi-bin";
-  }
-  ASSERT_EQ(run("alone").status, 0);
-  std::vector<std::string> together{"mpirun", "--oversubscribe", "--allow-run-as-root", "-n", "4"};
-  const std::vector<std::string> each = command("together");
-  together.insert(together.end(), each.begin(), each.end());
-  const ProgramResult r = RunningProgram(together).wait();
-  ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_EQ(std::ranges::count(r.out, '\n'), 4) << "one process prints the table: " << r.out;
-  expect_same("alone", "together");
-}
+TEST_F(Sweep, ProcessesOfMpirunGiveTheSameBytes) { expect_same_under_mpirun(4); }
 
+/// Rails and wheelsets that bend, and a curve on irregular track.
+TEST_F(Sweep, EveryKindOfTrackAndVehicleGivesTheSameBytes) {
+  const std::string examples = TREADMARK_SOURCE_DIR "/examples/";
+  input.write("study.toml", "study.title = \"Kinds\"\nstudy.base = \"" + examples + R"toml(curve.toml"
+[[study.vary]]
+label = "kind"
+values = [
+  { label = "curve", set = ["simulation.distance_m=5"] },
+  { label = "flexible wheelsets", set = ["simulation.vehicle=vehicles/manchester-flexible.toml", "simulation.distance_m=0.2"] },
+  { label = "flexible rails", set = ["simulation.track=tracks/zhai-flexible.toml", "simulation.distance_m=0.5"] },
+]
+[[study.figures]]
+file = "force-by-distance.svg"
+kind = "history"
+x = "x_m"
+y = ["Q_N"]
+[[study.figures]]
+file = "force-by-speed.svg"
+kind = "history"
+x = "x_m"
+y = ["Y_N"]
+)toml");
+  expect_same_under_mpirun(3, {"--set", "simulation.output_every_mm=5"});
+  ASSERT_EQ(run("one", {"--threads", "1", "--set", "simulation.output_every_mm=5"}).status, 0);
+  expect_same("alone", "one");
+}
 TEST_F(Sweep, AnotherStudyInTheSameFolderIsRefused) {
   input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.01");
   const ProgramResult none = run("out", {"--resume"});
