@@ -53,6 +53,7 @@ void RailInTime::look_at(const FlexibleTrack& part) {
 
 std::vector<RailOnSeats::Place> RailInTime::at(const std::vector<double>& places) const {
   std::vector<RailOnSeats::Place> all;
+  all.reserve(places.size());
   for (const double x : places) all.push_back(rail_->place(x));
   return all;
 }
