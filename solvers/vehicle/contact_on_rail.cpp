@@ -128,12 +128,14 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
   }
   r.bending = bending_under(answer, force);
   rail_->press(wheel_, force, t.together * t.stiffness);
+  Vec3 normal_force = Vec3::Zero();
+  for (std::size_t i = 0; i < t.patches.size(); ++i) normal_force += r.tangents[i].normal_force * t.patches[i].normal;
   trial_ = Trial{
       {motion.time, force, top(motion.wheelset.y, motion.wheelset.z, motion.wheelset.roll),
        top(motion.wheelset_velocity.y, motion.wheelset_velocity.z, motion.wheelset_velocity.roll),
        top(motion.rail.y, motion.rail.z, motion.rail.roll) + moved,
-       top(motion.rail.vy, motion.rail.vz, motion.rail.vroll) + rate, drift_with(motion.time, off, !t.patches.empty()),
-       t.stiffness, t.damping, t.wheel_stiffness, t.wheel_damping},
+       top(motion.rail.vy, motion.rail.vz, motion.rail.vroll) + rate, normal_force,
+       drift_with(motion.time, off, !t.patches.empty()), t.stiffness, t.damping, t.wheel_stiffness, t.wheel_damping},
       std::move(t),
       answer};
 }
@@ -197,11 +199,9 @@ ContactReaction ContactOnRail::moving(const PairMotion& motion) {
   ContactReaction r = contact_->evaluate(deflected);
   if (is_unsolved(r)) return r;
   agree(r, deflected, answer, predicted, tangents_of(r, deflected, answer));
-  // What presses feels the slope; creep is that against the rail's own motion.
-  Vec3 normal = Vec3::Zero();
-  for (std::size_t i = 0; i < r.tangents.size(); ++i)
-    normal += r.tangents[i].normal_force * trial_->tangents.patches[i].normal;
-  r.on_wheelset.force.x() += normal.dot(rail_->slope(wheel_, trial_->found.force, answer));
+  // What presses feels the slope, which is that of the step, by its mean; creep is that against the rail's own motion.
+  r.on_wheelset.force.x() +=
+      0.5 * (last_.normal + trial_->found.normal).dot(rail_->slope(wheel_, trial_->found.force, answer));
   return r;
 }
 

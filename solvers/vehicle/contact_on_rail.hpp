@@ -52,13 +52,15 @@ class ContactOnRail : public ContactElement {
     Vec3 force = Vec3::Zero();  ///< in agreement with the rail
     /// Motions y, z and roll of the wheelset and of the rail's top, and rates.
     Vec3 wheel = Vec3::Zero(), wheel_rate = Vec3::Zero(), rail = Vec3::Zero(), rail_rate = Vec3::Zero();
+    Vec3 normal = Vec3::Zero();                             ///< of the forces, what friction has no part in
     Vec3 drift = Vec3::Zero();                              ///< of the force without motion, as shapes roll by [N/s]
     Mat3 stiffness = Mat3::Zero(), damping = Mat3::Zero();  ///< as in Tangents
     Mat3 wheel_stiffness = Mat3::Zero(), wheel_damping = Mat3::Zero();  ///< as there
     template <class Visit>
     static void each_number(auto& found, Visit&& visit) {
       visit(found.time);
-      for (auto* v : {&found.force, &found.wheel, &found.wheel_rate, &found.rail, &found.rail_rate, &found.drift})
+      for (auto* v :
+           {&found.force, &found.wheel, &found.wheel_rate, &found.rail, &found.rail_rate, &found.normal, &found.drift})
         for (Eigen::Index i = 0; i < v->size(); ++i) visit(v->data()[i]);
       for (auto* m : {&found.stiffness, &found.damping, &found.wheel_stiffness, &found.wheel_damping})
         for (Eigen::Index i = 0; i < m->size(); ++i) visit(m->data()[i]);
