@@ -41,7 +41,9 @@ void accumulate_totals(const ContactProblem& problem, ContactSolution& solution)
       mn += py * x - px * y;
       energy += pn * at(solution.displacement_n, i) + px * at(solution.displacement_x, i) +
                 py * at(solution.displacement_y, i);
-      power += px * at(solution.slip_x, i) + py * at(solution.slip_y, i);
+      // what is left of slip in adhesion is rounding
+      if (solution.state[i] != ElementState::adhesion)
+        power += px * at(solution.slip_x, i) + py * at(solution.slip_y, i);
       solution.max_pressure = std::max(solution.max_pressure, pn);
     }
   solution.elements_contact = solution.elements_adhesion + solution.elements_slip;

@@ -60,9 +60,9 @@ depths_mm = [3]
 #define PAIR "geometry --wheel S1002 --rail 60E1 --cant 1:40 --amplitudes-mm 3 --step-mm 0.5"
 #define TRACK \
   "track " TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml -o @track --json @t.json --receptance @t.csv"
-#define STABILITY                                                          \
-  "stability " TREADMARK_SOURCE_DIR                                        \
-  "/examples/flat-at-speed.toml -o @stability --set simulation.wheels=[] " \
+#define STABILITY                                            \
+  "stability " TREADMARK_SOURCE_DIR                          \
+  "/examples/flat-at-speed.toml --set simulation.wheels=[] " \
   "--set simulation.vehicle=vehicles/single-wheelset.toml --from 20 --count 2"
 #define LESS " --set wheelset.vertical_force_N=70e3"
 
@@ -115,7 +115,7 @@ const std::vector<OutputRow> kRows{
     {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0, true},
     {"evolve", "vehicle hdf5 openvdb", "", "evolve $short-evolution.toml -o @evolve --json @evolve.json", nullptr, 0,
      true},
-    {"stability", "vehicle", "", STABILITY " --to 30", STABILITY " --to 25", 3},
+    {"stability", "vehicle", "", STABILITY " --to 30 -o @stability", STABILITY " --to 25 -o @stability", 3},
     {"track", "vehicle", "", TRACK " --fit 1 --count 20", TRACK " --fit 1 --count 30", 2},
 };
 

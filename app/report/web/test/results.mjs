@@ -67,6 +67,7 @@ export class Results {
     const input = this.input("<img src=x onerror=alert(1)> & 'q'.toml", "wheel-flat.toml", [
       ["wheelset.pitch_deg = [-14, -10, -8, -6, -4, -2, 0, 2, 4, 6, 8, 10, 14]", "wheelset.pitch_deg = [0, 3]\n\n[[cases]]\nwheelset.y_mm = 300"],
       ["dx_mm = 0.5", "dx_mm = 1"],
+      ['title = "Rounded wheel flat on 60E1"', "title = \"<img src=y onerror=alert(1)> & 'q'\""],
     ]);
     this.treadmark(["run", input, "-o", this.path("nasty")], [0, 1, 4]);
     this.treadmark(["report", this.path("nasty"), "-o", this.path("nasty.html")]);
