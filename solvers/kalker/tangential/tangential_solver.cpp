@@ -174,8 +174,7 @@ void write_patch(const ContactProblem& problem, const Patch& patch, PatchSolver&
     solution.slip_y[at] = state.slip[n + i] / distance;
     solution.friction[at] = solver.friction()[i];
     solution.state[at] = state.slipping[i] ? ElementState::slip : ElementState::adhesion;
-    if (state.slipping[i])
-      dissipated += state.traction[i] * state.slip[i] + state.traction[n + i] * state.slip[n + i];
+    if (state.slipping[i]) dissipated += state.traction[i] * state.slip[i] + state.traction[n + i] * state.slip[n + i];
   }
   solution.frictional_power = dissipated * problem.grid.cell_area() / solver.step().time;
   if (problem.material.layer_yield > 0.0) write_layer(problem, patch, solver, previous, solution);
