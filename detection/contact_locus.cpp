@@ -133,8 +133,9 @@ bool ContactLocus::applies(const BodyPair& bodies) {
 
 bool ContactLocus::applies_over(const BodyPair& bodies, const Grid2& g) {
   if (!runs_along(bodies.X_TR)) return false;
-  const double first = g.x(0), last = g.x(g.nx - 1), from = bodies.X_TR.origin.x();
-  return bodies.rail->constant_between(first - from, last - from) && wheel_is_round(bodies, g);
+  const double from = bodies.X_TR.origin.x(), along = bodies.X_TR.rotation(0, 0);  // -1: the rail runs backwards
+  const auto [u_min, u_max] = std::minmax({along * (g.x(0) - from), along * (g.x(g.nx - 1) - from)});
+  return bodies.rail->constant_between(u_min, u_max) && wheel_is_round(bodies, g);
 }
 
 ContactLocus::ContactLocus(const BodyPair& bodies, const Grid2& g)

@@ -48,9 +48,10 @@ struct SearchResult {
 
 /// The contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid,
 /// interpenetration regions, weighted contact reference and angle, contact patches. Of the grid only what may touch is
-/// evaluated (PrunedGap); constant profiles need no grid (ContactLocus). What was evaluated stays: a wheel that moves
-/// along z of T only shifts its gap, so that a force iteration asks at() for one position after the other. The surfaces
-/// must outlive this. Deterministic; results do not depend on the questions before, but for rounding. One per thread.
+/// evaluated (PrunedGap); where profiles are constant, also beside defects, there is no grid (ContactLocus). What was
+/// evaluated stays: a wheel that moves along z of T only shifts its gap, so that a force iteration asks at() for one
+/// position after the other. The surfaces must outlive this. Deterministic; results do not depend on the questions
+/// before, but for rounding. One per thread.
 class ContactSearch {
  public:
   /// Errors: Error(configuration) if the search grid is absurdly large, or for SearchMethod::locus without constant

@@ -21,26 +21,23 @@ constexpr const char* kGenerationFormat = "treadmark generation 1";
 constexpr const char* kEvolutionFormat = "treadmark evolution 1";
 
 /// Sheets of a record with names, units and meanings.
+template <class Record>
 struct SheetRow {
-  CellSheet SurfaceRecord::*sheet;
+  CellSheet Record::*sheet;
   const char *name, *unit, *meaning;
 };
-constexpr SheetRow kSheets[] = {{&SurfaceRecord::volume, "volume", "m3", "removed from the cell"},
-                                {&SurfaceRecord::work, "work", "J", "of friction in the cell"},
-                                {&SurfaceRecord::sliding, "sliding", "m", "distance, mean over the cell"},
-                                {&SurfaceRecord::passages, "passages", "1", "of contacts over the cell"},
-                                {&SurfaceRecord::pressure, "pressure", "Pa", "largest"},
-                                {&SurfaceRecord::traction, "traction", "Pa", "largest"},
-                                {&SurfaceRecord::t_gamma, "t_gamma", "N", "largest of the contacts that passed"},
-                                {&SurfaceRecord::fi_surf, "fi_surf", "1", "largest surface fatigue index above 0"},
-                                {&SurfaceRecord::damage, "damage", "1", "sum over passages by their T gamma"}};
+constexpr SheetRow<SurfaceRecord> kSheets[] = {
+    {&SurfaceRecord::volume, "volume", "m3", "removed from the cell"},
+    {&SurfaceRecord::work, "work", "J", "of friction in the cell"},
+    {&SurfaceRecord::sliding, "sliding", "m", "distance, mean over the cell"},
+    {&SurfaceRecord::passages, "passages", "1", "of contacts over the cell"},
+    {&SurfaceRecord::pressure, "pressure", "Pa", "largest"},
+    {&SurfaceRecord::traction, "traction", "Pa", "largest"},
+    {&SurfaceRecord::t_gamma, "t_gamma", "N", "largest of the contacts that passed"},
+    {&SurfaceRecord::fi_surf, "fi_surf", "1", "largest surface fatigue index above 0"},
+    {&SurfaceRecord::damage, "damage", "1", "sum over passages by their T gamma"}};
 
-/// The same at a depth.
-struct StressRow {
-  CellSheet StressRecord::*sheet;
-  const char *name, *unit, *meaning;
-};
-constexpr StressRow kStressSheets[] = {
+constexpr SheetRow<StressRecord> kStressSheets[] = {
     {&StressRecord::von_mises, "von_mises", "Pa", "largest"},
     {&StressRecord::shear, "shear", "Pa", "largest amplitude of all planes"},
     {&StressRecord::shakedown, "shakedown", "Pa", "largest shear yield that shakedown needs"},
@@ -58,8 +55,9 @@ constexpr ContactRow kContactNumbers[] = {
     {&ContactFatigue::shakedown, "shakedown", "pressure ratio over the limit of the shakedown map"},
     {&ContactFatigue::damage, "damage", "of a passage by its T gamma"}};
 
-template <class Row>
-void write_sheet(const Hdf5GroupWriter& parent, const Row& what, const CellSheet& sheet) {
+template <class Record>
+void write_sheet(const Hdf5GroupWriter& parent, const SheetRow<Record>& what, const Record& record) {
+  const CellSheet& sheet = record.*what.sheet;
   std::vector<double> rows, values;
   for (const auto& [j, row] : sheet.rows()) {
     rows.push_back(j);
@@ -70,8 +68,10 @@ void write_sheet(const Hdf5GroupWriter& parent, const Row& what, const CellSheet
   group.write({"values", {rows.size(), static_cast<std::size_t>(sheet.nu())}, what.unit, what.meaning, true}, values);
 }
 
-template <class Row>
-void read_sheet(const Hdf5GroupReader& parent, const Row& what, const SurfaceCells& cells, CellSheet& sheet) {
+template <class Record>
+void read_sheet(const Hdf5GroupReader& parent, const SheetRow<Record>& what, const SurfaceCells& cells,
+                Record& record) {
+  CellSheet& sheet = record.*what.sheet;
   const Hdf5GroupReader group = parent.open_group(what.name);
   const std::vector<double> rows = group.numbers("rows");
   const auto nu = static_cast<std::size_t>(sheet.nu());
@@ -104,7 +104,7 @@ void write_fatigue(const Hdf5GroupWriter& body, const EvolvedFatigue& fatigue, c
   }
   for (std::size_t k = 0; k < record.stresses.size(); ++k) {
     const Hdf5GroupWriter at = group.make_group(depth_group(k));
-    for (const StressRow& row : kStressSheets) write_sheet(at, row, record.stresses[k].*row.sheet);
+    for (const auto& row : kStressSheets) write_sheet(at, row, record.stresses[k]);
   }
 }
 
@@ -125,7 +125,7 @@ void read_fatigue(const Hdf5GroupReader& body, const SurfaceCells& cells, Evolve
   record.stresses.assign(fatigue.depths.size(), StressRecord(cells.nu));
   for (std::size_t k = 0; k < record.stresses.size(); ++k) {
     const Hdf5GroupReader at = group.open_group(depth_group(k));
-    for (const StressRow& row : kStressSheets) read_sheet(at, row, cells, record.stresses[k].*row.sheet);
+    for (const auto& row : kStressSheets) read_sheet(at, row, cells, record.stresses[k]);
   }
 }
 
@@ -148,7 +148,7 @@ void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
   group.add(head);
   group.write({"radius", {c.radius.size()}, "m", "of the rows of a wheel; 1 of a rail", true}, c.radius);
   group.write({"section_z", {body.z.size()}, "m", "height of the section of the first column by row", true}, body.z);
-  for (const SheetRow& row : kSheets) write_sheet(group, row, body.record.*row.sheet);
+  for (const auto& row : kSheets) write_sheet(group, row, body.record);
   if (!body.fatigue.measures.empty()) write_fatigue(group, body.fatigue, body.record);
 }
 
@@ -168,7 +168,7 @@ EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
   body.record = SurfaceRecord(c.nu);
   body.record.volume_by_law = group.number("volume_by_law");
   body.record.work_of_contacts = group.number("work_of_contacts");
-  for (const SheetRow& row : kSheets) read_sheet(group, row, c, body.record.*row.sheet);
+  for (const auto& row : kSheets) read_sheet(group, row, c, body.record);
   read_fatigue(group, c, body.fatigue, body.record);
   return body;
 }

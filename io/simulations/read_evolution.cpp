@@ -19,17 +19,40 @@ const WearTheoryRow& theory_named(const std::string& word) {
   return *std::ranges::find(kWearTheories, word, &WearTheoryRow::word);
 }
 
+/// Where the numbers of a law or of a material come from.
+std::string source_of(const TableReader& table) {
+  std::string source = table.text("source");
+  if (source.empty())
+    table.fail(fmt::format("{} is empty", table.path_of("source")), "say where the numbers come from");
+  return source;
+}
+
+/// The keys that a row of a registry needs are there.
+template <class Row>
+void need_keys(const TableReader& table, const char* what, const Row& row) {
+  std::istringstream needed{std::string(row.keys)};
+  for (std::string key; needed >> key;) table.need(key, fmt::format("the {} {} needs {}", what, row.word, row.keys));
+}
+
+/// What check() refuses is refused with the place of the table.
+template <class Settings>
+Settings checked(const TableReader& table, Settings settings) {
+  try {
+    check(settings);
+  } catch (const Error& e) {
+    throw Error(e.kind(), fmt::format("{}: {}", table.path(), e.message()), table.where(), e.advice());
+  }
+  return settings;
+}
+
 WearLaw read_law(const TableReader& body) {
   const CaseValue& value = body.need("law", "a law of wear has no numbers of its own: see `treadmark list laws`");
   const TableReader table(*body.table("law"), value.where, body.path_of("law"), wear_law_keys());
   const WearTheoryRow& row = theory_named(table.text("theory"));
   WearLaw law;
   law.theory = row.theory;
-  law.source = table.text("source");
-  if (law.source.empty())
-    table.fail(fmt::format("{} is empty", table.path_of("source")), "say where the numbers come from");
-  std::istringstream needed{std::string(row.keys)};
-  for (std::string key; needed >> key;) table.need(key, fmt::format("the law {} needs {}", row.word, row.keys));
+  law.source = source_of(table);
+  need_keys(table, "law", row);
   law.hardness = table.number_or("hardness_GPa", 0.0);
   law.k = table.numbers("k");
   law.slip_limits = table.numbers("slip_m_s");
@@ -40,12 +63,7 @@ WearLaw read_law(const TableReader& body) {
   law.density = table.number_or("density_kg_m3", 0.0);
   law.volume_per_work = table.numbers("volume_per_work_mm3_J");
   law.power_limits = table.numbers("power_density_W_mm2");
-  try {
-    check(law);
-  } catch (const Error& e) {
-    throw Error(e.kind(), fmt::format("{}: {}", table.path(), e.message()), table.where(), e.advice());
-  }
-  return law;
+  return checked(table, std::move(law));
 }
 
 FatigueMeasure measure_named(const TableReader& table, const std::string& word) {
@@ -64,27 +82,18 @@ FatigueSettings read_fatigue(const TableReader& body) {
     const FatigueMeasure measure = measure_named(table, word);
     if (out.has(measure)) table.fail(fmt::format("{} names {} twice", table.path_of("measures"), word));
     out.measures.push_back(measure);
-    const FatigueMeasureRow& row = kFatigueMeasures[static_cast<std::size_t>(measure)];
-    std::istringstream needed{std::string(row.keys)};
-    for (std::string key; needed >> key;) table.need(key, fmt::format("the measure {} needs {}", row.word, row.keys));
+    need_keys(table, "measure", kFatigueMeasures[static_cast<std::size_t>(measure)]);
   }
   if (out.measures.empty())
     table.fail(fmt::format("{} is empty", table.path_of("measures")), "name some, or leave the table out");
-  out.source = table.text("source");
-  if (out.source.empty())
-    table.fail(fmt::format("{} is empty", table.path_of("source")), "say where the numbers come from");
+  out.source = source_of(table);
   out.shear_yield = table.number_or("shear_yield_MPa", 0.0);
   if (out.has(FatigueMeasure::subsurface) || out.has(FatigueMeasure::dang_van)) out.depths = table.numbers("depths_mm");
   out.dang_van_slope = table.number_or("dang_van_slope", 0.0);
   out.dang_van_limit = table.number_or("dang_van_limit_MPa", 0.0);
   out.t_gamma = table.numbers("t_gamma_N");
   out.passage_damage = table.numbers("damage_per_passage");
-  try {
-    check(out);
-  } catch (const Error& e) {
-    throw Error(e.kind(), fmt::format("{}: {}", table.path(), e.message()), table.where(), e.advice());
-  }
-  return out;
+  return checked(table, std::move(out));
 }
 
 EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, const char* amount) {

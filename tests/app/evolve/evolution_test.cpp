@@ -20,6 +20,7 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/damage/record.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
@@ -416,11 +417,7 @@ TEST_F(Evolution, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(error(base, "passages = 3\n" + good, kLaw), HasSubstr("evolve.passages needs evolve.rail"));
   EXPECT_THAT(error(base, "weights = [1, 2]\n" + good, kLaw), HasSubstr("2 values for 1 positions"));
   EXPECT_THAT(error(base, "updates = 3\nmax_depth_mm = 0.1\n" + good, kLaw), HasSubstr("max_depth_mm"));
-  const auto law = [&](const std::string& from, const std::string& to) {
-    std::string text = kLaw;
-    text.replace(text.find(from), from.size(), to);
-    return error(base, good, text);
-  };
+  const auto law = [&](const char* from, const char* to) { return error(base, good, io::replaced(kLaw, from, to)); };
   EXPECT_THAT(law("hardness_GPa = 3.0", "hardness_GPa = -3.0"),
               HasSubstr("study.toml:9:16: evolve.wheel.law.hardness_GPa"));
   EXPECT_THAT(law("hardness_GPa = 3.0\n", ""), HasSubstr("evolve.wheel.law.hardness_GPa is missing"));
@@ -432,10 +429,8 @@ TEST_F(Evolution, SaysWhatIsWrongAndWhere) {
       error(base, "distance_km = 1\n[[evolve.vary]]\nkey = \"wheelset.y_m\"\nvalues = [1]\n[evolve.wheel]\n", kLaw),
       HasSubstr("study.toml:6:11: run 1 (wheelset.y_m = 1): unknown key 'wheelset.y_m'"));
   EXPECT_THAT(error(base + "[case]\nregime = \"shift\"\n", good, kLaw), HasSubstr("must roll"));
-  const auto fatigue = [&](const std::string& from, const std::string& to) {
-    std::string text = kFatigue;
-    text.replace(text.find(from), from.size(), to);
-    return error(base, good, kLaw + text);
+  const auto fatigue = [&](const char* from, const char* to) {
+    return error(base, good, kLaw + io::replaced(kFatigue, from, to));
   };
   EXPECT_THAT(fatigue("shear_yield_MPa = 300\n", ""),
               HasSubstr("study.toml:12:1: evolve.wheel.fatigue.shear_yield_MPa is missing"));

@@ -171,6 +171,7 @@ y = ["Y_N"]
   ASSERT_EQ(run("one", {"--threads", "1", "--set", "simulation.output_every_mm=5"}).status, 0);
   expect_same("alone", "one");
 }
+
 TEST_F(Sweep, AnotherStudyInTheSameFolderIsRefused) {
   input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.01");
   const ProgramResult none = run("out", {"--resume"});
