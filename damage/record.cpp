@@ -194,36 +194,25 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
     }
 }
 
+namespace {
+
+/// Sums of so many times the other one, or the larger ones.
+template <class Record, std::size_t n>
+void gather(const SheetRow<Record> (&rows)[n], Record& to, const Record& from, double times) {
+  for (const SheetRow<Record>& sheet : rows)
+    for (const auto& [j, row] : (from.*sheet.sheet).rows()) {
+      double* values = &(to.*sheet.sheet).ref(0, j);
+      for (std::size_t i = 0; i < row.size(); ++i)
+        values[i] = sheet.summed ? values[i] + times * row[i] : std::max(values[i], row[i]);
+    }
+}
+
+}  // namespace
+
 void add_times(SurfaceRecord& record, const SurfaceRecord& other, double times) {
-  const auto sum = [times](CellSheet& to, const CellSheet& from) {
-    for (const auto& [j, row] : from.rows()) {
-      double* values = &to.ref(0, j);
-      for (std::size_t i = 0; i < row.size(); ++i) values[i] += times * row[i];
-    }
-  };
-  const auto larger = [](CellSheet& to, const CellSheet& from) {
-    for (const auto& [j, row] : from.rows()) {
-      double* values = &to.ref(0, j);
-      for (std::size_t i = 0; i < row.size(); ++i) values[i] = std::max(values[i], row[i]);
-    }
-  };
-  sum(record.volume, other.volume);
-  sum(record.work, other.work);
-  sum(record.sliding, other.sliding);
-  sum(record.passages, other.passages);
-  larger(record.pressure, other.pressure);
-  larger(record.traction, other.traction);
-  larger(record.t_gamma, other.t_gamma);
-  larger(record.fi_surf, other.fi_surf);
-  sum(record.damage, other.damage);
-  for (std::size_t k = 0; k < record.stresses.size(); ++k) {
-    StressRecord& to = record.stresses[k];
-    const StressRecord& from = other.stresses[k];
-    larger(to.von_mises, from.von_mises);
-    larger(to.shear, from.shear);
-    larger(to.shakedown, from.shakedown);
-    larger(to.dang_van, from.dang_van);
-  }
+  gather(kSheets, record, other, times);
+  for (std::size_t k = 0; k < record.stresses.size(); ++k)
+    gather(kStressSheets, record.stresses[k], other.stresses[k], times);
   record.volume_by_law += times * other.volume_by_law;
   record.work_of_contacts += times * other.work_of_contacts;
 }

@@ -25,6 +25,8 @@ struct PairPlacement {
   std::optional<double> gauge;  ///< distance of the rails' innermost points down to the gauge height [m]
   double rail_origins = 1.5;    ///< without a gauge: distance of the rails' origins [m]
   double gauge_height = 14e-3;  ///< below the top of each rail [m]
+
+  friend bool operator==(const PairPlacement&, const PairPlacement&) = default;
 };
 
 /// What is asked for.

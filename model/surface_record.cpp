@@ -4,13 +4,19 @@
 
 namespace treadmark {
 
+StressRecord::StressRecord(int nu) {
+  for (const auto& row : kStressSheets) this->*row.sheet = CellSheet(nu);
+}
+
+SurfaceRecord::SurfaceRecord(int nu, std::size_t depths) : stresses(depths, StressRecord(nu)) {
+  for (const auto& row : kSheets) this->*row.sheet = CellSheet(nu);
+}
+
 std::size_t SurfaceRecord::memory_bytes() const {
   std::size_t sum = 0;
-  for (const CellSheet* sheet :
-       {&volume, &work, &sliding, &passages, &pressure, &traction, &t_gamma, &fi_surf, &damage})
-    sum += sheet->memory_bytes();
+  for (const auto& row : kSheets) sum += (this->*row.sheet).memory_bytes();
   for (const StressRecord& s : stresses)
-    for (const CellSheet* sheet : {&s.von_mises, &s.shear, &s.shakedown, &s.dang_van}) sum += sheet->memory_bytes();
+    for (const auto& row : kStressSheets) sum += (s.*row.sheet).memory_bytes();
   return sum;
 }
 

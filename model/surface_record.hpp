@@ -60,7 +60,7 @@ class CellSheet {
 
 /// What points at a depth below the cells have endured, the largest of all passages [Pa].
 struct StressRecord {
-  explicit StressRecord(int nu = 1) : von_mises(nu), shear(nu), shakedown(nu), dang_van(nu) {}
+  explicit StressRecord(int nu = 1);
 
   CellSheet von_mises;
   CellSheet shear;      ///< amplitude on the plane where it is largest
@@ -71,17 +71,7 @@ struct StressRecord {
 /// What contacts have done to the points of a surface.
 struct SurfaceRecord {
   /// Of so many columns, and stresses at so many depths.
-  explicit SurfaceRecord(int nu = 1, std::size_t depths = 0)
-      : volume(nu),
-        work(nu),
-        sliding(nu),
-        passages(nu),
-        pressure(nu),
-        traction(nu),
-        t_gamma(nu),
-        fi_surf(nu),
-        damage(nu),
-        stresses(depths, StressRecord(nu)) {}
+  explicit SurfaceRecord(int nu = 1, std::size_t depths = 0);
 
   CellSheet volume;    ///< removed [m3]
   CellSheet work;      ///< of friction [J]
@@ -99,5 +89,28 @@ struct SurfaceRecord {
   /// Of all sheets.
   std::size_t memory_bytes() const;
 };
+
+/// One row a sheet of a record: its name in files, its unit, and whether contacts add to it or the largest value stays.
+template <class Record>
+struct SheetRow {
+  CellSheet Record::*sheet;
+  const char *name, *unit, *meaning;
+  bool summed;
+};
+inline constexpr SheetRow<SurfaceRecord> kSheets[] = {
+    {&SurfaceRecord::volume, "volume", "m3", "removed from the cell", true},
+    {&SurfaceRecord::work, "work", "J", "of friction in the cell", true},
+    {&SurfaceRecord::sliding, "sliding", "m", "distance, mean over the cell", true},
+    {&SurfaceRecord::passages, "passages", "1", "of contacts over the cell", true},
+    {&SurfaceRecord::pressure, "pressure", "Pa", "largest", false},
+    {&SurfaceRecord::traction, "traction", "Pa", "largest", false},
+    {&SurfaceRecord::t_gamma, "t_gamma", "N", "largest of the contacts that passed", false},
+    {&SurfaceRecord::fi_surf, "fi_surf", "1", "largest surface fatigue index above 0", false},
+    {&SurfaceRecord::damage, "damage", "1", "sum over passages by their T gamma", true}};
+inline constexpr SheetRow<StressRecord> kStressSheets[] = {
+    {&StressRecord::von_mises, "von_mises", "Pa", "largest", false},
+    {&StressRecord::shear, "shear", "Pa", "largest amplitude of all planes", false},
+    {&StressRecord::shakedown, "shakedown", "Pa", "largest shear yield that shakedown needs", false},
+    {&StressRecord::dang_van, "dang_van", "Pa", "largest shear and weighted hydrostatic stress", false}};
 
 }  // namespace treadmark

@@ -112,6 +112,7 @@ void add_stresses_of(damage::PassedPatch& out, const io::PatchResult& patch, con
 
 std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io::CaseResult& result, Body body,
                                                 const FatigueSettings& fatigue) {
+  if (result.patches.empty()) return {};
   const auto& input = std::get<io::WheelRailCase>(given.content);
   const Pose X_BT = (body == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS).inverse();
   std::vector<damage::PassedPatch> out;
@@ -130,7 +131,7 @@ std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io:
 
 void add_stresses(std::vector<damage::PassedPatch>& patches, const io::Case& given, const io::CaseResult& result,
                   Body body, const FatigueSettings& fatigue) {
-  if (fatigue.depths.empty()) return;
+  if (fatigue.depths.empty() || patches.empty()) return;
   const auto& input = std::get<io::WheelRailCase>(given.content);
   const Pose X_BT = (body == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS).inverse();
   for (std::size_t k = 0; k < patches.size(); ++k)

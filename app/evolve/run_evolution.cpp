@@ -4,21 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <memory>
-#include <optional>
 #include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 
-#include "treadmark/app/cases/solve_cases.hpp"
-#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/evolve/contact_source.hpp"
 #include "treadmark/app/evolve/passed_patches.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/study_identity.hpp"
-#include "treadmark/app/surfaces/sampled_surfaces.hpp"
-#include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -28,8 +23,8 @@
 #include "treadmark/damage/record.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
-#include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
@@ -43,33 +38,19 @@ constexpr double kRailEnds = 0.6;  // of offsets on a rail beyond its contacts [
 /// A body that evolves, with what it was.
 struct Evolving {
   io::EvolvingBody input;
-  io::SurfaceSource source;
-  double radius = 0.0;  ///< nominal, of a wheel [m]
-  std::shared_ptr<const NaturalSurface> base;
+  GivenBody given;
   SurfaceCells cells;
   double half_length = 0.0;  ///< of offsets on a rail [m]
+  bool measured = false;     ///< a wheel with the numbers of workshops
 };
-
-/// Where a case of all of them comes from, and what part of each body it stands for.
-struct CasePlace {
-  int run = 0, number = 0;
-  double weight = 0.0;                   ///< of its run
-  int beside = 1;                        ///< cases of its run
-  std::vector<damage::Stretch> stretch;  ///< by body
-};
-
-const io::WheelRailCase& rolling_case(const io::Case& c) { return std::get<io::WheelRailCase>(c.content); }
-
-const io::SurfaceSource& source_of(const io::WheelRailCase& input, Body body) {
-  return body == Body::wheel ? input.wheel : input.rail;
-}
 
 class EvolutionRun {
  public:
   EvolutionRun(const io::EvolutionFile& file, const EvolutionOptions& options, const Progress& progress)
-      : file_(file), options_(options), progress_(progress) {
-    read_cases();
-    regions_ = sampled_regions(all_);
+      : file_(file),
+        options_(options),
+        progress_(progress),
+        source_(file.positions.base_is_simulation ? simulated_contacts(file, options.settings) : case_contacts(file)) {
     bodies_.reserve(file.bodies.size());
     for (const io::EvolvingBody& body : file.bodies) bodies_.push_back(prepare(body));
   }
@@ -105,88 +86,19 @@ class EvolutionRun {
     return result;
   }
 
-  void read_cases() {
-    all_.path = file_.positions.base;
-    all_.title = file_.positions.title;
-    int sequences = 0;
-    for (const io::StudyRun& run : file_.positions.runs) {
-      const auto cases = std::get<io::CaseFile>(io::read_study_run(file_.positions, run));
-      int most = 0;
-      for (const io::Case& c : cases.cases) {
-        const auto* input = std::get_if<io::WheelRailCase>(&c.content);
-        if (input == nullptr || input->roller)
-          throw Error(ErrorKind::configuration, "an evolution needs a wheel on a rail", c.where,
-                      "patches by themselves have no surface, rollers cannot evolve");
-        io::Case& own = all_.cases.emplace_back(c);
-        own.number = static_cast<int>(all_.cases.size());
-        own.sequence = sequences + c.sequence;
-        own.shown = true;
-        own.element_table = 0;
-        most = std::max(most, c.sequence + 1);
-        places_.push_back({run.number,
-                           c.number,
-                           file_.weights[static_cast<std::size_t>(run.number) - 1],
-                           static_cast<int>(cases.cases.size()),
-                           {}});
-      }
-      sequences += most;
-    }
-  }
-
   Evolving prepare(const io::EvolvingBody& input) {
     Evolving body;
     body.input = input;
-    const io::WheelRailCase& first = rolling_case(all_.cases.front());
-    body.source = source_of(first, input.body);
-    body.radius = profile_radius(first, input.body);
-    body.base = natural_of(first, input.body);
-    double x_min = std::numeric_limits<double>::max(), x_max = -x_min;
-    for (const io::Case& c : all_.cases) {
-      const io::WheelRailCase& one = rolling_case(c);
-      if (natural_of(one, input.body) != body.base)
-        throw Error(
-            ErrorKind::configuration,
-            fmt::format("the positions have different surfaces of the {}, which evolves", body_name(input.body)),
-            source_of(one, input.body).where, "what evolves is one surface; vary the other body");
-      x_min = std::min(x_min, one.state.position.x);
-      x_max = std::max(x_max, one.state.position.x);
-    }
-    body.half_length = std::max(-x_min, x_max) + kRailEnds;
-    damage::CellSettings cells{!input.local, input.du, input.dy, x_min - kRailEnds, x_max + kRailEnds};
-    if (input.body == Body::rail && !input.local && !body.base->constant_profile())
+    body.given = source_->given(input);
+    const GivenBody& given = body.given;
+    body.half_length = std::max(-given.x_min, given.x_max) + kRailEnds;
+    damage::CellSettings cells{!input.local, input.du, input.dy, given.x_min - kRailEnds, given.x_max + kRailEnds};
+    if (input.body == Body::rail && !input.local && !given.surface->constant_profile())
       throw Error(ErrorKind::configuration, "the rail changes along the track", input.where,
                   "let it evolve with along = \"local\"");
-    body.cells = damage::make_cells(*body.base->surface, input.body, body.radius, cells);
-    place_cases(input);
+    body.cells = damage::make_cells(*given.surface->surface, input.body, given.radius, cells);
+    body.measured = input.body == Body::wheel && !input.local && is_measurable(*given.surface->surface, given.radius);
     return body;
-  }
-
-  std::shared_ptr<const NaturalSurface> natural_of(const io::WheelRailCase& input, Body body) {
-    io::SurfaceSource source = source_of(input, body);
-    source.backend.clear();  // as given: a sampled one would be made all along
-    source.resolution = 0.0;
-    return store_.get(source, body, profile_radius(input, body), {}).natural;
-  }
-
-  /// Stretches of all cases on one body.
-  void place_cases(const io::EvolvingBody& body) {
-    for (std::size_t first = 0; first < places_.size();) {
-      const auto count = static_cast<std::size_t>(places_[first].beside);
-      std::vector<double> along;
-      along.reserve(count);
-      for (std::size_t i = first; i < first + count; ++i)
-        along.push_back(place_along(rolling_case(all_.cases[i]), body.body));
-      std::vector<damage::Stretch> stretch(count);
-      if (body.local) {
-        try {
-          stretch = stretches(along, body.body, 0.5 * body.du);
-        } catch (const Error& e) {
-          throw Error(e.kind(), e.message(), body.where, e.advice());
-        }
-      }
-      for (std::size_t i = 0; i < count; ++i) places_[first + i].stretch.push_back(stretch[i]);
-      first += count;
-    }
   }
 
   OffsetMap map_of(const Evolving& body, const SurfaceRecord& record) const {
@@ -194,76 +106,37 @@ class EvolutionRun {
   }
 
   NaturalSurface evolved(const Evolving& body, const SurfaceRecord& record) const {
-    if (record.volume.rows().empty()) return *body.base;
-    return add_offsets(*body.base, map_of(body, record));
+    if (record.volume.rows().empty()) return *body.given.surface;
+    return add_offsets(*body.given.surface, map_of(body, record));
   }
 
-  /// The surface of a body for a case: what evolves as these records leave it, in the representation that it asks for.
-  wheelrail::Geometry geometry_of(const io::WheelRailCase& input, const std::vector<NaturalSurface>& evolved_bodies,
-                                  std::vector<std::pair<std::string, RepresentedSurface>>& made) {
-    wheelrail::Geometry geometry;
-    for (const Body body : {Body::rail, Body::wheel}) {
-      const io::SurfaceSource& source = source_of(input, body);
-      const sampling::Region& region = body == Body::wheel ? regions_.wheel : regions_.rail;
-      const auto evolving = std::ranges::find(bodies_, body, [](const Evolving& b) { return b.input.body; });
-      std::shared_ptr<const Surface> surface;
-      bool constant = false;
-      if (evolving == bodies_.end()) {
-        const StoredSurface& stored = store_.get(source, body, profile_radius(input, body), region);
-        surface = stored.represented.surface;
-        constant = stored.constant_profile();
-      } else {
-        const NaturalSurface& natural = evolved_bodies[static_cast<std::size_t>(evolving - bodies_.begin())];
-        const std::string key = fmt::format("{} {} {:.17g}", body_name(body), source.backend, source.resolution);
-        auto known = std::ranges::find(made, key, [](const auto& m) { return m.first; });
-        if (known == made.end())
-          known = made.insert(made.end(), {key, represent(natural, {source.backend, source.resolution, region})});
-        surface = known->second.surface;
-        constant = natural.constant_profile();
-      }
-      (body == Body::rail ? geometry.rail : geometry.wheel) = std::move(surface);
-      (body == Body::rail ? geometry.prismatic_rail : geometry.round_wheel) = constant;
-    }
-    return geometry;
-  }
-
-  /// Surfaces as records leave them, by body, and the contacts of all cases over them.
+  /// Surfaces as records leave them, by body, and the contacts over them.
   struct Solved {
     std::vector<NaturalSurface> surfaces;
-    io::RunResult run;
+    PassedContacts contacts;
+    std::vector<std::vector<std::vector<damage::PassedPatch>>> patches;  ///< by body and case
   };
 
   Solved solve(const Records& records) {
-    std::vector<NaturalSurface> surfaces;
-    surfaces.reserve(bodies_.size());
-    for (std::size_t b = 0; b < bodies_.size(); ++b) surfaces.push_back(evolved(bodies_[b], records[b]));
-    std::vector<std::pair<std::string, RepresentedSurface>> made;
-    std::vector<std::optional<wheelrail::Geometry>> geometries;
-    geometries.reserve(all_.cases.size());
-    for (const io::Case& c : all_.cases) geometries.emplace_back(geometry_of(rolling_case(c), surfaces, made));
-    Progress inner;
-    inner.stop = progress_.stop;
-    io::RunResult run = solve_cases(all_, geometries, inner);
-    if (!run.complete) throw Cancelled();
-    for (std::size_t i = 0; i < run.cases.size(); ++i)
-      if (const io::CaseResult& c = run.cases[i]; c.status != Status::ok)
-        throw Error(ErrorKind::numerical, fmt::format("position {}, case {}: {}{}{}", label(i), places_[i].number,
-                                                      to_string(c.status), c.message.empty() ? "" : ": ", c.message));
-    return {std::move(surfaces), std::move(run)};
-  }
-
-  std::string label(std::size_t i) const {
-    const io::StudyRun& run = file_.positions.runs[static_cast<std::size_t>(places_[i].run) - 1];
-    const std::string text = label_of(file_.positions, run);
-    return text.empty() ? std::to_string(run.number) : text;
+    Solved solved;
+    solved.surfaces.reserve(bodies_.size());
+    for (std::size_t b = 0; b < bodies_.size(); ++b) solved.surfaces.push_back(evolved(bodies_[b], records[b]));
+    solved.contacts = source_->solve(solved.surfaces, progress_);
+    for (const Evolving& body : bodies_) {
+      auto& of_body = solved.patches.emplace_back();
+      for (std::size_t i = 0; i < solved.contacts.passed.size(); ++i)
+        of_body.push_back(passed_patches(solved.contacts.passed[i].given, solved.contacts.run.cases[i], body.input.body,
+                                         body.input.fatigue));
+    }
+    return solved;
   }
 
   static SurfaceRecord empty_record(const Evolving& body) {
     return SurfaceRecord(body.cells.nu, body.input.fatigue.depths.size());
   }
 
-  io::EvolvedFatigue fatigue_of(const io::EvolvingBody& body, const io::RunResult& run) const {
-    const FatigueSettings& known = body.fatigue;
+  io::EvolvedFatigue fatigue_of(const FatigueSettings& known,
+                                const std::vector<std::vector<damage::PassedPatch>>& cases) const {
     io::EvolvedFatigue out;
     if (known.measures.empty()) return out;
     for (const FatigueMeasure measure : known.measures)
@@ -272,8 +145,7 @@ class EvolutionRun {
     out.source = known.source;
     out.shear_yield = known.shear_yield, out.dang_van_limit = known.dang_van_limit;
     out.depths = known.depths;
-    for (std::size_t i = 0; i < run.cases.size(); ++i) {
-      const auto patches = passed_patches(all_.cases[i], run.cases[i], body.body, known);
+    for (const auto& patches : cases) {
       ContactFatigue& all = out.contacts.emplace_back();
       for (const damage::PassedPatch& patch : patches) {
         if (&patch == patches.data()) all = patch.fatigue;
@@ -286,19 +158,20 @@ class EvolutionRun {
   }
 
   /// What the whole amount would do at this speed, the volumes smoothed.
-  Records rates_of(const io::RunResult& run) const {
+  Records rates_of(Solved& solved) const {
+    const std::vector<io::CaseResult>& cases = solved.contacts.run.cases;
     Records rates;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
       SurfaceRecord rate = empty_record(body);
-      for (std::size_t i = 0; i < run.cases.size(); ++i) {
-        const CasePlace& place = places_[i];
+      for (std::size_t i = 0; i < cases.size(); ++i) {
+        const PassedCase& place = solved.contacts.passed[i];
         const damage::Stretch& stretch = place.stretch[b];
         const bool wheel = body.input.body == Body::wheel;
-        const double speed = std::fabs(run.cases[i].vs), turns = std::fabs(run.cases[i].vpitch) / (2.0 * kPi);
+        const double speed = std::fabs(cases[i].vs), turns = std::fabs(cases[i].vpitch) / (2.0 * kPi);
         if (!(speed > 0.0) || !(turns > 0.0))
           throw Error(ErrorKind::configuration, "the wheelset of a case of an evolution must move and turn",
-                      all_.cases[i].where, "give wheelset.velocity_m_s and wheelset.vpitch_rad_s");
+                      place.given.where, "give wheelset.velocity_m_s and wheelset.vpitch_rad_s");
         // time for which the contacts of this case run, all in all, and passages over a point
         double seconds = body.input.amount / speed * place.weight, count = seconds * (wheel ? turns : speed);
         if (!body.input.local) {
@@ -307,8 +180,8 @@ class EvolutionRun {
         } else {
           seconds *= (stretch.end - stretch.begin) / (wheel ? 2.0 * kPi : 1.0);
         }
-        auto patches = passed_patches(all_.cases[i], run.cases[i], body.input.body, body.input.fatigue);
-        add_stresses(patches, all_.cases[i], run.cases[i], body.input.body, body.input.fatigue);
+        auto& patches = solved.patches[b][i];
+        add_stresses(patches, place.given, cases[i], body.input.body, body.input.fatigue);
         for (const damage::PassedPatch& patch : patches)
           damage::add_patch(rate, body.cells, body.input.law, patch, stretch, seconds, count);
       }
@@ -319,8 +192,8 @@ class EvolutionRun {
   }
 
   io::Generation generation_of(const Solved& solved, const Records& records) const {
-    const io::RunResult& run = solved.run;
     io::Generation g;
+    g.numbers = solved.contacts.numbers;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
       io::EvolvedBody& out = g.bodies.emplace_back();
@@ -329,7 +202,7 @@ class EvolutionRun {
       out.source = body.input.law.source;
       out.cells = body.cells;
       out.record = records[b];
-      out.fatigue = fatigue_of(body.input, run);
+      out.fatigue = fatigue_of(body.input.fatigue, solved.patches[b]);
       const damage::DepthExtent extent = damage::depth_extent(body.cells, records[b].volume);
       out.max_depth = extent.depth;
       out.max_slope = extent.slope;
@@ -338,16 +211,19 @@ class EvolutionRun {
       for (int j = 0; j < body.cells.ny; ++j) points.emplace_back(0.0, body.cells.y(j));
       out.z.resize(points.size());
       solved.surfaces[b].surface->heights_at(Pose{}, points, {out.z, {}, {}});
-      for (double& z : out.z) z -= body.input.body == Body::wheel ? body.radius : 0.0;
+      for (double& z : out.z) z -= body.input.body == Body::wheel ? body.given.radius : 0.0;
+      if (body.measured)
+        out.numbers = wheel_numbers(*solved.surfaces[b].surface, body.given.radius, solved.contacts.rails);
     }
-    for (std::size_t i = 0; i < run.cases.size(); ++i) {
-      const io::CaseResult& c = run.cases[i];
+    for (std::size_t i = 0; i < solved.contacts.passed.size(); ++i) {
+      const io::CaseResult& c = solved.contacts.run.cases[i];
+      const PassedCase& place = solved.contacts.passed[i];
       io::EvolvedCase& out = g.cases.emplace_back();
-      out.run = places_[i].run;
-      out.number = places_[i].number;
-      out.label = label(i);
+      out.run = place.run;
+      out.number = place.number;
+      out.label = place.label;
       out.status = to_string(c.status);
-      out.weight = places_[i].weight / places_[i].beside;
+      out.weight = place.weight / place.beside;
       out.patches = static_cast<int>(c.patches.size());
       out.remarks = static_cast<int>(c.remarks.size());
       out.doubts = static_cast<int>(std::ranges::count_if(c.remarks, [](const Remark& r) { return r.grave(); }));
@@ -360,7 +236,7 @@ class EvolutionRun {
     return g;
   }
 
-  void write(io::Generation& g, const Records& records, io::RunResult run) const {
+  void write(io::Generation& g, const Records& records, const PassedContacts& contacts) const {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
       if (records[b].volume.rows().empty()) continue;
@@ -368,10 +244,14 @@ class EvolutionRun {
       Representation wanted{"offset", std::min(body.cells.dy, body.input.du), {}};
       if (body.input.body == Body::rail)
         wanted.region.u_min = -body.half_length, wanted.region.u_max = body.half_length;
-      write_added_offsets(options_.folder / g.bodies[b].surface_file, *body.base, map_of(body, records[b]), wanted,
-                          fmt::format("{}, generation {}", file_.positions.title, g.number));
+      write_added_offsets(options_.folder / g.bodies[b].surface_file, *body.given.surface, map_of(body, records[b]),
+                          wanted, fmt::format("{}, generation {}", file_.positions.title, g.number));
     }
     if (file_.fields_every > 0 && g.number % file_.fields_every == 0) {
+      for (std::size_t k = 0; k < contacts.simulations.size(); ++k)
+        io::write_simulation(options_.folder / io::simulation_file(g.number, k, contacts.simulations.size()),
+                             contacts.simulations[k]);
+      io::RunResult run = contacts.run;
       run.threads = 0, run.seconds = 0.0;  // equal results give equal bytes
       for (io::CaseResult& c : run.cases) c.seconds = c.search_s = c.distance_s = c.normal_s = c.tangential_s = 0.0;
       run.settings = options_.settings;
@@ -387,10 +267,22 @@ class EvolutionRun {
                        fmt::format("generation {}", g.number));
   }
 
+  /// Of every case; of every position where contacts are instants of simulations, which come at other moments.
+  std::map<int, double> pressures(const io::Generation& g) const {
+    std::map<int, double> out;
+    int number = 0;
+    for (const io::EvolvedCase& c : g.cases) {
+      double& largest = out[file_.positions.base_is_simulation ? c.run : number++];
+      largest = std::max(largest, c.pmax);
+    }
+    return out;
+  }
+
   double pressure_change(const io::Generation& before, const io::Generation& after) const {
     double change = 0.0;
-    for (std::size_t i = 0; i < before.cases.size(); ++i)
-      change = std::max(change, std::fabs(after.cases[i].pmax / before.cases[i].pmax - 1.0));
+    const std::map<int, double> now = pressures(after);
+    for (const auto& [key, pressure] : pressures(before))
+      change = std::max(change, std::fabs(now.at(key) / pressure - 1.0));
     return change;
   }
 
@@ -429,18 +321,18 @@ class EvolutionRun {
     if (result.generations.empty()) {
       io::Generation first = generation_of(solved, records);
       first.next_step = file_.updates > 0 ? 1.0 / file_.updates : 1.0;
-      write(first, records, solved.run);
+      write(first, records, solved.contacts);
       result.generations.push_back(std::move(first));
     }
     while (result.generations.back().progress < 1.0) {
-      advance(result, records, solved.run);
+      advance(result, records, solved);
       report(result.generations.back());
     }
   }
 
-  void advance(io::EvolutionResult& result, Records& records, io::RunResult& run) {
+  void advance(io::EvolutionResult& result, Records& records, Solved& present) {
     const io::Generation& now = result.generations.back();
-    const Records rates = rates_of(run);
+    const Records rates = rates_of(present);
     const bool adaptive = file_.updates == 0;
     const double rest = 1.0 - now.progress;
     double step = adaptive ? std::min({now.next_step, std::max(step_by_depth(rates), file_.smallest_step), rest})
@@ -473,9 +365,9 @@ class EvolutionRun {
       next.next_step = std::max(next.next_step, file_.smallest_step);
       for (const Evolving& body : bodies_)
         (body.input.body == Body::wheel ? next.distance : next.passages) = next.progress * body.input.amount;
-      write(next, trial, solved.run);
+      write(next, trial, solved.contacts);
       records = std::move(trial);
-      run = std::move(solved.run);
+      present = std::move(solved);
       io::forget_records(result.generations.back());  // generation_0001.h5 and its like have them
       result.generations.push_back(std::move(next));
       return;
@@ -485,10 +377,7 @@ class EvolutionRun {
   const io::EvolutionFile& file_;
   const EvolutionOptions& options_;
   const Progress& progress_;
-  SurfaceStore store_;
-  io::CaseFile all_;  ///< cases of all positions
-  SampledRegions regions_;
-  std::vector<CasePlace> places_;
+  std::unique_ptr<ContactSource> source_;
   std::vector<Evolving> bodies_;
 };
 

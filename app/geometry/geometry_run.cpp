@@ -225,6 +225,16 @@ bool SectionStore::counts_from_back(const std::string& wheel) {
   return from_back_.contains(wheel);
 }
 
+geometry::PairPlacement placement_of(const io::WheelRailCase& input) {
+  geometry::PairPlacement placement;
+  if (input.track.gauge_based)
+    placement.gauge = input.track.gauge_width, placement.gauge_height = input.track.gauge_height;
+  else
+    placement.rail_origins = 2.0 * std::fabs(input.track.rail_y0);
+  placement.wheel_origins = input.wheelset.flange_back_distance - 2.0 * input.wheelset.flange_back_position;
+  return placement;
+}
+
 GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store) {
   GeometryResult out;
   out.request = request;
@@ -241,13 +251,8 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
                   "use a case with rails");
     if (r.wheel.empty()) r.wheel = r.case_file;
     if (r.rail.empty()) r.rail = r.case_file;
-    const Track& track = first->track;
-    if (!r.cant) cant = track.cant;
-    if (track.gauge_based)
-      placement.gauge = track.gauge_width, placement.gauge_height = track.gauge_height;
-    else
-      placement.rail_origins = 2.0 * std::fabs(track.rail_y0);
-    placement.wheel_origins = first->wheelset.flange_back_distance - 2.0 * first->wheelset.flange_back_position;
+    if (!r.cant) cant = first->track.cant;
+    placement = placement_of(*first);
     out.material = first->material;
     if (file.cases.size() > 1) out.notes.emplace_back("the first case of a wheel on a rail counts");
   } else {

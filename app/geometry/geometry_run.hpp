@@ -13,6 +13,7 @@
 #include "treadmark/app/lists/result_list.hpp"
 #include "treadmark/geometry/analysis.hpp"
 #include "treadmark/geometry/loaded_wheelset.hpp"
+#include "treadmark/io/cases/case_model.hpp"
 
 namespace treadmark::app {
 
@@ -64,6 +65,9 @@ struct GeometryResult {
   std::optional<geometry::LoadedFunctions> load;  ///< where a load was given
   std::vector<std::string> notes;
 };
+
+/// Where wheels and rails of a case are.
+geometry::PairPlacement placement_of(const io::WheelRailCase& input);
 
 /// Reads what is named. Errors: those of SectionStore and of cases; Error(configuration) for what is missing;
 /// Error(input_data) for a wheel without its tape line.

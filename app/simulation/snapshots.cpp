@@ -95,8 +95,9 @@ void Snapshots::describe_scenes(io::SimulationResult& result) const {
   result.snapshot_scenes.assign(kept_.size(), {});
   std::vector<bool> seen(file_.fields.pitch.size(), false);
   for (std::size_t i = 0; i < kept_.size(); ++i) {
-    if (kept_[i].wheel != kept_.front().wheel) continue;
     io::SnapshotScene& scene = result.snapshot_scenes[i];
+    scene.wheel = kept_[i].wheel;
+    if (scene.wheel != kept_.front().wheel) continue;
     scene.nominal = i == 0;
     scene.drawn = kept_[i].at_position;
     for (const std::size_t angle : kept_[i].angles) {

@@ -91,6 +91,12 @@ std::shared_ptr<const NaturalSurface> SurfaceStore::natural(const io::SurfaceSou
   return surface;
 }
 
+void SurfaceStore::put(const io::SurfaceSource& source, Body body, double radius,
+                       std::shared_ptr<const NaturalSurface> surface) {
+  note_hashes(source);
+  naturals_.push_back({key_of(source, body, radius), source.defects, std::move(surface)});
+}
+
 const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double radius,
                                        const Region& region) {
   const auto given = natural(source, body, radius);

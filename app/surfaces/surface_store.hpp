@@ -30,6 +30,10 @@ class SurfaceStore {
   /// radius: nominal radius of a wheel, or of a roller in place of a rail [m]; 0 = it is a rail.
   const StoredSurface& get(const io::SurfaceSource& source, Body body, double radius, const Region& region);
 
+  /// The surface that a source stands for from now on, in place of what it names. For sources that nobody has asked
+  /// for yet.
+  void put(const io::SurfaceSource& source, Body body, double radius, std::shared_ptr<const NaturalSurface> surface);
+
   /// Tells the natural surface of a source from others in any store: what describes it, and the contents of its files.
   /// Defects do not show in it.
   std::string content_key(const io::SurfaceSource& source, Body body, double radius);

@@ -106,6 +106,7 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
   out.push_back({"normal_force_N", "N", "normal force, sum over the patches, mean by weight", force});
   out.push_back({"t_gamma_N", "N", "power of friction over rolling speed, mean by weight", t_gamma});
   out.push_back({"doubts", "1", "remarks that doubt results", doubts});
+  out.insert(out.end(), g.numbers.begin(), g.numbers.end());
   for (const EvolvedBody& b : g.bodies) {
     const std::string name = body_name(b.body);
     // a rail that is the same everywhere is counted by the metre
@@ -126,6 +127,7 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
                    1e-6 * largest_of(b.record.pressure)});
     out.push_back({name + "_sliding_m", "m", "largest sliding distance of a point", largest_of(b.record.sliding)});
     add_fatigue(b, name, out);
+    out.insert(out.end(), b.numbers.begin(), b.numbers.end());
   }
   return out;
 }

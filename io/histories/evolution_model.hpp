@@ -23,6 +23,13 @@ struct EvolvedFatigue {
   bool has(FatigueMeasure measure) const;
 };
 
+/// A number of a generation, for tables and charts.
+struct EvolutionQuantity {
+  std::string name;  ///< with its unit at the end
+  std::string unit, meaning;
+  double value = 0.0;
+};
+
 /// A body at one generation.
 struct EvolvedBody {
   Body body = Body::wheel;
@@ -30,10 +37,11 @@ struct EvolvedBody {
   SurfaceCells cells;
   SurfaceRecord record;
   EvolvedFatigue fatigue;
-  double max_depth = 0.0;    ///< [m]
-  double max_slope = 0.0;    ///< of the depth across [-]
-  std::string surface_file;  ///< name in the folder
-  std::vector<double> z;     ///< height of the section of column 0 by row, profile coordinate z [m]; NaN: none
+  double max_depth = 0.0;                  ///< [m]
+  double max_slope = 0.0;                  ///< of the depth across [-]
+  std::string surface_file;                ///< name in the folder
+  std::vector<EvolutionQuantity> numbers;  ///< of the body as workshops measure it; may be none
+  std::vector<double> z;  ///< height of the section of column 0 by row, profile coordinate z [m]; NaN: none
 };
 
 /// The contacts of a case at one generation.
@@ -45,13 +53,6 @@ struct EvolvedCase {
   double fn = 0.0, fx = 0.0, fs = 0.0;  ///< sums over the patches [N]
   double pmax = 0.0;                    ///< [Pa]
   double t_gamma = 0.0;                 ///< power of friction over rolling speed [N]
-};
-
-/// A number of a generation, for tables and charts.
-struct EvolutionQuantity {
-  std::string name;  ///< with its unit at the end
-  std::string unit, meaning;
-  double value = 0.0;
 };
 
 struct Generation {
@@ -66,6 +67,7 @@ struct Generation {
   double pressure_change = 0.0;  ///< by the step that led here, the largest, as a share
   std::vector<EvolvedBody> bodies;
   std::vector<EvolvedCase> cases;
+  std::vector<EvolutionQuantity> numbers;     ///< of the histories that contacts are from; none: there are no such ones
   std::vector<EvolutionQuantity> quantities;  ///< kept once records are forgotten; empty before
 };
 

@@ -18,30 +18,8 @@ namespace treadmark::io {
 namespace {
 
 constexpr const char* kGenerationFormat = "treadmark generation 1";
+constexpr const char* kNumbers = "numbers";
 constexpr const char* kEvolutionFormat = "treadmark evolution 1";
-
-/// Sheets of a record with names, units and meanings.
-template <class Record>
-struct SheetRow {
-  CellSheet Record::*sheet;
-  const char *name, *unit, *meaning;
-};
-constexpr SheetRow<SurfaceRecord> kSheets[] = {
-    {&SurfaceRecord::volume, "volume", "m3", "removed from the cell"},
-    {&SurfaceRecord::work, "work", "J", "of friction in the cell"},
-    {&SurfaceRecord::sliding, "sliding", "m", "distance, mean over the cell"},
-    {&SurfaceRecord::passages, "passages", "1", "of contacts over the cell"},
-    {&SurfaceRecord::pressure, "pressure", "Pa", "largest"},
-    {&SurfaceRecord::traction, "traction", "Pa", "largest"},
-    {&SurfaceRecord::t_gamma, "t_gamma", "N", "largest of the contacts that passed"},
-    {&SurfaceRecord::fi_surf, "fi_surf", "1", "largest surface fatigue index above 0"},
-    {&SurfaceRecord::damage, "damage", "1", "sum over passages by their T gamma"}};
-
-constexpr SheetRow<StressRecord> kStressSheets[] = {
-    {&StressRecord::von_mises, "von_mises", "Pa", "largest"},
-    {&StressRecord::shear, "shear", "Pa", "largest amplitude of all planes"},
-    {&StressRecord::shakedown, "shakedown", "Pa", "largest shear yield that shakedown needs"},
-    {&StressRecord::dang_van, "dang_van", "Pa", "largest shear and weighted hydrostatic stress"}};
 
 /// Numbers of a contact.
 struct ContactRow {
@@ -129,6 +107,27 @@ void read_fatigue(const Hdf5GroupReader& body, const SurfaceCells& cells, Evolve
   }
 }
 
+void write_numbers(const Hdf5GroupWriter& parent, const std::vector<EvolutionQuantity>& numbers) {
+  if (numbers.empty()) return;
+  const Hdf5GroupWriter group = parent.make_group(kNumbers);
+  std::vector<std::string> names;
+  for (const EvolutionQuantity& q : numbers) {
+    names.push_back(q.name);
+    group.write({q.name, {1}, q.unit, q.meaning}, std::vector<double>{q.value});
+  }
+  group.add({kNames, names});
+}
+
+std::vector<EvolutionQuantity> read_numbers(const Hdf5GroupReader& parent) {
+  std::vector<EvolutionQuantity> numbers;
+  if (!parent.has(kNumbers)) return numbers;
+  const Hdf5GroupReader group = parent.open_group(kNumbers);
+  for (const std::string& name : group.texts(kNames))
+    numbers.push_back(
+        {name, group.text_of(name, "unit"), group.text_of(name, "meaning"), group.numbers(name, {1}).front()});
+  return numbers;
+}
+
 void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
   const Hdf5GroupWriter group = root.make_group(body_name(body.body));
   const SurfaceCells& c = body.cells;
@@ -150,6 +149,7 @@ void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
   group.write({"section_z", {body.z.size()}, "m", "height of the section of the first column by row", true}, body.z);
   for (const auto& row : kSheets) write_sheet(group, row, body.record);
   if (!body.fatigue.measures.empty()) write_fatigue(group, body.fatigue, body.record);
+  write_numbers(group, body.numbers);
 }
 
 EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
@@ -170,6 +170,7 @@ EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
   body.record.work_of_contacts = group.number("work_of_contacts");
   for (const auto& row : kSheets) read_sheet(group, row, c, body.record);
   read_fatigue(group, c, body.fatigue, body.record);
+  body.numbers = read_numbers(group);
   return body;
 }
 
@@ -245,6 +246,7 @@ void write_generation(const std::filesystem::path& path, const Generation& g) {
   file.root().add(head);
   for (const EvolvedBody& body : g.bodies) write_body(file.root(), body);
   write_cases(file.root(), g.cases);
+  write_numbers(file.root(), g.numbers);
   file.commit();
 }
 
@@ -267,6 +269,7 @@ Generation read_generation(const std::filesystem::path& path) {
     if (root.has(name)) g.bodies.push_back(read_body(root.open_group(name), body));
   }
   g.cases = read_cases_of(root);
+  g.numbers = read_numbers(root);
   return g;
 }
 
@@ -295,6 +298,10 @@ void write_evolution_store(const std::filesystem::path& path, const EvolutionRes
 }
 
 std::string generation_file(int number) { return fmt::format("generation_{:04}.h5", number); }
+std::string simulation_file(int number, std::size_t position, std::size_t positions) {
+  return positions > 1 ? fmt::format("simulation_{:04}_{}.h5", number, position + 1)
+                       : fmt::format("simulation_{:04}.h5", number);
+}
 std::string contacts_file(int number) { return fmt::format("contacts_{:04}.h5", number); }
 
 EvolutionResult read_evolution_folder(const std::filesystem::path& folder) {

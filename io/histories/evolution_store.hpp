@@ -28,6 +28,8 @@ EvolutionResult read_evolution_folder(const std::filesystem::path& folder);
 inline constexpr const char* kEvolutionIdentity = "evolution.id";
 std::string generation_file(int number);
 std::string contacts_file(int number);
+/// Of one of the positions, from 0.
+std::string simulation_file(int number, std::size_t position, std::size_t positions);
 
 /// A line a generation: its number and its quantities.
 std::string evolution_csv(const EvolutionResult& result);

@@ -44,6 +44,7 @@ struct ModeRow {
 /// after a resumption too.
 struct SnapshotScene {
   bool nominal = false;   ///< the instant at the start of the watched wheel
+  std::size_t wheel = 0;  ///< of the simulation, from 0; no store has it
   bool drawn = false;     ///< of the watched wheel: a first passage of a pitch angle that was asked for, or a position
   Grid2 depth_grid = {};  ///< x, y of the track, x from the axle [m]
   std::vector<double> depth =

@@ -34,6 +34,13 @@ void need_keys(const TableReader& table, const char* what, const Row& row) {
   for (std::string key; needed >> key;) table.need(key, fmt::format("the {} {} needs {}", what, row.word, row.keys));
 }
 
+/// The keys that are one member each.
+template <class Root>
+void read_plain(const TableReader& table, const std::vector<SettingKey<Root>>& keys, Root& out) {
+  for (const SettingKey<Root>& key : keys)
+    if (const CaseValue* value = table.checked_if(key.info.path)) key.set(out, *value, {});
+}
+
 /// What check() refuses is refused with the place of the table.
 template <class Settings>
 Settings checked(const TableReader& table, Settings settings) {
@@ -53,16 +60,7 @@ WearLaw read_law(const TableReader& body) {
   law.theory = row.theory;
   law.source = source_of(table);
   need_keys(table, "law", row);
-  law.hardness = table.number_or("hardness_GPa", 0.0);
-  law.k = table.numbers("k");
-  law.slip_limits = table.numbers("slip_m_s");
-  law.k_seizure = table.number_or("k_seizure", 0.0);
-  law.seizure_ratio = table.number_or("seizure_pressure_over_hardness", law.seizure_ratio);
-  law.t_gamma_area = table.numbers("t_gamma_area_MPa");
-  law.wear_rate = table.numbers("wear_rate_ug_m_mm2");
-  law.density = table.number_or("density_kg_m3", 0.0);
-  law.volume_per_work = table.numbers("volume_per_work_mm3_J");
-  law.power_limits = table.numbers("power_density_W_mm2");
+  read_plain(table, plain_wear_law_keys(), law);
   return checked(table, std::move(law));
 }
 
@@ -87,12 +85,8 @@ FatigueSettings read_fatigue(const TableReader& body) {
   if (out.measures.empty())
     table.fail(fmt::format("{} is empty", table.path_of("measures")), "name some, or leave the table out");
   out.source = source_of(table);
-  out.shear_yield = table.number_or("shear_yield_MPa", 0.0);
-  if (out.has(FatigueMeasure::subsurface) || out.has(FatigueMeasure::dang_van)) out.depths = table.numbers("depths_mm");
-  out.dang_van_slope = table.number_or("dang_van_slope", 0.0);
-  out.dang_van_limit = table.number_or("dang_van_limit_MPa", 0.0);
-  out.t_gamma = table.numbers("t_gamma_N");
-  out.passage_damage = table.numbers("damage_per_passage");
+  read_plain(table, plain_fatigue_keys(), out);
+  if (!out.has(FatigueMeasure::subsurface) && !out.has(FatigueMeasure::dang_van)) out.depths.clear();
   return checked(table, std::move(out));
 }
 
@@ -103,10 +97,7 @@ EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, co
   out.where = table.where();
   evolve.need(amount, fmt::format("a {} evolves over it", body_name(body)));
   out.amount = evolve.number(amount);
-  out.local = table.text_or("along", "uniform") == "local";
-  out.du = table.number_or("du_mm", 1e-3);
-  out.dy = table.number_or("dy_mm", 0.5e-3);
-  out.smoothing = table.number_or("smoothing_mm", 1e-3);
+  read_plain(table, plain_evolving_body_keys(), out);
   out.law = read_law(table);
   out.fatigue = read_fatigue(table);
   return out;
@@ -141,18 +132,12 @@ EvolutionFile read_evolution_file(const std::filesystem::path& file, std::span<c
     if (evolve.find(body) == nullptr && evolve.find(amount) != nullptr)
       throw Error(ErrorKind::configuration, fmt::format("{} needs {}", evolve.path_of(amount), evolve.path_of(body)),
                   evolve.need(amount).where, "it says how far that body evolves");
-  out.max_depth = evolve.number_or("max_depth_mm", 0.05e-3);
-  out.max_pressure_change = evolve.number_or("max_pressure_change", 0.1);
-  out.smallest_step = evolve.number_or("smallest_step", 1e-3);
-  if (evolve.find("updates") != nullptr) {
-    out.updates = evolve.integer("updates");
-    for (const char* limit : {"max_depth_mm", "max_pressure_change", "smallest_step"}) evolve.exclude("updates", limit);
-  }
-  if (evolve.find("fields_every") != nullptr) out.fields_every = evolve.integer("fields_every");
+  read_plain(evolve, plain_evolve_keys(), out);
+  for (const char* limit : {"max_depth_mm", "max_pressure_change", "smallest_step"}) evolve.exclude("updates", limit);
   tables.read_runs(evolve);
-  if (tables.study.base_is_simulation)
-    evolve.fail("an evolution is of a case file, not of a simulation",
-                "name a case file with the positions of the wheel");
+  if (tables.study.base_is_simulation && evolve.find("rail") != nullptr)
+    throw Error(ErrorKind::configuration, "where contacts come from a simulation the wheel evolves alone",
+                evolve.need("rail").where, "name a case file with the positions of the wheel");
   out.weights = read_weights(evolve, tables.study.runs.size());
   out.positions = std::move(tables.study);
   return out;

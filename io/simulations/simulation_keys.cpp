@@ -5,10 +5,8 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
 #include "treadmark/model/assessment.hpp"
-#include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/irregularities.hpp"
 #include "treadmark/model/track_layout.hpp"
-#include "treadmark/model/wear_law.hpp"
 
 namespace treadmark::io {
 
@@ -586,46 +584,112 @@ const TableKeys& vary_value_keys() {
   return keys;
 }
 
+const std::vector<SettingKey<EvolutionFile>>& plain_evolve_keys() {
+  using E = EvolutionFile;
+  static const std::vector<SettingKey<E>> keys = [] {
+    SettingKeys<E> list;
+    list.number("max_depth_mm", kPositive, "most that an update may remove",
+                [](E& e) -> double& { return e.max_depth; });
+    list.number("max_pressure_change", kPositive,
+                "most that an update may change the largest pressure of a case, as a share",
+                [](E& e) -> double& { return e.max_pressure_change; });
+    list.number("smallest_step", {0.0, {}, 1.0},
+                "share of the whole that an update makes at least, whatever the limits say",
+                [](E& e) -> double& { return e.smallest_step; });
+    list.integer("updates", 1, kMostValues, "so many equal updates instead of those that keep the limits",
+                 [](E& e) -> int& { return e.updates; })
+        .default_text.clear();
+    list.integer("fields_every", 0, kMostValues, "contact fields of every so many generations are kept; 0: none",
+                 [](E& e) -> int& { return e.fields_every; });
+    return list.keys;
+  }();
+  return keys;
+}
+
 const TableKeys& evolve_keys() {
-  static const TableKeys keys{
-      key_info("title", KeyType::text, "without it the name of the file"),
-      key_info("base", KeyType::path, "case file; its tables may stand beside [evolve] instead"),
-      key_info("distance_km", KeyType::number, "that the wheelset runs; required where [evolve.wheel] is", kPositive),
-      key_info("passages", KeyType::number, "of wheels over a rail; required where [evolve.rail] is", kPositive),
-      table_key("vary", KeyType::table_list, "positions: their product, the last one fastest, as in [[study.vary]]",
-                vary_keys()),
-      key_info("weights", KeyType::number_list,
-               "share of each position in the order of the product, made to sum up to 1; default: equal", kNotNegative),
-      with_default("0.05", key_info("max_depth_mm", KeyType::number, "most that an update may remove", kPositive)),
-      with_default("0.1",
-                   key_info("max_pressure_change", KeyType::number,
-                            "most that an update may change the largest pressure of a case, as a share", kPositive)),
-      with_default("0.001", key_info("smallest_step", KeyType::number,
-                                     "share of the whole that an update makes at least, whatever the limits say",
-                                     {0.0, {}, 1.0})),
-      key_info("updates", KeyType::integer, "so many equal updates instead of those that keep the limits",
-               {{}, 1.0, kMostValues}),
-      with_default("1", key_info("fields_every", KeyType::integer,
-                                 "contact fields of every so many generations are kept; 0: none", {{}, 0.0, {}})),
-      table_key("wheel", KeyType::table, "the wheel evolves", evolving_body_keys()),
-      table_key("rail", KeyType::table, "the rail evolves", evolving_body_keys())};
+  static const TableKeys keys = [] {
+    TableKeys list{
+        key_info("title", KeyType::text, "without it the name of the file"),
+        key_info("base", KeyType::path, "case or simulation file; its tables may stand beside [evolve] instead"),
+        key_info("distance_km", KeyType::number, "that the wheelset runs; required where [evolve.wheel] is", kPositive),
+        key_info("passages", KeyType::number, "of wheels over a rail; required where [evolve.rail] is", kPositive),
+        table_key("vary", KeyType::table_list, "positions: their product, the last one fastest, as in [[study.vary]]",
+                  vary_keys()),
+        key_info("weights", KeyType::number_list,
+                 "share of each position in the order of the product, made to sum up to 1; default: equal",
+                 kNotNegative)};
+    for (const auto& key : plain_evolve_keys()) list.push_back(key.info);
+    list.push_back(table_key("wheel", KeyType::table, "the wheel evolves", evolving_body_keys()));
+    list.push_back(table_key("rail", KeyType::table, "the rail evolves", evolving_body_keys()));
+    return list;
+  }();
+  return keys;
+}
+
+const std::vector<SettingKey<EvolvingBody>>& plain_evolving_body_keys() {
+  using B = EvolvingBody;
+  static const std::vector<SettingKey<B>> keys = [] {
+    SettingKeys<B> list;
+    list.choice<B>("along", std::vector<std::pair<std::string, bool>>{{"uniform", false}, {"local", true}},
+                   "the same all round or along the track, or each place by itself: cases of the base follow each "
+                   "other round the wheel or along the rail",
+                   [](B& b) -> bool& { return b.local; });
+    list.number("du_mm", kPositive, "step of the cells along, where it is local", [](B& b) -> double& { return b.du; });
+    list.number("dy_mm", kPositive, "step of the cells across", [](B& b) -> double& { return b.dy; });
+    list.number("smoothing_mm", kNotNegative,
+                "standard deviation of the Gaussian kernel over what an update removes; 0: none",
+                [](B& b) -> double& { return b.smoothing; });
+    return list.keys;
+  }();
   return keys;
 }
 
 const TableKeys& evolving_body_keys() {
-  static const TableKeys keys{
-      with_default("\"uniform\"",
-                   one_of("along", {"uniform", "local"},
-                          "the same all round or along the track, or each place by itself: cases of the base follow "
-                          "each other round the wheel or along the rail")),
-      with_default("1", key_info("du_mm", KeyType::number, "step of the cells along, where it is local", kPositive)),
-      with_default("0.5", key_info("dy_mm", KeyType::number, "step of the cells across", kPositive)),
-      with_default("1", key_info("smoothing_mm", KeyType::number,
-                                 "standard deviation of the Gaussian kernel over what an update removes; 0: none",
-                                 kNotNegative)),
-      needed(table_key("law", KeyType::table, "how contact removes depth", wear_law_keys())),
-      table_key("fatigue", KeyType::table, "what contact does to the material below, without changing it",
-                fatigue_keys())};
+  static const TableKeys keys = [] {
+    TableKeys list = infos_of<EvolvingBody>(plain_evolving_body_keys());
+    list.push_back(needed(table_key("law", KeyType::table, "how contact removes depth", wear_law_keys())));
+    list.push_back(table_key("fatigue", KeyType::table, "what contact does to the material below, without changing it",
+                             fatigue_keys()));
+    return list;
+  }();
+  return keys;
+}
+
+const std::vector<SettingKey<WearLaw>>& plain_wear_law_keys() {
+  using L = WearLaw;
+  static const std::vector<SettingKey<L>> keys = [] {
+    SettingKeys<L> list;
+    list.number("hardness_GPa", kPositive, "archard: of the body that wears",
+                [](L& l) -> double& { return l.hardness; })
+        .default_text.clear();
+    list.number_list(
+        "k", "archard: coefficient, one for each regime of slip speed", [](L & l) -> auto& { return l.k; },
+        kNotNegative);
+    list.number_list(
+        "slip_m_s", "archard: slip speeds between the regimes", [](L & l) -> auto& { return l.slip_limits; },
+        kPositive);
+    list.number("k_seizure", kNotNegative, "archard: coefficient at high pressures; 0: there is no such regime",
+                [](L& l) -> double& { return l.k_seizure; });
+    list.number("seizure_pressure_over_hardness", kPositive, "archard: where high pressures begin",
+                [](L& l) -> double& { return l.seizure_ratio; });
+    list.number_list(
+        "t_gamma_area_MPa",
+        "t_gamma: points of a broken line (1 MPa = 1 N/mm²), which goes on straight behind the last",
+        [](L & l) -> auto& { return l.t_gamma_area; }, kNotNegative);
+    list.number_list(
+        "wear_rate_ug_m_mm2", "t_gamma: mass by distance and area at these points",
+        [](L & l) -> auto& { return l.wear_rate; }, kNotNegative);
+    list.number("density_kg_m3", kPositive, "t_gamma: of the body that wears",
+                [](L& l) -> double& { return l.density; })
+        .default_text.clear();
+    list.number_list(
+        "volume_per_work_mm3_J", "energy: coefficient, one for each regime of power by area",
+        [](L & l) -> auto& { return l.volume_per_work; }, kNotNegative);
+    list.number_list(
+        "power_density_W_mm2", "energy: powers by area between the regimes",
+        [](L & l) -> auto& { return l.power_limits; }, kPositive);
+    return list.keys;
+  }();
   return keys;
 }
 
@@ -633,25 +697,37 @@ const TableKeys& wear_law_keys() {
   static const TableKeys keys = [] {
     std::vector<std::string> words;
     for (const WearTheoryRow& row : kWearTheories) words.emplace_back(row.word);
-    return TableKeys{
-        needed(one_of("theory", words, "see `treadmark list laws`")),
-        needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it")),
-        key_info("hardness_GPa", KeyType::number, "archard: of the body that wears", kPositive),
-        key_info("k", KeyType::number_list, "archard: coefficient, one for each regime of slip speed", kNotNegative),
-        key_info("slip_m_s", KeyType::number_list, "archard: slip speeds between the regimes", kPositive),
-        with_default("0", key_info("k_seizure", KeyType::number,
-                                   "archard: coefficient at high pressures; 0: there is no such regime", kNotNegative)),
-        with_default("0.8", key_info("seizure_pressure_over_hardness", KeyType::number,
-                                     "archard: where high pressures begin", kPositive)),
-        key_info("t_gamma_area_MPa", KeyType::number_list,
-                 "t_gamma: points of a broken line (1 MPa = 1 N/mm²), which goes on straight behind the last",
-                 kNotNegative),
-        key_info("wear_rate_ug_m_mm2", KeyType::number_list, "t_gamma: mass by distance and area at these points",
-                 kNotNegative),
-        key_info("density_kg_m3", KeyType::number, "t_gamma: of the body that wears", kPositive),
-        key_info("volume_per_work_mm3_J", KeyType::number_list,
-                 "energy: coefficient, one for each regime of power by area", kNotNegative),
-        key_info("power_density_W_mm2", KeyType::number_list, "energy: powers by area between the regimes", kPositive)};
+    TableKeys list{needed(one_of("theory", words, "see `treadmark list laws`")),
+                   needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it"))};
+    for (const auto& key : plain_wear_law_keys()) list.push_back(key.info);
+    return list;
+  }();
+  return keys;
+}
+
+const std::vector<SettingKey<FatigueSettings>>& plain_fatigue_keys() {
+  using F = FatigueSettings;
+  static const std::vector<SettingKey<F>> keys = [] {
+    SettingKeys<F> list;
+    const auto number = [&list](const char* name, KeyLimits limits, const char* doc, auto place) {
+      list.number(name, limits, doc, place).default_text.clear();
+    };
+    number("shear_yield_MPa", kPositive, "fi_surf, shakedown, subsurface: k of the material in cyclic shear",
+           [](F& f) -> double& { return f.shear_yield; });
+    list.number_list(
+        "depths_mm", "subsurface, dang_van: below the surface, increasing, from the size of an element on",
+        [](F & f) -> auto& { return f.depths; }, kPositive);
+    number("dang_van_slope", kPositive, "dang_van: factor of the hydrostatic stress",
+           [](F& f) -> double& { return f.dang_van_slope; });
+    number("dang_van_limit_MPa", kPositive, "dang_van: equivalent shear stress that is endured",
+           [](F& f) -> double& { return f.dang_van_limit; });
+    list.number_list(
+        "t_gamma_N", "whole_life: points of a broken line, which goes on straight behind the last",
+        [](F & f) -> auto& { return f.t_gamma; }, kNotNegative);
+    list.number_list(
+        "damage_per_passage", "whole_life: at these points; 1: failure, negative: wear takes more than fatigue adds",
+        [](F & f) -> auto& { return f.passage_damage; });
+    return list.keys;
   }();
   return keys;
 }
@@ -661,19 +737,10 @@ const TableKeys& fatigue_keys() {
     std::string words;
     for (const FatigueMeasureRow& row : kFatigueMeasures)
       words += fmt::format("{}`\"{}\"`", words.empty() ? "" : ", ", row.word);
-    return TableKeys{
-        needed(key_info("measures", KeyType::text_list, words + ": see `treadmark list laws`")),
-        needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it")),
-        key_info("shear_yield_MPa", KeyType::number,
-                 "fi_surf, shakedown, subsurface: k of the material in cyclic shear", kPositive),
-        key_info("depths_mm", KeyType::number_list,
-                 "subsurface, dang_van: below the surface, increasing, from the size of an element on", kPositive),
-        key_info("dang_van_slope", KeyType::number, "dang_van: factor of the hydrostatic stress", kPositive),
-        key_info("dang_van_limit_MPa", KeyType::number, "dang_van: equivalent shear stress that is endured", kPositive),
-        key_info("t_gamma_N", KeyType::number_list,
-                 "whole_life: points of a broken line, which goes on straight behind the last", kNotNegative),
-        key_info("damage_per_passage", KeyType::number_list,
-                 "whole_life: at these points; 1: failure, negative: wear takes more than fatigue adds")};
+    TableKeys list{needed(key_info("measures", KeyType::text_list, words + ": see `treadmark list laws`")),
+                   needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it"))};
+    for (const auto& key : plain_fatigue_keys()) list.push_back(key.info);
+    return list;
   }();
   return keys;
 }

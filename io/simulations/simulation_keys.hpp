@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "treadmark/io/settings/key_list.hpp"
+#include "treadmark/io/simulations/evolution_model.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 
 namespace treadmark::io {
@@ -76,6 +77,11 @@ const TableKeys& evolve_keys();
 const TableKeys& evolving_body_keys();
 const TableKeys& wear_law_keys();
 const TableKeys& fatigue_keys();
+/// Those of their keys that are one member each.
+const std::vector<SettingKey<EvolutionFile>>& plain_evolve_keys();
+const std::vector<SettingKey<EvolvingBody>>& plain_evolving_body_keys();
+const std::vector<SettingKey<WearLaw>>& plain_wear_law_keys();
+const std::vector<SettingKey<FatigueSettings>>& plain_fatigue_keys();
 std::string evolve_file_schema();
 std::string evolve_key_table();
 

@@ -209,18 +209,50 @@ TEST_F(Evolution, HistoriesOfAWholeWheelTakeTheMemoryThatIsStated) {
   // 0.5 mm along and across, a band of 60 mm that contacts have reached, stresses at one depth
   SurfaceRecord record(5781, 1);
   for (int j = 0; j < 120; ++j) {
-    for (CellSheet SurfaceRecord::*sheet :
-         {&SurfaceRecord::volume, &SurfaceRecord::work, &SurfaceRecord::sliding, &SurfaceRecord::passages,
-          &SurfaceRecord::pressure, &SurfaceRecord::traction, &SurfaceRecord::t_gamma, &SurfaceRecord::fi_surf,
-          &SurfaceRecord::damage})
-      (record.*sheet).ref(0, j) = 1.0;
-    for (CellSheet StressRecord::*sheet :
-         {&StressRecord::von_mises, &StressRecord::shear, &StressRecord::shakedown, &StressRecord::dang_van})
-      (record.stresses.front().*sheet).ref(0, j) = 1.0;
+    for (const auto& row : kSheets) (record.*row.sheet).ref(0, j) = 1.0;
+    for (const auto& row : kStressSheets) (record.stresses.front().*row.sheet).ref(0, j) = 1.0;
   }
   std::cout << "memory of the histories [MB]: " << 1e-6 * static_cast<double>(record.memory_bytes()) << '\n';
   EXPECT_EQ(record.memory_bytes(), 13u * 120u * 5781u * sizeof(double));
   EXPECT_LT(record.memory_bytes(), 300u * 1000u * 1000u);
+}
+
+/// What workshops measure follows the section: the flange height grows by what the tread loses, and a wheelset of two
+/// worn wheels has the conicity that the geometry of the worn surface file has.
+TEST_F(Evolution, WheelsAreMeasuredOverTheDistance) {
+  const auto result =
+      run(file(standard_case("1.0"), "distance_km = 2000\nupdates = 2\nfields_every = 0\n[evolve.wheel]\n",
+               io::replaced(kLaw, "1e-4", "1e-2")));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const auto number = [](const io::Generation& g, const std::string& name) {
+    for (const io::EvolutionQuantity& q : io::quantities_of(g))
+      if (q.name == name) return q.value;
+    return std::nan("");
+  };
+  const io::Generation &first = result.generations.front(), &last = result.generations.back();
+  EXPECT_NEAR(number(first, "wheel_flange_height_mm"), 28.0, 0.01);
+  EXPECT_NEAR(number(first, "wheel_flange_thickness_mm"), 32.5, 0.01);
+  EXPECT_EQ(number(first, "wheel_hollow_mm"), 0.0);
+  const io::EvolvedBody& wheel = last.bodies.front();
+  int tape = 0;
+  for (int j = 0; j < wheel.cells.ny; ++j)
+    if (std::fabs(wheel.cells.y(j)) < 0.5 * wheel.cells.dy) tape = j;
+  const double lost = 1e3 * damage::depth_of(wheel.cells, wheel.record.volume.at(0, tape), tape);
+  ASSERT_GT(lost, 0.003);
+  EXPECT_NEAR(number(last, "wheel_flange_height_mm") - number(first, "wheel_flange_height_mm"), lost, 1e-3);
+
+  const std::string worn =
+      standard_case("1.0", "shape.file = \"" + (folder_.path() / "out" / wheel.surface_file).string() + "\"\n");
+  const std::string path = folder_.write("worn.toml", worn);
+  const std::string out = folder_.path() / "geometry";
+  const ProgramResult geometry = run_program({"geometry", path, "-o", out});
+  ASSERT_EQ(geometry.status, 0) << geometry.err;
+  const double conicity =
+      nlohmann::json::parse(std::ifstream(fs::path(out) / "geometry.json"))["geometry"]["conicity_3mm"];
+  EXPECT_NEAR(number(last, "wheel_conicity_3mm"), conicity, 1e-3 * conicity);
+  EXPECT_NE(number(first, "wheel_conicity_3mm"), number(last, "wheel_conicity_3mm"));
+  const io::Generation again = io::read_generation(folder_.path() / "out" / io::generation_file(2));
+  EXPECT_EQ(number(again, "wheel_conicity_3mm"), number(last, "wheel_conicity_3mm"));
 }
 
 TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
@@ -327,8 +359,9 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 
 TEST_F(Evolution, GoesOnAfterAKillToTheSameBytes) {
   folder_.write("base.toml", standard_case("1.0"));
-  const std::string study = folder_.write(
-      "study.toml", "[evolve]\nbase = \"base.toml\"\ndistance_km = 2000\nupdates = 5\n[evolve.wheel]\n" + kLaw);
+  const std::string study =
+      folder_.write("study.toml", "[evolve]\nbase = \"base.toml\"\ndistance_km = 2000\nupdates = 5\n[evolve.wheel]\n" +
+                                      kLaw + kFatigue);
   const std::string one = folder_.path() / "one", two = folder_.path() / "two";
   ASSERT_EQ(run_program({"evolve", study, "-o", one, "--quiet"}).status, 0);
   RunningProgram killed({"treadmark", "evolve", study, "-o", two});
@@ -386,7 +419,8 @@ TEST(EvolveDocs, TableOfKeysIsUpToDate) {
 }
 
 TEST(EvolveExamples, AreReadAndBuilt) {
-  for (const char* name : {"hollow-wheel.toml", "rounding-flat.toml", "tired-rail.toml"})
+  for (const char* name :
+       {"hollow-wheel.toml", "spread-of-rails.toml", "rounding-flat.toml", "flat-in-motion.toml", "tired-rail.toml"})
     EXPECT_EQ(error_of([&] {
                 app::check_evolution(io::read_evolution_file(fs::path(TREADMARK_SOURCE_DIR) / "examples" / name));
               }),

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/evolve/contact_source.hpp"
+#include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/simulation/run_simulation.hpp"
+#include "treadmark/app/simulation/study_identity.hpp"
+#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
+
+namespace treadmark::app {
+namespace {
+
+/// A number of the summary of a simulation, and how that of several positions follows from theirs.
+struct SummaryRow {
+  const char *key, *name, *unit, *meaning;
+  double scale;
+  double (*both)(double, double);
+};
+double more(double a, double b) { return std::max(a, b); }
+double less(double a, double b) { return std::min(a, b); }
+double sum(double a, double b) { return a + b; }
+constexpr SummaryRow kSummaryRows[] = {
+    {"q_max_N", "q_max_N", "N", "largest vertical force of a simulation", 1.0, more},
+    {"q_min_N", "q_min_N", "N", "least vertical force of a simulation", 1.0, less},
+    {"pmax_Pa", "simulated_pmax_MPa", "MPa", "largest pressure at all instants", 1e-6, more},
+    {"contact_lost", "contact_lost", "1", "how often a wheel lost contact", 1.0, sum},
+    {"doubtful_steps", "doubtful_steps", "1", "steps of simulations with a grave remark on the contact", 1.0, sum}};
+
+double summary_value(const io::SimulationResult& result, std::string_view name) {
+  const auto row = std::ranges::find(result.summary, name, &io::NamedValue::name);
+  return row == result.summary.end() ? 0.0 : row->value;
+}
+
+bool evolves(const io::WheelContactInput& wheel) { return wheel.model == io::ContactModelInput::full && wheel.defects; }
+
+class SimulatedContacts : public ContactSource {
+ public:
+  SimulatedContacts(const io::EvolutionFile& file, const std::vector<std::string>& settings)
+      : file_(file), settings_(settings) {
+    for (const io::StudyRun& run : file.positions.runs) {
+      runs_.push_back(std::get<io::SimulationFile>(io::read_study_run(file.positions, run)));
+      check(runs_.back());
+    }
+  }
+
+  GivenBody given(const io::EvolvingBody& input) override {
+    SurfaceStore store;
+    GivenBody body;
+    body.radius = runs_.front().contact.wheelset.nominal_radius;
+    body.surface = natural_of(store, runs_.front(), true);
+    for (const io::SimulationFile& run : runs_) {
+      if (natural_of(store, run, true) != body.surface || run.contact.wheelset.nominal_radius != body.radius)
+        throw Error(ErrorKind::configuration, "the positions have different wheels, which evolve",
+                    run.contact.wheel.where, "what evolves is one surface; vary the other body");
+      if (!std::ranges::all_of(run.wheels, evolves) && natural_of(store, run, false) == body.surface)
+        throw Error(ErrorKind::configuration, "the wheel that evolves is that of the other wheels too", input.where,
+                    "give it a defect of its own, or let all wheels evolve (contact = \"full\")");
+      check_vehicle(run, store);
+    }
+    return body;
+  }
+
+  PassedContacts solve(const std::vector<NaturalSurface>& surfaces, const Progress& progress) override {
+    const auto wheel = std::make_shared<const NaturalSurface>(surfaces.front());
+    PassedContacts out;
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      SurfaceStore store;
+      store.put(runs_[k].contact.wheel, Body::wheel, runs_[k].contact.wheelset.nominal_radius, wheel);
+      SimulationOptions options;
+      options.settings = settings_;
+      options.swept = swept_of(file_.positions, file_.positions.runs[k]);
+      options.tables = &tables_;
+      Progress inner;
+      inner.stop = progress.stop;
+      io::SimulationResult result = run_simulation(runs_[k], store, options, inner);
+      if (result.status == "interrupted") throw Cancelled();
+      if (result.status != "complete")
+        throw Error(ErrorKind::numerical,
+                    fmt::format("position {}: {}: {}", position_label(file_, file_.positions.runs[k]), result.status,
+                                result.message));
+      take(out, k, result, store);
+      out.simulations.push_back(std::move(result));
+    }
+    for (const SummaryRow& row : kSummaryRows) {
+      double all = summary_value(out.simulations.front(), row.key);
+      for (const io::SimulationResult& s : out.simulations) {
+        if (&s != out.simulations.data()) all = row.both(all, summary_value(s, row.key));
+      }
+      out.numbers.push_back({row.name, row.unit, row.meaning, row.scale * all});
+    }
+    out.run.cases_total = static_cast<int>(out.run.cases.size());
+    return out;
+  }
+
+ private:
+  /// What an evolution asks of a simulation.
+  void check(const io::SimulationFile& run) const {
+    const io::EvolvingBody& body = file_.bodies.front();
+    const SourcePosition where{run.path.string()};
+    const auto first = std::ranges::find(run.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
+    if (first == run.wheels.end() || !first->defects)
+      throw Error(ErrorKind::configuration, "the first wheel with full contact must be one that evolves", where,
+                  "give it contact = \"full\", and leave defects = false to the others");
+    if (run.fields.pitch.empty() && (body.local || run.fields.position.empty()))
+      throw Error(ErrorKind::configuration, "the simulation keeps no contacts that could change the wheel", where,
+                  body.local ? "name the angles of the places in [simulation.fields] pitch_deg"
+                             : "name instants in [simulation.fields]: pitch_deg or position_m");
+    if (body.local && run.settings.distance > 2.0 * kPi * run.contact.wheelset.nominal_radius)
+      throw Error(ErrorKind::configuration, "the wheel turns more than once: its places would be met again", where,
+                  "let the simulation end within one turn (simulation.distance_m)");
+  }
+
+  /// Of the wheels that evolve, or of the others.
+  static std::shared_ptr<const NaturalSurface> natural_of(SurfaceStore& store, const io::SimulationFile& run,
+                                                          bool evolving) {
+    io::WheelContactInput wheel;
+    wheel.defects = evolving;
+    io::SurfaceSource source = wheel_source(run, wheel);
+    source.backend.clear();
+    source.resolution = 0.0;
+    return store.get(source, Body::wheel, run.contact.wheelset.nominal_radius, {}).natural;
+  }
+
+  /// The instants of the wheels that evolve: those of a wheel share its weight.
+  void take(PassedContacts& out, std::size_t k, const io::SimulationResult& result, SurfaceStore& store) const {
+    const io::SimulationFile& run = runs_[k];
+    const auto wheels = std::ranges::count_if(run.wheels, evolves);
+    for (std::size_t wheel = 0; wheel < run.wheels.size(); ++wheel) {
+      if (!evolves(run.wheels[wheel])) continue;
+      const std::size_t first = out.passed.size();
+      const double weight = file_.weights[k] / static_cast<double>(wheels);
+      io::WheelRailCase input = contact_input(run, run.wheels[wheel]);
+      meet_rail(out.rails, input, store.get(run.rail(run.wheels[wheel].side), Body::rail, 0.0, {}).natural->surface,
+                weight);
+      for (std::size_t i = 0; i < result.snapshots.cases.size(); ++i) {
+        if (result.snapshot_scenes[i].wheel != wheel) continue;
+        const io::CaseResult& c = result.snapshots.cases[i];
+        if (c.status != Status::ok && c.status != Status::no_contact)
+          throw Error(ErrorKind::numerical, fmt::format("{}: {}", to_string(c.status), c.message));
+        input.state.position.x = c.s, input.state.position.pitch = c.pitch;
+        out.run.cases.push_back(c);
+        PassedCase& passed = out.passed.emplace_back();
+        passed.given.number = out.run.cases.back().number = static_cast<int>(out.run.cases.size());
+        passed.given.content = input;
+        passed.given.where = {run.path.string()};
+        passed.label = position_label(file_, file_.positions.runs[k]);
+        passed.run = file_.positions.runs[k].number;
+        passed.number = static_cast<int>(out.passed.size() - first);
+        passed.weight = weight;
+      }
+      const std::size_t count = out.passed.size() - first;
+      for (std::size_t i = first; i < out.passed.size(); ++i) out.passed[i].beside = static_cast<int>(count);
+      place_along_bodies(file_, out.passed, first, count);
+    }
+  }
+
+  const io::EvolutionFile& file_;
+  const std::vector<std::string>& settings_;
+  std::vector<io::SimulationFile> runs_;
+  ContactTables tables_;
+};
+
+}  // namespace
+
+std::unique_ptr<ContactSource> simulated_contacts(const io::EvolutionFile& file,
+                                                  const std::vector<std::string>& settings) {
+  return std::make_unique<SimulatedContacts>(file, settings);
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "treadmark/app/evolve/run_evolution.hpp"
+#include "treadmark/core/progress.hpp"
+#include "treadmark/damage/record.hpp"
+#include "treadmark/io/files/replaced.hpp"
+#include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/simulations/read_evolution.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/io/simulations/samples.hpp"
+#include "treadmark/tests/support/error_text.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A braked wheel with a chord flat passes over it below a sprung mass.
+const std::string kPassage = R"([simulation]
+vehicle = "vehicle.toml"
+track = "track.toml"
+speed_m_s = 5
+distance_m = 0.16
+
+[[simulation.torques]]
+wheelset = 1
+time_s = [0]
+torque_N_m = [-4000]
+reaction = "ground"
+
+[simulation.fields]
+pitch_deg = [-7, -6, -5, -4, -3.5, -3, -2.5, -2, -1.5, -1, -0.5, 0, 0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4, 5, 6, 7]
+
+[[simulation.wheels]]
+wheelset = 1
+side = "right"
+contact = "full"
+pitch_deg = 9
+
+[case]
+regime = "steady"
+
+[wheel]
+shape.standard = "S1002"
+flats = [{ shape = "fresh", length_mm = 60 }]
+
+[rail]
+shape.standard = "60E1"
+
+[track]
+cant = "1:40"
+
+[discretisation]
+dx_mm = 2
+ds_mm = 2
+)";
+
+const std::string kStudy = R"([evolve]
+base = "passage.toml"
+distance_km = 20000
+updates = 4
+[evolve.wheel]
+along = "local"
+du_mm = 2
+dy_mm = 2
+smoothing_mm = 3
+[evolve.wheel.law]
+theory = "archard"
+source = "assumed"
+hardness_GPa = 3.0
+k = [1e-4]
+)";
+
+class SimulatedEvolution : public ::testing::Test {
+ protected:
+  SimulatedEvolution() {
+    folder_.write("vehicle.toml", io::samples::kVehicle);
+    folder_.write("track.toml", io::samples::kTrack);
+  }
+  std::string study(const std::string& passage = kPassage, const std::string& study = kStudy) {
+    folder_.write("passage.toml", passage);
+    return folder_.write("study.toml", study);
+  }
+  std::string error(const std::string& passage, const std::string& evolve) {
+    return error_of([&] {
+      const io::EvolutionFile file = io::read_evolution_file(study(passage, evolve));
+      app::check_evolution(file);
+    });
+  }
+  std::string path(const std::string& name) const { return folder_.path() / name; }
+  TemporaryFolder folder_;
+};
+
+std::string bytes_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+double number(const io::Generation& g, const std::string& name) {
+  for (const io::EvolutionQuantity& q : io::quantities_of(g))
+    if (q.name == name) return q.value;
+  ADD_FAILURE() << name;
+  return std::nan("");
+}
+
+TEST_F(SimulatedEvolution, FirstGenerationIsTheSimulation) {
+  const std::string file = study(kPassage, io::replaced(kStudy, "updates = 4", "updates = 1"));
+  run_program({"evolve", file, "-o", path("out"), "--quiet"});  // the status is that of doubts at the sharp edges
+  run_program({"simulate", path("passage.toml"), "-o", path("simulated"), "--quiet"});
+  const std::string first = bytes_of(path("out") + "/simulation_0000.h5");
+  ASSERT_FALSE(first.empty());
+  EXPECT_TRUE(first == bytes_of(path("simulated") + "/simulation.h5"));
+
+  const io::EvolutionResult result = io::read_evolution_folder(path("out"));
+  ASSERT_EQ(result.status, "complete");
+  ASSERT_EQ(result.generations.size(), 2u);
+  for (const io::Generation& g : result.generations) {
+    // what the generation says of its simulation is what that says
+    const io::SimulationResult one = io::read_simulation(path("out") + "/" + io::simulation_file(g.number, 0, 1));
+    for (const io::NamedValue& value : one.summary)
+      if (value.name == "q_max_N") {
+        EXPECT_EQ(value.value, number(g, "q_max_N"));
+      }
+    EXPECT_LT(std::fabs(io::volume_balance(g.bodies.front())), 1e-9);
+    EXPECT_LT(std::fabs(io::work_balance(g.bodies.front())), 1e-6);
+  }
+}
+
+struct FlatShape {
+  double length = 0.0;  ///< over which the radius misses more than 0.1 mm [m]
+  double turn = 0.0;    ///< of the circumference within 20 mm at the sharper edge [rad]
+};
+
+/// On one row of the cells.
+FlatShape shape_of(const io::EvolvedBody& wheel, int row) {
+  constexpr double kNominal = 0.46, kHalf = 0.03, kReach = 20e-3;
+  const SurfaceCells& cells = wheel.cells;
+  const double radius = cells.radius[static_cast<std::size_t>(row)],
+               chord = radius - (kNominal - std::sqrt(kNominal * kNominal - kHalf * kHalf));
+  const int reach = static_cast<int>(std::lround(kReach / (cells.du * radius)));
+  const auto r = [&](int i) {
+    const double theta = i * cells.du;
+    return std::min(radius, chord / std::cos(theta)) -
+           damage::depth_of(cells, wheel.record.volume.at((i + cells.nu) % cells.nu, row), row);
+  };
+  FlatShape shape;
+  for (int i = -60; i <= 60; ++i) {
+    shape.turn = std::max(shape.turn, (2.0 * r(i) - r(i - reach) - r(i + reach)) / (reach * cells.du * radius));
+    if (r(i) < radius - 0.1e-3) shape.length += cells.du * radius;
+  }
+  return shape;
+}
+
+/// A chord flat rounds off and the wheel strikes less and less.
+TEST_F(SimulatedEvolution, FlatRoundsOffAndForcesFall) {
+  const io::EvolutionFile file = io::read_evolution_file(study());
+  const io::EvolutionResult result = app::run_evolution(file, {path("out"), false, {}});
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const auto generation = [&](std::size_t k) {
+    return io::read_generation(fs::path(path("out")) / io::generation_file(static_cast<int>(k)));
+  };
+  const io::EvolvedBody last = generation(4).bodies.front();
+  int row = 0;
+  double most = 0.0;
+  for (const auto& [j, values] : last.record.volume.rows()) {
+    double sum = 0.0;
+    for (const double value : values) sum += value;
+    if (sum > most) most = sum, row = j;
+  }
+  FlatShape before = shape_of(generation(0).bodies.front(), row);
+  for (std::size_t k = 1; k < result.generations.size(); ++k) {
+    const FlatShape now = shape_of(generation(k).bodies.front(), row);
+    EXPECT_LT(number(result.generations[k], "q_max_N"), number(result.generations[k - 1], "q_max_N"));
+    EXPECT_GE(now.length, before.length);
+    EXPECT_LT(now.turn, before.turn);
+    before = now;
+  }
+}
+
+TEST_F(SimulatedEvolution, GoesOnToTheSameBytes) {
+  const std::string file = study(kPassage, io::replaced(kStudy, "updates = 4", "updates = 2"));
+  run_program({"evolve", file, "-o", path("one"), "--quiet"});
+  ASSERT_EQ(io::read_evolution_folder(path("one")).status, "complete");
+  const io::EvolutionFile read = io::read_evolution_file(file);
+  std::atomic<bool> stop = false;
+  Progress progress;
+  progress.stop = &stop;
+  progress.report = [&](std::size_t, std::size_t, const std::string& what) { stop = stop || what == "generation 1"; };
+  const io::EvolutionResult stopped = app::run_evolution(read, {path("two"), false, {}}, progress);
+  EXPECT_EQ(stopped.status, "interrupted");
+  run_program({"evolve", file, "-o", path("two"), "--resume", "--quiet", "--threads", "1"});
+  for (const auto& entry : fs::directory_iterator(path("one"))) {
+    if (entry.path().filename() == "lock") continue;
+    EXPECT_TRUE(bytes_of(entry.path()) == bytes_of(fs::path(path("two")) / entry.path().filename()))
+        << entry.path().filename();
+  }
+}
+
+TEST_F(SimulatedEvolution, SaysWhatIsWrongAndWhere) {
+  const auto passage = [&](const char* from, const char* to) {
+    return error(io::replaced(kPassage, from, to), kStudy);
+  };
+  EXPECT_EQ(error(kPassage, kStudy), "");
+  EXPECT_THAT(passage("contact = \"full\"", "contact = \"table\""), HasSubstr("must be one that evolves"));
+  EXPECT_THAT(passage("contact = \"full\"", "contact = \"full\"\ndefects = false"),
+              HasSubstr("must be one that evolves"));
+  EXPECT_THAT(passage("distance_m = 0.16", "distance_m = 3"), HasSubstr("turns more than once"));
+  EXPECT_THAT(passage("pitch_deg = [-7", "position_m = [0.1]\n# [-7"), HasSubstr("keeps no contacts"));
+  EXPECT_THAT(passage("flats = [{ shape = \"fresh\", length_mm = 60 }]\n", ""),
+              HasSubstr("is that of the other wheels too"));
+  const std::string rail = io::replaced(kStudy, "evolve.wheel", "evolve.rail");
+  EXPECT_THAT(error(kPassage, io::replaced(rail, "distance_km", "passages")), HasSubstr("the wheel evolves alone"));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
