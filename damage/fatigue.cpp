@@ -20,7 +20,10 @@ double shakedown_limit(double friction) {
 ContactFatigue contact_fatigue(const FatigueSettings& settings, const PassedPatch& patch) {
   ContactFatigue out;
   double largest = 0.0;
-  for (const PassedElement& e : patch.elements) largest = std::max(largest, e.pressure);
+  for (const PassedElement& e : patch.elements) {
+    largest = std::max(largest, e.pressure);
+    if (settings.has(FatigueMeasure::martensite)) out.temperature = std::max(out.temperature, e.temperature);
+  }
   if (!(patch.normal_force > 0.0)) return out;
   out.friction = patch.traction_force / patch.normal_force;
   if (settings.shear_yield > 0.0) out.pressure_ratio = largest / settings.shear_yield;

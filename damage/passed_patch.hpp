@@ -18,6 +18,7 @@ struct PassedElement {
   double traction = 0.0;             ///< its magnitude [Pa]
   double slip = 0.0;                 ///< magnitude, over the rolling speed [-]
   double dissipation = 0.0;          ///< power of friction by area [W/m2]
+  double temperature = 0.0;          ///< of the surface, where it is known [deg C]
 };
 
 /// What points at a depth below a row of elements endure while the patch passes.

@@ -150,6 +150,7 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
     // way of the surfaces over each other at the element's place, over the width that it has in the view of the cells
     const double swept = e.slip * patch.velocity * seconds * patch.length * (e.y_high - e.y_low);
     for (const auto& [j, share_y] : rows_of(cells, e.y_low, e.y_high)) {
+      double* temperatures = patch.fatigue.temperature > 0.0 ? &record.temperature.ref(0, j) : nullptr;
       const double radius = cells.radius[static_cast<std::size_t>(j)], slid = swept / cells.area(j);
       double *volumes = &record.volume.ref(0, j), *works = &record.work.ref(0, j), *slides = &record.sliding.ref(0, j),
              *pressures = &record.pressure.ref(0, j), *tractions = &record.traction.ref(0, j);
@@ -161,6 +162,7 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
         slides[i] += share * slid;
         pressures[i] = std::max(pressures[i], e.pressure);
         tractions[i] = std::max(tractions[i], e.traction);
+        if (temperatures) temperatures[i] = std::max(temperatures[i], e.temperature);
       }
     }
   }

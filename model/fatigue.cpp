@@ -62,6 +62,9 @@ void check(const FatigueSettings& settings) {
         require_known(settings.dang_van_slope, "dang_van_slope", row);
         require_known(settings.dang_van_limit, "dang_van_limit_MPa", row);
         break;
+      case FatigueMeasure::martensite:
+        require_known(settings.austenite, "austenite_C", row);
+        break;
     }
   }
 }

@@ -73,15 +73,16 @@ struct SurfaceRecord {
   /// Of so many columns, and stresses at so many depths.
   explicit SurfaceRecord(int nu = 1, std::size_t depths = 0);
 
-  CellSheet volume;    ///< removed [m3]
-  CellSheet work;      ///< of friction [J]
-  CellSheet sliding;   ///< distance [m]
-  CellSheet passages;  ///< of contacts over the cell
-  CellSheet pressure;  ///< largest [Pa]
-  CellSheet traction;  ///< largest [Pa]
-  CellSheet t_gamma;   ///< largest of the contacts that passed [N]
-  CellSheet fi_surf;   ///< largest surface fatigue index above 0 of the contacts that passed [-]
-  CellSheet damage;    ///< sum over passages by their T gamma [-]
+  CellSheet volume;       ///< removed [m3]
+  CellSheet work;         ///< of friction [J]
+  CellSheet sliding;      ///< distance [m]
+  CellSheet passages;     ///< of contacts over the cell
+  CellSheet pressure;     ///< largest [Pa]
+  CellSheet traction;     ///< largest [Pa]
+  CellSheet t_gamma;      ///< largest of the contacts that passed [N]
+  CellSheet fi_surf;      ///< largest surface fatigue index above 0 of the contacts that passed [-]
+  CellSheet damage;       ///< sum over passages by their T gamma [-]
+  CellSheet temperature;  ///< largest above 0 [deg C]
   std::vector<StressRecord> stresses;
   double volume_by_law = 0.0;     ///< sum of what the law takes from the elements of the contacts [m3]
   double work_of_contacts = 0.0;  ///< sum over the power that the contacts state [J]
@@ -106,7 +107,8 @@ inline constexpr SheetRow<SurfaceRecord> kSheets[] = {
     {&SurfaceRecord::traction, "traction", "Pa", "largest", false},
     {&SurfaceRecord::t_gamma, "t_gamma", "N", "largest of the contacts that passed", false},
     {&SurfaceRecord::fi_surf, "fi_surf", "1", "largest surface fatigue index above 0", false},
-    {&SurfaceRecord::damage, "damage", "1", "sum over passages by their T gamma", true}};
+    {&SurfaceRecord::damage, "damage", "1", "sum over passages by their T gamma", true},
+    {&SurfaceRecord::temperature, "temperature", "degC", "largest above 0", false}};
 inline constexpr SheetRow<StressRecord> kStressSheets[] = {
     {&StressRecord::von_mises, "von_mises", "Pa", "largest", false},
     {&StressRecord::shear, "shear", "Pa", "largest amplitude of all planes", false},

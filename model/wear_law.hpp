@@ -45,14 +45,14 @@ struct WearTheoryRow {
 /// Rows lie in the order of the enumerators.
 inline constexpr WearTheoryRow kWearTheories[] = {
     {WearTheory::archard, "archard", "depth = k pressure sliding / hardness, k by regimes of slip speed and pressure",
-     "Archard 1953; regimes as Jendel 2002", "dry sliding of metals; k scatters by a factor of two and more",
-     "hardness_GPa k"},
+     "Archard 1953; regimes as Jendel 2002 (unverified: from secondary literature)",
+     "dry sliding of metals; k scatters by a factor of two and more", "hardness_GPa k"},
     {WearTheory::t_gamma, "t_gamma", "mass by distance and area from T gamma over the area of contact, a broken line",
      "Lewis et al. 2003, Braghin et al. 2006", "twin-disc tests of the pair of steels that the line is from",
      "t_gamma_area_MPa wear_rate_ug_m_mm2 density_kg_m3"},
     {WearTheory::energy, "energy", "volume = coefficient times work of friction, by regimes of its power by area",
-     "Krause and Poll 1986", "mild and severe wear of dry wheels and rails; the power is that of the whole patch",
-     "volume_per_work_mm3_J"}};
+     "Krause and Poll 1986 (unverified: from secondary literature)",
+     "mild and severe wear of dry wheels and rails; the power is that of the whole patch", "volume_per_work_mm3_J"}};
 
 /// Errors: Error(configuration) that names the key for numbers that are missing, negative or out of order.
 void check(const WearLaw& law);

@@ -39,6 +39,7 @@ EvolutionJson json_of(const io::EvolvedFatigue& known, const ContactFatigue& c) 
   if (known.has(FatigueMeasure::fi_surf)) out["fi_surf"] = evolved_number(c.fi_surf);
   if (known.has(FatigueMeasure::shakedown)) out["shakedown"] = evolved_number(c.shakedown);
   if (known.has(FatigueMeasure::whole_life)) out["damage_per_passage"] = evolved_number(c.damage);
+  if (known.has(FatigueMeasure::martensite)) out["temperature_C"] = evolved_number(c.temperature);
   return out;
 }
 

@@ -38,6 +38,7 @@ damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool l
   out.power = std::max(0.0, -patch.frictional_power);
   out.normal_force = patch.fn;
   out.traction_force = std::hypot(patch.fx, patch.fs);
+  const std::vector<double>& temperature = body == Body::wheel ? f.temperature_2 : f.temperature_1;
   const std::vector<Vec2> edges = io::row_edges(f, patch.reference_s);
   for (int iy = 0; iy < f.grid.ny; ++iy) {
     const Vec2 &low = edges[static_cast<std::size_t>(iy)], &high = edges[static_cast<std::size_t>(iy) + 1];
@@ -50,7 +51,8 @@ damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool l
       };
       const auto [y_low, y_high] = std::minmax({at(low).y, at(high).y});
       out.elements.push_back({at(middle).u, y_low, y_high, f.pressure[i], std::hypot(f.traction_x[i], f.traction_s[i]),
-                              std::hypot(f.slip_x[i], f.slip_s[i]), std::max(0.0, f.dissipation[i])});
+                              std::hypot(f.slip_x[i], f.slip_s[i]), std::max(0.0, f.dissipation[i]),
+                              temperature.empty() ? 0.0 : temperature[i]});
     }
   }
   return out;
@@ -123,6 +125,9 @@ std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io:
     if (patch.fields.dissipation.empty() || patch.fields.slip_x.empty())
       throw Error(ErrorKind::configuration, "a case of an evolution needs tractions and slip of its contacts",
                   given.where, "choose a tangential model other than none, without a plastic layer");
+    if (fatigue.has(FatigueMeasure::martensite) && patch.fields.temperature_1.empty())
+      throw Error(ErrorKind::configuration, "martensite needs the temperatures of contacts", given.where,
+                  "say heat.compute = true in the base: temperatures are those of steady rolling at a speed");
     out.push_back(passed_patch(patch, body, input.side == Side::left, X_BT));
     out.back().fatigue = damage::contact_fatigue(fatigue, out.back());
   }

@@ -61,6 +61,12 @@ void add_fatigue(const EvolvedBody& b, const std::string& name, std::vector<Evol
   if (f.has(FatigueMeasure::dang_van))
     out.push_back({name + "_dang_van_ever", "1", "largest equivalent stress of Dang Van over its limit, > 1: fatigue",
                    ever(&StressRecord::dang_van) / f.dang_van_limit});
+  if (f.has(FatigueMeasure::martensite)) {
+    out.push_back({name + "_temperature_C", "degC", "largest of the surface", present(&ContactFatigue::temperature)});
+    out.push_back({name + "_over_austenite_ever_K", "K",
+                   "largest temperature that has passed, less that of austenite, > 0: martensite may form",
+                   largest_of(b.record.temperature) - f.austenite});
+  }
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ namespace treadmark::io {
 struct EvolvedFatigue {
   std::string measures, source;  ///< words of kFatigueMeasures with blanks between them, and where the numbers are from
   double shear_yield = 0.0, dang_van_limit = 0.0;  ///< [Pa]
+  double austenite = 0.0;                          ///< [deg C]
   std::vector<double> depths;                      ///< of the stresses of the record [m]
   std::vector<ContactFatigue> contacts;            ///< by case: the largest of its patches
   bool has(FatigueMeasure measure) const;

@@ -31,7 +31,8 @@ constexpr ContactRow kContactNumbers[] = {
     {&ContactFatigue::pressure_ratio, "pressure_ratio", "largest pressure over shear yield"},
     {&ContactFatigue::fi_surf, "fi_surf", "surface fatigue index"},
     {&ContactFatigue::shakedown, "shakedown", "pressure ratio over the limit of the shakedown map"},
-    {&ContactFatigue::damage, "damage", "of a passage by its T gamma"}};
+    {&ContactFatigue::damage, "damage", "of a passage by its T gamma"},
+    {&ContactFatigue::temperature, "temperature", "largest of the surface [degC]"}};
 
 template <class Record>
 void write_sheet(const Hdf5GroupWriter& parent, const SheetRow<Record>& what, const Record& record) {
@@ -71,7 +72,8 @@ void write_fatigue(const Hdf5GroupWriter& body, const EvolvedFatigue& fatigue, c
   const std::vector<Attribute> head{{"measures", fatigue.measures},
                                     {"source", fatigue.source},
                                     {"shear_yield", fatigue.shear_yield},
-                                    {"dang_van_limit", fatigue.dang_van_limit}};
+                                    {"dang_van_limit", fatigue.dang_van_limit},
+                                    {"austenite", fatigue.austenite}};
   group.add(head);
   group.write({"depths", {fatigue.depths.size()}, "m", "below the surface, of the groups depth_1 ..."}, fatigue.depths);
   for (const ContactRow& row : kContactNumbers) {
@@ -92,6 +94,7 @@ void read_fatigue(const Hdf5GroupReader& body, const SurfaceCells& cells, Evolve
   const Hdf5GroupReader group = body.open_group("fatigue");
   fatigue.measures = group.text("measures"), fatigue.source = group.text("source");
   fatigue.shear_yield = group.number("shear_yield"), fatigue.dang_van_limit = group.number("dang_van_limit");
+  fatigue.austenite = group.number("austenite");
   fatigue.depths = group.numbers("depths");
   for (const ContactRow& row : kContactNumbers) {
     const std::vector<double> values = group.numbers(row.name);

@@ -721,6 +721,8 @@ const std::vector<SettingKey<FatigueSettings>>& plain_fatigue_keys() {
            [](F& f) -> double& { return f.dang_van_slope; });
     number("dang_van_limit_MPa", kPositive, "dang_van: equivalent shear stress that is endured",
            [](F& f) -> double& { return f.dang_van_limit; });
+    number("austenite_C", kPositive, "martensite: temperature from which on the steel becomes austenite",
+           [](F& f) -> double& { return f.austenite; });
     list.number_list(
         "t_gamma_N", "whole_life: points of a broken line, which goes on straight behind the last",
         [](F & f) -> auto& { return f.t_gamma; }, kNotNegative);

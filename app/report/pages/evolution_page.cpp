@@ -79,6 +79,9 @@ std::vector<SectionLine> endured(const io::EvolvedBody& b) {
   if (b.fatigue.has(FatigueMeasure::whole_life))
     out.push_back(
         {"damage of passages", "", "damage", 1.0, [](Record r, std::size_t) -> const CellSheet& { return r.damage; }});
+  if (b.fatigue.has(FatigueMeasure::martensite))
+    out.push_back({"largest temperature up to here", "°C", "temperature", 1.0,
+                   [](Record r, std::size_t) -> const CellSheet& { return r.temperature; }});
   const auto at_depths = [&](const std::string& panel, const std::string& unit, double scale, auto sheet) {
     for (std::size_t k = 0; k < b.fatigue.depths.size(); ++k)
       out.push_back({panel, unit, fmt::format("{:.3g} mm deep", kMilli * b.fatigue.depths[k]), scale, sheet, k});
