@@ -192,7 +192,8 @@ class EvolutionRun {
     return rates;
   }
 
-  io::Generation generation_of(const Solved& solved, const Records& records) const {
+  /// Takes the records over: there is one copy of each generation.
+  io::Generation generation_of(const Solved& solved, Records&& records) const {
     io::Generation g;
     g.numbers = solved.contacts.numbers;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
@@ -202,9 +203,9 @@ class EvolutionRun {
       out.law = kWearTheories[static_cast<std::size_t>(body.input.law.theory)].word;
       out.source = body.input.law.source;
       out.cells = body.cells;
-      out.record = records[b];
       out.fatigue = fatigue_of(body.input.fatigue, solved.patches[b]);
       const damage::DepthExtent extent = damage::depth_extent(body.cells, records[b].volume);
+      out.record = std::move(records[b]);
       out.max_depth = extent.depth;
       out.max_slope = extent.slope;
       std::vector<Vec2> points;
@@ -237,16 +238,17 @@ class EvolutionRun {
     return g;
   }
 
-  void write(io::Generation& g, const Records& records, const PassedContacts& contacts) const {
+  void write(io::Generation& g, const PassedContacts& contacts) const {
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
-      if (records[b].volume.rows().empty()) continue;
+      const SurfaceRecord& record = g.bodies[b].record;
+      if (record.volume.rows().empty()) continue;
       g.bodies[b].surface_file = fmt::format("{}_{:04}.vdb", body_name(body.input.body), g.number);
       Representation wanted{"offset", std::min(body.cells.dy, body.input.du), {}};
       if (body.input.body == Body::rail)
         wanted.region.u_min = -body.half_length, wanted.region.u_max = body.half_length;
-      write_added_offsets(options_.folder / g.bodies[b].surface_file, *body.given.surface, map_of(body, records[b]),
-                          wanted, fmt::format("{}, generation {}", file_.positions.title, g.number));
+      write_added_offsets(options_.folder / g.bodies[b].surface_file, *body.given.surface, map_of(body, record), wanted,
+                          fmt::format("{}, generation {}", file_.positions.title, g.number));
     }
     if (file_.fields_every > 0 && g.number % file_.fields_every == 0) {
       for (std::size_t k = 0; k < contacts.simulations.size(); ++k)
@@ -310,28 +312,29 @@ class EvolutionRun {
   }
 
   void evolve(io::EvolutionResult& result) {
-    Records records;
-    records.reserve(bodies_.size());
-    for (const Evolving& body : bodies_) records.push_back(empty_record(body));
     if (!result.generations.empty()) {
-      for (std::size_t b = 0; b < bodies_.size(); ++b) records[b] = result.generations.back().bodies[b].record;
       report(result.generations.back());
       if (result.generations.back().progress >= 1.0) return;
     }
-    Solved solved = solve(records);
+    Records start;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      start.push_back(result.generations.empty() ? empty_record(bodies_[b])
+                                                 : result.generations.back().bodies[b].record);
+    Solved solved = solve(start);
     if (result.generations.empty()) {
-      io::Generation first = generation_of(solved, records);
+      io::Generation first = generation_of(solved, std::move(start));
       first.next_step = file_.updates > 0 ? 1.0 / file_.updates : 1.0;
-      write(first, records, solved.contacts);
+      write(first, solved.contacts);
       result.generations.push_back(std::move(first));
     }
+    start = {};
     while (result.generations.back().progress < 1.0) {
-      advance(result, records, solved);
+      advance(result, solved);
       report(result.generations.back());
     }
   }
 
-  void advance(io::EvolutionResult& result, Records& records, Solved& present) {
+  void advance(io::EvolutionResult& result, Solved& present) {
     const io::Generation& now = result.generations.back();
     const Records rates = rates_of(present);
     const bool adaptive = file_.updates == 0;
@@ -344,11 +347,11 @@ class EvolutionRun {
         SurfaceRecord update = empty_record(bodies_[b]);
         damage::add_times(update, rates[b], step);
         check_update(bodies_[b], update);
-        trial.push_back(records[b]);
+        trial.push_back(now.bodies[b].record);
         damage::add_times(trial.back(), update, 1.0);
       }
       Solved solved = solve(trial);
-      io::Generation next = generation_of(solved, trial);
+      io::Generation next = generation_of(solved, std::move(trial));
       next.pressure_change = pressure_change(now, next);
       const bool kept = next.pressure_change <= file_.max_pressure_change;
       if (adaptive && !kept && step > file_.smallest_step) {
@@ -366,8 +369,7 @@ class EvolutionRun {
       next.next_step = std::max(next.next_step, file_.smallest_step);
       for (const Evolving& body : bodies_)
         (body.input.body == Body::wheel ? next.distance : next.passages) = next.progress * body.input.amount;
-      write(next, trial, solved.contacts);
-      records = std::move(trial);
+      write(next, solved.contacts);
       present = std::move(solved);
       io::forget_records(result.generations.back());  // generation_0001.h5 and its like have them
       result.generations.push_back(std::move(next));

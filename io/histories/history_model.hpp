@@ -44,11 +44,11 @@ struct ModeRow {
 /// after a resumption too.
 struct SnapshotScene {
   bool nominal = false;   ///< the instant at the start of the watched wheel
-  std::size_t wheel = 0;  ///< of the simulation, from 0; no store has it
   bool drawn = false;     ///< of the watched wheel: a first passage of a pitch angle that was asked for, or a position
   Grid2 depth_grid = {};  ///< x, y of the track, x from the axle [m]
   std::vector<double> depth =
-      {};  ///< of the wheel's defect at its points [m], NaN = not known; empty: the wheel has none
+      {};                 ///< of the wheel's defect at its points [m], NaN = not known; empty: the wheel has none
+  std::size_t wheel = 0;  ///< of the simulation, from 0; no store has it
 };
 
 /// A simulation, complete or not. It holds no wall-clock times, so that the results of an interrupted and resumed

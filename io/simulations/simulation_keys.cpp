@@ -776,20 +776,24 @@ const TableKeys& mark_keys() {
 std::string vehicle_file_schema() { return schema_of("Treadmark vehicle file", vehicle_tables(), false); }
 std::string track_file_schema() { return schema_of("Treadmark track file", track_tables(), false); }
 std::string simulation_file_schema() { return schema_of("Treadmark simulation file", simulation_tables(), true); }
-std::string evolve_file_schema() {
-  TableKeys keys{needed(table_key("evolve", KeyType::table, "surfaces that contact changes", evolve_keys())),
-                 table_key("cases", KeyType::table_list, "of the base, a case file")};
-  return schema_of("Treadmark evolution file", std::move(keys), true);
-}
+namespace {
 
-std::string study_file_schema() {
-  // Beside [study] the tables of its base may stand.
-  TableKeys keys = study_tables();
+/// The tables of a base beside those of its study or evolution.
+TableKeys with_base(TableKeys keys) {
   keys.push_back(table_key("simulation", KeyType::table, "of the base", simulation_keys()));
   for (KeyInfo& key : line_tables()) keys.push_back(std::move(key));
   keys.push_back(table_key("cases", KeyType::table_list, "of the base, a case file"));
-  return schema_of("Treadmark study file", std::move(keys), true);
+  return keys;
 }
+
+}  // namespace
+
+std::string evolve_file_schema() {
+  TableKeys keys{needed(table_key("evolve", KeyType::table, "surfaces that contact changes", evolve_keys()))};
+  return schema_of("Treadmark evolution file", with_base(std::move(keys)), true);
+}
+
+std::string study_file_schema() { return schema_of("Treadmark study file", with_base(study_tables()), true); }
 
 std::string vehicle_key_table() { return key_table(vehicle_tables()); }
 std::string track_key_table() { return key_table(std::span(track_tables()).first(5)); }

@@ -87,6 +87,13 @@ TEST(SimulationSchema, DescribesTheExamples) {
   }
 }
 
+TEST(SimulationSchema, DescribesEvolutionsOfBothBases) {
+  const Json schema = Json::parse(evolve_file_schema());
+  for (const char* name : {"flat-in-motion.toml", "spread-of-rails.toml"})
+    expect_described(toml::parse(read_text(std::filesystem::path(TREADMARK_SOURCE_DIR) / "examples" / name)), schema,
+                     name);
+}
+
 TEST(SimulationSchema, HasLimitsAndDefaults) {
   const Json schema = Json::parse(simulation_file_schema());
   const Json& simulation = schema.at("properties").at("simulation");
