@@ -151,6 +151,8 @@ class SimulatedContacts : public ContactSource {
           throw Error(ErrorKind::numerical, fmt::format("{}: {}", to_string(c.status), c.message));
         input.state.position.x = c.s, input.state.position.pitch = c.pitch;
         out.run.cases.push_back(c);
+        out.run.cases.back().wheel_surface.clear();  // the simulation keeps the surfaces that it sampled
+        out.run.cases.back().rail_surface.clear();
         PassedCase& passed = out.passed.emplace_back();
         passed.given.number = out.run.cases.back().number = static_cast<int>(out.run.cases.size());
         passed.given.content = input;

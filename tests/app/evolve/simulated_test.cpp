@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "treadmark/app/evolve/run_evolution.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/damage/record.hpp"
 #include "treadmark/io/files/replaced.hpp"
@@ -123,6 +124,12 @@ TEST_F(SimulatedEvolution, FirstGenerationIsTheSimulation) {
   const std::string first = bytes_of(path("out") + "/simulation_0000.h5");
   ASSERT_FALSE(first.empty());
   EXPECT_TRUE(first == bytes_of(path("simulated") + "/simulation.h5"));
+
+  if (has_part("report")) {
+    const ProgramResult report = run_program({"report", path("out"), "-o", path("page.html")});
+    EXPECT_EQ(report.status, 0) << report.err;
+    EXPECT_THAT(bytes_of(path("page.html")), HasSubstr("largest vertical force of a simulation"));
+  }
 
   const io::EvolutionResult result = io::read_evolution_folder(path("out"));
   ASSERT_EQ(result.status, "complete");
