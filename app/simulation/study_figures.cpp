@@ -98,8 +98,7 @@ class Figures {
     std::string label = run.label;
     for (const auto& [key, value] : run.swept)
       if (key == figure.series) label = value;
-    for (std::size_t v = 0; v < file_.variations.size(); ++v) {
-      const io::Variation& variation = file_.variations[v];
+    for (const io::Variation& variation : file_.variations) {
       if (variation.key != figure.series && variation.label != figure.series) continue;
       for (std::size_t i = 0; i < variation.values.size() && i < figure.labels.size(); ++i)
         if (variation.values[i].label == label) return figure.labels[i];
