@@ -92,8 +92,8 @@ if(TREADMARK_HAVE_PYTHON)
   endif()
 endif()
 
-# What the program is made with, for `treadmark --version --json`: name, version, licence (SPDX), and the shared library that it
-# loads ("" for headers alone).
+# What the program is made with, for `treadmark --version --json` and `--spdx`: name, version, licence (SPDX), and the shared library
+# that it loads ("" for headers alone).
 set(TREADMARK_LIBRARY_ROWS "")
 function(treadmark_uses name version licence shared)
   string(APPEND TREADMARK_LIBRARY_ROWS "    {\"${name}\", \"${version}\", \"${licence}\", \"${shared}\"},\n")
@@ -148,6 +148,26 @@ if(TREADMARK_HAVE_E57)
 endif()
 if(TREADMARK_HAVE_FMU)
   treadmark_uses_by_pc("libzip" libzip "BSD-3-Clause" "libzip")
+endif()
+if(TREADMARK_HAVE_REPORT_SCRIPTS)
+  # What reports hold of packages of npm: those that the lock file does not mark as for building alone.
+  set(lock_file "${PROJECT_SOURCE_DIR}/app/report/web/package-lock.json")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${lock_file}")
+  file(READ "${lock_file}" lock)
+  string(JSON locked GET "${lock}" packages)
+  string(JSON count LENGTH "${locked}")
+  math(EXPR last "${count} - 1")
+  foreach(i RANGE 1 ${last})  # the first is ours
+    string(JSON place MEMBER "${locked}" ${i})
+    string(JSON entry GET "${locked}" "${place}")
+    string(JSON for_building ERROR_VARIABLE bundled GET "${entry}" dev)
+    if(bundled)
+      string(JSON version GET "${entry}" version)
+      string(JSON licence GET "${entry}" license)
+      string(REGEX REPLACE "^node_modules/" "" name "${place}")
+      string(APPEND TREADMARK_LIBRARY_ROWS "    {\"${name}\", \"${version}\", \"${licence}\", \"\", true},\n")
+    endif()
+  endforeach()
 endif()
 
 if(TREADMARK_BUILD_TESTS)

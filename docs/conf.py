@@ -13,6 +13,9 @@ include_patterns = ["README.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md
 exclude_patterns = ["build*", "out*", "shared", "**/node_modules", ".*"]
 html_title = "Treadmark"
 html_copy_source = False
+html_static_path = ["site"]
+html_css_files = ["site.css"]
+html_js_files = ["site.js"]
 myst_heading_anchors = 4
 myst_enable_extensions = ["html_image"]
 # Programs and files of other kinds are shown as they are.

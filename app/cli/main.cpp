@@ -94,7 +94,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::App program{"Treadmark: wheel-rail contact on any 3D surface"};
   program.set_version_flag(
       "--version", "treadmark " + app::version() + " (" + app::git_revision() + ")\n" + app::build_description(),
-      "Display version and parts of the program; with --json behind it also libraries and licences, for programs");
+      "Display version and parts of the program; with --json behind it also libraries and licences, for programs; with "
+      "--spdx as a bill of materials (SPDX)");
   program.require_subcommand(1);
   program.fallthrough();
   program.footer(
@@ -119,6 +120,10 @@ int parse_and_run(int argc, char** argv) {
   using namespace std::string_view_literals;
   if (argc == 3 && argv[1] == "--version"sv && argv[2] == "--json"sv) {
     std::cout << app::version_json();
+    return cli::kOk;
+  }
+  if (argc == 3 && argv[1] == "--version"sv && argv[2] == "--spdx"sv) {
+    std::cout << app::version_spdx();
     return cli::kOk;
   }
   require_verb(argc, argv);

@@ -146,7 +146,7 @@ Command add_scan(CLI::App& verb) {
                   "Factor from units of the surface's file to mm (1000 for a file in m)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--seed", options->seed, "Of all random numbers, default 1; the same seed gives the same points");
-  add_overrides(verb, options->overrides);
+  add_overrides(verb, options->overrides, "wheel.flats.0.depth_mm=1");
   return command(options, scan_command);
 }
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# FOLDER gets the manual pages and completions that PROGRAM prints, in the places below share/ where they are looked for.
+# FOLDER gets the manual pages, completions and bill of materials that PROGRAM prints, in the places below share/ where they are looked for.
 function(print file)
   execute_process(COMMAND "${PROGRAM}" ${ARGN} OUTPUT_VARIABLE text RESULT_VARIABLE status)
   if(NOT status EQUAL 0)
@@ -13,6 +13,7 @@ print(bash-completion/completions/treadmark completion bash)
 print(zsh/vendor-completions/_treadmark completion zsh)
 print(fish/vendor_completions.d/treadmark.fish completion fish)
 print(man/man1/treadmark.1 man)
+print(doc/treadmark/treadmark.spdx.json --version --spdx)
 execute_process(COMMAND "${PROGRAM}" list verbs OUTPUT_VARIABLE verbs)
 string(REGEX MATCHALL "[^\n]+" verbs "${verbs}")
 foreach(verb IN LISTS verbs)

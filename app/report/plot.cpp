@@ -70,6 +70,11 @@ std::vector<std::pair<std::string, std::string>> plots_of(const Page& page) {
 std::string plot(const Page& page, const std::string& what, const std::vector<int>& cases) {
   if (const FieldInfo* field = find_field(what); field && has_field(page, *field))
     return field_svg(chosen(page, cases), *field, page.title);
+  if (what == kSection && !page.surfaces.empty()) {
+    if (cases.size() > 1)
+      throw Error(ErrorKind::configuration, "a section is that of one case", {}, "give one number after --case");
+    if (!cases.empty()) return section_svg({"", {}, chosen(page, cases)}, page.surfaces);
+  }
   if (!cases.empty())
     throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
   if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SceneView{0}}, page).front();

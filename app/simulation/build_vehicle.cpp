@@ -350,7 +350,7 @@ vehicle::VehicleOnTrack outline(const io::SimulationFile& file, bool irregularit
   v.line = build_line(file, v.system, irregularities);
   for (const io::WheelContactInput& wheel : file.wheels)
     v.wheels.push_back({wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()});
-  HistoryRecord::check(file, v);
+  HistoryRecord::columns_of(file, v);  // refuses names that are none
   vehicle::check(integration_settings(file));
   return v;
 }
@@ -407,6 +407,10 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   };
   if (fields && std::ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
   return built;
+}
+
+std::vector<io::HistoryColumn> history_columns(const io::SimulationFile& file) {
+  return HistoryRecord::columns_of(file, outline(file, false));
 }
 
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {

@@ -11,6 +11,7 @@
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
+#include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/solvers/vehicle/full_contact.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
@@ -49,6 +50,10 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
 
 /// Finds the errors of build_vehicle without solving contact tables.
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store);
+
+/// What the columns of a history will be, without solving anything. Errors: as build_vehicle, but for those of
+/// surfaces.
+std::vector<io::HistoryColumn> history_columns(const io::SimulationFile& file);
 
 /// Settings of the integration.
 vehicle::SimulationSettings integration_settings(const io::SimulationFile& file);

@@ -42,7 +42,24 @@ std::vector<CaseColumn> case_columns() {
           {{"patches", "1", "contact patches"}, [](C c) { return static_cast<double>(c.patches.size()); }}};
 }
 
+/// What the largest of a column is called in the summary: as in that of a simulation, where it has it too.
+std::string largest_name(const std::string& column) {
+  if (column == "Q_N") return "q_max_N";
+  if (column == "pmax_Pa") return column;
+  const std::string::size_type unit = column.rfind('_');
+  return unit == std::string::npos ? column + "_max" : column.substr(0, unit) + "_max" + column.substr(unit);
+}
+
 }  // namespace
+
+RunNames case_run_names() {
+  RunNames names;
+  for (const CaseColumn& column : case_columns()) {
+    if (!names.columns.empty()) names.summary.push_back(largest_name(column.head.name));  // not of the case's number
+    names.columns.push_back(column.head.name);
+  }
+  return names;
+}
 
 io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store, const SimulationOptions& options,
                                    const Progress& progress) {
@@ -61,14 +78,8 @@ io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store
   for (std::size_t i = 1; i < columns.size() && !run.cases.empty(); ++i) {
     double largest = columns[i].value(run.cases.front());
     for (const io::CaseResult& c : run.cases) largest = std::max(largest, columns[i].value(c));
-    const std::string& name = columns[i].head.name;
-    const std::string::size_type unit = name.rfind('_');
-    const std::string summary =
-        unit == std::string::npos ? name + "_max" : name.substr(0, unit) + "_max" + name.substr(unit);
-    result.summary.push_back({summary == "Q_max_N"       ? "q_max_N"
-                              : summary == "pmax_max_Pa" ? "pmax_Pa"
-                                                         : summary,
-                              largest, columns[i].head.unit, "largest of all cases: " + columns[i].head.description});
+    result.summary.push_back({largest_name(columns[i].head.name), largest, columns[i].head.unit,
+                              "largest of all cases: " + columns[i].head.description});
   }
   // Times of this computer are not results.
   for (io::CaseResult& c : run.cases) c.seconds = c.search_s = c.distance_s = c.normal_s = c.tangential_s = 0.0;

@@ -103,8 +103,9 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
   if (file.assessment) io::fitting_columns(columns(), file.assessment->spectra, {file.path.string()});
 }
 
-void HistoryRecord::check(const io::SimulationFile& file, const vehicle::VehicleOnTrack& vehicle) {
-  HistoryRecord(file, vehicle, nullptr);
+std::vector<io::HistoryColumn> HistoryRecord::columns_of(const io::SimulationFile& file,
+                                                         const vehicle::VehicleOnTrack& vehicle) {
+  return HistoryRecord(file, vehicle, nullptr).columns();
 }
 
 void HistoryRecord::add_line(bool irregular) {
@@ -294,35 +295,62 @@ void HistorySummary::note() {
   begun_ = true;
 }
 
+struct HistorySummary::Row {
+  const char *name, *unit, *description;
+  double (*value)(const HistorySummary&);
+};
+
+std::vector<HistorySummary::Row> HistorySummary::rows(bool has_pressure) {
+  using S = const HistorySummary&;
+  std::vector<Row> rows{
+      {"q_max_N", "N", "largest vertical force", [](S s) { return s.highest_.value; }},
+      {"q_max_t_s", "s", "when", [](S s) { return s.highest_.time; }},
+      {"q_max_x_m", "m", "where", [](S s) { return s.simulation_.vehicle().travel(s.highest_.time).distance; }},
+      {"q_min_N", "N", "least vertical force", [](S s) { return s.lowest_.value; }},
+      {"q_static_N", "N", "vertical force at the start", [](S s) { return s.at_rest_; }},
+      {"q_max_over_static", "1", "largest vertical force over that at the start",
+       [](S s) { return s.highest_.value / s.at_rest_; }},
+      {"ty_max_N", "N", "largest lateral creep force", [](S s) { return s.ty_max_.value; }},
+      {"ty_min_N", "N", "least lateral creep force", [](S s) { return s.ty_min_.value; }}};
+  if (has_pressure) {
+    rows.push_back({"pmax_Pa", "Pa", "largest contact pressure", [](S s) { return s.pmax_.value; }});
+    rows.push_back({"doubtful_steps", "1", "steps with a grave remark on the contact",
+                    [](S s) { return static_cast<double>(s.doubtful_); }});
+  }
+  const std::initializer_list<Row> rest = {
+      {"contact_lost", "1", "how often a wheel lost contact",
+       [](S s) {
+         return static_cast<double>(
+             std::ranges::count(s.simulation_.events(), false, &vehicle::ContactEvent::regained));
+       }},
+      {"energy_turnover_J", "J", "work of contacts and dampers, all counted positive",
+       [](S s) { return s.simulation_.energy().turnover; }},
+      {"energy_integration_error", "1", "over the turnover",
+       [](S s) { return s.simulation_.energy().integration_error(s.simulation_.energy_at_start()) / s.turnover(); }},
+      {"energy_contact_error", "1", "over the turnover",
+       [](S s) { return s.simulation_.energy().contact_error(s.simulation_.energy_at_start()) / s.turnover(); }},
+      {"steps", "1", "accepted time steps", [](S s) { return static_cast<double>(s.simulation_.counts().steps); }},
+      {"steps_rejected", "1", "time steps that were repeated",
+       [](S s) { return static_cast<double>(s.simulation_.counts().rejected); }},
+      {"contact_rounds", "1", "evaluations of all contacts",
+       [](S s) { return static_cast<double>(s.simulation_.counts().evaluations); }}};
+  rows.insert(rows.end(), rest);
+  return rows;
+}
+
+double HistorySummary::turnover() const { return std::max(simulation_.energy().turnover, 1e-300); }
+
 std::vector<io::NamedValue> HistorySummary::values() const {
   std::vector<io::NamedValue> summary;
   if (!begun_) return summary;
-  const auto add = [&](const char* name, double value, const char* unit, const char* description) {
-    summary.push_back({name, value, unit, description});
-  };
-  add("q_max_N", highest_.value, "N", "largest vertical force");
-  add("q_max_t_s", highest_.time, "s", "when");
-  add("q_max_x_m", simulation_.vehicle().travel(highest_.time).distance, "m", "where");
-  add("q_min_N", lowest_.value, "N", "least vertical force");
-  add("q_static_N", at_rest_, "N", "vertical force at the start");
-  add("q_max_over_static", highest_.value / at_rest_, "1", "largest vertical force over that at the start");
-  add("ty_max_N", ty_max_.value, "N", "largest lateral creep force");
-  add("ty_min_N", ty_min_.value, "N", "least lateral creep force");
-  if (has_pressure_) add("pmax_Pa", pmax_.value, "Pa", "largest contact pressure");
-  if (has_pressure_)
-    add("doubtful_steps", static_cast<double>(doubtful_), "1", "steps with a grave remark on the contact");
-  add("contact_lost",
-      static_cast<double>(std::ranges::count(simulation_.events(), false, &vehicle::ContactEvent::regained)), "1",
-      "how often a wheel lost contact");
-  const vehicle::EnergyBalance &e = simulation_.energy(), &start = simulation_.energy_at_start();
-  const double turnover = std::max(e.turnover, 1e-300);
-  add("energy_turnover_J", e.turnover, "J", "work of contacts and dampers, all counted positive");
-  add("energy_integration_error", e.integration_error(start) / turnover, "1", "over the turnover");
-  add("energy_contact_error", e.contact_error(start) / turnover, "1", "over the turnover");
-  add("steps", static_cast<double>(simulation_.counts().steps), "1", "accepted time steps");
-  add("steps_rejected", static_cast<double>(simulation_.counts().rejected), "1", "time steps that were repeated");
-  add("contact_rounds", static_cast<double>(simulation_.counts().evaluations), "1", "evaluations of all contacts");
+  for (const Row& row : rows(has_pressure_)) summary.push_back({row.name, row.value(*this), row.unit, row.description});
   return summary;
+}
+
+std::vector<std::string> HistorySummary::names(const io::SimulationFile& file) {
+  std::vector<std::string> names;
+  for (const Row& row : rows(is_full(file, watched_wheel(file)))) names.emplace_back(row.name);
+  return names;
 }
 
 void HistorySummary::save(ByteWriter& out) const {

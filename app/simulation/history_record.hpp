@@ -31,9 +31,10 @@ class HistoryRecord {
   /// simulation: of the file's vehicle. Both must outlive this. Errors: those of check.
   HistoryRecord(const io::SimulationFile& file, const vehicle::Simulation& simulation);
 
-  /// Finds the errors of a history before there is a simulation; vehicle: its wheels may lack their contacts. Errors:
+  /// What its columns are, before there is a simulation; vehicle: its wheels may lack their contacts. Errors:
   /// Error(configuration) with the place of channels, also of those of spectra, that are none.
-  static void check(const io::SimulationFile& file, const vehicle::VehicleOnTrack& vehicle);
+  static std::vector<io::HistoryColumn> columns_of(const io::SimulationFile& file,
+                                                   const vehicle::VehicleOnTrack& vehicle);
 
   std::vector<io::HistoryColumn> columns() const;
   /// Appends the present instant.
@@ -71,6 +72,8 @@ class HistorySummary {
   void note();
   /// SI; empty before the first instant.
   std::vector<io::NamedValue> values() const;
+  /// What they are called.
+  static std::vector<std::string> names(const io::SimulationFile& file);
 
   void save(ByteWriter& out) const;
   /// Errors: Error(input_data) where bytes end too early.
@@ -80,6 +83,9 @@ class HistorySummary {
   struct Extreme {
     double value = 0.0, time = 0.0;  ///< SI, [s]
   };
+  struct Row;
+  static std::vector<Row> rows(bool has_pressure);
+  double turnover() const;
 
   const vehicle::Simulation& simulation_;
   std::size_t watched_;

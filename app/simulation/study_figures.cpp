@@ -7,10 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/simulation/case_run.hpp"
+#include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/io/simulations/table_reader.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
 #include "treadmark/pictures/histories/summary_svg.hpp"
 
@@ -93,8 +98,7 @@ class Figures {
     std::string label = run.label;
     for (const auto& [key, value] : run.swept)
       if (key == figure.series) label = value;
-    for (std::size_t v = 0; v < file_.variations.size(); ++v) {
-      const io::Variation& variation = file_.variations[v];
+    for (const io::Variation& variation : file_.variations) {
       if (variation.key != figure.series && variation.label != figure.series) continue;
       for (std::size_t i = 0; i < variation.values.size() && i < figure.labels.size(); ++i)
         if (variation.values[i].label == label) return figure.labels[i];
@@ -164,12 +168,55 @@ class Figures {
   std::map<int, io::SimulationResult> results_;
 };
 
+RunNames names_of(const io::StudyFile& file, const io::StudyRun& of) {
+  const auto run = io::read_study_run(file, of);
+  const auto* simulation = std::get_if<io::SimulationFile>(&run);
+  if (simulation == nullptr) return case_run_names();
+  RunNames names{{}, HistorySummary::names(*simulation)};
+  for (const io::HistoryColumn& column : history_columns(*simulation)) names.columns.push_back(column.name);
+  return names;
+}
+
+/// What the runs of a study can show. Those count that differ from the first one in one variation at most.
+class NamesOfStudy {
+ public:
+  explicit NamesOfStudy(const io::StudyFile& file) : file_(file), names_(names_of(file, file.runs.front())) {}
+
+  void require(const std::string& what, const std::string& name, std::vector<std::string> RunNames::*list,
+               const SourcePosition& where) {
+    while (std::ranges::find(names_.*list, name) == (names_.*list).end() && add_next()) {
+    }
+    io::check_name(what, name, names_.*list, where);
+  }
+
+ private:
+  bool add_next() {
+    const auto is_asked = [](const io::StudyRun& run) {
+      return std::ranges::count_if(run.values, [](std::size_t value) { return value != 0; }) == 1;
+    };
+    while (++next_ < file_.runs.size())
+      if (const io::StudyRun& run = file_.runs[next_]; is_asked(run)) {
+        const RunNames more = names_of(file_, run);
+        for (auto list : {&RunNames::columns, &RunNames::summary})
+          for (const std::string& name : more.*list)
+            if (std::ranges::find(names_.*list, name) == (names_.*list).end()) (names_.*list).push_back(name);
+        return true;
+      }
+    return false;
+  }
+
+  const io::StudyFile& file_;
+  RunNames names_;
+  std::size_t next_ = 0;
+};
+
 }  // namespace
 
 void check_study_figures(const io::StudyFile& file) {
+  if (file.figures.empty() || file.runs.empty()) return;
   std::vector<std::string> keys;
-  if (!file.runs.empty())
-    for (const auto& [key, value] : swept_of(file, file.runs.front())) keys.push_back(key);
+  for (const auto& [key, value] : swept_of(file, file.runs.front())) keys.push_back(key);
+  NamesOfStudy names(file);
   const auto refuse = [&](const io::StudyFigure& figure, const std::string& what, const std::string& advice) {
     throw Error(ErrorKind::configuration, fmt::format("figure {}: {}", figure.file.string(), what),
                 {file.path.string()}, advice);
@@ -183,6 +230,12 @@ void check_study_figures(const io::StudyFile& file) {
     if (figure.kind == io::StudyFigure::Kind::summary && std::ranges::find(keys, figure.x) == keys.end())
       refuse(figure, fmt::format("x = '{}' is no varied key", figure.x),
              fmt::format("varied keys: {}", fmt::join(keys, ", ")));
+    const std::string name = "figure " + figure.file.string();
+    const bool of_histories = figure.kind == io::StudyFigure::Kind::history;
+    for (std::size_t i = 0; i < figure.y.size(); ++i)
+      names.require(name + (of_histories ? ": the column" : ": the quantity"), figure.y[i],
+                    of_histories ? &RunNames::columns : &RunNames::summary, figure.y_where[i]);
+    if (of_histories) names.require(name + ": the column", figure.x, &RunNames::columns, figure.x_where);
   }
 }
 

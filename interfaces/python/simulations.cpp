@@ -135,22 +135,26 @@ py::dict study_to_python(const io::StudyResult& study) {
   return d;
 }
 
+/// runs: numbers of the first and the last that are solved, one share of several; none: all. (0, 0) solves none.
 py::dict sweep(const Source& source, const std::filesystem::path& folder, bool resume, const py::object& progress,
-               int threads) {
+               int threads, const std::optional<std::pair<int, int>>& runs) {
   require_part("hdf5", "folders of studies");
   app::StudyOutcome outcome = with_progress(progress, threads, [&](const Progress& report) {
     if (!io::is_study_file(source.file))
       throw Error(ErrorKind::configuration, "this is not a study: it has no table [study]",
                   {source.file.string(), 0, 0}, "use treadmark.simulate for one simulation");
-    const io::StudyFile study = io::read_study_file(source.file, source.overrides);
     app::StudyOptions wanted;
+    const bool none = runs && runs->second == 0;
+    if (runs && !none) wanted.share = {runs->first, runs->second};
+    const io::StudyFile study = io::read_study_file(source.file, source.overrides, wanted.share);
     wanted.folder = folder;
     wanted.settings = source.overrides;
     wanted.must_exist = resume;
-    wanted.workers = std::min(thread_count(), std::max(1, static_cast<int>(study.runs.size())));
+    if (runs) wanted.cache = io::ContentCache::from_environment();  // other processes are at work too
+    wanted.workers = none ? 0 : std::min(thread_count(), std::max(1, static_cast<int>(study.runs.size())));
     app::StudyOutcome done = app::run_study(study, wanted, report);
     const std::lock_guard lock(file_mutex());
-    if (done.complete) app::write_study_folder(study, wanted, done.study);
+    if (done.complete && wanted.share.whole()) app::write_study_folder(study, wanted, done.study);
     return done;
   });
   py::dict d = study_to_python(outcome.study);

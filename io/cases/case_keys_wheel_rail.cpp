@@ -14,6 +14,7 @@ namespace {
 using W = WheelRailCase;
 
 constexpr KeyLimits kSpeed{{}, -kMostSpeed, kMostSpeed};
+constexpr KeyLimits kQuarterTurn{{}, -90.0, 90.0};  // [deg]
 
 bool is_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -141,8 +142,8 @@ void add_wheelset(KeyList& list) {
   vertical(
       "z_mm", kAnyNumber, "prescribed vertical displacement of the axle, positive down",
       [](W& c) -> double& { return c.state.position.z; }, false);
-  list.angle<W>("wheelset.roll", kAnyNumber, "roll angle", [](W& c) -> double& { return c.state.position.roll; });
-  list.angle<W>("wheelset.yaw", kAnyNumber, "yaw angle", [](W& c) -> double& { return c.state.position.yaw; });
+  list.angle<W>("wheelset.roll", kQuarterTurn, "roll angle", [](W& c) -> double& { return c.state.position.roll; });
+  list.angle<W>("wheelset.yaw", kQuarterTurn, "yaw angle", [](W& c) -> double& { return c.state.position.yaw; });
   list.angle<W>("wheelset.pitch", kAnyNumber,
                 "pitch angle; it turns out-of-round wheels: material angle theta = -pitch is lowest",
                 [](W& c) -> double& { return c.state.position.pitch; });

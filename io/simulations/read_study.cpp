@@ -287,7 +287,9 @@ StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& 
     table.need("y", "a list of columns");
   }
   figure.x = table.text_or("x", {});
+  if (const CaseValue* x = table.find("x")) figure.x_where = x->where;
   figure.y = table.words("y");
+  for (std::size_t i = 0; i < figure.y.size(); ++i) figure.y_where.push_back(table.need("y").list()[i].where);
   if (figure.kind != Kind::patches && figure.y.empty())
     throw Error(ErrorKind::configuration, fmt::format("{} is empty", table.path_of("y")), table.need("y").where);
   figure.title = table.text_or("title", {});

@@ -60,8 +60,10 @@ struct StudyFigure {
   std::filesystem::path file;  ///< .svg, as given
   Kind kind = Kind::history;
   std::string title;
-  std::string x;                 ///< column, or key of a variation; empty for patches
-  std::vector<std::string> y;    ///< columns; for patches what is shown of them
+  std::string x;               ///< column, or key of a variation; empty for patches
+  std::vector<std::string> y;  ///< columns; for patches what is shown of them
+  SourcePosition x_where;      ///< where it stands
+  std::vector<SourcePosition> y_where;
   std::string x_label, y_label;  ///< empty: those of the columns
   std::optional<std::array<double, 2>> x_range;
   std::string series;               ///< key or label of the variation whose values get a line each; empty: all runs

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <regex>
 
 #include <nlohmann/json.hpp>
@@ -52,6 +53,44 @@ TEST(CommandLine, VersionForProgramsNamesEveryLibraryThatIsLoaded) {
     EXPECT_TRUE(std::ranges::any_of(known, [&](const std::string& one) { return (*it)[1].str().starts_with(one); }))
         << (*it)[1] << " is loaded, and cmake/TreadmarkDependencies.cmake does not say so";
   EXPECT_GT(found, 3);
+}
+
+TEST(CommandLine, BillOfMaterialsHoldsWhatTheVersionForProgramsTells) {
+  const auto version = nlohmann::json::parse(run_program({"--version", "--json"}).out);
+  const ProgramResult r = run_program({"--version", "--spdx"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto bill = nlohmann::json::parse(r.out);
+  EXPECT_EQ(bill.at("spdxVersion"), "SPDX-2.3");
+  EXPECT_TRUE(std::regex_match(bill.at("creationInfo").at("created").get<std::string>(),
+                               std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)")));
+  // By identifier: name, version and licence; each is of one package, and each but the document's is in one relation.
+  std::map<std::string, nlohmann::json> packages;
+  for (const auto& package : bill.at("packages")) {
+    const auto id = package.at("SPDXID").get<std::string>();
+    EXPECT_TRUE(std::regex_match(id, std::regex("SPDXRef-[a-zA-Z0-9.-]+"))) << id;
+    EXPECT_TRUE(packages.emplace(id, package).second) << id;
+    EXPECT_EQ(package.at("filesAnalyzed"), false);
+    EXPECT_TRUE(package.contains("downloadLocation"));
+  }
+  EXPECT_EQ(packages.at("SPDXRef-treadmark").at("licenseConcluded"), version.at("licence"));
+  const std::map<std::string, std::string> linked{
+      {"shared", "DYNAMIC_LINK"}, {"headers", "STATIC_LINK"}, {"script", "CONTAINS"}};
+  std::map<std::string, std::string> relations;
+  for (const auto& relation : bill.at("relationships"))
+    EXPECT_TRUE(relations.emplace(relation.at("relatedSpdxElement"), relation.at("relationshipType")).second);
+  EXPECT_EQ(relations.at("SPDXRef-treadmark"), "DESCRIBES");
+  EXPECT_EQ(packages.size(), version.at("libraries").size() + 1);
+  EXPECT_EQ(relations.size(), packages.size());
+  for (const auto& library : version.at("libraries")) {
+    const auto found =
+        std::ranges::find_if(packages, [&](const auto& p) { return p.second["name"] == library["name"]; });
+    ASSERT_NE(found, packages.end()) << library;
+    EXPECT_EQ(found->second.at("versionInfo"), library.at("version"));
+    EXPECT_EQ(found->second.at("licenseDeclared"), library.at("licence"));
+    EXPECT_EQ(relations.at(found->first), linked.at(library.at("linked")));
+  }
+  EXPECT_EQ(std::ranges::count(version.at("libraries"), "script", [](const auto& l) { return l["linked"]; }) > 0,
+            has_part("report_scripts"));
 }
 
 TEST(CommandLine, WrongUsageEndsWithTwo) {

@@ -72,6 +72,10 @@ TEST(PlotCommand, ListsAndDraws) {
   }
   ASSERT_EQ(run_program({"plot", folder, "--what", "pressure", "--case", "1", "-o", folder + "/p.svg"}).status, 0);
   EXPECT_THAT(input.read("out/p.svg"), HasSubstr("case 1"));
+  ASSERT_EQ(run_program({"plot", folder, "--what", "section", "--case", "1", "-o", folder + "/s.svg"}).status, 0);
+  EXPECT_THAT(input.read("out/s.svg"), HasSubstr(", case 1"));
+  EXPECT_THAT(run_program({"plot", folder, "--what", "section", "--case", "7", "-o", "-"}).err,
+              HasSubstr("there is no case 7"));
   EXPECT_EQ(run_program({"plot", folder, "--what", "pressure"}).status, 2);
   const ProgramResult wrong = run_program({"plot", folder, "--what", "beauty", "-o", "-"});
   EXPECT_EQ(wrong.status, 2);

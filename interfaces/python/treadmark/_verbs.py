@@ -7,8 +7,10 @@ import csv
 import dataclasses
 import difflib
 import html
+import importlib
 import json
 import math
+import os
 import pathlib
 from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence
 
@@ -16,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _treadmark
-from ._errors import InputError
+from ._errors import Cancelled, InputError
 from ._inputs import Changes, Input, Path, assignments, source as _source
 from ._records import Array, Case, Result, case_of, frame, html_table, result_of, result_of_json
 
@@ -604,9 +606,51 @@ def _sweep_of(raw: dict[str, Any]) -> Sweep:
     return Sweep(**raw)
 
 
-def sweep(source: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0) -> Sweep:
-    """Solves the runs of a study file that are not finished yet, into a folder, as ``treadmark sweep -o`` does."""
-    return _sweep_of(_treadmark.sweep(_source(source, set), pathlib.Path(output), resume, progress, threads))
+def sweep(source: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0,
+          client: Any = None, runs_per_task: int = 1) -> Sweep:
+    """Solves the runs of a study file that are not finished yet, into a folder, as ``treadmark sweep -o`` does.
+
+    client: a dask.distributed.Client, whose workers solve the runs, runs_per_task in one task, each task on threads (0 = 1 there). They see
+    study and folder under the same names and import this package in this version. What a worker that died has left, another one takes over
+    from its last checkpoint; the files in the folder are the same bytes however the runs were solved. Where progress returns False, or after
+    an error, tasks that no worker has begun are withdrawn. Errors: those of Dask too, such as KilledWorker.
+    """
+    if runs_per_task < 1:
+        raise InputError(f"runs_per_task is {runs_per_task}, which is no number of runs", advice="1 or more")
+    if client is None:
+        return _sweep_of(_treadmark.sweep(_source(source, set), pathlib.Path(output), resume, progress, threads, None))
+    source, output, changes = os.path.abspath(source), pathlib.Path(os.path.abspath(output)), assignments(set)
+    # Takes the folder for this study, so that the workers need not look at runs of others.
+    begun = _treadmark.sweep(_source(source, changes), output, resume, None, threads, _NO_RUNS)
+    _solve_on_workers(client, begun, (source, str(output), changes, max(1, threads)), progress, runs_per_task)
+    return _sweep_of(_treadmark.sweep(_source(source, changes), output, True, None, threads, _NO_RUNS))
+
+
+_NO_RUNS = (0, 0)
+
+
+def _solve_share(source: str, output: str, changes: list[str], threads: int, first: int, last: int) -> int:
+    """What a worker does: solves the runs from first to last. Returns how many there are."""
+    raw = _treadmark.sweep(_source(source, changes), pathlib.Path(output), True, None, threads, (first, last))
+    if not raw["complete"]:
+        raise Cancelled(f"runs {first} to {last} were interrupted")
+    return len(raw["runs"])
+
+
+def _solve_on_workers(client: Any, begun: dict[str, Any], work: tuple[str, str, list[str], int], progress: Progress, size: int) -> None:
+    """begun: what there is of the study; work: the first arguments of _solve_share."""
+    total, finished = begun["runs_total"], {run[0] for run in begun["runs"]}
+    shares = [(first, min(first + size - 1, total)) for first in range(1, total + 1, size)]
+    shares = [(first, last) for first, last in shares if not finished.issuperset(range(first, last + 1))]
+    tasks = [client.submit(_solve_share, *work, first, last, pure=False) for first, last in shares]
+    count = total - sum(last - first + 1 for first, last in shares)
+    try:
+        for task in importlib.import_module("distributed").as_completed(tasks):
+            count += task.result()
+            if progress is not None and progress(count, total, f"{count} runs") is False:
+                break
+    finally:
+        client.cancel(tasks)
 
 
 def read_result(file: Path) -> Result:

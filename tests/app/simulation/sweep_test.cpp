@@ -204,6 +204,36 @@ TEST_F(Sweep, FiguresMayChangeWithoutRunningAgain) {
   EXPECT_THAT(input.read("out/force-by-distance.csv"), HasSubstr("Ty_N"));
 }
 
+TEST_F(Sweep, NamesInFiguresThatNoRunHasAreRefusedBeforeAnyRun) {
+  const auto expect_refused = [&](const std::string& right, const std::string& wrong, const std::string& advice) {
+    input.edit("study.toml", right, wrong);
+    for (const char* verb : {"check", "sweep"}) {
+      std::vector<std::string> call{verb, input.path("study.toml")};
+      if (call.front() == "sweep") call.insert(call.end(), {"-o", input.path("out")});
+      const ProgramResult r = run_program(call);
+      EXPECT_EQ(r.status, 2) << r.out;
+      EXPECT_THAT(r.err, AllOf(HasSubstr("study.toml:"), HasSubstr(advice)));
+      EXPECT_FALSE(fs::exists(input.path("out/runs/run_0001")));
+    }
+    input.edit("study.toml", wrong, right);
+  };
+  expect_refused("y = [\"q_max_N\"]", "y = [\"max_normal_force_N\"]", "there are: q_max_N, q_max_t_s");
+  expect_refused("y = [\"Q_N\"]", "y = [\"Q_n\"]", "did you mean 'Q_N'?");
+  expect_refused("x = \"x_m\"", "x = \"distance_m\"", "the column 'distance_m' is not known");
+}
+
+TEST_F(Sweep, AFigureMayShowWhatOnlySomeRunsHave) {
+  input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.01");
+  input.edit(
+      "study.toml", "[[study.vary]]\nkey = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]",
+      "[[study.vary]]\nlabel = \"contact\"\nvalues = [{ label = \"table\", set = "
+      "[\"simulation.wheels.0.contact=table\"] }, { label = \"full\", set = [\"simulation.wheels.0.contact=full\"] }]");
+  input.edit("study.toml", "wheel.flats.0.depth_mm", "contact");
+  input.edit("study.toml", "q_max_N", "pmax_Pa");
+  const ProgramResult r = run_program({"check", input.path("study.toml")});
+  EXPECT_EQ(r.status, 0) << r.err;
+}
+
 TEST_F(Sweep, AFailedRunIsAResult) {
   input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.01");
   input.edit("study.toml", "key = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]",

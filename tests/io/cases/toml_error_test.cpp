@@ -153,6 +153,8 @@ TEST(TomlOverrideError, NamesTheOverride) {
   EXPECT_THAT(error_of(kRail, {"wheelset.y_mm"}), ::testing::HasSubstr("'=' is missing"));
   EXPECT_THAT(error_of(kRail, {"=3"}), ::testing::HasSubstr("key or value is missing"));
   EXPECT_THAT(error_of(kRail, {"wheelset.y_mm="}), ::testing::HasSubstr("key or value is missing"));
+  EXPECT_THAT(error_of(kRail, {"wheelset.yaw_rad=5"}), ::testing::HasSubstr("wheelset.yaw_rad = 5"));
+  EXPECT_EQ(error_of(kRail, {"wheelset.yaw_deg=-5"}), "no error");
   EXPECT_THAT(error_of(kRail, {"wheelset.y_mm=three"}), ::testing::HasSubstr("must be a number, found text"));
   EXPECT_THAT(error_of(kRail, {"wheelset.y_mm=[1"}), ::testing::HasSubstr("neither a word nor valid TOML"));
   EXPECT_THAT(error_of(kRail, {"wheelset.y_mm=3\n[x]"}), ::testing::HasSubstr("one line"));

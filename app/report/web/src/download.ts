@@ -17,6 +17,11 @@ export function fileName(name: string, suffix: string): string {
   return `${plain || "treadmark"}.${suffix}`;
 }
 
+/** The page's title, what a file holds of it, and of which step. */
+export function named(name: string, shown = ""): string {
+  return [document.title.slice(0, 40).trim(), shown.slice(0, 20).trim(), name].filter((part) => part !== "").join(" ");
+}
+
 /** Offers a blob to the reader as a file. */
 export function save(blob: Blob, name: string): void {
   const link = document.createElement("a");
@@ -26,8 +31,8 @@ export function save(blob: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/** A small row of download buttons below a figure. */
-export function addDownloads(figure: HTMLElement, sources: DownloadSources, name: string): void {
+/** A small row of download buttons below a figure; files are named after the page, the figure and what it shows just now. */
+export function addDownloads(figure: HTMLElement, sources: DownloadSources, name: string, shown: () => string = () => ""): void {
   const row = document.createElement("div");
   row.className = "downloads";
   const add = (label: string, make: () => Promise<Blob> | Blob): void => {
@@ -40,7 +45,7 @@ export function addDownloads(figure: HTMLElement, sources: DownloadSources, name
       button.disabled = true;
       Promise.resolve()
         .then(make)
-        .then((blob) => save(blob, fileName(name, label.toLowerCase())))
+        .then((blob) => save(blob, fileName(named(name, shown()), label.toLowerCase())))
         .catch((error: unknown) => {
           button.title = `Failed: ${String(error)}`;
           button.classList.add("failed");

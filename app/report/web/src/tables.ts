@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { Cell } from "./csv";
 import { toCsv, toTsv } from "./csv";
-import { fileName, save } from "./download";
+import { fileName, named, save } from "./download";
 import type { Store } from "./store";
 import type { Direction, SortKey } from "./table-sort";
 import { nextDirection, sortedOrder } from "./table-sort";
@@ -103,7 +103,7 @@ function addActions(table: HTMLTableElement, frame: Element): void {
     });
   });
   add("CSV", `Download ${name} as CSV, in full precision`, () => {
-    save(new Blob([toCsv(tableCells(table))], { type: "text/csv" }), fileName(name, "csv"));
+    save(new Blob([toCsv(tableCells(table))], { type: "text/csv" }), fileName(named(name), "csv"));
   });
   row.append(said);
   const block = document.createElement("div");

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { csvOf } from "../src/contact/csv";
+import { csvOf, plain } from "../src/contact/csv";
 import { difference } from "../src/contact/difference";
 import { contactBox, fieldOf, learnFields, shownValue, TRACTION } from "../src/contact/fields";
 import { choicesOf, Model } from "../src/contact/model";
@@ -220,6 +220,18 @@ test("sections run through the element, with zero pressure outside contact", () 
     (v) => v,
   );
   assert.equal(path, "M1.0 0.0L2.0 3.0L3.0 4.0M5.0 2.0");
+});
+
+test("CSV: numbers of single precision with the digits that they have, heads without signs", () => {
+  assert.equal(plain(Math.fround(0.3)), "0.3");
+  assert.equal(plain(Math.fround(1 / 3)), "0.33333334");
+  for (const value of [1909.41, 0.1, 2 / 3, 1e-20, 123456.78].map(Math.fround)) assert.equal(Math.fround(Number(plain(value))), value);
+  assert.equal(plain(NaN), "");
+  const blobs: string[] = [];
+  const patch = simple(blobs, { nx: 2, ny: 2, pressure: () => 7, reference: [0, 0] });
+  const item = itemsOf(frame([patch]), { kind: "load", rank: 0 })[0]!;
+  const percent = contactFields.map((field) => (field.name === "pressure" ? { ...field, unit: "%" } : field));
+  assert.match(csvOf([{ name: "patch 1", item }], percent, blobs), /^x_mm,s_mm,pressure_percent,/);
 });
 
 test("CSV: a line an element with every field, places as in the picture", () => {

@@ -4,9 +4,15 @@ import type { FieldInfo, Patch } from "../data";
 import { fieldOf, gridEdges } from "./fields";
 import type { Item } from "./place";
 
-/** A number without loss of the single precision that it came in; empty where there is none. */
+/** The shortest text that reads back as the same number in the single precision that it came in; empty where there is none. */
 export function plain(value: number): string {
-  return Number.isFinite(value) ? String(Number(value.toPrecision(8))) : "";
+  if (!Number.isFinite(value)) return "";
+  const single = Math.fround(value);
+  for (let digits = 6; digits < 9; ++digits) {
+    const text = Number(value.toPrecision(digits));
+    if (Math.fround(text) === single) return String(text);
+  }
+  return String(Number(value.toPrecision(9)));
 }
 
 /** A head of a column: the name with its unit, in ASCII. */
@@ -15,6 +21,7 @@ function head(field: FieldInfo): string {
   return `${field.name}${unit}`
     .replace(/[µμ]/g, "u")
     .replace(/°/g, "")
+    .replace(/%/g, "percent")
     .replace(/²/g, "2")
     .replace(/[^\w./-]+/g, "_");
 }

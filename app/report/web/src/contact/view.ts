@@ -416,6 +416,7 @@ export class ContactFigure {
       Number(drawing.getAttribute("height")),
     ];
     const many = this.model.sets.length > 1;
+    const shown = (): string => (this.frame === null ? "" : (this.model.sets[0]?.frames[this.frame]?.name ?? ""));
     const csv = (): string => {
       const parts = this.panels.flatMap((panel) =>
         panel.items.map((item) => ({ name: many ? `${panel.name} ${item.patch.name}`.trim() : item.patch.name, item })),
@@ -426,6 +427,7 @@ export class ContactFigure {
       this.parts.left,
       { svg: () => this.pictureText(), png: () => pngOf(this.pictureText(), ...size(this.parts.drawing)), csv },
       this.view.id,
+      shown,
     );
     const charts = this.charts.drawing;
     addDownloads(
@@ -436,6 +438,7 @@ export class ContactFigure {
         csv: () => sectionsCsv(this.sections?.contents ?? []),
       },
       `${this.view.id}-sections`,
+      shown,
     );
   }
 }

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""Every command `treadmark ...` in the documents is one that the program takes: its verb, its options, and values of options that have a list.
+
+usage: commands_test.py ROOT PROGRAM
+Commands in blocks of code and within lines count; what they would do is not done.
+"""
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+
+COMMAND = re.compile(r"treadmark [a-z-][^`\n]*")
+OPTION = re.compile(r"(?<![\w-])(-[a-zA-Z]|--[a-z][a-z0-9-]*)")
+
+
+def commands_of(text):
+    """(line, words) of each command; lines that end with a backslash go on, comments and what the shell does with it end it."""
+    code = []
+    inside = False
+    for number, line in enumerate(text.split("\n"), 1):
+        if line.lstrip().startswith("```"):
+            inside = not inside
+        elif inside:
+            if code and code[-1][1].endswith("\\") and code[-1][0] > 0:
+                code[-1] = (code[-1][0], code[-1][1][:-1] + " " + line.strip())
+            else:
+                code.append((number, line.strip().removeprefix("$ ")))
+        else:
+            code += [(number, span) for span in re.findall(r"`([^`]+)`", line)]
+    for number, line in code:
+        for part in re.split(r"&&|\|\||[|;>]", line):
+            found = COMMAND.search(part)
+            if found and "import treadmark" not in part and re.search(r"(^|^mpirun .*|^srun .*|\s|/)$", part[: found.start()]):
+                try:
+                    yield number, shlex.split(found.group().split(" # ")[0].split("  #")[0])
+                except ValueError:  # a quotation that the split above has cut
+                    yield number, found.group().split()
+
+
+class Program:
+    def __init__(self, path):
+        self.path, self.help = path, {}
+        self.common = self.options("--help")
+        self.verbs = self.call("list", "verbs").split("\n")
+        self.verbs = {line.split()[0] for line in self.verbs if line.strip()}
+
+    def call(self, *arguments):
+        return subprocess.run([self.path, *arguments], capture_output=True, text=True).stdout
+
+    def options(self, *arguments):
+        """What --help lists: option to the words that it may have."""
+        out = {}
+        for line in self.call(*arguments).split("\n"):
+            if re.match(r"\s+-", line):
+                words = re.search(r"\{([^}]*)\}", line)
+                for option in OPTION.findall(line.split("  ")[1] if line.startswith("  ") else line):
+                    out[option] = set(words.group(1).split(",")) if words else None
+        return out
+
+    def wrong(self, words):
+        """What is wrong with a command; empty: nothing."""
+        if words[1].startswith("-"):
+            known = {**self.common, "--json": None, "--spdx": None}
+            return [f"no option {word}" for word in words[1:] if word.startswith("-") and word.split("=")[0] not in known]
+        verb = words[1].rstrip(".,:")
+        if verb not in self.verbs:
+            return [f"no verb {verb}"]
+        if verb not in self.help:
+            self.help[verb] = {**self.common, **self.options(verb, "--help")}
+        found = []
+        for i, word in enumerate(words[2:], 2):
+            name, sign, value = word.partition("=")
+            if not re.fullmatch(r"-[a-zA-Z]|--[a-z][a-z0-9-]*", name):
+                continue
+            if name not in self.help[verb]:
+                found.append(f"{verb} has no option {name}")
+                continue
+            allowed = self.help[verb][name]
+            value = value if sign else words[i + 1] if i + 1 < len(words) else ""
+            if allowed and not value.isupper() and not set(value.split(",")) <= allowed:
+                found.append(f"{verb} {name} takes {', '.join(sorted(allowed))}, not {value}")
+        return found
+
+
+root, program = pathlib.Path(sys.argv[1]), Program(sys.argv[2])
+planted = {"treadmark dance x": 1, "treadmark run x --repot y": 1, "treadmark convert x y --body bogie": 1, "treadmark run x -o y --report z": 0,
+           "treadmark --version --json": 0, "treadmark --verison": 1}
+for command, count in planted.items():
+    assert len(program.wrong(command.split())) == count, command
+violations, seen = [], 0
+for page in [root / "README.md", *sorted((root / "docs").glob("*.md")), *sorted(root.glob("*/README.md"))]:
+    for line, words in commands_of(page.read_text(encoding="utf-8")):
+        seen += 1
+        violations += [f"{page.relative_to(root)}:{line}: {text}: {' '.join(words)}" for text in program.wrong(words)]
+assert seen > 80, seen
+print("\n".join(violations) or f"{seen} commands")
+sys.exit(1 if violations else 0)
