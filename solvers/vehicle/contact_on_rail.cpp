@@ -127,7 +127,7 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
     patch.stiffness_n /= soft[i];
   }
   r.bending = bending_under(answer, force);
-  rail_->press(wheel_, force, t.together * t.stiffness);
+  rail_->press(wheel_, force, t.together * t.stiffness, motion.wheelset.x);
   Vec3 normal_force = Vec3::Zero();
   for (std::size_t i = 0; i < t.patches.size(); ++i) normal_force += r.tangents[i].normal_force * t.patches[i].normal;
   trial_ = Trial{

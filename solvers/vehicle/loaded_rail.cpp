@@ -102,10 +102,16 @@ void LoadedRail::settle(double time) {
 
 void LoadedRail::accept(double time) {
   const Instant now{time, pressed()};
-  if (started_)
-    rail_.accept(now.force);
-  else
+  if (started_) {
+    std::vector<double> ahead;
+    for (std::size_t i = 0; i < pressed_.size(); ++i)
+      ahead.push_back(pressed_[i].travelled - first_[i] - rail_.travelled(time));
+    rail_.accept(now.force, ahead);
+  } else {
+    first_.clear();
+    for (const Pressed& one : pressed_) first_.push_back(one.travelled);
     rail_.begin(now.force);
+  }
   before_ = started_ ? last_ : now;
   last_ = now;
   started_ = true;
@@ -114,6 +120,7 @@ void LoadedRail::accept(double time) {
 
 void LoadedRail::save(ByteWriter& out) const {
   out.put(started_);
+  out.put(std::span<const double>(first_));
   for (const Instant* instant : {&last_, &before_}) {
     out.put(instant->time);
     out.put(std::span<const double>(instant->force.data(), static_cast<std::size_t>(instant->force.size())));
@@ -123,6 +130,9 @@ void LoadedRail::save(ByteWriter& out) const {
 
 void LoadedRail::restore(ByteReader& in) {
   in.get(started_);
+  in.get(first_);
+  if (first_.size() != (started_ ? pressed_.size() : 0))
+    throw Error(ErrorKind::input_data, "a saved state belongs to a rail with other wheels", {}, "start anew");
   for (Instant* instant : {&last_, &before_}) {
     in.get(instant->time);
     std::vector<double> force;

@@ -44,8 +44,11 @@ class LoadedRail {
   /// Slopes of the rail along it below a wheel: mean of the step.
   Vec3 slope(std::size_t wheel, const Vec3& force, const Answer& answer) const;
 
-  /// What a wheel found at a time, and how its forces fall with motions of the rail that others make.
-  void press(std::size_t wheel, const Vec3& force, const Mat3& stiffness) { pressed_[wheel] = {force, stiffness}; }
+  /// What a wheel found at a time, how its forces fall with motions of the rail that others make, and how far it has
+  /// got since time 0 [m].
+  void press(std::size_t wheel, const Vec3& force, const Mat3& stiffness, double travelled) {
+    pressed_[wheel] = {force, stiffness, travelled};
+  }
   /// What the forces pressed move a wheel's place by beyond what it counted on for the others.
   Vec3 missed(std::size_t wheel, const Answer& answer) const;
   /// The rail under the forces pressed.
@@ -63,6 +66,7 @@ class LoadedRail {
   struct Pressed {
     Vec3 force = Vec3::Zero();
     Mat3 stiffness = Mat3::Zero();
+    double travelled = 0.0;
   };
   struct Instant {
     double time = 0.0;
@@ -81,6 +85,7 @@ class LoadedRail {
   std::mutex solving_;
   Eigen::VectorXd load_;
   std::vector<Pressed> pressed_;
+  std::vector<double> first_;  ///< travelled, at time 0
   bool started_ = false;
   Instant last_, before_;         ///< accepted
   std::optional<Instant> trial_;  ///< settled

@@ -64,8 +64,7 @@ MovingRail::MovingRail(const FlexibleTrack& track, const SpeedProfile& speed, co
   const double bay = (seats.back().x - seats.front().x) / static_cast<double>(seats.size() - 1);
   std::vector<double> ordered = start_;
   std::ranges::sort(ordered);
-  last_start_ = ordered.front();
-  const double reach = ordered.back() - last_start_;
+  const double reach = ordered.back() - ordered.front();
   if (!(length > 0.0 && length + reach <= kMost * bay))
     throw Error(ErrorKind::configuration, "the part of a rail that is looked at has a length of at most 10000 bays");
   double longest_bay = 0.0;
@@ -86,8 +85,8 @@ MovingRail::MovingRail(const FlexibleTrack& track, const SpeedProfile& speed, co
   seats_ = seats_about_ + within;
 
   std::int64_t before = 0;  // seat before the hindmost force
-  while (seat(before).x > last_start_) --before;
-  while (seat(before + 1).x <= last_start_) ++before;
+  while (seat(before).x > ordered.front()) --before;
+  while (seat(before + 1).x <= ordered.front()) ++before;
   look_from(before - (seats_about_ - 1) / 2);
   motion_at_rest_ = rate_at_rest_ = no_motion(places());
   for (RailInTime& plane : planes_) {
@@ -96,6 +95,7 @@ MovingRail::MovingRail(const FlexibleTrack& track, const SpeedProfile& speed, co
     motion_at_rest_.compliance(numbers, numbers) = plane.compliance_at_rest();
     rate_at_rest_.compliance(numbers, numbers) = plane.rates_at_rest();
   }
+  for (const double place : start_) run_.push_back({place, 0.0, 0.0});
   for (std::size_t i = 0; i < start_.size(); ++i)
     motion_at_rest_.free[static_cast<Eigen::Index>(i) * kMotions + kZ] = dip(start_[i]);
 }
@@ -128,11 +128,16 @@ void MovingRail::look_from(std::int64_t first_seat) {
   trial_time_ = -1.0;
 }
 
-std::vector<double> MovingRail::places_at(double time) const {
-  const double travelled = travel_at(speed_, time).distance;
-  std::vector<double> places;
-  for (const double start : start_) places.push_back(start + travelled);
-  return places;
+/// Forces go on as they did in the last step, beside what the speed says.
+void MovingRail::find_places(double time) {
+  const Travel travel = travel_at(speed_, time);
+  before_.clear(), now_.clear(), speeds_.clear();
+  for (std::size_t i = 0; i < run_.size(); ++i) {
+    const Run& run = run_[i];
+    before_.push_back(run.place);
+    now_.push_back(start_[i] + travel.distance + run.ahead + run.rate * (time - time_));
+    speeds_.push_back(travel.speed + run.rate);
+  }
 }
 
 double MovingRail::dip(double x) const {
@@ -147,18 +152,17 @@ const MovingRail::Answer& MovingRail::after(double time) {
   trial_length_ = static_cast<float>(time - time_);
   trial_time_ = time;
   motion_ = rate_ = no_motion(places());
-  const std::vector<double> before = places_at(time_), now = places_at(time);
-  const double speed = travel_at(speed_, time).speed;
+  find_places(time);
   for (RailInTime& plane : planes_) {
-    plane.step(trial_length_, before, now, speed);
+    plane.step(trial_length_, before_, now_, speeds_);
     const std::vector<Eigen::Index> numbers = numbers_of(plane, places());
     motion_.free(numbers) = plane.motions().free;
     motion_.compliance(numbers, numbers) = plane.motions().compliance;
     rate_.free(numbers) = plane.rates().free;
     rate_.compliance(numbers, numbers) = plane.rates().compliance;
   }
-  for (std::size_t i = 0; i < now.size(); ++i)
-    motion_.free[static_cast<Eigen::Index>(i) * kMotions + kZ] += dip(now[i]);
+  for (std::size_t i = 0; i < now_.size(); ++i)
+    motion_.free[static_cast<Eigen::Index>(i) * kMotions + kZ] += dip(now_[i]);
   return motion_;
 }
 
@@ -169,9 +173,8 @@ Eigen::Vector3d MovingRail::slope(Eigen::Index place, const Forces& forces) cons
     const Forces own = forces(numbers_of(plane, places()));
     for (int i = 0; i < top_motions(plane.plane()); ++i) slope[motion_of(plane.plane(), i)] = plane.rise(place, i, own);
   }
-  const double from = travel_at(speed_, time_).distance, to = travel_at(speed_, trial_time_).distance;
-  const double start = start_[static_cast<std::size_t>(place)];
-  slope[kZ] += dip(start + to) - dip(start + from);
+  const double from = before_[static_cast<std::size_t>(place)], to = now_[static_cast<std::size_t>(place)];
+  slope[kZ] += dip(to) - dip(from);
   return slope / (to - from);
 }
 
@@ -197,15 +200,24 @@ MovingRail::Moved MovingRail::moved_at_rest(const Forces& forces) const {
 
 void MovingRail::begin(const Forces& forces) {
   time_ = 0.0;
+  run_.clear();
+  for (const double start : start_) run_.push_back({start, 0.0, 0.0});
   trial_time_ = -1.0;
   for (RailInTime& plane : planes_) plane.begin(forces(numbers_of(plane, places())));
 }
 
-void MovingRail::accept(const Forces& forces) {
+void MovingRail::accept(const Forces& forces, const std::vector<double>& ahead) {
   for (RailInTime& plane : planes_) plane.accept(forces(numbers_of(plane, places())));
+  for (std::size_t i = 0; i < run_.size(); ++i) {
+    Run& run = run_[i];
+    run.place = now_[i];
+    if (ahead.empty()) continue;
+    run.rate = trial_length_ > 0.0 ? (ahead[i] - run.ahead) / trial_length_ : 0.0;
+    run.ahead = ahead[i];
+  }
   time_ = trial_time_;
   trial_time_ = -1.0;
-  const double hindmost = last_start_ + travel_at(speed_, time_).distance;
+  const double hindmost = std::ranges::min(run_, {}, &Run::place).place;
   while (hindmost >= next_place_) {
     for (RailInTime& plane : planes_) plane.move_on(track_.bay_elements);
     look_from(first_seat_ + 1);
@@ -215,6 +227,7 @@ void MovingRail::accept(const Forces& forces) {
 void MovingRail::save(ByteWriter& out) const {
   out.put(time_);
   out.put(first_seat_);
+  for (const Run& run : run_) out.put(run.place), out.put(run.ahead), out.put(run.rate);
   for (const RailInTime& plane : planes_) plane.save(out);
 }
 
@@ -227,6 +240,8 @@ void MovingRail::restore(ByteReader& in) {
   const auto first = in.get<std::int64_t>();
   if (!(std::abs(first) < kFarthest)) foreign();
   look_from(first);
+  run_.resize(start_.size());
+  for (Run& run : run_) in.get(run.place), in.get(run.ahead), in.get(run.rate);
   for (RailInTime& plane : planes_)
     if (!plane.restore(in)) foreign();
 }

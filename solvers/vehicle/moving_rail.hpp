@@ -10,10 +10,10 @@
 
 namespace treadmark::vehicle {
 
-/// A rail of a flexible track in time, below forces that move along it together. The part of the rail that is looked at
-/// moves on with the forces, from bay to bay; what it leaves behind and takes up in front lies at rest. Before its
-/// first seat and behind its last one the track goes on with equal ones. Integrated by the scheme of Hilber, Hughes and
-/// Taylor (1977). Not thread-safe; const functions are among each other.
+/// A rail of a flexible track in time, below forces that move along it, nearly together. The part of the rail that is
+/// looked at moves on with the forces, from bay to bay; what it leaves behind and takes up in front lies at rest.
+/// Before its first seat and behind its last one the track goes on with equal ones. Integrated by the scheme of Hilber,
+/// Hughes and Taylor (1977). Not thread-safe; const functions are among each other.
 class MovingRail {
  public:
   /// Of the part that is looked at, beside the distance of the forces [m].
@@ -62,16 +62,19 @@ class MovingRail {
 
   /// Makes the state at rest under these forces that of time 0.
   void begin(const Forces& forces);
-  /// Makes the state after the step that of moved(forces).
-  void accept(const Forces& forces);
+  /// Makes the state after the step that of moved(forces). ahead: how much further each force has got since time 0 than
+  /// the speed says, so that it goes on from there; none: not at all [m].
+  void accept(const Forces& forces, const std::vector<double>& ahead = {});
   double time() const { return time_; }
+  /// What the speed says [m].
+  double travelled(double time) const { return travel_at(speed_, time).distance; }
 
   void save(ByteWriter& out) const;
   /// Errors: Error(input_data).
   void restore(ByteReader& in);
 
  private:
-  std::vector<double> places_at(double time) const;
+  void find_places(double time);
   double dip(double x) const;
   RailSeat seat(std::int64_t index) const;
   void look_from(std::int64_t first_seat);
@@ -79,17 +82,22 @@ class MovingRail {
   FlexibleTrack track_;
   SpeedProfile speed_;
   std::vector<double> start_;  ///< place at time 0 [m]
-  double last_start_ = 0.0;    ///< of the hindmost force [m]
   /// Of the part that is looked at, and how many of them are about the hindmost force.
   std::int64_t seats_ = 0, seats_about_ = 0;
   double next_place_ = 0.0;  ///< of the hindmost force, where the part moves on [m]
   Answer motion_at_rest_, rate_at_rest_;
   std::vector<RailInTime> planes_;
 
+  /// Of each force: where the last step ended; beyond what the speed says, and its rate.
+  struct Run {
+    double place = 0.0, ahead = 0.0, rate = 0.0;  ///< [m], [m/s]
+  };
   double time_ = 0.0;
+  std::vector<Run> run_;
   std::int64_t first_seat_ = 0;  ///< of the part; 0 is the first one of the track
   // A step that was asked for.
   double trial_time_ = -1.0, trial_length_ = 0.0;  ///< [s]; < 0: none
+  std::vector<double> before_, now_, speeds_;      ///< places, and speeds at the end
   Answer motion_, rate_;
 };
 

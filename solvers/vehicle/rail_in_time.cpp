@@ -134,7 +134,8 @@ const RailInTime::Column& RailInTime::by_unit(int coordinate) {
   return column;
 }
 
-void RailInTime::step(double h, const std::vector<double>& before, const std::vector<double>& now, double speed) {
+void RailInTime::step(double h, const std::vector<double>& before, const std::vector<double>& now,
+                      const std::vector<double>& speeds) {
   const auto& [alpha, beta, gamma] = scheme_;
   end_ = {};
   Trial& t = trial_;
@@ -183,8 +184,8 @@ void RailInTime::step(double h, const std::vector<double>& before, const std::ve
       // the slope there. The rate of the force by backward differences of second order, or friction would lack work.
       const double ratio = length_before_ > 0.0 ? h / length_before_ : 0.0,
                    of_change = here.own_compliance(i % per, j % per) / h;
-      t.rate.compliance(i, j) +=
-          of_change * (1.0 + 2.0 * ratio) / (1.0 + ratio) + 0.5 * speed * here.own_slope(i % per, j % per);
+      t.rate.compliance(i, j) += of_change * (1.0 + 2.0 * ratio) / (1.0 + ratio) +
+                                 0.5 * speeds[static_cast<std::size_t>(i / per)] * here.own_slope(i % per, j % per);
       t.rate.free[i] += of_change * (ratio * ratio / (1.0 + ratio) * force_before_[j] - (1.0 + ratio) * force_[j]);
     }
   }

@@ -43,8 +43,10 @@ class RailInTime {
     Column free;
     Columns compliance;
   };
-  /// A step of this length [s] from forces that were accepted at the places before. speed: at its end [m/s].
-  void step(double length, const std::vector<double>& before, const std::vector<double>& now, double speed);
+  /// A step of this length [s] from forces that were accepted at the places before. speeds: of the
+  /// places at its end [m/s].
+  void step(double length, const std::vector<double>& before, const std::vector<double>& now,
+            const std::vector<double>& speeds);
   const Answer& motions() const { return trial_.motion; }
   /// Of the rail itself where the places are.
   const Answer& rates() const { return trial_.rate; }
