@@ -54,6 +54,7 @@ class OneForce {
   }
   void begin(double force) { rail_.begin(column(force)); }
   void accept(double force) { rail_.accept(column(force)); }
+  void accept(double force, double ahead) { rail_.accept(column(force), {ahead}); }
 
  private:
   static Eigen::VectorXd column(double force) { return Eigen::Vector3d(0.0, force, 0.0); }
@@ -95,6 +96,26 @@ TEST(MovingRail, CrawlingForceDeflectsAsAtRest) {
       EXPECT_GT(most, 1.3 * least);
     }
   }
+}
+
+/// A force that runs ahead of the speed that is given is where it is.
+TEST(MovingRail, GoesOnWithAForceThatRunsAhead) {
+  constexpr double kForce = 55e3, kSpeed = 0.5, kAhead = 0.15;
+  const FlexibleTrack track = uneven_zhai();
+  const RailOnSeats rest(track);
+  OneForce rail(track, kSpeed, 0.0, 0.8);
+  rail.begin(kForce);
+  double largest = 0.0;
+  for (int i = 1; i <= 1800; ++i) {
+    const double time = 2e-3 * i, ahead = kAhead * time, without = rest.middle() + kSpeed * time;
+    const OneForce::Answer answer = rail.after(time);
+    const double w = (answer.free + answer.compliance * kForce) / kForce;
+    rail.accept(kForce, ahead);
+    if (i % 40 != 0) continue;
+    EXPECT_NEAR(w / rest.receptance(without + ahead, 0.0).real(), 1.0, 4e-3) << time;
+    largest = std::max(largest, std::abs(w / rest.receptance(without, 0.0).real() - 1.0));
+  }
+  EXPECT_GT(largest, 0.05);
 }
 
 /// Beyond its seats a track goes on with those at its ends.
