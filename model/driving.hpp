@@ -15,6 +15,9 @@ struct SpeedProfile {
   std::vector<double> speed;  ///< at these times [m/s]; > 0
 };
 
+/// The same speed at all times [m/s].
+inline SpeedProfile constant_speed(double speed) { return {{0.0}, {speed}}; }
+
 /// How far and how fast at one time.
 struct Travel {
   double distance = 0.0;      ///< since time 0 [m]

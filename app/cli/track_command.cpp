@@ -18,6 +18,7 @@ struct TrackOptions {
   int layers = 0;
   double from = 10.0, to = 1500.0;
   int count = 200;
+  double aside_mm = 0.0;
   std::vector<std::string> overrides;
 };
 
@@ -32,6 +33,7 @@ int track_command(const TrackOptions& options, const CommonOptions&) {
   request.to = options.to;
   request.count = options.count;
   request.layers = options.layers;
+  request.aside = 1e-3 * options.aside_mm;
   const app::TrackResult result = app::run_track(request);
   const auto json = [&] { return app::track_json(result); };
   write_json_file(options.json_file, json);
@@ -68,6 +70,11 @@ Command add_track(CLI::App& verb) {
   verb.add_option("--count", options->count, "Frequencies, evenly spaced in the logarithm")
       ->check(CLI::Range(10, 10000))
       ->capture_default_str();
+  verb.add_option("--aside", options->aside_mm,
+                  "Place of the force beside the middle of a head that rolls: couples vertical and lateral motion [mm]")
+      ->check(CLI::Range(-100.0, 100.0))
+      ->capture_default_str()
+      ->type_name("MM");
   verb.add_option("--json", options->json_file, "Write all numbers here; - for standard output instead of the text")
       ->type_name("FILE");
   verb.add_option("-o,--output", options->folder,

@@ -276,8 +276,9 @@ class Builder {
   std::map<const io::SurfaceSource*, std::shared_ptr<const vehicle::ContactTable>> tables_;
 };
 
-/// What moves below each wheelset beside rails that bend.
+/// What moves below each wheelset beside rails that bend: nothing where they bend sideways, too.
 std::optional<TrackModel> track_below(const io::SimulationFile& file) {
+  if (file.flexible_track && file.flexible_track->sideways) return std::nullopt;
   return file.flexible_track ? vehicle::lateral_track(*file.flexible_track) : file.track;
 }
 
@@ -285,24 +286,21 @@ std::optional<TrackModel> track_below(const io::SimulationFile& file) {
 class RailsBelow {
  public:
   RailsBelow(const io::SimulationFile& file, const vehicle::Multibody& system) : file_(file), system_(system) {
-    if (file.settings.profile.time.size() > 1)
-      throw Error(ErrorKind::configuration, "on a flexible track the speed of a simulation is constant", {},
-                  "leave simulation.speed_profile out, or lump the track (treadmark track)");
     if (!file.settings.shared_rails) return;
     std::vector<int> all(system.wheelsets.size());
     std::iota(all.begin(), all.end(), 0);
     for (const Side side : {Side::left, Side::right}) shared_[side] = below(all);
   }
 
-  /// contact: the element of a wheel without its rail.
-  std::shared_ptr<vehicle::ContactElement> upon(const io::WheelContactInput& wheel,
-                                                std::shared_ptr<vehicle::ContactElement> contact) const {
+  /// on: a wheel whose element knows nothing of the rail.
+  std::shared_ptr<vehicle::ContactElement> upon(const vehicle::WheelOnRail& on) const {
     constexpr double kTolerance = 1e-4;  // a tenth of what a step may leave
-    const auto shared = shared_.find(wheel.side);
-    return shared != shared_.end()
-               ? std::make_shared<vehicle::ContactOnRail>(std::move(contact), shared->second,
-                                                          static_cast<std::size_t>(wheel.wheelset), kTolerance)
-               : std::make_shared<vehicle::ContactOnRail>(std::move(contact), below({wheel.wheelset}), 0, kTolerance);
+    const auto set = static_cast<std::size_t>(on.wheelset);
+    const auto shared = shared_.find(on.side);
+    const bool alone = shared == shared_.end();
+    return std::make_shared<vehicle::ContactOnRail>(on.element, alone ? below({on.wheelset}) : shared->second,
+                                                    alone ? 0 : set, kTolerance, on.rail_marker,
+                                                    system_.wheelsets.at(set).nominal_radius);
   }
 
   /// One rail.
@@ -314,7 +312,7 @@ class RailsBelow {
       loads.push_back(0.5 * system_.wheelset_load.at(static_cast<std::size_t>(wheelset)));
     }
     return std::make_shared<vehicle::LoadedRail>(
-        vehicle::MovingRail(*file_.flexible_track, file_.settings.speed, places, kNoNumericalDamping), loads);
+        vehicle::MovingRail(*file_.flexible_track, file_.settings.profile, places, kNoNumericalDamping), loads);
   }
 
  private:
@@ -396,9 +394,10 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       built.bodies.emplace_back();
       on.element = from_table;
     }
-    if (rails) on.element = rails->upon(wheel, on.element);
+    // A check rail is fixed to the running rail.
     for (const io::CheckRailInput& rail : file.check_rails)
       if (rail.side == wheel.side) on.element = beside(rail, file, wheel, on);
+    if (rails) on.element = rails->upon(on);
   }
   v.connect();
   const bool fields = !file.fields.pitch.empty() || !file.fields.position.empty();

@@ -49,9 +49,9 @@ const char* unit_of(const vehicle::Coordinate& c) { return static_cast<int>(c.fr
 
 /// Nothing is added to a rail that does not bend, not even a sign of zero.
 void add_bending(const ContactReaction& reaction, Motion& m) {
-  if (reaction.bending.z == 0.0 && reaction.bending.vz == 0.0) return;
-  m.rail.z += reaction.bending.z;
-  m.rail.vz += reaction.bending.vz;
+  using Rail = vehicle::RailMotion;
+  for (double Rail::*part : {&Rail::y, &Rail::z, &Rail::roll, &Rail::vy, &Rail::vz, &Rail::vroll})
+    if (reaction.bending.*part != 0.0) m.rail.*part += reaction.bending.*part;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<const TrackCurve*> all_curves(const TrackResult& result) {
   std::vector<const TrackCurve*> all;
   for (const TrackCurve& curve : result.curves) all.push_back(&curve);
   if (result.fitted) all.push_back(&result.fitted->curve);
-  if (result.lateral) all.push_back(&*result.lateral);
+  for (const TrackCurve& curve : result.lateral) all.push_back(&curve);
   return all;
 }
 
@@ -91,10 +91,13 @@ std::string track_table(const TrackResult& r) {
   };
   std::string text = fmt::format("{}: {}\n", r.name, r.flexible ? "flexible" : "lumped");
   for (const TrackCurve* curve : all_curves(r))
-    text += line(fmt::format("stiffness at rest, {}", curve->name).c_str(), kMega / curve->at_rest, "MN/m", "");
+    if (curve->key != "cross")
+      text += line(fmt::format("stiffness at rest, {}", curve->name).c_str(), kMega / curve->at_rest, "MN/m", "");
   if (r.bay) {
     text += line("pinned-pinned frequency", r.bay->pinned_pinned, "Hz",
                  fmt::format("by formula, sleepers {:.4g} m apart", r.bay->length));
+    if (r.bay->lateral_pinned_pinned)
+      text += line("pinned-pinned frequency, lateral", *r.bay->lateral_pinned_pinned, "Hz", "by formula");
     text +=
         line("most between against over sleepers", r.bay->peak, "Hz", fmt::format("{:.3g} times", r.bay->peak_ratio));
   }
@@ -146,10 +149,12 @@ std::string track_json(const TrackResult& r) {
     out["seats"] = r.bay->seats;
     out["bay_m"] = number_of(r.bay->length);
     out["pinned_pinned_Hz"] = number_of(r.bay->pinned_pinned);
+    if (r.bay->lateral_pinned_pinned) out["lateral_pinned_pinned_Hz"] = number_of(*r.bay->lateral_pinned_pinned);
     out["peak_Hz"] = number_of(r.bay->peak);
     out["peak_ratio"] = number_of(r.bay->peak_ratio);
     out["deflection"] = {{"x_m", list_of_numbers(r.bay->x)}, {"m_per_N", list_of_numbers(r.bay->deflection)}};
   }
+  if (r.request.aside != 0.0) out["aside_m"] = number_of(r.request.aside);
   out["frequency_Hz"] = list_of_numbers(r.frequency);
   out["curves"] = TrackJson::object();
   for (const TrackCurve* curve : all_curves(r))

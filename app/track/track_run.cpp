@@ -33,13 +33,32 @@ std::vector<double> frequencies_of(const TrackRequest& request) {
   return f;
 }
 
-std::optional<TrackCurve> lateral_curve(const std::optional<TrackModel>& track, const std::vector<double>& frequency) {
-  if (!track) return std::nullopt;
+std::vector<TrackCurve> lateral_curve(const std::optional<TrackModel>& track, const std::vector<double>& frequency) {
+  if (!track) return {};
   const double rest[] = {0.0};
   TrackCurve curve{"rail, lateral", "lateral", vehicle::receptance(*track, Freedom::y, frequency),
                    vehicle::receptance(*track, Freedom::y, rest).front().real()};
-  if (!(curve.at_rest > 0.0)) return std::nullopt;
-  return curve;
+  if (!(curve.at_rest > 0.0)) return {};
+  return {std::move(curve)};
+}
+
+/// What is fitted to their logarithms' mean is nearest to all of them. What takes energy has phases of one half turn.
+Complex mean_of(std::span<const Complex> all) {
+  Complex sum = 0.0;
+  for (const Complex& one : all) sum += std::log(one);
+  return std::exp(sum / static_cast<double>(all.size()));
+}
+
+/// Fills curves: values gives one number for each of them at a frequency.
+template <class Values>
+void fill(const std::vector<double>& frequency, std::vector<TrackCurve>& curves, Values&& values) {
+  const auto at_rest = values(0.0);
+  for (std::size_t c = 0; c < curves.size(); ++c) curves[c].at_rest = at_rest[c].real();
+  for (const double f : frequency) {
+    check_cancelled();
+    const auto at = values(f);
+    for (std::size_t c = 0; c < curves.size(); ++c) curves[c].receptance.push_back(at[c]);
+  }
 }
 
 void run_flexible(const FlexibleTrack& track, TrackResult& result) {
@@ -51,26 +70,40 @@ void run_flexible(const FlexibleTrack& track, TrackResult& result) {
   result.curves = {{"between sleepers", "between", {}, 0.0},
                    {"over a sleeper", "over", {}, 0.0},
                    {"mean of a bay", "mean", {}, 0.0}};
-  const auto values = [&](double f) {
-    check_cancelled();
-    const std::vector<Complex> all = rail.receptance(places, f);
-    // What is fitted to their logarithms' mean is nearest to all of them. What takes energy has phases of one half
-    // turn.
-    Complex sum = 0.0;
-    for (std::size_t i = 2; i < all.size(); ++i) sum += std::log(all[i]);
-    return std::array<Complex, 3>{all[0], all[1], std::exp(sum / static_cast<double>(kMeanPlaces))};
-  };
-  const auto at_rest = values(0.0);
-  for (std::size_t c = 0; c < 3; ++c) result.curves[c].at_rest = at_rest[c].real();
-  for (const double f : result.frequency) {
-    const auto at = values(f);
-    for (std::size_t c = 0; c < 3; ++c) result.curves[c].receptance.push_back(at[c]);
+  const double aside = result.request.aside;
+  std::optional<vehicle::RailOnSeats> sideways;
+  if (track.sideways) sideways.emplace(track, vehicle::RailPlane::sideways);
+  fill(result.frequency, result.curves, [&](double f) {
+    std::vector<Complex> all = rail.receptance(places, f);
+    // Beside the middle of the head rolling counts, too.
+    if (sideways && aside != 0.0) {
+      const std::vector<Eigen::MatrixXcd> more = sideways->receptances(places, f);
+      for (std::size_t i = 0; i < all.size(); ++i) all[i] += aside * aside * more[i](1, 1);
+    }
+    return std::array<Complex, 3>{all[0], all[1], mean_of(std::span(all).subspan(2))};
+  });
+  if (sideways) {
+    result.lateral = {{"lateral, between", "lateral_between", {}, 0.0},
+                      {"lateral, over", "lateral_over", {}, 0.0},
+                      {"lateral, mean", "lateral", {}, 0.0}};
+    if (aside != 0.0) result.lateral.push_back({"vertical by lateral", "cross", {}, 0.0});
+    fill(result.frequency, result.lateral, [&](double f) {
+      std::vector<Complex> all;
+      const std::vector<Eigen::MatrixXcd> at = sideways->receptances(places, f);
+      for (const Eigen::MatrixXcd& one : at) all.push_back(one(0, 0));
+      return std::array<Complex, 4>{all[0], all[1], mean_of(std::span(all).subspan(2)), aside * at[0](1, 0)};
+    });
+  } else {
+    result.lateral = lateral_curve(vehicle::lateral_track(track), result.frequency);
   }
 
   TrackResult::Bay& own = result.bay.emplace();
   own.seats = track.seats.size();
   own.length = bay;
   own.pinned_pinned = vehicle::pinned_pinned_frequency(track.rail, bay);
+  if (sideways)
+    own.lateral_pinned_pinned =
+        vehicle::pinned_pinned_frequency(vehicle::beam_in(track, vehicle::RailPlane::sideways), bay);
   for (double part = 0.7; part < 1.3; part += 0.002) {
     check_cancelled();
     const std::vector<Complex> pair = rail.receptance(std::span(places).first(2), part * own.pinned_pinned);
@@ -86,7 +119,6 @@ void run_flexible(const FlexibleTrack& track, TrackResult& result) {
   std::vector<double> shown;
   for (const double x : own.x) shown.push_back(middle + x);
   own.deflection = rail.deflection(middle, shown);
-  result.lateral = lateral_curve(vehicle::lateral_track(track), result.frequency);
 }
 
 void run_lumped(const TrackModel& track, TrackResult& result) {
@@ -182,6 +214,9 @@ TrackResult run_track(const TrackRequest& request, const io::AnyTrack& any) {
     distance = std::abs(rail_y(lumped.right_rail) - rail_y(lumped.left_rail));
     run_lumped(lumped, result);
   }
+  const auto* bending = std::get_if<FlexibleTrack>(&any);
+  if (request.aside != 0.0 && (bending == nullptr || !bending->sideways))
+    throw Error(ErrorKind::configuration, "only rails that bend and roll are asked beside the middle of their heads");
   if (request.layers > 0) {
     const TrackCurve& target = result.typical();
     TrackResult::Fitted fitted;

@@ -20,9 +20,11 @@ struct TrackRequest {
   double from = 10.0, to = 1500.0;     ///< frequencies [Hz]
   int count = 200;                     ///< of them, evenly spaced in the logarithm
   int layers = 0;                      ///< of a lumped track to be fitted; 0: none
+  /// Where contact lies on the rail's head, beside its middle [m]: what couples vertical and lateral motion there.
+  double aside = 0.0;
 };
 
-/// Motion of a rail's top under a force of 1 N at it.
+/// Motion of a rail's top under a force of 1 N at it, in the same direction unless the name says otherwise.
 struct TrackCurve {
   std::string name;  ///< "between sleepers"
   std::string key;   ///< "between"
@@ -37,14 +39,17 @@ struct TrackResult {
   bool flexible = false;
   std::vector<double> frequency;   ///< [Hz]
   std::vector<TrackCurve> curves;  ///< vertical: between, over, mean of a flexible track; rail of a lumped one
-  std::optional<TrackCurve> lateral;
+  /// Of the rail, where it moves sideways; of a flexible track whose rails bend there between and over sleepers and the
+  /// mean of a bay (key lateral), and vertically under a lateral force beside the middle of the head.
+  std::vector<TrackCurve> lateral;
 
   /// Of the bay in the middle of a flexible track.
   struct Bay {
-    std::size_t seats = 0;       ///< of the whole track
-    double length = 0.0;         ///< [m]
-    double pinned_pinned = 0.0;  ///< by Timoshenko's formula [Hz]
-    double peak = 0.0;           ///< where the receptance between sleepers exceeds that over one the most [Hz]
+    std::size_t seats = 0;                        ///< of the whole track
+    double length = 0.0;                          ///< [m]
+    double pinned_pinned = 0.0;                   ///< by Timoshenko's formula [Hz]
+    std::optional<double> lateral_pinned_pinned;  ///< of bending sideways [Hz]
+    double peak = 0.0;  ///< where the receptance between sleepers exceeds that over one the most [Hz]
     double peak_ratio = 0.0;
     std::vector<double> x;           ///< from its middle [m]
     std::vector<double> deflection;  ///< of the rail at rest under a force of 1 N at x = 0 [m/N]

@@ -26,6 +26,52 @@ RailBeam read_beam(const TableReader& table) {
           table.number_or("rotary_inertia_kg_m", 0.0), table.number_or("damping_us", 0.0)};
 }
 
+constexpr std::string_view kSideways = "lateral_bending_stiffness_N_m2";
+
+/// None where rails do not bend sideways.
+std::optional<RailSideways> read_sideways(const TableReader& table) {
+  if (table.find(kSideways) == nullptr) {
+    for (const std::string_view key :
+         {"lateral_shear_stiffness_N", "lateral_rotary_inertia_kg_m", "torsional_stiffness_N_m2", "polar_inertia_kg_m",
+          "height_mm", "centroid_height_mm", "shear_centre_height_mm"})
+      if (table.find(key) != nullptr) table.need(kSideways, fmt::format("{} goes with it", table.path_of(key)));
+    return std::nullopt;
+  }
+  RailSideways s;
+  s.bending_stiffness = table.number(kSideways);
+  s.shear_stiffness = table.number("lateral_shear_stiffness_N");
+  s.rotary_inertia = table.number_or("lateral_rotary_inertia_kg_m", 0.0);
+  s.torsional_stiffness = table.number("torsional_stiffness_N_m2");
+  s.polar_inertia = table.number("polar_inertia_kg_m");
+  s.height = table.number("height_mm");
+  s.centroid = table.number("centroid_height_mm");
+  s.shear_centre = table.number_or("shear_centre_height_mm", s.centroid);
+  for (const std::string_view key : {"centroid_height_mm", "shear_centre_height_mm"})
+    if (const CaseValue* value = table.find(key); value != nullptr && table.number(key) > s.height)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("{} is larger than {}", table.path_of(key), table.path_of("height_mm")), value->where,
+                  "heights are above the foot");
+  return s;
+}
+
+void read_seats_sideways(const TableReader& table, bool sideways, RailSeat& seat) {
+  if (!sideways) {
+    for (const std::string_view key :
+         {"lateral_pad_stiffness_N_per_m", "lateral_pad_damping_N_s_per_m", "roll_stiffness_N_m_per_rad",
+          "roll_damping_N_m_s_per_rad", "lateral_bed_stiffness_N_per_m", "lateral_bed_damping_N_s_per_m"})
+      if (const CaseValue* value = table.find(key))
+        throw Error(ErrorKind::configuration, fmt::format("{} is for rails that bend sideways", table.path_of(key)),
+                    value->where, fmt::format("give rail.{}, or [lateral] instead", kSideways));
+    return;
+  }
+  seat.lateral_pad_stiffness = table.number("lateral_pad_stiffness_N_per_m");
+  seat.lateral_pad_damping = table.number_or("lateral_pad_damping_N_s_per_m", 0.0);
+  seat.roll_stiffness = table.number("roll_stiffness_N_m_per_rad");
+  seat.roll_damping = table.number_or("roll_damping_N_m_s_per_rad", 0.0);
+  seat.lateral_bed_stiffness = table.number("lateral_bed_stiffness_N_per_m");
+  seat.lateral_bed_damping = table.number_or("lateral_bed_damping_N_s_per_m", 0.0);
+}
+
 /// Distances from each seat to the next, one for each seat.
 std::vector<double> read_spacings(const TableReader& table, std::size_t count) {
   table.exclude("spacing_m", "spacings_m");
@@ -50,6 +96,7 @@ void read_seats(const TableReader& table, FlexibleTrack& track) {
   seat.sleeper_mass = 0.5 * table.number("sleeper_mass_kg");
   seat.bed_stiffness = table.number("bed_stiffness_N_per_m");
   seat.bed_damping = table.number_or("bed_damping_N_s_per_m", 0.0);
+  read_seats_sideways(table, track.sideways.has_value(), seat);
   for (const double spacing : spacings) {
     track.seats.push_back(seat);
     seat.x += spacing;
@@ -75,11 +122,13 @@ void vary_seats(const TableReader& table, FlexibleTrack& track) {
                bed = table.number_or("bed_factor", 1.0);
   for (int i = first - 1; i < last; ++i) {
     RailSeat& seat = track.seats[static_cast<std::size_t>(i)];
-    seat.pad_stiffness *= pad;
-    seat.pad_damping *= pad;
+    for (double* of_pad : {&seat.pad_stiffness, &seat.pad_damping, &seat.lateral_pad_stiffness,
+                           &seat.lateral_pad_damping, &seat.roll_stiffness, &seat.roll_damping})
+      *of_pad *= pad;
     seat.sleeper_mass *= sleeper;
-    seat.bed_stiffness *= bed;
-    seat.bed_damping *= bed;
+    for (double* of_bed :
+         {&seat.bed_stiffness, &seat.bed_damping, &seat.lateral_bed_stiffness, &seat.lateral_bed_damping})
+      *of_bed *= bed;
   }
 }
 
@@ -89,6 +138,7 @@ RailJoint read_joint(const TableReader& table, const FlexibleTrack& track) {
   joint.hinge_stiffness = table.number("hinge_stiffness_N_m_per_rad");
   joint.dip_depth = table.number_or("dip_mm", joint.dip_depth);
   joint.dip_length = table.number_or("dip_length_mm", joint.dip_length);
+  joint.lateral_hinge_stiffness = table.number_if("lateral_hinge_stiffness_N_m_per_rad");
   const std::vector<RailSeat>& seats = track.seats;
   const auto refuse = [&](const std::string& what, const std::string& advice) {
     throw Error(ErrorKind::configuration, fmt::format("joints.place_m = {:.6g}: {}", joint.x, what),
@@ -121,6 +171,7 @@ FlexibleTrack read_flexible_track(const TableReader& document) {
   const TableReader rail = part_of(document, "rail", rail_beam_keys());
   track.rail = read_beam(rail);
   track.gauge = rail.number_or("distance_m", track.gauge);
+  track.sideways = read_sideways(rail);
   read_seats(part_of(document, "seats", seat_keys()), track);
   for (const CaseValue* one : document.tables("varied"))
     vary_seats(TableReader(one->table(), one->where, "varied", varied_seat_keys()), track);

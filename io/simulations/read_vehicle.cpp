@@ -79,12 +79,18 @@ void scale_track(FlexibleTrack& track, const TableReader& table) {
                damping = table.number_or("scale_damping", 1.0);
   track.rail.mass *= mass;
   track.rail.rotary_inertia *= mass;
+  if (track.sideways) {
+    track.sideways->rotary_inertia *= mass;
+    track.sideways->polar_inertia *= mass;
+  }
   for (RailSeat& seat : track.seats) {
     seat.sleeper_mass *= mass;
-    seat.pad_stiffness *= stiffness;
-    seat.bed_stiffness *= stiffness;
-    seat.pad_damping *= damping;
-    seat.bed_damping *= damping;
+    for (double* spring : {&seat.pad_stiffness, &seat.bed_stiffness, &seat.lateral_pad_stiffness, &seat.roll_stiffness,
+                           &seat.lateral_bed_stiffness})
+      *spring *= stiffness;
+    for (double* damper : {&seat.pad_damping, &seat.bed_damping, &seat.lateral_pad_damping, &seat.roll_damping,
+                           &seat.lateral_bed_damping})
+      *damper *= damping;
   }
   if (!track.lateral) return;
   track.lateral->pad_stiffness *= stiffness;

@@ -108,7 +108,7 @@ const TableKeys& track_tables() {
                 seat_keys()),
       table_key("varied", KeyType::table_list, "seats of a flexible rail that differ", varied_seat_keys()),
       table_key("joints", KeyType::table_list, "of flexible rails, at the same places on both", joint_keys()),
-      table_key("lateral", KeyType::table, "flexible rails sideways; without it they do not move there",
+      table_key("lateral", KeyType::table, "flexible rails sideways as masses on springs, and tracks fitted to them",
                 lateral_keys()),
       table_key("bodies", KeyType::table_list, "rigid bodies; required where kind is \"lumped\"", body_keys()),
       table_key("springs", KeyType::table_list, "springs and dampers between them", spring_keys())};
@@ -142,7 +142,19 @@ const TableKeys& rail_beam_keys() {
       with_default("0", key_info("rotary_inertia_kg_m", KeyType::number, "density times I", kNotNegative)),
       with_default("0", key_info("damping_us", KeyType::number,
                                  "inner damping over stiffness: the loss factor is 2 pi f times this", kNotNegative)),
-      with_default("1.507", key_info("distance_m", KeyType::number, "of the middles of both rails", {0.1, {}, 10.0}))};
+      with_default("1.507", key_info("distance_m", KeyType::number, "of the middles of both rails", {0.1, {}, 10.0})),
+      key_info("lateral_bending_stiffness_N_m2", KeyType::number,
+               "E I sideways; with it rails bend and twist sideways, and what follows counts", kPositive),
+      key_info("lateral_shear_stiffness_N", KeyType::number, "kappa G A sideways; required then", kPositive),
+      with_default("0",
+                   key_info("lateral_rotary_inertia_kg_m", KeyType::number, "density times I sideways", kNotNegative)),
+      key_info("torsional_stiffness_N_m2", KeyType::number, "G J of St Venant's torsion; required then", kPositive),
+      key_info("polar_inertia_kg_m", KeyType::number,
+               "density times polar moment of area about the centroid; required then", kPositive),
+      key_info("height_mm", KeyType::number, "of the top above the foot; required then", kPositive),
+      key_info("centroid_height_mm", KeyType::number, "of the centroid above the foot; required then", kNotNegative),
+      key_info("shear_centre_height_mm", KeyType::number, "of the shear centre; default that of the centroid",
+               kNotNegative)};
   return keys;
 }
 
@@ -164,7 +176,16 @@ const TableKeys& seat_keys() {
                                   "`count`",
                                   {{}, 0.0, kMostSeats})),
       with_default("2000", key_info("absorption_per_s", KeyType::number,
-                                    "damping over mass at both ends, from 0 growing with the square", kNotNegative))};
+                                    "damping over mass at both ends, from 0 growing with the square", kNotNegative)),
+      key_info("lateral_pad_stiffness_N_per_m", KeyType::number,
+               "of a seat at the rail's foot; required where rails bend sideways", kPositive),
+      with_default("0", key_info("lateral_pad_damping_N_s_per_m", KeyType::number, "of it", kNotNegative)),
+      key_info("roll_stiffness_N_m_per_rad", KeyType::number,
+               "of a seat against rolling of the rail; required where rails bend sideways", kPositive),
+      with_default("0", key_info("roll_damping_N_m_s_per_rad", KeyType::number, "of it", kNotNegative)),
+      key_info("lateral_bed_stiffness_N_per_m", KeyType::number,
+               "of what holds a sleeper sideways at one seat; required where rails bend sideways", kPositive),
+      with_default("0", key_info("lateral_bed_damping_N_s_per_m", KeyType::number, "of it", kNotNegative))};
   return keys;
 }
 
@@ -172,10 +193,12 @@ const TableKeys& varied_seat_keys() {
   static const TableKeys keys{
       needed(key_info("first_seat", KeyType::integer, "from 1", {{}, 1.0, kMostSeats})),
       key_info("last_seat", KeyType::integer, "default the first one", {{}, 1.0, kMostSeats}),
-      with_default("1", key_info("pad_factor", KeyType::number, "on stiffness and damping of pads", kPositive)),
+      with_default("1", key_info("pad_factor", KeyType::number,
+                                 "on stiffness and damping of pads, vertical, lateral and in roll", kPositive)),
       with_default("1", key_info("sleeper_factor", KeyType::number, "on the mass of sleepers", kPositive)),
-      with_default("1", key_info("bed_factor", KeyType::number, "on stiffness and damping below sleepers; 0: they hang",
-                                 kNotNegative))};
+      with_default(
+          "1", key_info("bed_factor", KeyType::number,
+                        "on stiffness and damping below sleepers, vertical and lateral; 0: they hang", kNotNegative))};
   return keys;
 }
 
@@ -190,7 +213,9 @@ const TableKeys& joint_keys() {
                                  "angle of 4 dip_mm over dip_length_mm",
                                  kNotNegative)),
       with_default("1000", key_info("dip_length_mm", KeyType::number,
-                                    "to either side, over which the slope falls linearly to 0", kPositive))};
+                                    "to either side, over which the slope falls linearly to 0", kPositive)),
+      key_info("lateral_hinge_stiffness_N_m_per_rad", KeyType::number,
+               "the same as hinge_stiffness sideways; without it rails go on there as one", kNotNegative)};
   return keys;
 }
 

@@ -39,11 +39,6 @@ BeamVector BeamElement::deflection(double p) const {
   return hinge_ ? BeamVector(whole_deflection(p) + opened(p) * angle_) : whole_deflection(p);
 }
 
-BeamVector BeamElement::slope(double p) const {
-  if (!hinge_) return whole_slope(p);
-  return whole_slope(p) + ((p >= hinge_->part ? 1.0 : 0.0) - whole_slope(p).dot(free_)) * angle_;
-}
-
 BeamVector BeamElement::rotation(double p) const {
   if (!hinge_) return whole_rotation(p);
   return whole_rotation(p) + ((p >= hinge_->part ? 1.0 : 0.0) - whole_rotation(p).dot(free_)) * angle_;
@@ -72,13 +67,6 @@ BeamVector BeamElement::whole_deflection(double p) const {
          (1.0 + s);
 }
 
-BeamVector BeamElement::whole_slope(double p) const {
-  const double p2 = p * p, s = shear_;
-  return BeamVector((6.0 * p2 - 6.0 * p - s) / length_, 3.0 * p2 - (4.0 + s) * p + 1.0 + 0.5 * s,
-                    (-6.0 * p2 + 6.0 * p + s) / length_, 3.0 * p2 - (2.0 - s) * p - 0.5 * s) /
-         (1.0 + s);
-}
-
 BeamVector BeamElement::whole_rotation(double p) const {
   const double p2 = p * p, s = shear_;
   return BeamVector(6.0 * (p2 - p) / length_, 3.0 * p2 - (4.0 + s) * p + 1.0 + s, -6.0 * (p2 - p) / length_,
@@ -86,22 +74,33 @@ BeamVector BeamElement::whole_rotation(double p) const {
          (1.0 + s);
 }
 
-BeamMatrix BeamElement::mass() const {
-  // Gauss' four points: exact up to the seventh power, the products here have the sixth.
+template <class Visit>
+void BeamElement::integrate(Visit&& visit) const {
+  // Gauss' four points.
   constexpr std::array<double, 4> kPlaces{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                                           0.8611363115940526};
   constexpr std::array<double, 4> kWeights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                            0.3478548451374538};
-  BeamMatrix m = BeamMatrix::Zero();
   const double kink = hinge_ ? hinge_->part : 1.0;
   for (const auto& [from, to] : {std::pair{0.0, kink}, {kink, 1.0}})
-    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-      const double part = from + 0.5 * (to - from) * (1.0 + kPlaces[i]),
-                   weight = 0.5 * (to - from) * length_ * kWeights[i];
-      const BeamVector w = deflection(part), turn = rotation(part);
-      m += weight * (beam_.mass * w * w.transpose() + beam_.rotary_inertia * turn * turn.transpose());
-    }
+    for (std::size_t i = 0; i < kPlaces.size(); ++i)
+      visit(from + 0.5 * (to - from) * (1.0 + kPlaces[i]), 0.5 * (to - from) * length_ * kWeights[i]);
+}
+
+BeamMatrix BeamElement::mass() const {
+  BeamMatrix m = BeamMatrix::Zero();
+  integrate([&](double part, double weight) {
+    const BeamVector w = deflection(part), turn = rotation(part);
+    m += weight * (beam_.mass * w * w.transpose() + beam_.rotary_inertia * turn * turn.transpose());
+  });
   return m;
+}
+
+Eigen::Matrix<double, 4, 2> BeamElement::moments() const {
+  Eigen::Matrix<double, 4, 2> sum = Eigen::Matrix<double, 4, 2>::Zero();
+  integrate(
+      [&](double part, double weight) { sum += weight * deflection(part) * Eigen::RowVector2d(1.0 - part, part); });
+  return sum;
 }
 
 double BeamElement::whole_compliance(double part) const {
@@ -110,16 +109,6 @@ double BeamElement::whole_compliance(double part) const {
                    after = BeamElement(beam_, (1.0 - part) * length_).stiffness();
   const Eigen::Matrix2d k = before.bottomRightCorner<2, 2>() + after.topLeftCorner<2, 2>();
   return k(1, 1) / k.determinant();
-}
-
-double BeamElement::own_compliance_slope(double part) const {
-  // A quotient of polynomials to each side of a hinge: differences over this share of the length are exact to ten
-  // digits.
-  constexpr double kStep = 1e-4;
-  double low = std::max(0.0, part - kStep), high = std::min(1.0, part + kStep);
-  if (hinge_ && part < hinge_->part) high = std::min(high, hinge_->part);
-  if (hinge_ && part >= hinge_->part && hinge_->part < 1.0) low = std::max(low, hinge_->part);
-  return (own_compliance(high) - own_compliance(low)) / ((high - low) * length_);
 }
 
 double pinned_pinned_frequency(const RailBeam& beam, double span) {

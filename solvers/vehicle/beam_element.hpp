@@ -29,22 +29,23 @@ class BeamElement {
   BeamMatrix stiffness() const;
   /// Consistent mass, that of rotation included.
   BeamMatrix mass() const;
+  /// Integrals along the element of the deflections times 1 - part and times part [m].
+  Eigen::Matrix<double, 4, 2> moments() const;
   /// Deflection at part 0 ... 1 of the length by the coordinates.
   BeamVector deflection(double part) const;
-  /// Slope of the deflection there, shear and hinge included.
-  BeamVector slope(double part) const;
   /// Rotation of the section there, behind a hinge at that place.
   BeamVector rotation(double part) const;
   /// Further deflection [m/N] under a force at this place while the ends stand still: what the interpolation of the
   /// deflection cannot follow.
   double own_compliance(double part) const;
-  /// Its derivative along the element [1/N].
-  double own_compliance_slope(double part) const;
 
  private:
+  /// visit(part, weight) at places whose weighted sum is the integral along the element of a polynomial of up to the
+  /// seventh power to each side of a hinge.
+  template <class Visit>
+  void integrate(Visit&& visit) const;
   BeamMatrix whole_stiffness() const;
   BeamVector whole_deflection(double part) const;
-  BeamVector whole_slope(double part) const;
   BeamVector whole_rotation(double part) const;
   double whole_compliance(double part) const;
   /// What opening the hinge by 1 rad moves places by while the ends stand still [m].

@@ -77,6 +77,7 @@ ContactReaction ContactWithCheckRail::evaluate(const PairMotion& motion) {
   t.X_TC.rotation.col(2) = -side_ * Vec3::UnitY();
   t.stiffness_n = rail_.stiffness;
   t.damping_x = t.damping_s = drag;
+  t.normal_force = normal;
   r.tangents.push_back(t);
   return r;
 }

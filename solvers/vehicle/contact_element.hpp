@@ -34,6 +34,7 @@ struct PatchTangent {
   Pose X_TC;                                ///< contact axes at the contact point, track axes
   double stiffness_n = 0.0;                 ///< [N/m]
   double damping_x = 0.0, damping_s = 0.0;  ///< of creep [N s/m]
+  double normal_force = 0.0;                ///< [N]
 };
 
 /// What acts between one wheel and one rail.

@@ -25,6 +25,7 @@ PatchTangent tangent_of(const wheelrail::PatchSolution& patch, const wheelrail::
   t.X_TC = patch.frame.X_TC;
   const kalker::ContactSolution& c = patch.contact;
   t.stiffness_n = 1.5 * c.force_n / std::max(patch.approach, 1e-9);
+  t.normal_force = c.force_n;
   const double velocity = patch.kinematics.velocity;
   if (!(velocity > 0.0) || c.force_n <= 0.0) return t;
   const double area = c.elements_contact * patch.grid.cell_area();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "treadmark/core/pose.hpp"
 #include "treadmark/solvers/vehicle/moving_rail.hpp"
 
 namespace treadmark::vehicle {
@@ -17,35 +18,41 @@ namespace treadmark::vehicle {
 /// Thread-safe for calls of different wheels up to settle and accept, for one time.
 class LoadedRail {
  public:
-  /// loads: of the wheels at rest [N], one for each force of the rail. Errors: Error(configuration).
+  /// loads: vertical ones of the wheels at rest [N], one for each place of the rail. Errors: Error(configuration).
   LoadedRail(MovingRail rail, const std::vector<double>& loads);
 
   std::size_t wheels() const { return pressed_.size(); }
   /// Whether an instant has been accepted; until then the rail is at rest under forces that have come slowly.
   bool started() const { return started_; }
-  double load(std::size_t wheel) const { return load_[index(wheel)]; }
+  double load(std::size_t wheel) const { return load_[index(wheel) + 1]; }
 
-  /// At a wheel by its own force; what forces of the others add as they are counted on is part of free.
+  /// Of a wheel's place, y, z and roll of the rail's top, by the wheel's own forces on these; what forces of the others
+  /// add as they are counted on is part of free.
   struct Answer {
-    double free = 0.0, compliance = 0.0;     ///< deflection [m], [m/N]
-    double rate = 0.0, rate_by_force = 0.0;  ///< of it under the wheel, which moves [m/s], [m/(s N)]
-    Eigen::VectorXd counted_on;              ///< forces of the others, 0 at the wheel [N]
-    double deflection(double force) const { return free + compliance * force; }
-    double rate_under(double force) const { return rate + rate_by_force * force; }
+    Vec3 free;                   ///< [m], [rad]
+    Mat3 compliance;             ///< of them by forces
+    Vec3 rate;                   ///< of the rail there [m/s], [rad/s]
+    Mat3 rate_by_force;          ///< of these
+    Eigen::VectorXd counted_on;  ///< forces of the others, 0 at the wheel
+    Vec3 motion(const Vec3& force) const { return free + compliance * force; }
+    Vec3 rate_under(const Vec3& force) const { return rate + rate_by_force * force; }
   };
   Answer at_rest(std::size_t wheel) const;
   Answer after(std::size_t wheel, double time);
-  /// Force of a wheel as others count on it at a time [N].
-  double counted_on(std::size_t wheel, double time) const { return counted_on(time)[index(wheel)]; }
-  /// Horizontal force on a wheel, over its force: mean of the step.
-  double slope(std::size_t wheel, double force, const Answer& answer) const;
+  /// Forces of a wheel as others count on them at a time.
+  Vec3 counted_on(std::size_t wheel, double time) const { return counted_on(time).segment<3>(index(wheel)); }
+  /// Slopes of the rail along it below a wheel: mean of the step.
+  Vec3 slope(std::size_t wheel, const Vec3& force, const Answer& answer) const;
 
-  /// What a wheel found at a time, and how its force changes with a deflection that others make [N/m].
-  void press(std::size_t wheel, double force, double stiffness) { pressed_[wheel] = {force, stiffness}; }
-  /// What the forces pressed deflect a wheel's place by beyond what it counted on for the others [m].
-  double missed(std::size_t wheel, const Answer& answer) const;
+  /// What a wheel found at a time, how its forces fall with motions of the rail that others make, and how far it has
+  /// got since time 0 [m].
+  void press(std::size_t wheel, const Vec3& force, const Mat3& stiffness, double travelled) {
+    pressed_[wheel] = {force, stiffness, travelled};
+  }
+  /// What the forces pressed move a wheel's place by beyond what it counted on for the others.
+  Vec3 missed(std::size_t wheel, const Answer& answer) const;
   /// The rail under the forces pressed.
-  MovingRail::Moved moved() const { return started_ ? rail_.moved(pressed()) : rail_.moved_at_rest(pressed()); }
+  MovingRail::Moved moved() { return started_ ? rail_.moved(pressed()) : rail_.moved_at_rest(pressed()); }
   /// All have pressed: what to count on at the same time from now on.
   void settle(double time);
   /// Under the forces pressed.
@@ -57,13 +64,19 @@ class LoadedRail {
 
  private:
   struct Pressed {
-    double force = 0.0, stiffness = 0.0;
+    Vec3 force = Vec3::Zero();
+    Mat3 stiffness = Mat3::Zero();
+    double travelled = 0.0;
   };
   struct Instant {
     double time = 0.0;
     Eigen::VectorXd force;
   };
-  static Eigen::Index index(std::size_t wheel) { return static_cast<Eigen::Index>(wheel); }
+  /// Of a wheel's first number.
+  static Eigen::Index index(std::size_t wheel) { return MovingRail::kMotions * static_cast<Eigen::Index>(wheel); }
+  Answer answer(std::size_t wheel, const Eigen::VectorXd& counted_on, const MovingRail::Answer& motions,
+                const MovingRail::Answer& rates) const;
+  static Eigen::VectorXd held_down(Eigen::VectorXd forces);
   Eigen::VectorXd pressed() const;
   Eigen::VectorXd counted_on(double time) const;
   const Eigen::MatrixXd& compliance() const;
@@ -72,6 +85,7 @@ class LoadedRail {
   std::mutex solving_;
   Eigen::VectorXd load_;
   std::vector<Pressed> pressed_;
+  std::vector<double> first_;  ///< travelled, at time 0
   bool started_ = false;
   Instant last_, before_;         ///< accepted
   std::optional<Instant> trial_;  ///< settled

@@ -160,7 +160,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   r.patches = 1;
   r.elastic_energy = elastic.energy;
   r.frictional_power = creep.power;
-  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y()});
+  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y(), elastic.normal_force});
   return r;
 }
 

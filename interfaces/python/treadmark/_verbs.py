@@ -480,7 +480,7 @@ class Track(_Drawn):
     @property
     def receptances(self) -> dict[str, npt.NDArray[np.complex128]]:
         """Motion of the rail under a force at it, by name [m/N]: "between" sleepers, "over" one, "mean" of a flexible track, "rail" of a
-        lumped one, "fitted", "lateral"."""
+        lumped one, "fitted", "lateral"; where rails bend sideways also "lateral_between" and "lateral_over"."""
         return {name: np.array(curve["m_per_N"]) * np.exp(1j * np.radians(np.array(curve["phase_deg"])))
                 for name, curve in self.document["curves"].items()}
 

@@ -103,13 +103,35 @@ TEST(TrackRun, TheFittedFileHasTheFittedReceptance) {
   }
 }
 
+/// Sideways a rail gives way by its torsion, too; beside the middle of its head the contact rolls up and down with it.
+TEST(TrackRun, RailsBendSidewaysAndRoll) {
+  TrackRequest request = request_of("zhai-flexible.toml", 0);
+  const TrackResult middle = run_track(request);
+  request.aside = 0.02;
+  const TrackResult beside = run_track(request);
+  ASSERT_EQ(middle.lateral.size(), 3u);
+  ASSERT_EQ(beside.lateral.size(), 4u);
+  EXPECT_GT(middle.lateral[0].at_rest, middle.lateral[2].at_rest);
+  EXPECT_GT(middle.lateral[2].at_rest, middle.lateral[1].at_rest);
+  // Softer than by bending alone, a third of it by torsion.
+  EXPECT_GT(middle.lateral[2].at_rest, 1.2 * (1.0 / 30e6 + 1.0 / 35e6));
+  EXPECT_GT(beside.curves[0].at_rest, middle.curves[0].at_rest);
+  EXPECT_EQ(beside.lateral[0].at_rest, middle.lateral[0].at_rest);
+  EXPECT_GT(beside.lateral[3].at_rest, 0.0);
+  ASSERT_TRUE(middle.bay && middle.bay->lateral_pinned_pinned);
+  EXPECT_LT(*middle.bay->lateral_pinned_pinned, middle.bay->pinned_pinned);
+  request = request_of("zhai-equivalent.toml", 0);
+  request.aside = 0.02;
+  EXPECT_THAT(error_of(request), HasSubstr("only rails that bend and roll"));
+}
+
 TEST(TrackRun, FindsALumpedTrackAgain) {
   const TrackResult r = run_track(request_of("gm-tt0088.toml", 1));
   EXPECT_FALSE(r.flexible);
   EXPECT_FALSE(r.bay);
   EXPECT_NEAR(1.0 / r.typical().at_rest, 62e6, 1.0);
-  ASSERT_TRUE(r.lateral);
-  EXPECT_NEAR(1.0 / r.lateral->at_rest, 16.154e6, 1.0);
+  ASSERT_EQ(r.lateral.size(), 1u);
+  EXPECT_NEAR(1.0 / r.lateral[0].at_rest, 16.154e6, 1.0);
   const vehicle::LumpedLayer& layer = r.fitted->fit.layers.at(0);
   EXPECT_NEAR(layer.mass / 245.0, 1.0, 1e-5);
   EXPECT_NEAR(layer.stiffness / 62e6, 1.0, 1e-5);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <variant>
 #include <vector>
@@ -119,6 +120,55 @@ TEST(FlexibleTrackFile, KeysAreChangedByTheirPaths) {
   EXPECT_EQ(changed.lateral->bed_damping, 10 * 175e3);
 }
 
+const std::string kRailSideways =
+    "lateral_bending_stiffness_N_m2 = 1.1e6\nlateral_shear_stiffness_N = 240e6\ntorsional_stiffness_N_m2 = 1.7e5\n"
+    "polar_inertia_kg_m = 0.3\nheight_mm = 172\ncentroid_height_mm = 80\nshear_centre_height_mm = 40\n";
+const std::string kSeatsSideways =
+    "lateral_pad_stiffness_N_per_m = 20e6\nroll_stiffness_N_m_per_rad = 1e5\nroll_damping_N_m_s_per_rad = 100\n"
+    "lateral_bed_stiffness_N_per_m = 15e6\nlateral_bed_damping_N_s_per_m = 60e3\n";
+
+std::string bending_sideways(const std::string& rail = kRailSideways, const std::string& seats = kSeatsSideways) {
+  return samples::with(samples::with(kFlexible, "distance_m = 1.5\n", "distance_m = 1.5\n" + rail), "count = 20\n",
+                       "count = 20\n" + seats);
+}
+
+TEST(FlexibleTrackFile, ReadsRailsThatBendSideways) {
+  EXPECT_FALSE(flexible(kFlexible).sideways);
+  const FlexibleTrack track = flexible(bending_sideways(), {"scale_stiffness=2", "scale_mass=3", "scale_damping=4"});
+  ASSERT_TRUE(track.sideways);
+  EXPECT_EQ(track.sideways->bending_stiffness, 1.1e6);
+  EXPECT_EQ(track.sideways->shear_stiffness, 240e6);
+  EXPECT_EQ(track.sideways->rotary_inertia, 0.0);
+  EXPECT_EQ(track.sideways->torsional_stiffness, 1.7e5);
+  EXPECT_DOUBLE_EQ(track.sideways->polar_inertia, 0.9);
+  EXPECT_DOUBLE_EQ(track.sideways->height, 0.172);
+  EXPECT_DOUBLE_EQ(track.sideways->centroid, 0.08);
+  EXPECT_DOUBLE_EQ(track.sideways->shear_centre, 0.04);
+  EXPECT_EQ(track.seats[0].lateral_pad_stiffness, 2 * 20e6);
+  EXPECT_EQ(track.seats[0].lateral_pad_damping, 0.0);
+  EXPECT_EQ(track.seats[0].roll_stiffness, 2 * 1e5);
+  EXPECT_EQ(track.seats[0].roll_damping, 4 * 100.0);
+  EXPECT_EQ(track.seats[0].lateral_bed_damping, 4 * 60e3);
+  // The third and fourth hang, and the pad of the fourth is twice as stiff.
+  EXPECT_EQ(track.seats[2].lateral_bed_stiffness, 0.0);
+  EXPECT_EQ(track.seats[3].roll_stiffness, 2 * 2 * 1e5);
+  EXPECT_EQ(track.seats[3].lateral_pad_stiffness, 2 * 2 * 20e6);
+}
+
+TEST(FlexibleTrackFile, RefusesHalfOfWhatBendsSideways) {
+  const auto error = [](const std::string& rail, const std::string& seats) {
+    return samples::error_of([&] { flexible(bending_sideways(rail, seats)); });
+  };
+  EXPECT_THAT(error(samples::with(kRailSideways, "torsional_stiffness_N_m2 = 1.7e5\n", ""), kSeatsSideways),
+              HasSubstr("rail.torsional_stiffness_N_m2 is missing"));
+  EXPECT_THAT(error(kRailSideways, ""), HasSubstr("seats.lateral_pad_stiffness_N_per_m is missing"));
+  EXPECT_THAT(error("", kSeatsSideways), AllOf(HasSubstr("seats.lateral_pad_stiffness_N_per_m"),
+                                               HasSubstr("rail.lateral_bending_stiffness_N_m2")));
+  EXPECT_THAT(error("height_mm = 172\n", ""), HasSubstr("rail.lateral_bending_stiffness_N_m2 is missing"));
+  EXPECT_THAT(error(samples::with(kRailSideways, "= 80", "= 180"), kSeatsSideways),
+              HasSubstr("rail.centroid_height_mm is larger than rail.height_mm"));
+}
+
 TEST(FlexibleTrackFile, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refused("spacings_m = [0.6, 0.5]", "spacings_m = [0.6, -0.5]"),
               AllOf(HasSubstr("f.toml:16"), HasSubstr("seats.spacings_m")));
@@ -196,6 +246,13 @@ TEST(ShippedTrack, ZhaiFlexibleHasTheDataOfTheLumpedOne) {
   EXPECT_NEAR(track.rail.rotary_inertia / (7850.0 * 3.217e-5), 1.0, 1e-3);
   EXPECT_EQ(track.seats[7].pad_stiffness, 65e6);
   EXPECT_EQ(track.seats[7].sleeper_mass, 125.5);
+  // Sideways a beam on a bed gives way at rest as the springs of [lateral] do.
+  ASSERT_TRUE(track.sideways);
+  const double bed = track.seats[0].lateral_pad_stiffness / 0.545,
+               point = 2.0 * std::sqrt(2.0) * std::pow(track.sideways->bending_stiffness, 0.25) * std::pow(bed, 0.75);
+  EXPECT_NEAR(point / track.lateral->pad_stiffness, 1.0, 1e-3);
+  EXPECT_NEAR(track.seats[0].lateral_bed_stiffness / track.seats[0].lateral_pad_stiffness,
+              track.lateral->bed_stiffness / track.lateral->pad_stiffness, 1e-3);
   const TrackModel lumped = std::get<TrackModel>(read_any_track_file(folder + "zhai-equivalent.toml"));
   EXPECT_NEAR(lumped.bodies[0].inertia.x() / (lumped.bodies[0].mass * track.lateral->roll_inertia), 1.0, 1e-3);
 }

@@ -42,6 +42,7 @@ class HertzSpring : public ContactElement {
     t.X_TC.origin = arm - Vec3(0.0, 0.0, radius_);
     t.stiffness_n = 1.5 * f / d;
     t.damping_x = creep_;
+    t.normal_force = f;
     r.tangents = {t};
     return r;
   }

@@ -49,14 +49,22 @@ Wave on_bed(const FlexibleTrack& track, double f, double distance) {
   return infinite_beam(track.rail, bed_stiffness(track.seats[0], kFineBay, w), w, distance);
 }
 
-Eigen::VectorXd two(double first, double second) { return Eigen::Vector2d(first, second); }
+/// Vertical forces at two places.
+Eigen::VectorXd two(double first, double second) {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(6);
+  forces[1] = first;
+  forces[4] = second;
+  return forces;
+}
+
+Eigen::VectorXd vertical(const Eigen::VectorXd& motions) { return motions(Eigen::seqN(1, motions.size() / 3, 3)); }
 
 TEST(LoadedRail, WheelsDeflectEachOtherAtRestAsOnABed) {
   const FlexibleTrack track = fine_zhai();
   for (const double distance : {0.7, 1.8, 2.56}) {
-    const MovingRail rail(track, 1e-6, {0.02, 0.02 - distance}, 1.0);
+    const MovingRail rail(track, constant_speed(1e-6), {0.02, 0.02 - distance}, 1.0);
     const double own = on_bed(track, 0.0, 0.0).real(), cross = on_bed(track, 0.0, distance).real();
-    const Eigen::MatrixXd& found = rail.compliance_at_rest();
+    const Eigen::MatrixXd found = rail.motions_at_rest().compliance({1, 4}, {1, 4});
     EXPECT_NEAR(found(0, 0), own, 1e-3 * own);
     EXPECT_NEAR(found(1, 1), own, 1e-3 * own);
     EXPECT_NEAR(found(0, 1), cross, 2e-4 * own) << distance;
@@ -70,7 +78,7 @@ TEST(LoadedRail, CrossReceptanceIsThatOfABeamOnABed) {
   const FlexibleTrack track = fine_zhai();
   constexpr double kDistance = 1.8;
   for (const double f : {60.0, 300.0, 900.0}) {
-    MovingRail rail(track, 1e-6, {0.0, -kDistance}, 1.0);
+    MovingRail rail(track, constant_speed(1e-6), {0.0, -kDistance}, 1.0);
     rail.begin(two(0.0, 0.0));
     const double w = 2.0 * kPi * f, step = 1.0 / (200.0 * f);
     Wave own = 0.0, cross = 0.0;
@@ -79,7 +87,7 @@ TEST(LoadedRail, CrossReceptanceIsThatOfABeamOnABed) {
       const double time = i * step;
       const Eigen::VectorXd force = two(std::cos(w * time), 0.0);
       const MovingRail::Answer& answer = rail.after(time);
-      const Eigen::VectorXd deflection = answer.free + answer.compliance * force;
+      const Eigen::VectorXd deflection = vertical(answer.free + answer.compliance * force);
       rail.accept(force);
       if (i <= 200 * (periods - 2)) continue;
       const Wave turn = std::exp(Wave(0.0, -w * time)) / 200.0;
@@ -95,15 +103,16 @@ TEST(LoadedRail, CrossReceptanceIsThatOfABeamOnABed) {
 
 /// Deflections under both places by two histories of forces, in steps of 0.1 ms.
 Eigen::MatrixXd deflections(MovingRail& rail, int steps, double first, double second) {
-  Eigen::MatrixXd found(steps, rail.forces());
+  Eigen::MatrixXd found(steps, rail.places());
   const auto force = [&](int i) -> Eigen::VectorXd {
     const double t = 1e-4 * i, f = 55e3 * (1.0 + 0.5 * std::sin(600.0 * t)), g = 40e3 * (1.0 + std::sin(217.0 * t));
-    return rail.forces() == 2 ? two(first * f, second * g) : Eigen::VectorXd::Constant(1, first * f + second * g);
+    return rail.places() == 2 ? two(first * f, second * g)
+                              : Eigen::VectorXd(Eigen::Vector3d(0.0, first * f + second * g, 0.0));
   };
   rail.begin(force(0));
   for (int i = 1; i <= steps; ++i) {
     const MovingRail::Answer& answer = rail.after(1e-4 * i);
-    found.row(i - 1) = answer.free + answer.compliance * force(i);
+    found.row(i - 1) = vertical(answer.free + answer.compliance * force(i));
     rail.accept(force(i));
   }
   return found;
@@ -111,8 +120,8 @@ Eigen::MatrixXd deflections(MovingRail& rail, int steps, double first, double se
 
 TEST(LoadedRail, ForcesSuperpose) {
   const std::vector<double> places{1.0, -1.56};
-  MovingRail one(usual_zhai(), 40.0, places, 1.0), other(usual_zhai(), 40.0, places, 1.0),
-      both(usual_zhai(), 40.0, places, 1.0);
+  MovingRail one(usual_zhai(), constant_speed(40.0), places, 1.0),
+      other(usual_zhai(), constant_speed(40.0), places, 1.0), both(usual_zhai(), constant_speed(40.0), places, 1.0);
   constexpr int kSteps = 1500;
   const Eigen::MatrixXd a = deflections(one, kSteps, 1.0, 0.0), b = deflections(other, kSteps, 0.0, 1.0),
                         c = deflections(both, kSteps, 1.0, 1.0);
@@ -122,8 +131,8 @@ TEST(LoadedRail, ForcesSuperpose) {
 
 /// Wheels far from each other are wheels on rails of their own.
 TEST(LoadedRail, FarWheelsDoNotFeelEachOther) {
-  MovingRail both(usual_zhai(), 40.0, {0.3, -40.0}, 1.0), front(usual_zhai(), 40.0, {0.3}, 1.0),
-      hind(usual_zhai(), 40.0, {-40.0}, 1.0);
+  MovingRail both(usual_zhai(), constant_speed(40.0), {0.3, -40.0}, 1.0),
+      front(usual_zhai(), constant_speed(40.0), {0.3}, 1.0), hind(usual_zhai(), constant_speed(40.0), {-40.0}, 1.0);
   constexpr int kSteps = 1500;
   const Eigen::MatrixXd a = deflections(both, kSteps, 1.0, 1.0), b = deflections(front, kSteps, 1.0, 0.0),
                         c = deflections(hind, kSteps, 0.0, 1.0);
@@ -136,21 +145,23 @@ TEST(LoadedRail, ReachesBeyondItsWheels) {
   FlexibleTrack track = usual_zhai();
   for (std::size_t i = 0; i < track.seats.size(); ++i) track.seats[i].x = i < 30 ? 1.0 * i : 30.0 + 0.3 * (i - 30.0);
   FlexibleTrack longer = track;
-  MovingRail rail(track, 40.0, {14.0, -6.0}, 1.0), wide(longer, 40.0, {14.0, -6.0}, 1.0, 60.0);
+  MovingRail rail(track, constant_speed(40.0), {14.0, -6.0}, 1.0),
+      wide(longer, constant_speed(40.0), {14.0, -6.0}, 1.0, 60.0);
   const Eigen::MatrixXd a = deflections(rail, 1500, 1.0, 1.0), b = deflections(wide, 1500, 1.0, 1.0);
   EXPECT_LT((a - b).cwiseAbs().maxCoeff(), 2e-3 * b.maxCoeff());
 }
 
 TEST(LoadedRail, RefusesLoadsThatAreNotThoseOfItsWheels) {
   const auto made = [](std::vector<double> loads) {
-    LoadedRail rail(MovingRail(usual_zhai(), 20.0, {0.0, -1.8}, 1.0), loads);
+    LoadedRail rail(MovingRail(usual_zhai(), constant_speed(20.0), {0.0, -1.8}, 1.0), loads);
   };
   EXPECT_NO_THROW(made({1e4, 1e4}));
   EXPECT_THROW(made({1e4}), Error);
   EXPECT_THROW(made({1e4, 0.0}), Error);
-  const auto rail = std::make_shared<LoadedRail>(MovingRail(usual_zhai(), 20.0, {0.0}, 1.0), std::vector{1e4});
-  EXPECT_THROW(ContactOnRail(std::make_shared<HertzSpring>(1e11, 0.75), rail, 1, 1e-4), Error);
-  EXPECT_THROW(ContactOnRail(std::make_shared<HertzSpring>(1e11, 0.75), nullptr, 0, 1e-4), Error);
+  const auto rail =
+      std::make_shared<LoadedRail>(MovingRail(usual_zhai(), constant_speed(20.0), {0.0}, 1.0), std::vector{1e4});
+  EXPECT_THROW(ContactOnRail(std::make_shared<HertzSpring>(1e11, 0.75), rail, 1, 1e-4, Vec3::Zero(), 0.46), Error);
+  EXPECT_THROW(ContactOnRail(std::make_shared<HertzSpring>(1e11, 0.75), nullptr, 0, 1e-4, Vec3::Zero(), 0.46), Error);
 }
 
 constexpr double kBase = 1.8, kOne = 9000.0, kOther = 7000.0, kWheelset = 1813.0;
@@ -176,15 +187,19 @@ VehicleOnTrack on_shared_rails(const FlexibleTrack& track, double speed, double 
   VehicleOnTrack v = on_hertz_springs(two_wheels_on_masses(), {}, speed, kWheelContact);
   const std::vector<double> places{0.0, -kBase},
       loads{0.5 * v.system.wheelset_load[0], 0.5 * v.system.wheelset_load[1]};
-  const auto below = [&] { return std::make_shared<LoadedRail>(MovingRail(track, speed, places, 1.0), loads); };
+  const auto below = [&] {
+    return std::make_shared<LoadedRail>(MovingRail(track, constant_speed(speed), places, 1.0), loads);
+  };
   const auto left = below(), right = below();
   for (WheelOnRail& wheel : v.wheels) {
     const auto set = static_cast<std::size_t>(wheel.wheelset);
     if (set == 0) std::dynamic_pointer_cast<HertzSpring>(wheel.element)->irregularity = waves;
     auto rail = wheel.side == wheelrail::Side::left ? left : right;
     if (!shared)
-      rail = std::make_shared<LoadedRail>(MovingRail(track, speed, {places[set]}, 1.0), std::vector{loads[set]});
-    wheel.element = std::make_shared<ContactOnRail>(wheel.element, rail, shared ? set : 0, tolerance);
+      rail = std::make_shared<LoadedRail>(MovingRail(track, constant_speed(speed), {places[set]}, 1.0),
+                                          std::vector{loads[set]});
+    wheel.element =
+        std::make_shared<ContactOnRail>(wheel.element, rail, shared ? set : 0, tolerance, wheel.rail_marker, 0.46);
   }
   return v;
 }

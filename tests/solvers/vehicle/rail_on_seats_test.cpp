@@ -30,23 +30,26 @@ FlexibleTrack absorbing(FlexibleTrack track, int bays = 30, double absorption = 
 
 TEST(BandedSymmetric, SolvesAsADenseMatrix) {
   Random random(3);
-  constexpr int kSize = 23, kBand = 4;
-  BandedSymmetric<Complex> band(kSize);
-  Eigen::MatrixXcd dense = Eigen::MatrixXcd::Zero(kSize, kSize);
-  for (int i = 0; i < kSize; ++i)
-    for (int j = std::max(0, i - kBand); j <= i; ++j) {
-      const Complex value(random.uniform() - 0.5, random.uniform() + (i == j ? 6.0 : 0.0));
-      band.add(j, i, value);
-      dense(i, j) = dense(j, i) = value;
-    }
-  Eigen::VectorXcd x = Eigen::VectorXcd::Random(kSize);
-  const Eigen::VectorXcd b = dense * x;
-  EXPECT_LT((band.times(x) - b).norm(), 1e-13 * b.norm());
-  EXPECT_LT(std::abs(band.form(x) - (x.transpose() * b).value()), 1e-12 * b.norm() * x.norm());
-  Eigen::VectorXcd solved = b;
-  ASSERT_TRUE(band.factorise());
-  band.solve(solved);
-  EXPECT_LT((solved - x).norm(), 1e-13 * x.norm());
+  constexpr int kSize = 23;
+  for (const int band_width : {4, 6}) {
+    BandedSymmetric<Complex> band(kSize, band_width);
+    Eigen::MatrixXcd dense = Eigen::MatrixXcd::Zero(kSize, kSize);
+    for (int i = 0; i < kSize; ++i)
+      for (int j = std::max(0, i - band_width); j <= i; ++j) {
+        const Complex value(random.uniform() - 0.5, random.uniform() + (i == j ? 6.0 : 0.0));
+        band.add(j, i, value);
+        dense(i, j) = dense(j, i) = value;
+      }
+    Eigen::VectorXcd x = Eigen::VectorXcd::Random(kSize);
+    const Eigen::VectorXcd b = dense * x;
+    EXPECT_LT((band.times(x) - b).norm(), 1e-13 * b.norm());
+    EXPECT_LT(std::abs(band.form(x) - (x.transpose() * b).value()), 1e-12 * b.norm() * x.norm());
+    Eigen::VectorXcd solved = b;
+    ASSERT_TRUE(band.factorise());
+    band.solve(solved);
+    EXPECT_LT((solved - x).norm(), 1e-13 * x.norm());
+  }
+  EXPECT_THROW(BandedSymmetric<double>(kSize, 5), Error);
 }
 
 TEST(BeamElement, MovesRigidlyWithoutForceAndWithItsMass) {
