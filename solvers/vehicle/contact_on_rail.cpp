@@ -41,6 +41,10 @@ Vec3 along(const Vec3& direction, const Vec3& arm) {
 
 Vec3 top(double y, double z, double roll) { return {y, z, roll}; }
 
+Vec3 rates(const wheelrail::SixMotion& wheelset) { return {wheelset.y, wheelset.z, wheelset.roll}; }
+
+Vec3 rates(const RailMotion& rail) { return {rail.vy, rail.vz, rail.vroll}; }
+
 double size_of(const Vec3& force) { return (Vec3(1.0, 1.0, 1.0 / kArm).cwiseProduct(force)).cwiseAbs().maxCoeff(); }
 
 /// Change of the forces by what they are off, also where there is no contact yet.
@@ -84,6 +88,23 @@ ContactOnRail::Tangents ContactOnRail::tangents_of(const ContactReaction& r, con
     t.wheel_stiffness += patch.stiffness_n * p.normal * p.wheel_normal.transpose();
     t.wheel_damping += patch.damping_s * p.aside * p.wheel_aside.transpose();
   }
+  // Where friction is used up creep forces rise less than they begin to: the secant of two evaluations knows.
+  t.creep_force = r.lateral_creep_force;
+  double rise = 0.0;
+  for (std::size_t i = 0; i < t.patches.size(); ++i) {
+    const double slip =
+        t.patches[i].wheel_aside.dot(rates(motion.wheelset_velocity)) - t.patches[i].aside.dot(rates(motion.rail));
+    t.slip.push_back(slip);
+    if (rail_->started() && is_again(motion.time) && trial_->tangents.slip.size() == t.patches.size())
+      rise += r.tangents[i].damping_s * (slip - trial_->tangents.slip[i]);
+  }
+  constexpr double kSteepest = 1e4;
+  if (rise != 0.0) {
+    const double share = std::clamp((t.creep_force - trial_->tangents.creep_force) / rise, 0.0, kSteepest);
+    t.share = share;
+    t.damping *= share;
+    t.wheel_damping *= share;
+  }
   t.by_force = t.stiffness * answer.compliance + t.damping * answer.rate_by_force;
   t.together = (Mat3::Identity() + t.by_force).inverse();
   return t;
@@ -102,7 +123,7 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
     const Tangents::Patch& p = t.patches[i];
     PatchTangent& patch = r.tangents[i];
     const double deeper = -p.normal.dot(moved), normal = patch.stiffness_n * deeper,
-                 aside = -patch.damping_s * p.aside.dot(rate);
+                 aside = -t.share * patch.damping_s * p.aside.dot(rate);
     const Vec3 change = normal * patch.X_TC.rotation.col(2) + aside * patch.X_TC.rotation.col(1);
     r.on_rail += {change, (patch.X_TC.origin - marker).cross(change)};
     r.on_wheelset += {-change, -(patch.X_TC.origin - centre).cross(change)};
@@ -118,6 +139,7 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
       sum += std::max(0.0, r.tangents[i].stiffness_n * by.dot(answer.compliance * t.patches[i].normal));
     return sum;
   };
+  for (PatchTangent& patch : r.tangents) patch.damping_s *= t.share;
   std::vector<double> soft;
   for (const Tangents::Patch& p : t.patches) soft.push_back(softening(p.normal));
   for (std::size_t i = 0; i < t.patches.size(); ++i) {

@@ -43,6 +43,9 @@ class ContactOnRail : public ContactElement {
     std::vector<Patch> patches;
     Mat3 stiffness = Mat3::Zero(), damping = Mat3::Zero();              ///< of the contact, by the top's motions, rates
     Mat3 wheel_stiffness = Mat3::Zero(), wheel_damping = Mat3::Zero();  ///< by those of the wheelset
+    double creep_force = 0.0,
+           share = 1.0;                ///< lateral, all patches [N]; of the damping that evaluations at a time found
+    std::vector<double> slip;          ///< lateral, of each patch [m/s]
     Mat3 by_force = Mat3::Zero();      ///< what forces lose as they themselves move the rail
     Mat3 together = Mat3::Identity();  ///< forces in agreement with the rail over those without
   };

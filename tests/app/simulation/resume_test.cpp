@@ -75,7 +75,7 @@ TEST_F(Resume, AfterKillsTheResultIsThatOfAnUndisturbedRun) { expect_kills_to_ch
 
 TEST_F(Resume, RailsThatBendGoOnInTheMiddle) {
   input.edit("simulation.toml", "\"track.toml\"",
-             "\"" + std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-flexible.toml\"\nfrom_midspan_mm = 250");
+             "\"" + std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-sideways.toml\"\nfrom_midspan_mm = 250");
   input.edit("simulation.toml", "[case]", "[simulation.speed_profile]\ntime_s = [1]\nspeed_m_s = [19]\n\n[case]");
   expect_kills_to_change_nothing();
 }

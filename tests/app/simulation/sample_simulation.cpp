@@ -71,7 +71,7 @@ void SampleSimulation::share_rails() {
   edit("vehicle.toml", "body = \"axle\"\nnominal_radius_mm = 460",
        "body = \"axle1\"\nnominal_radius_mm = 460\n[[wheelsets]]\nbody = \"axle2\"\nnominal_radius_mm = 460");
   // The leading wheelset begins at 33.33 m from the first seat.
-  std::ifstream track(std::filesystem::path(TREADMARK_SOURCE_DIR) / "examples/tracks/zhai-flexible.toml");
+  std::ifstream track(std::filesystem::path(TREADMARK_SOURCE_DIR) / "examples/tracks/zhai-sideways.toml");
   const std::string seats{std::istreambuf_iterator<char>(track), {}};
   write("rails.toml", seats +
                           "\n[[joints]]\nplace_m = 33.38\nhinge_stiffness_N_m_per_rad = 1e6\ndip_mm = 0.3\n"

@@ -123,6 +123,25 @@ TEST_F(Simulate, RailsThatBendCarryTheWheels) {
   EXPECT_LT(std::abs(nlohmann::json::parse(r.out)["summary"]["energy_integration_error"].get<double>()), 1e-4);
 }
 
+/// A wheel flat leaves the rail and meets it again with friction used up: forces and motion agree, and the vertical
+/// force is nearly that on rails that bend vertically only.
+TEST_F(Simulate, WheelsMeetRailsAgainThatBendSideways) {
+  const std::string examples = TREADMARK_SOURCE_DIR "/examples/";
+  double largest[2];
+  int i = 0;
+  for (const char* track : {"zhai-flexible", "zhai-sideways"}) {
+    const ProgramResult r =
+        run_program({"simulate", examples + "flat-at-speed.toml", "--set",
+                     "simulation.track=tracks/" + std::string(track) + ".toml", "--set", "simulation.speed_m_s=10",
+                     "--set", "simulation.distance_m=0.55", "--set", "case.regime=steady", "--set",
+                     "solver.tangential_model=fastsim", "--json", "-"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    largest[i++] = nlohmann::json::parse(r.out)["summary"]["q_max_N"];
+  }
+  EXPECT_GT(largest[0], 100e3);
+  EXPECT_NEAR(largest[1] / largest[0], 1.0, 0.01);
+}
+
 TEST_F(Simulate, ALumpedTrackShowsItsReceptance) {
   const ProgramResult shown = run({"--receptance", input.path("track"), "--json", "-"});
   ASSERT_EQ(shown.status, 0) << shown.err;

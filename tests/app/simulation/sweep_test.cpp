@@ -154,7 +154,7 @@ label = "kind"
 values = [
   { label = "curve", set = ["simulation.distance_m=5"] },
   { label = "flexible wheelsets", set = ["simulation.vehicle=vehicles/manchester-flexible.toml", "simulation.distance_m=0.2"] },
-  { label = "flexible rails", set = ["simulation.track=tracks/zhai-flexible.toml", "simulation.distance_m=0.5"] },
+  { label = "flexible rails", set = ["simulation.track=tracks/zhai-sideways.toml", "simulation.distance_m=0.5"] },
 ]
 [[study.figures]]
 file = "force-by-distance.svg"

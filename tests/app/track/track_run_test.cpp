@@ -105,7 +105,7 @@ TEST(TrackRun, TheFittedFileHasTheFittedReceptance) {
 
 /// Sideways a rail gives way by its torsion, too; beside the middle of its head the contact rolls up and down with it.
 TEST(TrackRun, RailsBendSidewaysAndRoll) {
-  TrackRequest request = request_of("zhai-flexible.toml", 0);
+  TrackRequest request = request_of("zhai-sideways.toml", 0);
   const TrackResult middle = run_track(request);
   request.aside = 0.02;
   const TrackResult beside = run_track(request);
