@@ -97,7 +97,7 @@ void run_flexible(const FlexibleTrack& track, TrackResult& result) {
     result.lateral = lateral_curve(vehicle::lateral_track(track), result.frequency);
   }
 
-  TrackResult::Bay& own = result.bay.emplace();
+  TrackResult::Bay& own = result.bay.emplace(TrackResult::Bay{});
   own.seats = track.seats.size();
   own.length = bay;
   own.pinned_pinned = vehicle::pinned_pinned_frequency(track.rail, bay);
