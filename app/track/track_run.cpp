@@ -90,6 +90,7 @@ void run_flexible(const FlexibleTrack& track, TrackResult& result) {
     fill(result.frequency, result.lateral, [&](double f) {
       std::vector<Complex> all;
       const std::vector<Eigen::MatrixXcd> at = sideways->receptances(places, f);
+      all.reserve(at.size());
       for (const Eigen::MatrixXcd& one : at) all.push_back(one(0, 0));
       return std::array<Complex, 4>{all[0], all[1], mean_of(std::span(all).subspan(2)), aside * at[0](1, 0)};
     });
