@@ -27,6 +27,7 @@ std::vector<double> frequencies_of(const TrackRequest& request) {
     throw Error(ErrorKind::configuration, fmt::format("{} frequencies from {:g} to {:g} Hz make no range",
                                                       request.count, request.from, request.to));
   std::vector<double> f;
+  f.reserve(static_cast<std::size_t>(request.count));
   for (int i = 0; i < request.count; ++i)
     f.push_back(request.from * std::pow(request.to / request.from, i / (request.count - 1.0)));
   f.back() = request.to;
