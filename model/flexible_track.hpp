@@ -31,6 +31,8 @@ struct RailSideways {
   double polar_inertia = 0.0;                 ///< rho (Iy + Iz) about the centroid [kg m]; > 0
   double height = 0.0;                        ///< of the top [m]; > 0
   double centroid = 0.0, shear_centre = 0.0;  ///< heights [m]; 0 to that of the top
+  /// Of the top about the shear centre [m].
+  double lever() const { return height - shear_centre; }
 };
 
 /// Where a sleeper carries a rail: pad, its half of the sleeper, ballast below that on rigid ground. What is lateral

@@ -81,8 +81,9 @@ ContactOnRail::Tangents ContactOnRail::tangents_of(const ContactReaction& r, con
   for (const PatchTangent& patch : r.tangents) {
     const Vec3 on_rail = patch.X_TC.origin - marker, on_wheel = patch.X_TC.origin - centre,
                normal = patch.X_TC.rotation.col(2), aside = patch.X_TC.rotation.col(1);
-    const Tangents::Patch& p = t.patches.emplace_back(Tangents::Patch{along(normal, on_rail), along(aside, on_rail),
-                                                                      along(normal, on_wheel), along(aside, on_wheel)});
+    const Tangents::Patch& p =
+        t.patches.emplace_back(Tangents::Patch{on_rail, on_wheel, along(normal, on_rail), along(aside, on_rail),
+                                               along(normal, on_wheel), along(aside, on_wheel)});
     t.stiffness += patch.stiffness_n * p.normal * p.normal.transpose();
     t.damping += patch.damping_s * p.aside * p.aside.transpose();
     t.wheel_stiffness += patch.stiffness_n * p.normal * p.wheel_normal.transpose();
@@ -117,16 +118,14 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
   const Vec3 found = force_on_top(r), off = found - predicted, more = t.together * off, force = predicted + more;
   const Vec3 moved = answer.compliance * more, rate = answer.rate_by_force * more;
   r.corrected = change_by(t.by_force * more, moved, 1.0);
-  const Vec3 marker = marker_ + Vec3(0.0, motion.rail.y, motion.rail.z),
-             centre(0.0, motion.wheelset.y, motion.wheelset.z - radius_);
   for (std::size_t i = 0; i < t.patches.size(); ++i) {
     const Tangents::Patch& p = t.patches[i];
     PatchTangent& patch = r.tangents[i];
     const double deeper = -p.normal.dot(moved), normal = patch.stiffness_n * deeper,
                  aside = -t.share * patch.damping_s * p.aside.dot(rate);
     const Vec3 change = normal * patch.X_TC.rotation.col(2) + aside * patch.X_TC.rotation.col(1);
-    r.on_rail += {change, (patch.X_TC.origin - marker).cross(change)};
-    r.on_wheelset += {-change, -(patch.X_TC.origin - centre).cross(change)};
+    r.on_rail += {change, p.on_rail.cross(change)};
+    r.on_wheelset += {-change, -p.on_wheel.cross(change)};
     r.normal_force += normal;
     r.lateral_creep_force += aside;
     r.elastic_energy += (patch.normal_force + 0.5 * normal) * deeper;

@@ -37,6 +37,7 @@ class ContactOnRail : public ContactElement {
   /// rail's top.
   struct Tangents {
     struct Patch {
+      Vec3 on_rail, on_wheel;          ///< the contact from the rail's marker and from the wheelset's centre
       Vec3 normal, aside;              ///< motion of the contact on the rail in contact axes by those of the top
       Vec3 wheel_normal, wheel_aside;  ///< of it on the wheel by y, z and roll of the wheelset
     };

@@ -214,7 +214,7 @@ RailOnSeats::Place RailOnSeats::place(double x) const {
       found.value(row(i + 1, kRoll), 1) += roll[1];
     });
     found.value.col(1) /= length;
-    found.value.col(0) += (sideways_->height - sideways_->shear_centre) * found.value.col(1);
+    found.value.col(0) += sideways_->lever() * found.value.col(1);
   }
   found.own_compliance = own_compliance(x);
   constexpr double kPart = 1e-4;  // of the element, within which differences stay
@@ -247,7 +247,7 @@ RailGive RailOnSeats::own_compliance(double x) const {
   const std::size_t e = element_at(x);
   const double bending = elements_[e].beam().own_compliance(part_of(e, x));
   if (!sideways_) return RailGive::Constant(1, 1, bending);
-  const double arm = sideways_->height - sideways_->shear_centre, roll = own_roll(x);
+  const double arm = sideways_->lever(), roll = own_roll(x);
   return (Eigen::Matrix2d() << bending + arm * arm * roll, arm * roll, arm * roll, roll).finished();
 }
 

@@ -25,6 +25,7 @@
 #include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 #include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/tests/app/evolve/wheel_law.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/support/error_text.hpp"
@@ -35,14 +36,6 @@ namespace {
 
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
-
-const std::string kLaw = R"(
-[evolve.wheel.law]
-theory = "archard"
-source = "assumed"
-hardness_GPa = 3.0
-k = [1e-4]
-)";
 
 /// A cylinder of 460 mm on a crown of 300 mm that spins too slowly by a tenth: one ellipse that slips everywhere.
 const std::string kHertz = R"([wheel]

@@ -17,6 +17,7 @@
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
+#include "treadmark/tests/app/evolve/wheel_law.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/io/simulations/samples.hpp"
 #include "treadmark/tests/support/error_text.hpp"
@@ -77,12 +78,7 @@ along = "local"
 du_mm = 2
 dy_mm = 2
 smoothing_mm = 3
-[evolve.wheel.law]
-theory = "archard"
-source = "assumed"
-hardness_GPa = 3.0
-k = [1e-4]
-)";
+)" + kLaw;
 
 class SimulatedEvolution : public ::testing::Test {
  protected:
