@@ -19,17 +19,24 @@ namespace {
 
 std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
 
-/// (x, y) -> block (x, y) at each place.
-void multiply_by_blocks(std::span<const ComplianceBlock> blocks, std::complex<double>* x, std::complex<double>* y) {
-  double *to_x = reinterpret_cast<double*>(x), *to_y = reinterpret_cast<double*>(y);
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
+/// (x, y) -> block (x, y) at each place k, handed on by put(to, k, real, imaginary).
+template <class Put>
+void multiply_by_blocks(std::span<const ComplianceBlock> blocks, std::complex<double>* x, std::complex<double>* y,
+                        const Put& put) {
+  double* __restrict to_x = reinterpret_cast<double*>(x);
+  double* __restrict to_y = reinterpret_cast<double*>(y);
+  for (std::size_t k = 0; k < blocks.size(); ++k, to_x += 2, to_y += 2) {
     const ComplianceBlock& b = blocks[k];
-    for (std::size_t i = 2 * k; i < 2 * k + 2; ++i) {
-      const double ux_k = b.xx * to_x[i] + b.xy * to_y[i];
-      to_y[i] = b.xy * to_x[i] + b.yy * to_y[i];
-      to_x[i] = ux_k;
-    }
+    const double x_real = b.xx * to_x[0] + b.xy * to_y[0], x_imaginary = b.xx * to_x[1] + b.xy * to_y[1];
+    const double y_real = b.xy * to_x[0] + b.yy * to_y[0], y_imaginary = b.xy * to_x[1] + b.yy * to_y[1];
+    put(to_x, k, x_real, x_imaginary);
+    put(to_y, k, y_real, y_imaginary);
   }
+}
+
+void put_plainly(double* to, std::size_t, double real, double imaginary) {
+  to[0] = real;
+  to[1] = imaginary;
 }
 
 }  // namespace
@@ -56,7 +63,7 @@ Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx,
           transform_.in_lines(transform_.kernel_spectrum([&](int dix, int diy) { return at(dix, diy).*member; })));
   }
   inverse_.emplace(key.nx, key.ny, even);
-  step_.resize(static_cast<std::size_t>(px / 2 + 1));
+  step_.resize(static_cast<std::size_t>(px) / 2 + 1);
   for (std::size_t k = 0; k < step_.size(); ++k)
     step_[k] = 1.0 - std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(k) / px);
   for (const std::complex<double>& step : step_) step_back_.push_back(std::conj(step));
@@ -111,33 +118,35 @@ void Compliance::apply(Transport transport, std::span<const double> px, std::spa
   const RealFft2d& fft = transform_.fft();
   const auto length = static_cast<std::size_t>(fft.line_length());
   const double sign = transport == Transport::forward ? 1.0 : -1.0;
+  const auto turned = [](double* to, double real, double imaginary, double c, double s) {
+    to[0] = real * c - imaginary * s;
+    to[1] = real * s + imaginary * c;
+  };
   const auto multiply_line = [&](int line, std::complex<double>* const* values) {
-    std::complex<double>*x = values[0], *y = values[1];
     const std::size_t begin = static_cast<std::size_t>(line) * length;
-    if (symmetric()) {
-      multiply_by_blocks({symbol_.data() + begin, length}, x, y);
-    } else {
+    // Numbers pass by once: what is done to them last comes with it.
+    const auto multiply = [&](const auto& put) {
+      std::complex<double>*x = values[0], *y = values[1];
+      if (symmetric()) return multiply_by_blocks({symbol_.data() + begin, length}, x, y, put);
       for (std::size_t k = 0; k < length; ++k) {
         const std::complex<double> ux_k = spectra_[0][begin + k] * x[k] + spectra_[1][begin + k] * y[k];
-        y[k] = spectra_[2][begin + k] * x[k] + spectra_[3][begin + k] * y[k];
-        x[k] = ux_k;
+        const std::complex<double> uy_k = spectra_[2][begin + k] * x[k] + spectra_[3][begin + k] * y[k];
+        put(reinterpret_cast<double*>(x + k), k, ux_k.real(), ux_k.imag());
+        put(reinterpret_cast<double*>(y + k), k, uy_k.real(), uy_k.imag());
       }
-    }
-    if (transport == Transport::none) return;
+    };
+    if (transport == Transport::none) return multiply(put_plainly);
     // one factor for a column, one for each number of a row
-    for (std::complex<double>* values_of : {x, y}) {
-      double* to = reinterpret_cast<double*>(values_of);
-      const auto turn = [&](std::size_t k, double c, double s) {
-        const double real = to[2 * k] * c - to[2 * k + 1] * s, imaginary = to[2 * k] * s + to[2 * k + 1] * c;
-        to[2 * k] = real;
-        to[2 * k + 1] = imaginary;
-      };
-      if (fft.lines_are_columns()) {
-        const std::complex<double> step = step_[static_cast<std::size_t>(line)];
-        for (std::size_t k = 0; k < length; ++k) turn(k, step.real(), sign * step.imag());
-      } else {
-        for (std::size_t k = 0; k < length; ++k) turn(k, step_[k].real(), sign * step_[k].imag());
-      }
+    if (fft.lines_are_columns()) {
+      const std::complex<double> step = step_[static_cast<std::size_t>(line)];
+      multiply([&](double* to, std::size_t, double real, double imaginary) {
+        turned(to, real, imaginary, step.real(), sign * step.imag());
+      });
+    } else {
+      const std::complex<double>* steps = transport == Transport::forward ? step_.data() : step_back_.data();
+      multiply([&, steps](double* to, std::size_t k, double real, double imaginary) {
+        turned(to, real, imaginary, steps[k].real(), steps[k].imag());
+      });
     }
   };
   const std::array load{rows_of(px, key_.nx, fft.nx()), rows_of(py, key_.nx, fft.nx())};
@@ -220,7 +229,8 @@ void InverseCompliance::apply(std::span<const double> ux, std::span<const double
                               std::span<double> py) {
   const auto length = static_cast<std::size_t>(fft_.line_length());
   const auto multiply_line = [&](int line, std::complex<double>* const* values) {
-    multiply_by_blocks({symbol_.data() + static_cast<std::size_t>(line) * length, length}, values[0], values[1]);
+    multiply_by_blocks({symbol_.data() + static_cast<std::size_t>(line) * length, length}, values[0], values[1],
+                       put_plainly);
   };
   const std::array load{rows_of(ux, nx_, fft_.nx()), rows_of(uy, nx_, fft_.nx())};
   const std::array store{rows_to(px, nx_, fft_.nx()), rows_to(py, nx_, fft_.nx())};
