@@ -23,8 +23,9 @@ class ForceBalance {
     double at(double z) const { return level - spring * z; }
   };
 
-  /// tolerance relative to the target; stiffness: guess of force / penetration^1.5 [N/m^1.5].
-  ForceBalance(Target target, double tolerance, double stiffness);
+  /// tolerance relative to the target; stiffness: guess of force / penetration^1.5 [N/m^1.5]; end_slope: of phi near
+  /// the target over that from touching on, 0 = unknown.
+  ForceBalance(Target target, double tolerance, double stiffness, double end_slope = 0.0);
 
   /// First position to try [m], given where the bodies touch.
   double first(double z_touch);
@@ -32,6 +33,9 @@ class ForceBalance {
   /// Takes force [N] (0 without contact) and least gap [m] found at z; next() is then the position to try.
   State add(double z, double force, double least_gap);
   double next() const { return next_; }
+  /// What to begin the next balance with, found at a depth [m] below touching: end_slope as the positions told it, or
+  /// as it was given.
+  double end_slope(double depth) const;
   /// Forces on both sides of a jump [N].
   double force_below() const { return bracket_.value_below(); }
   double force_above() const { return bracket_.value_above(); }
@@ -44,9 +48,11 @@ class ForceBalance {
   double residual(double z, double force, double least_gap) const;
 
   Target target_;
-  double tolerance_, stiffness_;
+  double tolerance_, stiffness_, end_slope_;
   double next_ = 0.0;
   double slope_ = 0.0;
+  double measured_slope_ = 0.0;  ///< between two positions in contact
+  bool from_touching_ = false;   ///< the first of before_ is touching
   struct Point {
     double z, residual;
   };

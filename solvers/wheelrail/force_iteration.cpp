@@ -18,9 +18,10 @@ namespace {
 
 class Iteration {
  public:
-  Iteration(PairStep& step, const Problem& problem, double stiffness, bool known)
+  Iteration(PairStep& step, const Problem& problem, double stiffness, double end_slope, bool known)
       : step_(step), p_(problem), known_(known) {
     out_.stiffness = stiffness;
+    out_.end_slope = end_slope;
     out_.pitch_rate = p_.longitudinal_force ? free_rolling_rate() : p_.state.velocity.pitch;
   }
 
@@ -139,7 +140,7 @@ class Iteration {
   }
 
   bool iterate_height(const ForceBalance::Target& target) {
-    ForceBalance balance(target, p_.solver.eps, stiffness_for(target));
+    ForceBalance balance(target, p_.solver.eps, stiffness_for(target), out_.end_slope);
     double z = balance.first(step_.touching_z());
     ForceBalance::State state = ForceBalance::State::search;
     bool tangential_done = false, shares_known = false, exact = false;
@@ -176,7 +177,10 @@ class Iteration {
     if (!(tangential_done && exact) && !solve_tangential()) return false;
     if (state == ForceBalance::State::found) {
       const double depth = out_.z - step_.touching_z();
-      if (depth > 0.0) out_.stiffness = target.at(out_.z) / std::pow(depth, 1.5), known_ = true;
+      if (depth > 0.0) {
+        out_.stiffness = target.at(out_.z) / std::pow(depth, 1.5), known_ = true;
+        out_.end_slope = balance.end_slope(depth);
+      }
       return true;
     }
     fail(Status::not_converged,
@@ -226,8 +230,8 @@ class Iteration {
 
 }  // namespace
 
-Balance find_balance(PairStep& step, const Problem& problem, double stiffness, bool known) {
-  return Iteration(step, problem, stiffness, known).run();
+Balance find_balance(PairStep& step, const Problem& problem, double stiffness, double end_slope, bool known) {
+  return Iteration(step, problem, stiffness, end_slope, known).run();
 }
 
 }  // namespace treadmark::wheelrail

@@ -163,7 +163,8 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
     wheel_lines_ = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
   PairStep step(geometry_, p, next->previous, solvers_, solution.times, {wheel_profile_, wheel_lines_});
   const double known = next->previous.stiffness;
-  Balance balance = find_balance(step, p, known > 0.0 ? known : stiffest(p.material), known > 0.0);
+  Balance balance =
+      find_balance(step, p, known > 0.0 ? known : stiffest(p.material), next->previous.end_slope, known > 0.0);
   solution.z = balance.z + balance.rail_dz;
   solution.pitch_rate = balance.pitch_rate;
   solution.least_gap = step.closest();
@@ -174,6 +175,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   if (balance.status != Status::ok) note(solution, balance.status, balance.message);
   next->last = step.finish();
   next->last.stiffness = balance.stiffness;
+  next->last.end_slope = balance.end_slope;
   solution.placement = step.placement();
   solution.patches = step.take_patches();
   if (solution.patches.empty()) note(solution, Status::no_contact, "the bodies do not touch at this position");

@@ -22,7 +22,7 @@ namespace treadmark::wheelrail {
 namespace {
 
 /// Counts up with every change of what is written here or by the solvers below.
-constexpr std::uint32_t kFormat = 2;
+constexpr std::uint32_t kFormat = 3;
 
 void put_all(ByteWriter& out, std::initializer_list<double> values) {
   for (const double value : values) out.put(value);
@@ -76,7 +76,7 @@ TangentialShare read_share(ByteReader& in) {
 void write(const Instant& instant, ByteWriter& out) {
   out.put(instant.patches.size());
   for (const PatchMemory& m : instant.patches) write(m, out);
-  put_all(out, {instant.s, instant.stiffness});
+  put_all(out, {instant.s, instant.stiffness, instant.end_slope});
   out.put(instant.shares.size());
   for (const TangentialShare& share : instant.shares) write(share, out);
   out.put(instant.next_id);
@@ -86,7 +86,7 @@ void write(const Instant& instant, ByteWriter& out) {
 Instant read_instant(ByteReader& in) {
   Instant instant;
   for (auto left = in.get<std::size_t>(); left > 0; --left) instant.patches.push_back(read_patch(in));
-  get_all(in, {&instant.s, &instant.stiffness});
+  get_all(in, {&instant.s, &instant.stiffness, &instant.end_slope});
   for (auto left = in.get<std::size_t>(); left > 0; --left) instant.shares.push_back(read_share(in));
   in.get(instant.next_id);
   return instant;

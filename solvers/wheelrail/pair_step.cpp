@@ -278,7 +278,6 @@ std::vector<PatchSolution> PairStep::take_patches() {
 Instant PairStep::finish() {
   Instant now;
   now.next_id = previous_.next_id;
-  now.stiffness = previous_.stiffness;
   now.shares = tangential_share_;
   now.s = problem_.state.position.x;
   // Steady contacts that follow each other start from one another too; single ones leave nothing behind.

@@ -39,6 +39,7 @@ struct Instant {
   double s = 0.0;  ///< of the wheelset along the track [m]
   std::vector<TangentialShare> shares;
   double stiffness = 0.0;  ///< vertical force / penetration^1.5 [N/m^1.5]; 0 = unknown
+  double end_slope = 0.0;  ///< as in Balance
   std::uint64_t next_id = 1;
 };
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <tuple>
 
 namespace treadmark::wheelrail {
 namespace {
@@ -49,6 +50,29 @@ TEST(ForceBalance, GoodGuessTakesFourSteps) {
     EXPECT_NEAR(force(o.z), 1.25e5, 1e-6 * 1.25e5);
     EXPECT_LE(o.evaluations, 4) << guess;
   }
+}
+
+TEST(ForceBalance, SlopeFromABalanceBeforeSparesSteps) {
+  // The same contact a little deeper in the rail, whose stiffness and slope a balance before told.
+  const auto force = [](double z) { return 9e10 * std::pow(std::max(0.0, z), 1.5) * (1.0 + 1e3 * z); };
+  constexpr double kTarget = 1.25e5;
+  const auto continued = [&](double target, double stiffness, double end_slope) {
+    ForceBalance balance({.level = target}, 1e-5, stiffness, end_slope);
+    double z = balance.first(0.0);
+    int n = 1;
+    while (balance.add(z, force(z), 0.0) == ForceBalance::State::search && n < 20) z = balance.next(), ++n;
+    EXPECT_NEAR(force(z), target, 1e-5 * target);
+    return std::tuple(n, target / std::pow(z, 1.5), balance.end_slope(z));
+  };
+  const auto [first, stiffness, end_slope] = continued(kTarget, 9e10, 0.0);
+  // phi = (9e10)^(2/3) z (1 + 1e3 z)^(2/3) by hand.
+  const double z = std::pow(kTarget / stiffness, 2.0 / 3.0);
+  EXPECT_NEAR(end_slope, 1.0 + 2.0 / 3.0 * 1e3 * z / (1.0 + 1e3 * z), 0.01);
+  EXPECT_EQ(std::get<0>(continued(1.005 * kTarget, 1.003 * stiffness, end_slope)), 2);
+  EXPECT_GT(std::get<0>(continued(1.005 * kTarget, 1.003 * stiffness, 0.0)), 2);
+  for (const double wrong : {0.1, 0.8, 3.0}) EXPECT_LE(std::get<0>(continued(kTarget, 1.01 * stiffness, wrong)), 4);
+  // Nothing was told of a balance that was met at once.
+  EXPECT_EQ(std::get<2>(continued(kTarget, stiffness, 0.9)), 0.9);
 }
 
 TEST(ForceBalance, SecondContactThatOpensOnTheWay) {
