@@ -9,9 +9,21 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/damage/cell_shares.hpp"
 
 namespace treadmark::damage {
+namespace {
+
+struct Range {
+  int first, last;
+};
+
+/// Cells of step d, the middle of the first at x0, whose middles lie from low on and before high.
+Range middles_between(double low, double high, double x0, double d) {
+  const auto from = [&](double x) { return static_cast<int>(std::ceil((x - x0) / d - 1e-9)); };
+  return {from(low), from(high) - 1};
+}
+
+}  // namespace
 
 MaterialFlow::MaterialFlow(const SurfaceCells& cells, const FlowLaw& law, const SurfaceRecord& present)
     : cells_(cells),
@@ -27,9 +39,15 @@ void MaterialFlow::meet(const std::vector<PassedShear>& shears, const ElementSiz
     const double size = s.stress.norm();
     if (size <= law_.shear_yield) continue;  // no layer yields at less
     const double lean = element.width / (s.y_high - s.y_low);
-    for (const auto& [j, share_y] : rows_between(cells_, s.y_low, s.y_high))
-      for (const auto& [i, share_u] :
-           columns_under(cells_, s.u, element.length, stretch, cells_.radius[static_cast<std::size_t>(j)])) {
+    const Range rows = middles_between(s.y_low, s.y_high, cells_.y0, cells_.dy);
+    for (int j = rows.first; j <= rows.last; ++j) {
+      if (!cells_.exists(j)) continue;
+      const double half = 0.5 * element.length / cells_.radius[static_cast<std::size_t>(j)], u = s.u - stretch.middle;
+      const Range columns =
+          cells_.uniform() ? Range{0, 0}
+                           : middles_between(u + stretch.begin - half, u + stretch.end + half, cells_.u0, cells_.du);
+      for (int column = columns.first; column <= columns.last; ++column) {
+        const int i = cells_.wrapped(column);
         if (i < 0 || i >= cells_.nu) continue;
         const double excess = size / law_.yield_after(present_.flow[s.depth].strain.at(i, j)) - 1.0;
         if (excess <= 0.0) continue;
@@ -42,6 +60,7 @@ void MaterialFlow::meet(const std::vector<PassedShear>& shears, const ElementSiz
         double& leans = lean_.ref(i, j);
         leans = std::max(leans, lean);
       }
+    }
   }
 }
 
@@ -88,7 +107,7 @@ void MaterialFlow::displace(SurfaceRecord& record) const {
     for (int i = 0; i < cells_.nu && !cells_.uniform(); ++i) {
       const double crossing = 0.5 * row[static_cast<std::size_t>(i)] * cells_.dy;
       for (const int side : {-1, 1}) {
-        const int other = wrapped(cells_, i + side);
+        const int other = cells_.wrapped(i + side);
         if (other < 0 || other >= cells_.nu) continue;
         if (side > 0)
           move(i, j, other, j, crossing);
@@ -99,7 +118,7 @@ void MaterialFlow::displace(SurfaceRecord& record) const {
   for (const auto& [j, row] : across_.rows())
     for (const int side : {-1, 1}) {
       const int other = j + side;
-      if (!exists(cells_, j) || !exists(cells_, other)) continue;
+      if (!cells_.exists(j) || !cells_.exists(other)) continue;
       const double radius =
           0.5 * (cells_.radius[static_cast<std::size_t>(j)] + cells_.radius[static_cast<std::size_t>(other)]);
       for (int i = 0; i < cells_.nu; ++i) {

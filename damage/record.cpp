@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/damage/cell_shares.hpp"
 #include "treadmark/damage/wear.hpp"
 
 namespace treadmark::damage {
@@ -21,23 +20,64 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kMostCells = 20e6;
 
+/// Cells and shares of them; the shares of one element sum up to one.
+using Shares = std::vector<std::pair<int, double>>;
+
+/// Share of a box [-a, a] that moved by [-b, b] which lies below t: two even distributions one after the other.
+double below(double t, double a, double b) {
+  const double half = std::max(a, b), other = std::min(a, b);
+  if (t <= -(half + other)) return 0.0;
+  if (t >= half + other) return 1.0;
+  if (other < 1e-9 * half) return std::clamp(0.5 * (t + half) / half, 0.0, 1.0);
+  const auto square = [](double x) { return x > 0.0 ? x * x : 0.0; };
+  return (square(t + half + other) - square(t + half - other) - square(t - half + other) + square(t - half - other)) /
+         (8.0 * half * other);
+}
+
+/// Cells of step d, the middle of the first at x0, below the moved box round a middle.
+Shares shares_of(double middle, double a, double b, double x0, double d) {
+  Shares shares;
+  const double first_edge = x0 - 0.5 * d;
+  const int first = static_cast<int>(std::floor((middle - a - b - first_edge) / d)),
+            last = static_cast<int>(std::floor((middle + a + b - first_edge) / d));
+  double before = 0.0;
+  for (int k = first; k <= last; ++k) {
+    const double upto = k == last ? 1.0 : below(first_edge + (k + 1) * d - middle, a, b);
+    if (upto > before) shares.emplace_back(k, upto - before);
+    before = upto;
+  }
+  return shares;
+}
+
+/// Rows under an element; what hangs over the border of the surface goes to the rows that are there.
 Shares rows_of(const SurfaceCells& cells, double y_low, double y_high) {
-  Shares rows = rows_between(cells, y_low, y_high);
-  if (rows.empty())
+  const double half = 0.5 * (y_high - y_low);
+  Shares rows = shares_of(0.5 * (y_low + y_high), std::max(half, 1e-12), 0.0, cells.y0, cells.dy);
+  double there = 0.0;
+  std::erase_if(rows, [&](const auto& row) { return !cells.exists(row.first); });
+  for (const auto& row : rows) there += row.second;
+  if (!(there > 0.0))
     throw Error(ErrorKind::input_data,
                 fmt::format("a contact at y = {:.3f} mm lies beside the surface that evolves", 1e3 * y_low), {},
                 "the surface must go on beyond its contacts");
+  for (auto& row : rows) row.second /= there;
   return rows;
 }
 
 Shares columns_of(const SurfaceCells& cells, const PassedPatch& patch, const PassedElement& e, const Stretch& s,
                   double radius) {
-  Shares shares = columns_under(cells, e.u, patch.length, s, radius);
-  for (const auto& share : shares)
+  if (cells.uniform()) return {{0, 1.0}};
+  const double half = 0.5 * patch.length / radius, moved = 0.5 * (s.end - s.begin);
+  const double middle = e.u + 0.5 * (s.begin + s.end) - s.middle;
+  // the larger one first; a whole turn is not more than one
+  Shares shares = shares_of(middle, half, std::max(moved, 0.0), cells.u0, cells.du);
+  for (auto& share : shares) {
+    share.first = cells.wrapped(share.first);
     if (share.first < 0 || share.first >= cells.nu)
       throw Error(ErrorKind::input_data,
-                  fmt::format("a contact at x = {:.1f} mm lies beyond the cells of the rail", 1e3 * e.u), {},
+                  fmt::format("a contact at x = {:.1f} mm lies beyond the cells of the rail", 1e3 * middle), {},
                   "this is a defect of the program");
+  }
   return shares;
 }
 
@@ -123,7 +163,7 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
     along = shares_of(stretch.begin + half, half, 0.0, cells.u0, cells.du);
     for (auto& share : along) share.second *= 2.0 * half / cells.du;
   }
-  for (auto& share : along) share.first = wrapped(cells, share.first);
+  for (auto& share : along) share.first = cells.wrapped(share.first);
   std::erase_if(along, [&](const auto& share) { return share.first < 0 || share.first >= cells.nu; });
   const auto raise = [&along](CellSheet& sheet, int j, double value) {
     if (!(value > 0.0)) return;
@@ -191,9 +231,9 @@ void smooth_across(CellSheet& sheet, const SurfaceCells& cells, double deviation
     if (std::ranges::count(row, 0.0) == static_cast<std::ptrdiff_t>(row.size())) continue;
     double sum = 0.0;
     for (int k = -reach; k <= reach; ++k)
-      if (exists(cells, j + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];
+      if (cells.exists(j + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];
     for (int k = -reach; k <= reach; ++k) {
-      if (!exists(cells, j + k)) continue;
+      if (!cells.exists(j + k)) continue;
       const double share = weights[static_cast<std::size_t>(std::abs(k))] / sum;
       double* values = &out.ref(0, j + k);
       for (std::size_t i = 0; i < row.size(); ++i) values[i] += share * row[i];
@@ -215,7 +255,7 @@ void smooth_along(CellSheet& sheet, const SurfaceCells& cells, double deviation)
         if (there(i + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];
       for (int k = -reach; k <= reach; ++k)
         if (there(i + k))
-          out[static_cast<std::size_t>(wrapped(cells, i + k))] +=
+          out[static_cast<std::size_t>(cells.wrapped(i + k))] +=
               row[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(std::abs(k))] / sum;
     }
     row = std::move(out);
@@ -247,9 +287,9 @@ DepthExtent depth_extent(const SurfaceCells& cells, const CellSheet& volume) {
       extent.depth = std::max(extent.depth, d);
       extent.raised = std::max(extent.raised, -d);
       for (const int side : {j - 1, j + 1})
-        if (exists(cells, side))
+        if (cells.exists(side))
           extent.slope = std::max(extent.slope, std::fabs(d - depth_of(cells, volume.at(i, side), side)) / cells.dy);
-      if (const int before = wrapped(cells, i - 1); !cells.uniform() && before >= 0)
+      if (const int before = cells.wrapped(i - 1); !cells.uniform() && before >= 0)
         extent.slope_along =
             std::max(extent.slope_along, std::fabs(d - depth_of(cells, row[static_cast<std::size_t>(before)], j)) /
                                              (cells.du * cells.radius[static_cast<std::size_t>(j)]));

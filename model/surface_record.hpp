@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <vector>
@@ -26,6 +27,10 @@ struct SurfaceCells {
   bool uniform() const { return nu == 1; }
   /// Whether the last column joins the first.
   bool closed() const { return body == Body::wheel; }
+  /// Whether there is surface in a row.
+  bool exists(int j) const { return j >= 0 && j < ny && std::isfinite(radius[static_cast<std::size_t>(j)]); }
+  /// Number of the column that one beyond the ends is; of a rail it stays outside.
+  int wrapped(int i) const { return closed() ? (i % nu + nu) % nu : i; }
   double y(int j) const { return y0 + j * dy; }
   double u(int i) const { return u0 + i * du; }
   /// Of the projection along which depth is removed [m2].
