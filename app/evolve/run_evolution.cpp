@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/evolve/contact_source.hpp"
+#include "treadmark/app/evolve/evolution_vtk.hpp"
 #include "treadmark/app/evolve/passed_patches.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/study_identity.hpp"
@@ -24,6 +25,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/model/body_name.hpp"
 
@@ -53,6 +55,25 @@ class EvolutionRun {
         source_(file.positions.base_is_simulation ? simulated_contacts(file, options.settings) : case_contacts(file)) {
     bodies_.reserve(file.bodies.size());
     for (const io::EvolvingBody& body : file.bodies) bodies_.push_back(prepare(body));
+  }
+
+  /// See write_evolution_vtk.
+  void write_vtk(const fs::path& folder) const {
+    const fs::path out = folder / "vtk";
+    fs::create_directories(out);
+    std::string entries;
+    for (int number = 0; fs::exists(folder / io::generation_file(number)); ++number) {
+      const io::Generation g = io::read_generation(folder / io::generation_file(number));
+      for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        const io::EvolvedBody& body = g.bodies[b];
+        const std::string text = evolved_surface_vts(*evolved(bodies_[b], body.record).surface, body);
+        if (text.empty()) continue;
+        const std::string name = fmt::format("{}_{:04}.vts", body_name(body.body), number);
+        write_file(out / name, text);
+        entries += io::vtk_entry(g.distance > 0.0 ? 1e-3 * g.distance : g.passages, static_cast<int>(b), name);
+      }
+    }
+    write_file(out / "evolution.pvd", io::vtk_collection(entries));
   }
 
   io::EvolutionResult run() {
@@ -416,6 +437,10 @@ void identify(const io::EvolutionFile& file, const EvolutionOptions& options) {
 }
 
 }  // namespace
+
+void write_evolution_vtk(const io::EvolutionFile& file, const fs::path& folder) {
+  EvolutionRun(file, {}, {}).write_vtk(folder);
+}
 
 void check_evolution(const io::EvolutionFile& file) { EvolutionRun(file, {}, {}); }
 

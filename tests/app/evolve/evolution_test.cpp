@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -29,6 +31,7 @@
 #include "treadmark/tests/app/evolve/wheel_law.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
+#include "treadmark/tests/io/results/xml_reader.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -411,6 +414,71 @@ TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
   EXPECT_EQ(result.generations[1].bodies.front().record.memory_bytes(), 0u);  // the file has them
   EXPECT_GT(io::read_generation(folder_.path() / "out" / io::generation_file(1)).bodies.front().record.memory_bytes(),
             0u);
+}
+
+/// Values of an array of float or double.
+template <class T>
+std::vector<T> vtk_values(const XmlElement& root, const std::string& name) {
+  const std::string text = root.find("DataArray", "Name", name).at(0)->text;
+  const auto decoded = [](const std::string& base64) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t group = 0;
+    int bits = 0;
+    for (const char c : base64) {
+      if (c == '=') break;
+      group = group << 6 | static_cast<std::uint32_t>(digits.find(c));
+      if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
+    }
+    return bytes;
+  };
+  const std::string bytes = decoded(text.substr(12));  // behind their number
+  std::vector<T> out(bytes.size() / sizeof(T));
+  std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+  return out;
+}
+
+/// ParaView's files have the surface where it is, with what it has endured.
+TEST_F(Evolution, WritesSurfacesForParaView) {
+  folder_.write("base.toml", standard_case("1.0"));
+  const std::string study = folder_.write("study.toml",
+                                          "[evolve]\nbase = \"base.toml\"\ndistance_km = 2000\nupdates = "
+                                          "2\nfields_every = 0\n[evolve.wheel]\n" +
+                                              io::replaced(kLaw, "1e-4", "1e-2") + kFatigue);
+  const fs::path out = folder_.path() / "out";
+  ASSERT_EQ(run_program({"evolve", study, "-o", out, "--vtk", "--quiet"}).status, 0);
+  std::ostringstream pvd, vts;
+  pvd << std::ifstream(out / "vtk" / "evolution.pvd").rdbuf();
+  const auto entries = read_xml(pvd.str()).find("DataSet");
+  ASSERT_EQ(entries.size(), 2u);  // nothing has changed at first
+  EXPECT_EQ(entries[1]->attributes.at("timestep"), "2000");
+  ASSERT_EQ(entries[1]->attributes.at("file"), "wheel_0002.vts");
+  vts << std::ifstream(out / "vtk" / "wheel_0002.vts").rdbuf();
+  const XmlElement root = read_xml(vts.str());
+  const io::Generation last = io::read_generation(out / io::generation_file(2));
+  const io::EvolvedBody& wheel = last.bodies.front();
+  const auto depth = vtk_values<float>(root, "depth_m");
+  const auto points = vtk_values<double>(root, "points_m");
+  constexpr std::size_t kParts = 72;
+  const std::size_t rows = depth.size() / kParts;
+  ASSERT_EQ(points.size(), 3 * (kParts + 1) * (rows + 1));
+  EXPECT_NEAR(*std::ranges::max_element(depth), wheel.max_depth, 1e-6 * wheel.max_depth);
+  const auto radius = [&](std::size_t k, std::size_t i) {
+    const double* p = points.data() + 3 * (k * (kParts + 1) + i);
+    return std::hypot(p[0], p[2]);
+  };
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double y = 0.5 * (points[3 * k * (kParts + 1) + 1] + points[3 * (k + 1) * (kParts + 1) + 1]);
+    const int j = static_cast<int>(std::lround((y - wheel.cells.y0) / wheel.cells.dy));
+    EXPECT_NEAR(y, wheel.cells.y(j), 1e-12);
+    EXPECT_NEAR(0.5 * (radius(k, 5) + radius(k + 1, 5)), 0.46 + wheel.z[static_cast<std::size_t>(j)], 2e-6);
+    EXPECT_NEAR(radius(k, 5), radius(k, 60), 1e-12);
+  }
+  EXPECT_EQ(vtk_values<float>(root, "depth_1_shear_Pa").size(), depth.size());
+  const auto pressure = vtk_values<float>(root, "pressure_Pa");
+  double largest = 0.0;
+  for (const auto& [j, row] : wheel.record.pressure.rows()) largest = std::max(largest, row.front());
+  EXPECT_NEAR(*std::ranges::max_element(pressure), largest, 1e-6 * largest);
 }
 
 TEST_F(Evolution, LeftAndRightEvolveAlike) {
