@@ -149,9 +149,6 @@ EvolutionFile read_evolution_file(const std::filesystem::path& file, std::span<c
   read_plain(evolve, plain_evolve_keys(), out);
   for (const char* limit : {"max_depth_mm", "max_pressure_change", "smallest_step"}) evolve.exclude("updates", limit);
   tables.read_runs(evolve);
-  if (tables.study.base_is_simulation && evolve.find("rail") != nullptr)
-    throw Error(ErrorKind::configuration, "where contacts come from a simulation the wheel evolves alone",
-                evolve.need("rail").where, "name a case file with the positions of the wheel");
   out.weights = read_weights(evolve, tables.study.runs.size());
   out.positions = std::move(tables.study);
   return out;
