@@ -621,8 +621,8 @@ TEST(EvolveDocs, TableOfKeysIsUpToDate) {
 }
 
 TEST(EvolveExamples, AreReadAndBuilt) {
-  for (const char* name :
-       {"hollow-wheel.toml", "spread-of-rails.toml", "rounding-flat.toml", "flat-in-motion.toml", "tired-rail.toml"})
+  for (const char* name : {"hollow-wheel.toml", "spread-of-rails.toml", "rounding-flat.toml", "flat-in-motion.toml",
+                           "flowing-flat.toml", "tired-rail.toml", "growing-squat.toml", "growing-polygon.toml"})
     EXPECT_EQ(error_of([&] {
                 app::check_evolution(io::read_evolution_file(fs::path(TREADMARK_SOURCE_DIR) / "examples" / name));
               }),
