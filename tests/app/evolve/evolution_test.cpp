@@ -533,6 +533,29 @@ TEST_F(Evolution, UpdatesConvergeWithOrderOne) {
   EXPECT_NEAR(std::log2(steps[1] / steps[2]), 1.0, 0.4);
 }
 
+/// Finer elements come to Archard's closed form: volume is k / H times force and way of sliding, whatever the shape.
+TEST_F(Evolution, ElementsConverge) {
+  const double way = 0.2 * 1e3 / 2.0, expected = 1e-4 / 3e9 * way;
+  std::vector<double> errors, found;
+  for (const char* element : {"0.8", "0.4", "0.2"}) {
+    std::string base = kHertz;
+    for (const char* key : {"dx_mm = ", "ds_mm = "})
+      base = io::replaced(base, key + std::string("0.4"), key + std::string(element));
+    const auto result = run(file(
+        base, "distance_km = 1\nupdates = 1\nfields_every = 0\n[evolve.wheel]\nsmoothing_mm = 0\ndy_mm = 0.4\n", kLaw));
+    ASSERT_EQ(result.status, "complete") << result.message;
+    const double volume = damage::total(result.generations.back().bodies.front().record.volume);
+    errors.push_back(std::fabs(volume / (expected * 60e3) - 1.0));
+    found.push_back(result.generations.back().bodies.front().max_depth);
+  }
+  std::cout << "errors of volume: " << errors[0] << ' ' << errors[1] << ' ' << errors[2] << '\n';
+  EXPECT_LT(errors[0], 1e-3);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_GT(std::log2(errors[k] / errors[k + 1]), 0.8);
+    EXPECT_NEAR(found[k], found[2], 2e-3 * found[2]);
+  }
+}
+
 /// Every generation sampled anew as a spline: the same evolution but for the error of the fit.
 TEST_F(Evolution, SplinesOfEveryGenerationEvolveAlike) {
   const std::string evolve = "distance_km = 2000\nupdates = 3\nfields_every = 0\n[evolve.wheel]\n";
