@@ -254,6 +254,31 @@ TEST_F(SimulatedEvolution, RailsWearBelowWheelsThatPass) {
     }
 }
 
+/// A wheel falls into a squat and strikes its far edge: forces, Tγ and damage are largest there, and a squat that wears
+/// there strikes harder.
+TEST_F(SimulatedEvolution, SquatSuffersAtItsFarEdge) {
+  const io::EvolutionFile file =
+      io::read_evolution_file(fs::path(TREADMARK_SOURCE_DIR) / "examples/growing-squat.toml",
+                              std::vector<std::string>{"evolve.updates=1", "evolve.passages=5e4"});
+  const io::EvolutionResult result = app::run_evolution(file, {path("out"), false, {}});
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const io::EvolvedBody& rail = result.generations.back().bodies.front();
+  constexpr double kFarEdge = 0.35;  // [m]; the squat ends there
+  double most = 0.0, at = 0.0;
+  for (const auto& [j, row] : rail.record.damage.rows())
+    for (int i = 0; i < rail.cells.nu; ++i)
+      if (const double damage = row[static_cast<std::size_t>(i)]; damage > most) most = damage, at = rail.cells.u(i);
+  EXPECT_NEAR(at, kFarEdge, 6e-3);
+  EXPECT_GT(most, 0.05);
+  const io::SimulationResult first = io::read_simulation(path("out") + "/" + io::simulation_file(0, 0, 1));
+  for (const io::NamedValue& value : first.summary)
+    if (value.name == "q_max_x_m") {
+      EXPECT_NEAR(value.value, kFarEdge, 12e-3);
+    }
+  EXPECT_GT(number(result.generations.back(), "q_max_N"), number(result.generations.front(), "q_max_N"));
+  EXPECT_LT(std::fabs(io::volume_balance(rail)), 1e-9);
+}
+
 TEST_F(SimulatedEvolution, SaysWhatIsWrongAndWhere) {
   const auto passage = [&](const char* from, const char* to) {
     return error(io::replaced(kPassage, from, to), kStudy);
