@@ -171,9 +171,11 @@ std::vector<SurfaceSheet> surface_sheets(const io::EvolvedBody& b) {
   return out;
 }
 
-/// Value of a cell of a sheet in the unit that is shown.
-double shown_value(const SurfaceSheet& what, const io::EvolvedBody& b, int i, int j) {
-  const double value = what.sheet(b.record).at(i, j);
+/// Value of some cells beside each other, the one that is farthest from zero, in the unit that is shown.
+double shown_value(const SurfaceSheet& what, const io::EvolvedBody& b, int i, int count, int j) {
+  double value = 0.0;
+  for (int k = i; k < std::min(i + count, b.cells.nu); ++k)
+    if (const double one = what.sheet(b.record).at(k, j); std::fabs(one) > std::fabs(value)) value = one;
   return in_file(what.scale * (what.by_area ? value / b.cells.area(j) : value));
 }
 
@@ -231,9 +233,9 @@ void add_surface_figures(Section& section, const io::EvolutionResult& result, co
       std::vector<double>& values = maps[k].by_step.emplace_back();
       values.reserve(static_cast<std::size_t>(maps[k].nx) * static_cast<std::size_t>(ny));
       for (int j = first_row; j <= last_row; ++j)
-        for (int i = 0; i < nu; i += every) values.push_back(shown_value(sheets[k], b, i, j));
+        for (int i = 0; i < nu; i += every) values.push_back(shown_value(sheets[k], b, i, every, j));
       std::vector<double>& line = curves.y.emplace_back(1).front();
-      for (int i = 0; i < nu; i += every) line.push_back(shown_value(sheets[k], b, i, middle));
+      for (int i = 0; i < nu; i += every) line.push_back(shown_value(sheets[k], b, i, every, middle));
     }
     lines.by_step.push_back(std::move(curves));
   }
@@ -275,9 +277,10 @@ void add_contacts(Page& page, const io::EvolutionResult& result, const fs::path&
   if (set.frames.empty()) return;
   page.timeline->frames = std::move(frames);
   page.sets.push_back(std::move(set));
-  page.sections.push_back({"contact",
-                           "Contact",
-                           {Figure{"contact", "Contact of the position with the largest pressure", ContactView{{0}}}}});
+  page.sections.push_back(
+      {"contact",
+       "Contact",
+       {Figure{"hardest-contact", "Contact of the position with the largest pressure", ContactView{{0}}}}});
 }
 
 }  // namespace
@@ -325,9 +328,10 @@ Page evolution_page(const fs::path& folder) {
       summary.blocks.emplace_back(Paragraph{fmt::format("Fatigue of the {}: {}. Its numbers: {}.", body_name(b.body),
                                                         b.fatigue.measures, b.fatigue.source)});
   page.sections.push_back(std::move(summary));
-  page.sections.push_back({"numbers",
-                           "Over the generations",
-                           {Figure{"numbers", "Numbers over the generations", numbers_over_generations(result)}}});
+  page.sections.push_back(
+      {"numbers",
+       "Over the generations",
+       {Figure{"over-generations", "Numbers over the generations", numbers_over_generations(result)}}});
   for (std::size_t b = 0; b < last.bodies.size(); ++b) {
     const io::EvolvedBody& body = last.bodies[b];
     const std::string word = body_name(body.body);

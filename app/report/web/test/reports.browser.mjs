@@ -343,8 +343,8 @@ test("a study", async () => {
 test("evolutions follow the slider over their generations", async () => {
   const [flat, tread] = results.evolutions();
   for (const [file, folderName, figures] of [
-    [flat, "worn-flat", ["numbers", "wheel-section", "wheel-along", "wheel-depth", "wheel-pressure", "wheel-strain"]],
-    [tread, "worn-tread", ["numbers", "wheel-section"]],
+    [flat, "worn-flat", ["over-generations", "wheel-section", "wheel-along", "wheel-depth", "wheel-pressure", "wheel-strain"]],
+    [tread, "worn-tread", ["over-generations", "wheel-section"]],
   ]) {
     assert.ok(statSync(join(folder, file)).size < 8e6);
     const json = read(`${folderName}/evolution.json`);
@@ -352,6 +352,8 @@ test("evolutions follow the slider over their generations", async () => {
     const tab = await Tab.open(file);
     const { page } = tab;
     assert.equal(await tab.step(), last);
+    const ids = await page.locator("[id]").evaluateAll((all) => all.map((one) => one.id));
+    assert.deepEqual(ids.filter((id, k) => ids.indexOf(id) !== k), [], "ids that are there twice");
     for (const name of ["pmax_MPa", "wheel_volume_mm3", ...(file === tread ? ["wheel_conicity_3mm"] : ["wheel_raised_mm", "wheel_strain"])])
       for (let k = 0; k <= last; ++k)
         near(await tab.cell("generations", k, name), json.generations[k][name], 1e-9 * Math.abs(json.generations[k][name]), `${name} of generation ${k}`);
