@@ -174,8 +174,9 @@ std::vector<SurfaceSheet> surface_sheets(const io::EvolvedBody& b) {
 /// Value of some cells beside each other, the one that is farthest from zero, in the unit that is shown.
 double shown_value(const SurfaceSheet& what, const io::EvolvedBody& b, int i, int count, int j) {
   double value = 0.0;
-  for (int k = i; k < std::min(i + count, b.cells.nu); ++k)
-    if (const double one = what.sheet(b.record).at(k, j); std::fabs(one) > std::fabs(value)) value = one;
+  for (int k = i; k < i + count; ++k)
+    if (const double one = what.sheet(b.record).at(b.cells.wrapped(k), j); std::fabs(one) > std::fabs(value))
+      value = one;
   return in_file(what.scale * (what.by_area ? value / b.cells.area(j) : value));
 }
 
@@ -200,6 +201,27 @@ int changed_row(const io::EvolvedBody& last) {
   return row;
 }
 
+/// First and last column where depth is more than some of the largest, and as much again to both sides; of a wheel
+/// counted from -180 degrees on, where defects of files begin at 0.
+std::pair<int, int> changed_columns(const io::EvolvedBody& last) {
+  constexpr double kShare = 0.02;
+  const SurfaceCells& c = last.cells;
+  const int low = c.closed() ? -c.nu / 2 : 0, high = low + c.nu - 1;
+  std::vector<double> depth(static_cast<std::size_t>(c.nu), 0.0);
+  for (const auto& [j, row] : last.record.volume.rows())
+    for (int i = low; i <= high; ++i) {
+      double& most = depth[static_cast<std::size_t>(i - low)];
+      most = std::max(most, std::fabs(row[static_cast<std::size_t>(c.wrapped(i))]));
+    }
+  const double enough = kShare * *std::ranges::max_element(depth);
+  int first = high, end = low;
+  for (int i = low; i <= high; ++i)
+    if (depth[static_cast<std::size_t>(i - low)] > enough) first = std::min(first, i), end = std::max(end, i);
+  if (first > end) return {low, high};
+  const int more = (end - first + 1) / 4 + 1;
+  return {std::max(low, first - more), std::min(high, end + more)};
+}
+
 /// Over the unrolled surface and along the row that has changed most, at the chosen generation.
 void add_surface_figures(Section& section, const io::EvolutionResult& result, const fs::path& folder,
                          std::size_t body) {
@@ -207,7 +229,8 @@ void add_surface_figures(Section& section, const io::EvolutionResult& result, co
   const io::EvolvedBody& last = result.generations.back().bodies[body];
   const std::string word = body_name(last.body);
   const auto [first_row, last_row] = touched_rows(last);
-  const int ny = last_row - first_row + 1, nu = last.cells.nu, middle = changed_row(last);
+  const auto [first, last_column] = changed_columns(last);
+  const int ny = last_row - first_row + 1, nu = last_column - first + 1, middle = changed_row(last);
   const double cells = static_cast<double>(nu) * ny * static_cast<double>(result.generations.size());
   const int every = std::max({1, nu / 1000, static_cast<int>(std::ceil(cells / kMostNumbers))});
   const std::vector<SurfaceSheet> sheets = surface_sheets(last);
@@ -221,21 +244,22 @@ void add_surface_figures(Section& section, const io::EvolutionResult& result, co
     map.y = Axis{"y", "mm"};
     map.label = what.label, map.unit = what.unit;
     map.nx = (nu + every - 1) / every, map.ny = ny;
-    map.x0 = along_scale(last.body) * last.cells.u0, map.dx = along_scale(last.body) * last.cells.du * every;
+    map.diverging = what.by_area && !last.flow.theory.empty();
+    map.x0 = along_scale(last.body) * last.cells.u(first), map.dx = along_scale(last.body) * last.cells.du * every;
     map.y0 = kMilli * last.cells.y(first_row), map.dy = kMilli * last.cells.dy;
   }
   for (const io::Generation& summary : result.generations) {
     const io::Generation g = io::read_generation(folder / io::generation_file(summary.number));
     const io::EvolvedBody& b = g.bodies[body];
     ChartView::Curves curves;
-    for (int i = 0; i < nu; i += every) curves.x.push_back(in_file(along_scale(b.body) * b.cells.u(i)));
+    for (int i = first; i <= last_column; i += every) curves.x.push_back(in_file(along_scale(b.body) * b.cells.u(i)));
     for (std::size_t k = 0; k < sheets.size(); ++k) {
       std::vector<double>& values = maps[k].by_step.emplace_back();
       values.reserve(static_cast<std::size_t>(maps[k].nx) * static_cast<std::size_t>(ny));
       for (int j = first_row; j <= last_row; ++j)
-        for (int i = 0; i < nu; i += every) values.push_back(shown_value(sheets[k], b, i, every, j));
+        for (int i = first; i <= last_column; i += every) values.push_back(shown_value(sheets[k], b, i, every, j));
       std::vector<double>& line = curves.y.emplace_back(1).front();
-      for (int i = 0; i < nu; i += every) line.push_back(shown_value(sheets[k], b, i, every, middle));
+      for (int i = first; i <= last_column; i += every) line.push_back(shown_value(sheets[k], b, i, every, middle));
     }
     lines.by_step.push_back(std::move(curves));
   }
