@@ -171,7 +171,7 @@ std::vector<damage::PassedShear> passed_shears(const io::Case& given, const io::
   const Vec2 first = edges[0] - edges[1], last = edges[edges.size() - 1] - edges[edges.size() - 2];
   for (int k = 0; k < more; ++k) {
     edges.insert(edges.begin(), edges.front() + first);
-    edges.push_back(edges.back() + last);
+    edges.emplace_back(edges.back() + last);
   }
   // the rail's surface is dragged by the traction, the wheel's against it; stresses xz and yz are less the traction
   const double sense = body == Body::wheel ? 1.0 : -1.0;
