@@ -193,6 +193,27 @@ TEST_F(SimulatedEvolution, FlatRoundsOffAndForcesFall) {
   }
 }
 
+/// Flow alone does so within some hundred turns of the wheel, and takes nothing away.
+TEST_F(SimulatedEvolution, FlatFlowsAndForcesFall) {
+  std::string flowing = io::replaced(io::replaced(kStudy, "distance_km = 20000", "distance_km = 0.4"), "1e-4", "0");
+  flowing +=
+      "[evolve.wheel.flow]\ntheory = \"ratchetting\"\nsource = \"assumed\"\nshear_yield_MPa = 400\n"
+      "strain_per_cycle = 0.00237\ndepths_mm = [2, 3, 4, 5, 6, 8, 10, 12, 15, 20]\n";
+  const io::EvolutionResult result =
+      app::run_evolution(io::read_evolution_file(study(kPassage, flowing)), {path("out"), false, {}});
+  ASSERT_EQ(result.status, "complete") << result.message;
+  for (std::size_t k = 1; k < result.generations.size(); ++k) {
+    EXPECT_LT(number(result.generations[k], "q_max_N"), number(result.generations[k - 1], "q_max_N"));
+    EXPECT_GT(number(result.generations[k], "wheel_strain"), number(result.generations[k - 1], "wheel_strain"));
+  }
+  const io::EvolvedBody& wheel = result.generations.back().bodies.front();
+  EXPECT_GT(wheel.max_depth, 5e-6);
+  double moved = 0.0;
+  for (const auto& [j, row] : wheel.record.volume.rows())
+    for (const double volume : row) moved += std::fabs(volume);
+  EXPECT_LT(std::fabs(damage::total(wheel.record.volume)), 1e-12 * moved);
+}
+
 TEST_F(SimulatedEvolution, GoesOnToTheSameBytes) {
   const std::string file = study(kPassage, io::replaced(kStudy, "updates = 4", "updates = 2"));
   run_program({"evolve", file, "-o", path("one"), "--quiet"});
