@@ -212,7 +212,7 @@ VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::v
 /// Up to four sectors at a time. Where two rings determine a cubic beyond doubt that is fit_one's result; the others
 /// are left to it.
 void fit_some(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals, std::uint32_t first,
-              std::uint32_t end, Rings& rings, std::vector<VertexFit>& fits) {
+              std::uint32_t end, Rings& rings, std::vector<KeptFit>& fits) {
   FitBlock block;
   std::array<bool, FitBlock::kLanesOfFit> fine{};
   std::memset(block.from, 0, sizeof block.from);
@@ -245,24 +245,41 @@ void fit_some(const PreparedMesh& mesh, const Sectors& sectors, const std::vecto
   kernels().fit_cubics(block);
   for (std::uint32_t s = first; s < std::min(end, first + FitBlock::kLanesOfFit); ++s) {
     const std::size_t lane = s - first;
-    VertexFit& fit = fits[s];
+    VertexFit fit;
     bool finite = true;
     for (std::size_t k = 0; k < fit.c.size(); ++k) finite = finite && std::isfinite(fit.c[k] = block.cubic[k][lane]);
     // what pivots leave last is no smaller than the least singular value
     if (!(fine[lane] && finite && block.least_singular_value[lane] > kIllConditioned)) {
-      fit = fit_one(mesh, sectors, normals, s, rings);
+      fits[s] = kept(fit_one(mesh, sectors, normals, s, rings));
       continue;
     }
-    fit.origin = mesh.vertices[sectors.vertex[s]];
     fit.normal = normals[s];
-    for (std::size_t k = 0; k < 3; ++k) {
-      fit.axis_u[static_cast<int>(k)] = block.axis_u[k][lane];
-      fit.axis_v[static_cast<int>(k)] = block.axis_v[k][lane];
-    }
+    for (std::size_t k = 0; k < 3; ++k) fit.axis_u[static_cast<int>(k)] = block.axis_u[k][lane];
+    fits[s] = kept(fit);
   }
 }
 
 }  // namespace
+
+KeptFit kept(const VertexFit& fit) {
+  KeptFit out{};
+  for (int k = 0; k < 3; ++k) {
+    out.normal[k] = static_cast<float>(fit.normal[k]);
+    out.axis_u[k] = static_cast<float>(fit.axis_u[k]);
+  }
+  for (std::size_t k = 0; k < fit.c.size(); ++k) out.cubic[k] = static_cast<float>(fit.c[k]);
+  return out;
+}
+
+VertexFit restored(const KeptFit& kept, const Vec3& origin) {
+  VertexFit fit;
+  fit.origin = origin;
+  fit.normal = Eigen::Map<const Eigen::Vector3f>(kept.normal).cast<double>();
+  fit.axis_u = Eigen::Map<const Eigen::Vector3f>(kept.axis_u).cast<double>();
+  fit.axis_v = fit.normal.cross(fit.axis_u);
+  std::copy(std::begin(kept.cubic), std::end(kept.cubic), fit.c.begin());
+  return fit;
+}
 
 VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
   Sectors sectors = find_sectors(mesh, crease_angle);
@@ -275,7 +292,7 @@ VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
       Vec3 sum = Vec3::Zero();
       for (const std::uint32_t t : sectors.around(static_cast<std::uint32_t>(s))) sum += doubled_area(mesh, t);
       if (!(sum.norm() > 0.0)) sum = doubled_area(mesh, sectors.around(static_cast<std::uint32_t>(s)).front());
-      normals[s] = sum.normalized();
+      normals[s] = sum.normalized().cast<float>().cast<double>();  // as they are kept
     }
   });
   VertexFits result;
@@ -286,7 +303,7 @@ VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
     for (auto s = static_cast<std::uint32_t>(chunk * kChunk); s < end; s += FitBlock::kLanesOfFit)
       fit_some(mesh, sectors, normals, s, end, rings, result.fits);
   });
-  result.of_corner = std::move(sectors.of_corner);
+  if (sectors.of_corner != mesh.triangles) result.of_corner = std::move(sectors.of_corner);
   return result;
 }
 
