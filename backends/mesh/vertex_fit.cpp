@@ -286,17 +286,23 @@ VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
   const std::size_t n = sectors.size();
   constexpr std::size_t kChunk = 256;
   const std::size_t chunks = (n + kChunk - 1) / kChunk;
-  std::vector<Vec3> normals(n);
-  parallel_for(chunks, [&](std::size_t chunk) {
-    for (std::size_t s = chunk * kChunk; s < std::min(n, (chunk + 1) * kChunk); ++s) {
-      Vec3 sum = Vec3::Zero();
-      for (const std::uint32_t t : sectors.around(static_cast<std::uint32_t>(s))) sum += doubled_area(mesh, t);
-      if (!(sum.norm() > 0.0)) sum = doubled_area(mesh, sectors.around(static_cast<std::uint32_t>(s)).front());
-      normals[s] = sum.normalized().cast<float>().cast<double>();  // as they are kept
-    }
-  });
   VertexFits result;
   result.fits.resize(n);
+  const auto for_all = [&](const auto& body) {
+    parallel_for(chunks, [&](std::size_t chunk) {
+      for (std::size_t s = chunk * kChunk; s < std::min(n, (chunk + 1) * kChunk); ++s) body(s);
+    });
+  };
+  for_all([&](std::size_t s) {
+    Vec3 sum = Vec3::Zero();
+    for (const std::uint32_t t : sectors.around(static_cast<std::uint32_t>(s))) sum += doubled_area(mesh, t);
+    if (!(sum.norm() > 0.0)) sum = doubled_area(mesh, sectors.around(static_cast<std::uint32_t>(s)).front());
+    sum.normalize();
+    for (int k = 0; k < 3; ++k) result.fits[s].normal[k] = static_cast<float>(sum[k]);
+  });
+  // As they are kept; by way of memory, because GCC 12 leaves out a rounding to float and back.
+  std::vector<Vec3> normals(n);
+  for_all([&](std::size_t s) { normals[s] = Eigen::Map<const Eigen::Vector3f>(result.fits[s].normal).cast<double>(); });
   parallel_for(chunks, [&](std::size_t chunk) {
     Rings rings(sectors);
     const auto end = static_cast<std::uint32_t>(std::min(n, (chunk + 1) * kChunk));
