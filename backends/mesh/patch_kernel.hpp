@@ -30,7 +30,7 @@ TREADMARK_LANES void prepare_fits(const double* direction, const PatchSource& so
     double* f = patch + kFits + k * kFitEntries;
     V4 to_next = all(0.0), to_other = to_next, along = to_next;
     for (int j = 0; j < 3; ++j) {
-      const V4 axes = {a[j], axis_v[j], n[j], 0.0};
+      const V4 axes = {a[j], axis_v[j], n[j], n[j]};  // the last counts for nothing
       to_next = fma(axes, all(next[j]), to_next);
       to_other = fma(axes, all(-back[j]), to_other);
       along = fma(axes, all(direction[j]), along);

@@ -8,7 +8,7 @@ namespace treadmark::kalker {
 
 /// (x, y) -> block (x, y) at n places of spectra, on raw numbers only, see core/cpu.hpp. A block is three numbers (xx,
 /// xy, yy); real and imaginary parts alternate in x, y and the factors that turn both afterwards. All kernels give the
-/// same bits: they are compiled without contracted multiply-adds.
+/// same bits: those for AVX2 are compiled without multiply-adds.
 struct SpectrumKernel {
   void (*plain)(std::size_t n, const double* blocks, double* x, double* y);
   /// One factor for all places.
