@@ -45,19 +45,25 @@ def all_wheels(folder):
     (folder / "wheels.toml").write_text(text)
 
 
+def one_patch(folder):
+    """A wheel on a squat at one place, on fine elements."""
+    text = (ROOT / "examples/squat.toml").read_text()
+    text = text[:text.index("# Over both dips")] + "[[cases]]\nwheelset.s_mm = 15\n"
+    (folder / "patch.toml").write_text(text)
+
+
+SCAN = "scan {examples}/wheel-flat.toml --body wheel -o wheel.ply --points 200000 --noise-mm 0.02"
 # Name, what it is, arguments, what makes its input (arguments of the program, or a function of the folder).
 JOBS = [
-    ("run", "13 positions over a flat", "run {examples}/wheel-flat.toml -o out", None),
-    ("compare", "a squat, 2 representations at 2 resolutions",
-     "compare {examples}/squat.toml --backends spline,mesh --bodies rail -o out", None),
+    ("run", "13 positions over a flat", "run {examples}/wheel-flat.toml", None),
+    ("run-files", "the same with all files of results", "run {examples}/wheel-flat.toml -o out", None),
+    ("compare", "a squat, spline and mesh of 1 mm", "compare {examples}/squat.toml --backends spline,mesh --bodies rail --resolutions 1 -o out", None),
     ("bench", "spline and mesh of the built-in case", "bench --backends spline,mesh --resolutions 1 --seconds-per-measure 0.02 -o out", None),
-    ("import", "500 000 points of a wheel into slices", "import wheel.ply --body wheel -o out.slcw",
-     "scan {examples}/wheel-flat.toml --body wheel -o wheel.ply --points 500000 --noise-mm 0.02"),
-    ("import-triangles", "the same into triangles", "import wheel.ply --body wheel --resolution 1 -o out.ply",
-     "scan {examples}/wheel-flat.toml --body wheel -o wheel.ply --points 500000 --noise-mm 0.02"),
-    ("simulate", "full contact at 8 wheels, 40 mm", "simulate wheels.toml --set simulation.distance_m=0.04 -o out", all_wheels),
-    ("large", "one patch of 27 000 elements in contact, 0.05 mm",
-     "run {examples}/squat.toml --cases 1 --set discretisation.dx_mm=0.05 --set discretisation.ds_mm=0.05 -o out", None),
+    ("import", "200 000 points of a wheel into slices", "import wheel.ply --body wheel --resolution 1 -o out.slcw", SCAN),
+    ("import-triangles", "the same into triangles", "import wheel.ply --body wheel --resolution 1 -o out.ply", SCAN),
+    ("simulate", "full contact at 8 wheels, 10 mm", "simulate wheels.toml --set simulation.distance_m=0.01 -o out", all_wheels),
+    ("large", "one patch of 110 000 elements",
+     "run patch.toml --set discretisation.dx_mm=0.03 --set discretisation.ds_mm=0.03 --set discretisation.max_elements=1000000", one_patch),
 ]
 
 
