@@ -26,8 +26,8 @@ struct ScanFolder {
   explicit ScanFolder(const Surface& rail) {
     std::filesystem::create_directories(folder);
     scans::ScannerSettings scanner;
-    scanner.u_min = -40e-3, scanner.u_max = 40e-3;
-    scanner.points = 20000;
+    scanner.u_min = -25e-3, scanner.u_max = 25e-3;
+    scanner.points = 12500;
     scanner.noise = kNoise;
     scanner.outliers = 0.01;
     const scans::VirtualScan scan = scans::scan_surface(rail, scanner);
@@ -57,7 +57,7 @@ MeasuredPath import_path(const Surface& rail, const std::string& kind) {
   const auto check = [request]() -> std::string {
     const io::ImportReport report = app::import_scan(request);
     if (!(std::fabs(report.noise / kNoise - 1.0) < 0.1)) return "the noise is not that of the scanner";
-    return report.outputs.front().height_max < 5e-6 ? "" : "what was written is not what was fitted";
+    return report.outputs.front().height_rms < 2e-6 ? "" : "what was written is not what was fitted";
   };
   return {"point", scan->points, [request] { app::import_scan(request); }, check};
 }
