@@ -17,7 +17,7 @@ namespace {
 constexpr double kSpread = 0.02;
 /// What is deflected between nodes lies on springs and dampers: it follows forces with this time constant, that of
 /// waves over half an element [s].
-constexpr double kFollows = 2e-5;
+constexpr double kFollows = 1e-5;
 
 void add_rail_state(ByteWriter& out, const Eigen::VectorXd& v) {
   out.put(std::span<const double>(v.data(), static_cast<std::size_t>(v.size())));
