@@ -32,7 +32,7 @@ ALLOWED = {
     "interfaces": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces"],
     "examples": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app"],
     "bench": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "bench"],
-    "tests": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces", "tests"],
+    "tests": ["core", "model", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces", "bench", "tests"],
 }
 
 # What programs that are linked with the shared library include.
