@@ -64,13 +64,22 @@ std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
   return spline::make_nurbs_surface(r.points(true));
 }
 
+std::shared_ptr<const Surface> as_thb(Resampling& r) {
+  std::string note;
+  auto surface = spline::make_thb_surface(r.points(true), note);
+  r.add_note(note);
+  return surface;
+}
+
 }  // namespace
 
 std::vector<Backend> spline_backends() {
   Backend spline{"spline", "cubic along the section, tensor B-spline of slices along or round", 4.0, false, as_spline};
   spline.natural_for = is_measured_lines;
   spline.make_natural = natural_spline;
-  return {spline, {"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs}};
+  return {spline,
+          {"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs},
+          {"thb", "truncated hierarchical B-spline, fine where the shape asks for it", 4.0, false, as_thb}};
 }
 
 }  // namespace treadmark

@@ -2,12 +2,15 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/make.hpp"
 
+#include <fmt/format.h>
+
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
 #include "treadmark/backends/spline/slices/slice_surface.hpp"
+#include "treadmark/backends/spline/thb/thb_fit.hpp"
 
 namespace treadmark::spline {
 
@@ -29,6 +32,17 @@ std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body bo
                                                   double x_max) {
   return std::make_shared<NurbsSurface>(
       body == Body::rail ? sweep_chain(chain, x_min, x_max) : revolve_chain(chain, nominal_radius), body);
+}
+
+std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, std::string& note) {
+  const ThbFitSettings settings;
+  const ThbFit fit = fit_thb(points, settings);
+  note += fmt::format("{} coefficients in {} cells of {} levels, at most {:.2g} um off the points. ",
+                      fit.spline.space.functions(), fit.spline.space.cells().size(), fit.spline.space.levels(),
+                      1e6 * fit.most_left);
+  if (fit.noise > settings.tolerance)
+    note += fmt::format("The points are noisy by {:.2g} um: what is less is not followed. ", 1e6 * fit.noise);
+  return std::make_shared<NurbsSurface>(extracted(fit.spline), points.body, "thb");
 }
 
 }  // namespace treadmark::spline

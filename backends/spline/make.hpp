@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
@@ -29,5 +30,9 @@ std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& poi
 /// about the axle by exact circles (wheel). Errors: Error(configuration) for a bad chain, radius or range.
 std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius,
                                                   double x_min = -1.0, double x_max = 1.0);
+
+/// The same points by truncated hierarchical B-splines: least squares, refined where more than noise remains; see
+/// fit_thb. note: how much of what it took, in sentences. Errors: those of fit_thb.
+std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, std::string& note);
 
 }  // namespace treadmark::spline

@@ -24,7 +24,7 @@ class ShapeKeys {
     add_file_options();
     if (body_ == "wheel") add_seam();
     KeyInfo backend = backend_key(body_ + ".backend",
-                                  "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, "
+                                  "surface representation: analytic, spline, nurbs, thb, mesh, mesh-flat, offset, "
                                   "offset-quadratic or offset-bilinear; "
                                   "without it the one that fits the shape");
     backend.scope = KeyScope::wheel_rail;

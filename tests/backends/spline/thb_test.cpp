@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Truncated hierarchical B-splines: the basis, what is exact, fits to points.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "treadmark/backends/spline/make.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
+#include "treadmark/backends/spline/thb/thb_fit.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::spline {
+namespace {
+
+using sampling::PointGrid;
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadius = 0.46;
+// of numbers near 1, after some tens of sums and products
+constexpr double kRounding = 2e-14;
+
+KnotLine line(int degree, bool closed, const std::vector<double>& breaks) {
+  return closed ? KnotLine::periodic(degree, breaks) : KnotLine::open(degree, breaks);
+}
+
+/// Unequal intervals; v is halved only where it is long.
+ThbSpace space_of(int degree, bool closed, int levels) {
+  std::vector<double> u, v;
+  for (int i = 0; i <= 7; ++i) u.push_back(i + 0.2 * std::sin(1.0 * i));
+  for (int i = 0; i <= 6; ++i) v.push_back(i < 3 ? 0.4 * i : 1.2 + (i - 3));
+  std::vector<ThbSpace::Level> all{{line(degree, closed, u), line(degree, false, v)}};
+  while (static_cast<int>(all.size()) < levels) {
+    const KnotLine &lu = all.back().u, &lv = all.back().v;
+    const auto next_u = lu.halved([](int) { return true; });
+    const auto next_v = lv.halved([&](int i) { return lv.to(i) - lv.from(i) > 0.3; });
+    all.push_back({line(degree, closed, next_u), line(degree, false, next_v)});
+  }
+  return ThbSpace(std::move(all));
+}
+
+void divide_some(ThbSpace& space, int times, unsigned seed) {
+  std::mt19937 random(seed);
+  for (int k = 0; k < times; ++k) {
+    space.settle();
+    const auto& cells = space.cells();
+    const ThbCell cell = cells[std::uniform_int_distribution<std::size_t>(0, cells.size() - 1)(random)];
+    // blocks that have room for functions
+    for (int du = 0; du < 3; ++du)
+      for (int dv = 0; dv < 3; ++dv) {
+        const ThbCell near{cell.level, cell.iu + du, cell.iv + dv};
+        if (near.iu < space.u(cell.level).intervals() && near.iv < space.v(cell.level).intervals() &&
+            space.exists(near))
+          space.divide(near);
+      }
+  }
+  space.settle();
+}
+
+struct Case {
+  int degree;
+  bool closed;
+};
+class ThbBasis : public ::testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(
+    Degrees, ThbBasis, ::testing::Values(Case{1, false}, Case{2, false}, Case{3, false}, Case{2, true}, Case{3, true}),
+    [](const auto& which) {
+      return "degree_" + std::to_string(which.param.degree) + (which.param.closed ? "_closed" : "");
+    });
+
+TEST_P(ThbBasis, FunctionsAreNotNegativeAndSumToOne) {
+  ThbSpace space = space_of(GetParam().degree, GetParam().closed, 4);
+  divide_some(space, 9, 1);
+  const auto used = static_cast<std::size_t>((GetParam().degree + 1) * (GetParam().degree + 1));
+  int finest = 0;
+  for (const ThbCell& cell : space.cells()) {
+    finest = std::max(finest, cell.level);
+    const auto columns = space.columns(cell);
+    EXPECT_GE(columns.size(), used);
+    for (std::size_t k = 0; k < used; ++k) {
+      double sum = 0.0;
+      for (const auto& column : columns) {
+        EXPECT_GE(column.b[k], -kRounding);
+        sum += column.b[k];
+      }
+      EXPECT_NEAR(sum, 1.0, kRounding);
+    }
+  }
+  EXPECT_EQ(finest, 3);
+}
+
+TEST_P(ThbBasis, FunctionsAreLinearlyIndependent) {
+  ThbSpace space = space_of(GetParam().degree, GetParam().closed, 3);
+  divide_some(space, 5, 2);
+  const auto n = static_cast<Eigen::Index>(space.functions());
+  // values at 5 x 5 points of each cell determine its polynomials
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n, n);
+  const int p = GetParam().degree;
+  for (const ThbCell& cell : space.cells()) {
+    const auto columns = space.columns(cell);
+    for (int a = 0; a < 5; ++a)
+      for (int b = 0; b < 5; ++b) {
+        const double at[2] = {a / 4.0, b / 4.0};
+        KnotWeights w[2];
+        for (int d = 0; d < 2; ++d) {
+          const double arguments[3] = {at[d], at[d], at[d]};
+          w[d] = bernstein_blossom(p, arguments, 0.0, 1.0);
+        }
+        std::vector<double> values;
+        for (const auto& column : columns) {
+          double sum = 0.0;
+          for (std::size_t i = 0; i <= static_cast<std::size_t>(p); ++i)
+            for (std::size_t j = 0; j <= static_cast<std::size_t>(p); ++j)
+              sum += w[0][i] * w[1][j] * column.b[static_cast<std::size_t>(p + 1) * i + j];
+          values.push_back(sum);
+        }
+        for (std::size_t i = 0; i < values.size(); ++i)
+          for (std::size_t j = 0; j < values.size(); ++j)
+            gram(static_cast<Eigen::Index>(columns[i].function), static_cast<Eigen::Index>(columns[j].function)) +=
+                values[i] * values[j];
+      }
+  }
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  EXPECT_GT(values.minCoeff() / values.maxCoeff(), 1e-7) << n;
+}
+
+TEST_P(ThbBasis, DividingKeepsTheSurface) {
+  ThbSpace space = space_of(GetParam().degree, GetParam().closed, 4);
+  divide_some(space, 4, 3);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Vec3> coefficients;
+  for (std::size_t i = 0; i < space.functions(); ++i)
+    coefficients.emplace_back(unit(random), unit(random), unit(random));
+  ThbSpace finer = space;
+  divide_some(finer, 6, 5);
+  ASSERT_GT(finer.functions(), space.functions());
+  const ThbSpline before{space, coefficients}, after{finer, space.refined(coefficients, finer)};
+  const NurbsSurface patches(extracted(after), Body::rail, "thb");
+  const auto &u = space.u(0).breaks(), &v = space.v(0).breaks();
+  for (int k = 0; k < 400; ++k) {
+    const double at_u = u.front() + (u.back() - u.front()) * 0.5 * (1.0 + unit(random)),
+                 at_v = v.front() + (v.back() - v.front()) * 0.5 * (1.0 + unit(random));
+    EXPECT_LT((after.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kRounding);
+    // and so do the patches that it is cut into
+    EXPECT_LT((patches.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kRounding);
+  }
+}
+
+TEST_P(ThbBasis, TheSurfaceIsAsSmoothAsItsDegreeAllowsWhereLevelsMeet) {
+  const int degree = GetParam().degree;
+  ThbSpace space = space_of(degree, GetParam().closed, 4);
+  divide_some(space, 9, 6);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Vec3> coefficients;
+  for (std::size_t i = 0; i < space.functions(); ++i)
+    coefficients.emplace_back(unit(random), unit(random), unit(random));
+  const ThbSpline spline{space, coefficients};
+  constexpr double kStep = 1e-7, kSlopes = 100.0;  // step over a border, greatest slope of these surfaces
+  for (const ThbCell& cell : space.cells()) {
+    const ThbRange r = space.range(cell);
+    const double v = 0.5 * (r.v0 + r.v1), h = 0.1 * (r.u1 - r.u0);
+    const auto at = [&](double u) { return spline.point(u, v); };
+    EXPECT_LT((at(r.u1 - kStep) - at(std::min(r.u1 + kStep, space.u(0).breaks().back()))).norm(),
+              2.0 * kStep * kSlopes);
+    if (degree == 1 || r.u1 + h > space.u(0).breaks().back()) continue;
+    const Vec3 before = (at(r.u1) - at(r.u1 - kStep)) / kStep, behind = (at(r.u1 + kStep) - at(r.u1)) / kStep;
+    EXPECT_LT((before - behind).norm(), 1e-3);
+  }
+}
+
+TEST(KnotLine, SaysWhatIsWrongWithKnots) {
+  const auto refused = [](int degree, std::vector<double> knots) {
+    try {
+      KnotLine::of_knots(degree, std::move(knots));
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused(3, {0, 0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1, 1}), "");
+  EXPECT_NE(refused(4, {0, 0, 0, 0, 1, 1, 1, 1}).find("degree 4"), std::string::npos);
+  EXPECT_NE(refused(2, {0, 0, 0, 0.5, 0.4, 1, 1, 1}).find("knot 5 is less"), std::string::npos);
+  EXPECT_NE(refused(2, {0, 0, 0, 0.5, 0.5, 0.5, 1, 1, 1}).find("repeated 3 times"), std::string::npos);
+  EXPECT_NE(refused(3, {0, 0, 1, 1}).find("too few"), std::string::npos);
+  EXPECT_NE(refused(1, {0, 0, std::nan(""), 1}).find("not finite"), std::string::npos);
+}
+
+PointGrid sampled(Body body, double u0, double u1, int nu, double y0, double y1, int ny,
+                  const std::function<double(double, double)>& h) {
+  PointGrid grid;
+  grid.body = body;
+  for (int i = 0; i < nu; ++i) grid.u.push_back(u0 + (u1 - u0) * i / (nu - 1));
+  for (int j = 0; j < ny; ++j) grid.y.push_back(y0 + (y1 - y0) * j / (ny - 1));
+  for (const double u : grid.u)
+    for (const double y : grid.y) grid.h.push_back(h(u, y));
+  return grid;
+}
+
+PointGrid round_wheel(int nu, int ny, const std::function<double(double, double)>& r) {
+  PointGrid grid = sampled(Body::wheel, -kPi, kPi, nu + 1, -0.05, 0.05, ny, r);
+  grid.u.pop_back();
+  grid.h.resize(grid.u.size() * grid.y.size());
+  grid.closed = true;
+  return grid;
+}
+
+struct Errors {
+  double most = 0.0, rms = 0.0;
+};
+Errors errors_of(const ThbFit& fit, Body body, double x_half, double y_half,
+                 const std::function<double(double, double)>& h) {
+  const NurbsSurface surface(extracted(fit.spline), body, "thb");
+  Errors e;
+  int count = 0;
+  const Pose X{{0.0, 0.0, body == Body::wheel ? kRadius : 0.0}, Mat3::Identity()};
+  for (int i = 0; i < 61; ++i)
+    for (int j = 0; j < 59; ++j) {
+      const double x = x_half * (i / 30.0 - 1.0), y = y_half * (j / 29.0 - 1.0);
+      const double z = height_at(surface, X, {x, y}) + X.origin.z();
+      const double error = body == Body::wheel ? std::hypot(x, z) - h(std::atan2(x, z), y) : z - h(x, y);
+      e.most = std::max(e.most, std::abs(error));
+      e.rms += error * error;
+      ++count;
+    }
+  e.rms = std::sqrt(e.rms / count);
+  return e;
+}
+
+TEST(ThbFit, PolynomialsOfItsDegreeAreExact) {
+  for (const int degree : {2, 3}) {
+    const auto h = [&](double x, double) {
+      return 0.01 - 0.3 * x + 2.0 * x * x - (degree == 3 ? 40.0 * x * x * x : 0.0);
+    };
+    ThbFitSettings settings;
+    settings.degree = degree;
+    const ThbFit fit = fit_thb(sampled(Body::rail, -0.1, 0.1, 201, -0.03, 0.03, 61, h), settings);
+    EXPECT_LT(errors_of(fit, Body::rail, 0.0999, 0.0299, h).most, 1e-13);
+    EXPECT_LE(fit.spline.space.functions(), static_cast<std::size_t>((4 + degree) * (4 + degree)));
+  }
+}
+
+double waves(double x, double y) { return 1e-3 * std::sin(60.0 * x) * std::cos(50.0 * y); }
+
+TEST(ThbFit, ErrorFallsWithTheDegreePlusOne) {
+  constexpr double kIrregular = 0.4;
+  for (const int degree : {2, 3}) {
+    ThbFitSettings uniform;
+    uniform.degree = degree;
+    uniform.tolerance = 0.0;
+    const auto error = [&](int n) {
+      return errors_of(fit_thb(sampled(Body::rail, -0.1, 0.1, n, -0.04, 0.04, n, waves), uniform), Body::rail, 0.09,
+                       0.035, waves)
+          .rms;
+    };
+    const double coarse = error(33), fine = error(65), finest = error(129);
+    EXPECT_GT(std::log2(coarse / fine), degree + 1 - kIrregular) << degree;
+    EXPECT_GT(std::log2(fine / finest), degree + 1 - kIrregular) << degree;
+  }
+}
+
+double dented(double theta, double y) {
+  const double a = std::remainder(theta - 0.02, 2 * kPi) * kRadius / 0.01, b = (y - 5e-3) / 8e-3;
+  return kRadius + 0.3 * y * y - 0.5e-3 * std::exp(-a * a - b * b);
+}
+
+TEST(ThbFit, CoefficientsFollowTheDamage) {
+  const int nu = 2880, ny = 101;
+  const ThbFit fit = fit_thb(round_wheel(nu, ny, dented));
+  const NurbsSurface tensor(fit_point_grid(round_wheel(nu, ny, dented)), Body::wheel);
+  const Errors e = errors_of(fit, Body::wheel, 0.06, 0.045, dented);
+  EXPECT_LT(e.most, 1e-8);
+  EXPECT_LT(fit.spline.space.functions(), static_cast<std::size_t>(nu * ny / 50));
+  EXPECT_EQ(fit.unresolved, 0u);
+  EXPECT_LT(extracted(fit.spline).memory_bytes(), tensor.net().memory_bytes() / 20);
+}
+
+TEST(ThbFit, NoiseIsNotFollowed) {
+  constexpr double kNoise = 3e-5;
+  std::mt19937 random(8);
+  std::normal_distribution<double> normal(0.0, kNoise);
+  const auto noisy = [&](double x, double y) { return waves(x, y) + normal(random); };
+  const ThbFit fit = fit_thb(sampled(Body::rail, -0.1, 0.1, 801, -0.04, 0.04, 321, noisy));
+  EXPECT_NEAR(fit.noise, kNoise, 0.01 * kNoise);
+  // n points of a coefficient leave noise / sqrt(n); what is too small to be told from noise is left out
+  EXPECT_LT(errors_of(fit, Body::rail, 0.095, 0.038, waves).rms, 2e-6);
+  EXPECT_LT(fit.spline.space.functions(), 2000u);
+}
+
+TEST(ThbFit, IsTheSameForEveryNumberOfThreads) {
+  const PointGrid points = round_wheel(720, 51, dented);
+  const auto coefficients = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return fit_thb(points).spline.coefficients;
+  };
+  EXPECT_EQ(coefficients(1), coefficients(2));
+}
+
+TEST(ThbFit, RefusesWhatItCannotFit) {
+  PointGrid gap = sampled(Body::rail, -0.1, 0.1, 9, -0.03, 0.03, 12, waves);
+  gap.h[17] = std::nan("");
+  EXPECT_THROW(fit_thb(gap), Error);
+  ThbFitSettings quartic;
+  quartic.degree = 4;
+  EXPECT_THROW(fit_thb(sampled(Body::rail, -0.1, 0.1, 9, -0.03, 0.03, 12, waves), quartic), Error);
+  EXPECT_THROW(fit_thb(sampled(Body::rail, -0.1, 0.1, 3, -0.03, 0.03, 12, waves)), Error);
+}
+
+// A crown as sharp as 0.1 mm between flanks of 50 degrees.
+double crown(double x, double y) { return 1.2 * std::hypot(y, 0.12e-3) + 1e-4 * std::sin(40.0 * x); }
+
+TEST(Inversion, ConvergesWhereCurvatureIsLarge) {
+  constexpr double kOnLine = 1e-10, kFromFormula = 1e-6;  // [m]
+  const PointGrid points = sampled(Body::rail, -0.02, 0.02, 81, -0.01, 0.01, 401, crown);
+  const Pose X{{0.0, 0.0, 0.0}, rotation({0.5, 0.0, 0.1})};
+  const auto thb = std::make_shared<NurbsSurface>(extracted(fit_thb(points).spline), Body::rail, "thb");
+  const auto nurbs = std::make_shared<NurbsSurface>(fit_point_grid(points), Body::rail);
+  std::vector<Vec2> lines;
+  for (int i = 0; i < 21; ++i)
+    for (int j = 0; j < 101; ++j) lines.push_back({(i - 10) * 1e-3, (j - 50) * 0.8e-4});
+  for (const auto& surface : {thb, nurbs}) {
+    std::vector<SurfacePoint> found(lines.size());
+    surface->locate(X, lines, found);
+    int lost = 0;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      ASSERT_EQ(found[k].status, LocateStatus::converged) << surface->backend() << ' ' << lines[k].transpose();
+      const Vec3 p = found[k].position_S, seen = X.rotation.transpose() * (p - X.origin);
+      EXPECT_LT((seen.head<2>() - lines[k]).norm(), kOnLine) << surface->backend();
+      EXPECT_NEAR(p.z(), crown(p.x(), p.y()), kFromFormula) << surface->backend();
+      EXPECT_LT((surface->point(found[k].u, found[k].v) - p).norm(), kOnLine) << surface->backend();
+      // what Newton's method alone makes of it, from the middle of the flank
+      double u = 0.0, v = 6e-3;
+      bool converged = false;
+      for (int step = 0; step < 50 && !converged; ++step) {
+        const SurfaceDerivatives d = surface->derivatives(u, v);
+        const Mat3 turn = X.rotation.transpose();
+        const Vec3 at = turn * (d.p - X.origin), by_u = turn * d.pu, by_v = turn * d.pv;
+        const double det = by_u.x() * by_v.y() - by_v.x() * by_u.y();
+        const Vec2 off = lines[k] - at.head<2>();
+        u += (off.x() * by_v.y() - by_v.x() * off.y()) / det;
+        v += (by_u.x() * off.y() - off.x() * by_u.y()) / det;
+        converged = off.norm() < kOnLine;
+      }
+      if (!converged) ++lost;
+    }
+    EXPECT_GT(lost, 0) << surface->backend() << ": too easy";
+  }
+}
+
+TEST(ThbFit, FewPointsAreEnough) {
+  for (const int n : {4, 5, 6, 7, 9}) {
+    const ThbFit fit = fit_thb(sampled(Body::rail, -0.01, 0.01, n, -0.003, 0.003, n, waves));
+    EXPECT_LT(errors_of(fit, Body::rail, 0.0099, 0.0029, waves).most, 2e-5) << n;
+  }
+  const ThbFit wheel = fit_thb(round_wheel(16, 6, [](double, double) { return kRadius; }));
+  EXPECT_LT(errors_of(wheel, Body::wheel, 0.1, 0.04, [](double, double) { return kRadius; }).most, 2e-3);
+}
+
+}  // namespace
+}  // namespace treadmark::spline
