@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
+#include <utility>
 
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCholesky>
 
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
+#include "treadmark/backends/spline/thb/fit_points.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -18,7 +22,9 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr int kCoarsest = 64;         // points to the longest interval of level 0
+constexpr int kCoarsest = 64;           // points to the longest interval of level 0 of a grid
+constexpr int kCoarsestScattered = 32;  // places, with so many points each:
+constexpr double kPointsAPlace = 4.0;
 constexpr double kSmoothing = 1e-10;  // weight of second differences against the points of a cell
 
 double median(std::vector<double>& values) {
@@ -27,75 +33,60 @@ double median(std::vector<double>& values) {
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
-
-/// Places of points in one direction, and breaks among them, as numbers of points: knots lie at points, and the outer
-/// intervals have two at least, so that the finest spline interpolates them (not-a-knot ends).
-struct Line {
-  std::vector<double> at;
-  double period;  ///< 0: open
-  int least;      ///< points in the shortest interval: quadratic splines cannot go through points at all their knots
-
-  bool closed() const { return period > 0.0; }
-  int last() const { return static_cast<int>(at.size()) - (closed() ? 0 : 1); }
-  double place(int i) const {
-    return i < static_cast<int>(at.size()) ? at[static_cast<std::size_t>(i)] : at.front() + period;
-  }
-  /// Where an interval is halved; 0: it is not.
-  int half(int from, int to) const {
-    const bool outer = !closed() && (from == 0 || to == last());
-    return to - from >= 2 * std::max(least, outer ? 2 : 1) ? (from + to) / 2 : 0;
-  }
-  KnotLine knots(int degree, const std::vector<int>& breaks) const {
-    std::vector<double> places;
-    for (const int b : breaks) places.push_back(place(b));
-    return closed() ? KnotLine::periodic(degree, places) : KnotLine::open(degree, places);
-  }
-};
-
-/// Values of the Bernstein polynomials of an interval at a place.
-KnotWeights bernstein_values(int degree, double from, double to, double at) {
-  const double arguments[kMostDegree] = {at, at, at};
-  return bernstein_blossom(degree, arguments, from, to);
-}
-
-using Small = std::array<KnotWeights, kMostDegree + 1>;
+constexpr double kMad = 0.6744897501960817;  // median of the size of a normal number
 
 /// Products of second differences of Bernstein coefficients.
-Small second_differences(int degree) {
-  Small out{};
-  const double d[3] = {1.0, -2.0, 1.0};
-  for (std::size_t k = 0; k + 1 < static_cast<std::size_t>(degree); ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) out[k + i][k + j] += d[i] * d[j];
+Eigen::Matrix4d second_differences(int degree) {
+  Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
+  const Eigen::Vector3d d(1.0, -2.0, 1.0);
+  for (int k = 0; k + 1 < degree; ++k) out.block<3, 3>(k, k) += d * d.transpose();
+  return out;
+}
+/// Those along u and along v of a cell, index = 4 i + j.
+Eigen::Matrix<double, 16, 16> bending(int degree) {
+  const Eigen::Matrix4d one = second_differences(degree);
+  Eigen::Matrix<double, 16, 16> out = Eigen::Matrix<double, 16, 16>::Zero();
+  for (int i = 0; i <= degree; ++i)
+    for (int k = 0; k <= degree; ++k)
+      for (int j = 0; j <= degree; ++j) {
+        out(4 * i + j, 4 * k + j) += one(i, k);
+        out(4 * j + i, 4 * j + k) += one(i, k);
+      }
   return out;
 }
 
-class Solver {
+/// Equations of least squares, several right sides at a time.
+class NormalEquations {
  public:
-  void begin(std::size_t unknowns) {
-    rhs_.setZero(static_cast<Eigen::Index>(unknowns), 3);
-    entries_.clear();
+  NormalEquations(std::size_t unknowns, Eigen::Index sides) : rhs_(static_cast<Eigen::Index>(unknowns), sides) {
+    rhs_.setZero();
   }
   void add(std::size_t i, std::size_t j, double value) {
     entries_.emplace_back(static_cast<int>(std::max(i, j)), static_cast<int>(std::min(i, j)), value);
   }
-  void add(std::size_t i, const Vec3& value) { rhs_.row(static_cast<Eigen::Index>(i)) += value.transpose(); }
-  /// For bands.
-  std::vector<Vec3> solve() { return solution(Eigen::SimplicialLDLT<Matrix>(matrix())); }
-  /// For what is well conditioned, as bases of B-splines are, to some digits of the greatest number.
-  std::vector<Vec3> iterate() {
+  template <class Row>
+  void add_right(std::size_t i, const Row& row) {
+    rhs_.row(static_cast<Eigen::Index>(i)) += row;
+  }
+  void reserve(std::size_t entries) { entries_.reserve(entries); }
+  Eigen::MatrixXd solve() {
+    Eigen::SimplicialLDLT<Matrix> method(matrix());
+    return checked(method.info() == Eigen::Success ? method.solve(rhs_).eval() : Eigen::MatrixXd());
+  }
+  /// Many unknowns, well conditioned as bases of B-splines are: to some digits of the greatest number.
+  Eigen::MatrixXd iterate() {
     constexpr double kDigits = 1e-7;
+    constexpr int kMostSteps = 500;
     Eigen::ConjugateGradient<Matrix, Eigen::Lower> steps;
     steps.setTolerance(kDigits);
-    steps.setMaxIterations(500);
+    steps.setMaxIterations(kMostSteps);
     const Matrix m = matrix();
     steps.compute(m);
-    return solution(steps);
+    return checked(steps.solve(rhs_));
   }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
-
   Matrix matrix() {
     Matrix out(rhs_.rows(), rhs_.rows());
     out.setFromTriplets(entries_.begin(), entries_.end());
@@ -103,105 +94,92 @@ class Solver {
     check_cancelled();
     return out;
   }
-  template <class Method>
-  std::vector<Vec3> solution(const Method& method) const {
-    const bool possible = method.info() == Eigen::Success;
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> x = possible ? method.solve(rhs_).eval() : rhs_;
-    if (!possible || !x.allFinite())
+  Eigen::MatrixXd checked(Eigen::MatrixXd x) const {
+    if (x.rows() != rhs_.rows() || !x.allFinite())
       throw Error(ErrorKind::numerical, "the equations of a hierarchical spline are singular", {},
-                  "take a larger resolution");
-    std::vector<Vec3> out;
-    for (Eigen::Index i = 0; i < x.rows(); ++i) out.emplace_back(x.row(i).transpose());
-    return out;
+                  "take a larger resolution, or leave out places without points");
+    return x;
   }
 
   std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::Matrix<double, Eigen::Dynamic, 3> rhs_;
+  Eigen::MatrixXd rhs_;
 };
 
-/// What remains of a cell, and whether it is too much.
-struct Remainder {
-  double sum = 0.0, most = 0.0;
-  std::size_t points = 0;
-  void add(const Vec3& left) {
-    const double square = left.squaredNorm();
-    sum += square;
-    most = std::max(most, square);
-    ++points;
-  }
-  bool too_much(double noise, double allowed) const {
-    if (points == 0 || most < allowed * allowed) return false;
-    const auto n = static_cast<double>(points);
-    constexpr double kSignificant = 3.0;  // standard deviations of a sum of squares
-    return sum / n > noise * noise * (1.0 + kSignificant * std::sqrt(2.0 / n)) + 0.25 * allowed * allowed;
-  }
+/// A point at each place, and what it cannot tell.
+struct LinePoint {
+  Vec3 point;
+  double doubt;
 };
+using PointLine = std::vector<LinePoint>;
 
-/// Breaks that a line through points needs, neighbours differing by no more than a factor of about two.
-std::vector<int> breaks_for(const Line& line, const std::vector<Vec3>& points, double noise,
+/// Breaks that most of the lines need, neighbours differing by no more than a factor of about two.
+std::vector<int> breaks_for(const FitLine& line, const std::vector<PointLine>& lines, double noise,
                             const ThbFitSettings& settings) {
-  const int n = line.last(), first = std::max(std::min(n, 4), n / kCoarsest);
-  std::vector<int> breaks;
-  for (int i = 0; i <= first; ++i) breaks.push_back(static_cast<int>(static_cast<long>(i) * n / first));
   const int p = settings.degree;
-  const Small bend = second_differences(p);
+  const auto sides = static_cast<Eigen::Index>(3 * lines.size());
+  const Eigen::Matrix4d bend = second_differences(p);
+  std::vector<int> breaks = line.even(line.last() / kCoarsest, p);
   for (;;) {
     const KnotLine knots = line.knots(p, breaks);
     const int intervals = knots.intervals();
-    Solver solver;
-    solver.begin(static_cast<std::size_t>(knots.functions()));
-    const auto each_point = [&](int i, const auto& use) {
-      const int end = breaks[static_cast<std::size_t>(i) + 1] + (!line.closed() && i + 1 == intervals ? 1 : 0);
-      for (int k = breaks[static_cast<std::size_t>(i)]; k < end; ++k)
-        use(points[static_cast<std::size_t>(k)], bernstein_values(p, knots.from(i), knots.to(i), line.place(k)));
+    const auto end = [&](int i) {
+      return breaks[static_cast<std::size_t>(i) + 1] + (!line.closed() && i + 1 == intervals ? 1 : 0);
+    };
+    const auto values = [&](int i, int k) {
+      const KnotWeights w = bernstein_values(p, (line.place(k) - knots.from(i)) / (knots.to(i) - knots.from(i)));
+      return Eigen::Vector4d(w[0], w[1], w[2], w[3]);
+    };
+    const auto bernstein_of = [&](int i) {  // row: Bernstein coefficient, column: function
+      Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
+      for (int k = 0; k <= p; ++k) {
+        const KnotWeights w = knots.bernstein(i, k);
+        for (int m = 0; m <= p; ++m) out(k, m) = w[static_cast<std::size_t>(m)];
+      }
+      return out;
     };
     const auto function = [&](int i, int k) { return static_cast<std::size_t>(knots.function(i, k)); };
+    NormalEquations equations(static_cast<std::size_t>(knots.functions()), sides);
     for (int i = 0; i < intervals; ++i) {
-      Small moments{};
-      std::array<Vec3, 4> sums;
-      sums.fill(Vec3::Zero());
-      double count = 0.0;
-      each_point(i, [&](const Vec3& point, const KnotWeights& b) {
-        ++count;
-        for (std::size_t k = 0; k < 4; ++k) {
-          sums[k] += b[k] * point;
-          for (std::size_t m = 0; m < 4; ++m) moments[k][m] += b[k] * b[m];
-        }
-      });
-      for (std::size_t k = 0; k < 4; ++k)
-        for (std::size_t m = 0; m < 4; ++m) moments[k][m] += kSmoothing * (1.0 + count) * bend[k][m];
-      std::array<KnotWeights, 4> to{};
-      for (int k = 0; k <= p; ++k) to[static_cast<std::size_t>(k)] = knots.bernstein(i, k);
+      Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
+      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(4, sides);
+      for (int k = breaks[static_cast<std::size_t>(i)]; k < end(i); ++k) {
+        const Eigen::Vector4d b = values(i, k);
+        moments += b * b.transpose();
+        for (std::size_t l = 0; l < lines.size(); ++l)
+          sums.middleCols<3>(static_cast<Eigen::Index>(3 * l)) +=
+              b * lines[l][static_cast<std::size_t>(k)].point.transpose();
+      }
+      moments += kSmoothing * (1.0 + moments.sum()) * bend;
+      const Eigen::Matrix4d to = bernstein_of(i), products = to.transpose() * moments * to;
+      const Eigen::MatrixXd right = to.transpose() * sums;
       for (int a = 0; a <= p; ++a) {
-        Vec3 right = Vec3::Zero();
-        const auto fa = static_cast<std::size_t>(a);
-        for (std::size_t k = 0; k < 4; ++k) right += to[k][fa] * sums[k];
-        solver.add(function(i, a), right);
-        for (int b = 0; b <= p; ++b) {
-          if (function(i, b) > function(i, a)) continue;
-          double sum = 0.0;
-          for (std::size_t k = 0; k < 4; ++k)
-            for (std::size_t m = 0; m < 4; ++m) sum += to[k][fa] * moments[k][m] * to[m][static_cast<std::size_t>(b)];
-          solver.add(function(i, a), function(i, b), sum);
-        }
+        equations.add_right(function(i, a), right.row(a));
+        for (int b = 0; b <= p; ++b)
+          if (function(i, b) <= function(i, a)) equations.add(function(i, a), function(i, b), products(a, b));
       }
     }
-    const std::vector<Vec3> x = solver.solve();
+    const Eigen::MatrixXd x = equations.solve();
 
     std::vector<char> halve(static_cast<std::size_t>(intervals), 0);
     for (int i = 0; i < intervals; ++i) {
-      std::array<Vec3, 4> b;
-      b.fill(Vec3::Zero());
-      for (int k = 0; k <= p; ++k) {
-        const KnotWeights w = knots.bernstein(i, k);
-        for (int m = 0; m <= p; ++m)
-          b[static_cast<std::size_t>(k)] += w[static_cast<std::size_t>(m)] * x[function(i, m)];
+      Eigen::MatrixXd local = Eigen::MatrixXd::Zero(4, sides);
+      for (int k = 0; k <= p; ++k) local.row(k) = x.row(static_cast<Eigen::Index>(function(i, k)));
+      const Eigen::MatrixXd b = bernstein_of(i) * local;
+      std::vector<Remainder> left(lines.size());
+      for (int k = breaks[static_cast<std::size_t>(i)]; k < end(i); ++k) {
+        const Eigen::RowVectorXd at = values(i, k).transpose() * b;
+        for (std::size_t l = 0; l < lines.size(); ++l) {
+          const LinePoint& of = lines[l][static_cast<std::size_t>(k)];
+          const double square = (of.point.transpose() - at.segment<3>(static_cast<Eigen::Index>(3 * l))).squaredNorm();
+          const double most = std::max(settings.tolerance, of.doubt);
+          left[l].beyond |= square > most * most;
+          left[l].sum += square;
+          ++left[l].points;
+        }
       }
-      Remainder left;
-      each_point(i, [&](const Vec3& point, const KnotWeights& w) {
-        left.add(point - (w[0] * b[0] + w[1] * b[1] + w[2] * b[2] + w[3] * b[3]));
-      });
-      if (!left.too_much(noise, settings.tolerance)) continue;
+      const auto too_much =
+          std::count_if(left.begin(), left.end(), [&](const Remainder& r) { return r.too_much(noise); });
+      if (2 * too_much <= static_cast<std::ptrdiff_t>(lines.size())) continue;
       // with its neighbours, so that new functions have room
       for (int k = i - 1; k <= i + 1; ++k) {
         const int at = line.closed() ? (k + intervals) % intervals : k;
@@ -217,39 +195,29 @@ std::vector<int> breaks_for(const Line& line, const std::vector<Vec3>& points, d
     }
     if (next.size() == breaks.size()) return breaks;
     breaks = std::move(next);
+    check_cancelled();
   }
 }
 
 class Fit {
  public:
-  Fit(const sampling::PointGrid& points, const ThbFitSettings& settings)
-      : points_(points),
-        settings_(settings),
-        u_{points.u, points.closed ? 2.0 * std::numbers::pi : 0.0, 4 - settings.degree},
-        v_{chord_lengths(points), 0.0, 4 - settings.degree} {
-    if (points.body == Body::wheel) {
-      std::vector<double> radii(points.h);
-      radius_ = median(radii);
-    }
-    noise_ = estimated_noise();
-  }
+  Fit(const FitPoints& points, double noise, const ThbFitSettings& settings)
+      : points_(points), settings_(settings), noise_(noise), bending_(bending(settings.degree)) {}
 
   ThbFit run() {
-    std::vector<int> breaks_u, breaks_v;
-    coarsest(breaks_u, breaks_v);
-    std::vector<ThbSpace::Level> levels;
-    levels_breaks(breaks_u, breaks_v, levels);
-    ThbSpace space(std::move(levels));
+    ThbSpace space(levels());
     space.settle();
+    refuse_gaps(space);
     std::vector<Vec3> coefficients(space.functions(), Vec3::Zero());
     improve(space, coefficients);  // and once more below, free of the smoothing of the whole shape
     for (;;) {
       improve(space, coefficients);
-      std::size_t left = 0;
-      double most = 0.0;
-      ThbSpace finer = space;
-      const bool changed = mark(space, coefficients, finer, left, most);
-      if (!changed) return {{std::move(space), std::move(coefficients)}, noise_, most, left};
+      ThbFit fit{{space, {}}, noise_, 0.0, 0.0, 0};
+      if (!mark(space, coefficients, fit)) {
+        fit.spline.coefficients = std::move(coefficients);
+        return fit;
+      }
+      ThbSpace& finer = fit.spline.space;
       finer.settle();
       coefficients = space.refined(coefficients, finer);
       space = std::move(finer);
@@ -257,255 +225,277 @@ class Fit {
   }
 
  private:
-  Vec3 point(std::size_t i, std::size_t j) const { return points_.point(i, j); }
-
-  /// From fourth differences (their standard deviation is sqrt(70) times that of independent noise), along the quieter
-  /// direction: of clean points it is next to nothing.
-  double estimated_noise() const {
-    constexpr double kMad = 0.6744897501960817;  // median of the size of a normal number
-    const std::size_t nu = points_.u.size(), nv = points_.y.size();
-    const auto of = [&](std::size_t step_u, std::size_t step_v) {
-      std::vector<double> sizes;
-      const std::size_t skip = std::max<std::size_t>(1, nu * nv / 1'000'000);
-      for (std::size_t i = 0; i + 4 * step_u < nu; ++i)
-        for (std::size_t j = i % skip; j + 4 * step_v < nv; j += skip) {
-          const auto h = [&](std::size_t k) { return points_.h[points_.index(i + k * step_u, j + k * step_v)]; };
-          sizes.push_back(std::abs(h(0) - 4.0 * h(1) + 6.0 * h(2) - 4.0 * h(3) + h(4)));
-        }
-      return median(sizes) / (kMad * std::sqrt(70.0));
-    };
-    return std::min(of(1, 0), of(0, 1));
-  }
-
-  /// Breaks of level 0: those of the median section, and of the median of what lies beside it along u.
-  void coarsest(std::vector<int>& breaks_u, std::vector<int>& breaks_v) const {
-    const std::size_t nu = points_.u.size(), nv = points_.y.size();
-    std::vector<double> column, section(nv);
-    std::vector<Vec3> across, along;
-    for (std::size_t j = 0; j < nv; ++j) {
-      column.clear();
-      for (std::size_t i = 0; i < nu; ++i) column.push_back(points_.h[points_.index(i, j)]);
-      section[j] = median(column);
-      double y = points_.y[j];
-      if (!points_.own_y.empty()) {
-        column.clear();
-        for (std::size_t i = 0; i < nu; ++i) column.push_back(points_.own_y[points_.index(i, j)]);
-        y = median(column);
-      }
-      across.emplace_back(0.0, y, section[j]);
+  /// Level 0, then the longest intervals halved, down to single places.
+  std::vector<ThbSpace::Level> levels() {
+    if (points_.scattered()) {
+      u_breaks_ = {points_.u().even(points_.u().last() / kCoarsestScattered, settings_.degree)};
+      v_breaks_ = {points_.v().even(points_.v().last() / kCoarsestScattered, settings_.degree)};
+    } else {
+      coarsest();
     }
-    for (std::size_t i = 0; i < nu; ++i) {
-      column.clear();
-      for (std::size_t j = 0; j < nv; ++j) column.push_back(points_.h[points_.index(i, j)] - section[j]);
-      const double beside = median(column), u = points_.u[i];
-      if (points_.body == Body::wheel)
-        along.push_back((radius_ + beside) * Vec3(std::sin(u), 0.0, std::cos(u)));
-      else
-        along.emplace_back(u, 0.0, beside);
-    }
-    constexpr double kOfMedian = 1.2533141373155001;  // its noise over that of a mean
-    breaks_v = breaks_for(v_, across, noise_ * kOfMedian / std::sqrt(static_cast<double>(nu)), settings_);
-    breaks_u = breaks_for(u_, along, noise_ * kOfMedian / std::sqrt(static_cast<double>(nv)), settings_);
-  }
-
-  // Level by level the longest intervals are halved, down to single points.
-  void levels_breaks(const std::vector<int>& breaks_u, const std::vector<int>& breaks_v,
-                     std::vector<ThbSpace::Level>& levels) {
-    u_breaks_ = {breaks_u};
-    v_breaks_ = {breaks_v};
     const auto longest = [](const std::vector<int>& breaks) {
       int most = 0;
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i) most = std::max(most, breaks[i + 1] - breaks[i]);
       return most;
     };
-    const auto halved = [](const Line& line, const std::vector<int>& breaks, int limit) {
-      std::vector<int> out{0};
-      for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-        const int middle = breaks[i + 1] - breaks[i] > limit ? line.half(breaks[i], breaks[i + 1]) : 0;
-        if (middle > 0) out.push_back(middle);
-        out.push_back(breaks[i + 1]);
+    for (int limit = std::max(longest(u_breaks_[0]), longest(v_breaks_[0]));;) {
+      auto next_u = points_.u().halved(u_breaks_.back(), limit), next_v = points_.v().halved(v_breaks_.back(), limit);
+      if (next_u.size() != u_breaks_.back().size() || next_v.size() != v_breaks_.back().size()) {
+        u_breaks_.push_back(std::move(next_u));
+        v_breaks_.push_back(std::move(next_v));
+      } else if (limit == 1) {
+        break;
       }
-      return out;
-    };
-    for (int limit = std::max(longest(breaks_u), longest(breaks_v)) / 2; limit >= 1; limit /= 2) {
-      auto next_u = halved(u_, u_breaks_.back(), limit), next_v = halved(v_, v_breaks_.back(), limit);
-      if (next_u.size() == u_breaks_.back().size() && next_v.size() == v_breaks_.back().size()) continue;
-      u_breaks_.push_back(std::move(next_u));
-      v_breaks_.push_back(std::move(next_v));
+      limit = std::max(1, limit / 2);
     }
+    std::vector<ThbSpace::Level> out;
+    out.reserve(u_breaks_.size());
     for (std::size_t l = 0; l < u_breaks_.size(); ++l)
-      levels.push_back({u_.knots(settings_.degree, u_breaks_[l]), v_.knots(settings_.degree, v_breaks_[l])});
+      out.push_back(
+          {points_.u().knots(settings_.degree, u_breaks_[l]), points_.v().knots(settings_.degree, v_breaks_[l])});
+    return out;
   }
 
-  struct Block {
-    std::size_t i0, i1, j0, j1;
-  };
-  /// Points of a cell: those on its lower borders belong to it.
-  Block points_of(const ThbCell& cell) const {
-    const auto l = static_cast<std::size_t>(cell.level);
-    const auto end = [](const Line& line, const std::vector<int>& breaks, int k) {
-      const int to = breaks[static_cast<std::size_t>(k) + 1];
-      return static_cast<std::size_t>(to + (!line.closed() && to == line.last() ? 1 : 0));
+  /// Breaks of level 0 of a grid from some of its lines.
+  void coarsest() {
+    constexpr int kLines = 15;
+    const int nu = static_cast<int>(points_.u().at.size()), nv = static_cast<int>(points_.v().at.size());
+    std::vector<PointLine> along, across;
+    const auto add = [&](std::vector<PointLine>& lines, const FitPoints::Block& block) {
+      lines.emplace_back();
+      lines.back().reserve(points_.count(block));
+      points_.each(block, [&](std::size_t k, double, double, const Vec3& p) {
+        lines.back().push_back({p, points_.doubt(k)});
+      });
     };
-    return {static_cast<std::size_t>(u_breaks_[l][static_cast<std::size_t>(cell.iu)]), end(u_, u_breaks_[l], cell.iu),
-            static_cast<std::size_t>(v_breaks_[l][static_cast<std::size_t>(cell.iv)]), end(v_, v_breaks_[l], cell.iv)};
+    for (int k = 0; k < std::min(kLines, nu); ++k) {
+      const int i = static_cast<int>((k + 0.5) * nu / std::min(kLines, nu));
+      add(across, {i, i + 1, 0, nv});
+    }
+    for (int k = 0; k < std::min(kLines, nv); ++k) {
+      const int j = static_cast<int>((k + 0.5) * nv / std::min(kLines, nv));
+      add(along, {0, nu, j, j + 1});
+    }
+    u_breaks_ = {breaks_for(points_.u(), along, noise_, settings_)};
+    v_breaks_ = {breaks_for(points_.v(), across, noise_, settings_)};
   }
 
-  /// Calls use(left, values of Bernstein polynomials along u, along v) for the points of a cell.
-  template <class Use>
-  void each_left(const ThbSpace& space, const ThbCell& cell, const ThbPiece& piece, const Use& use) const {
-    const int p = settings_.degree;
-    const Block block = points_of(cell);
-    const ThbRange r = space.range(cell);
-    std::vector<KnotWeights> across;
-    for (std::size_t j = block.j0; j < block.j1; ++j)
-      across.push_back(bernstein_values(p, r.v0, r.v1, v_.place(static_cast<int>(j))));
-    for (std::size_t i = block.i0; i < block.i1; ++i) {
-      const KnotWeights along = bernstein_values(p, r.u0, r.u1, u_.place(static_cast<int>(i)));
-      std::array<Vec3, 4> row;
-      for (std::size_t j = 0; j < 4; ++j)
-        row[j] = along[0] * piece[0][j] + along[1] * piece[1][j] + along[2] * piece[2][j] + along[3] * piece[3][j];
-      for (std::size_t j = block.j0; j < block.j1; ++j) {
-        const KnotWeights& b = across[j - block.j0];
-        use(Vec3(point(i, j) - (b[0] * row[0] + b[1] * row[1] + b[2] * row[2] + b[3] * row[3])), along, b);
-      }
+  FitPoints::Block points_of(const ThbCell& cell) const {
+    const auto l = static_cast<std::size_t>(cell.level);
+    const auto end = [&](const FitLine& line, const std::vector<int>& breaks, int k) {
+      const int to = breaks[static_cast<std::size_t>(k) + 1];
+      return to + (!points_.scattered() && !line.closed() && to == line.last() ? 1 : 0);
+    };
+    return {u_breaks_[l][static_cast<std::size_t>(cell.iu)], end(points_.u(), u_breaks_[l], cell.iu),
+            v_breaks_[l][static_cast<std::size_t>(cell.iv)], end(points_.v(), v_breaks_[l], cell.iv)};
+  }
+
+  void refuse_gaps(const ThbSpace& space) const {
+    for (const ThbCell& cell : space.cells()) {
+      if (points_.count(points_of(cell)) > 0) continue;
+      const ThbRange r = space.range(cell);
+      throw Error(ErrorKind::input_data,
+                  fmt::format("there are no points from u = {:.6g} to {:.6g} and v = {:.6g} to {:.6g} m, as much as a "
+                              "coarse cell of a hierarchical spline",
+                              r.u0, r.u1, r.v0, r.v1),
+                  {}, "limit the region to where there are points");
     }
   }
 
   /// Adds the spline that is nearest to what is left.
   void improve(const ThbSpace& space, std::vector<Vec3>& coefficients) const {
-    struct Equations {
+    struct Part {
       std::vector<ThbSpace::Column> columns;
-      std::vector<double> products;  // lower triangle, row by row
-      std::vector<Vec3> right;
+      Eigen::MatrixXd products, right;
     };
     constexpr std::size_t kChunk = 4096;
-    const Small bend = second_differences(settings_.degree);
-    const auto p = static_cast<std::size_t>(settings_.degree);
-    Solver solver;
-    solver.begin(space.functions());
-    std::vector<Equations> chunk;
+    NormalEquations equations(space.functions(), 3);
+    std::vector<Part> chunk;
     const auto& cells = space.cells();
     for (std::size_t begin = 0; begin < cells.size(); begin += kChunk) {
       chunk.assign(std::min(kChunk, cells.size() - begin), {});
       parallel_for(chunk.size(), [&](std::size_t k) {
         const ThbCell& cell = cells[begin + k];
-        Equations& out = chunk[k];
-        Small of_u{}, of_v{};
-        ThbPiece sums;
-        for (auto& row : sums) row.fill(Vec3::Zero());
-        const Block block = points_of(cell);
-        const ThbRange r = space.range(cell);
-        const auto moments = [&](Small& m, const Line& line, std::size_t from, std::size_t to, double low,
-                                 double high) {
-          for (std::size_t i = from; i < to; ++i) {
-            const KnotWeights b = bernstein_values(settings_.degree, low, high, line.place(static_cast<int>(i)));
-            for (std::size_t a = 0; a < 4; ++a)
-              for (std::size_t c = 0; c < 4; ++c) m[a][c] += b[a] * b[c];
-          }
-        };
-        moments(of_u, u_, block.i0, block.i1, r.u0, r.u1);
-        moments(of_v, v_, block.j0, block.j1, r.v0, r.v1);
-        each_left(space, cell, space.piece(cell, coefficients),
-                  [&](const Vec3& left, const KnotWeights& along, const KnotWeights& across) {
-                    for (std::size_t i = 0; i < 4; ++i)
-                      for (std::size_t j = 0; j < 4; ++j) sums[i][j] += (along[i] * across[j]) * left;
-                  });
-        const double count = static_cast<double>((block.i1 - block.i0) * (block.j1 - block.j0));
-        const double smooth = kSmoothing * (1.0 + count);
+        Part& out = chunk[k];
+        const FitPoints::Block block = points_of(cell);
+        const CellSums sums = points_.sums(block, space.range(cell), settings_.degree, space.piece(cell, coefficients),
+                                           settings_.tolerance, false);
         out.columns = space.columns(cell);
-        std::vector<std::array<double, 16>> turned(out.columns.size());
-        for (std::size_t a = 0; a < out.columns.size(); ++a) {
-          const auto& c = out.columns[a].b;
-          // M_u C M_v + smooth (S_u C + C S_v)
-          double half[4][4] = {}, bent[4][4] = {};
-          Vec3 right = Vec3::Zero();
-          for (std::size_t i = 0; i <= p; ++i)
-            for (std::size_t j = 0; j <= p; ++j) {
-              right += c[(p + 1) * i + j] * sums[i][j];
-              for (std::size_t k2 = 0; k2 <= p; ++k2) {
-                half[i][j] += of_u[i][k2] * c[(p + 1) * k2 + j];
-                bent[i][j] += bend[i][k2] * c[(p + 1) * k2 + j] + bend[j][k2] * c[(p + 1) * i + k2];
-              }
-            }
-          out.right.push_back(right);
-          for (std::size_t i = 0; i <= p; ++i)
-            for (std::size_t j = 0; j <= p; ++j) {
-              double sum = smooth * bent[i][j];
-              for (std::size_t k2 = 0; k2 <= p; ++k2) sum += half[i][k2] * of_v[k2][j];
-              turned[a][(p + 1) * i + j] = sum;
-            }
-          for (std::size_t b = 0; b <= a; ++b) {
-            double sum = 0.0;
-            for (std::size_t k2 = 0; k2 < (p + 1) * (p + 1); ++k2) sum += turned[a][k2] * out.columns[b].b[k2];
-            out.products.push_back(sum);
-          }
-        }
+        Eigen::Matrix<double, 16, Eigen::Dynamic> c(16, static_cast<Eigen::Index>(out.columns.size()));
+        for (std::size_t a = 0; a < out.columns.size(); ++a)
+          for (std::size_t b = 0; b < 16; ++b)
+            c(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) = out.columns[a].b[b];
+        const double smooth = kSmoothing * (1.0 + static_cast<double>(sums.left.points));
+        out.products = c.transpose() * (sums.moments + smooth * bending_) * c;
+        out.right = c.transpose() * sums.right;
       });
-      for (const Equations& e : chunk) {
-        std::size_t k = 0;
-        for (std::size_t a = 0; a < e.columns.size(); ++a) {
-          solver.add(e.columns[a].function, e.right[a]);
+      for (const Part& part : chunk)
+        for (std::size_t a = 0; a < part.columns.size(); ++a) {
+          const auto row = static_cast<Eigen::Index>(a);
+          equations.add_right(part.columns[a].function, part.right.row(row));
           for (std::size_t b = 0; b <= a; ++b)
-            solver.add(e.columns[a].function, e.columns[b].function, e.products[k++]);
+            equations.add(part.columns[a].function, part.columns[b].function,
+                          part.products(row, static_cast<Eigen::Index>(b)));
         }
-      }
     }
-    const std::vector<Vec3> more = solver.iterate();
-    for (std::size_t k = 0; k < more.size(); ++k) coefficients[k] += more[k];
+    const Eigen::MatrixXd more = equations.iterate();
+    for (std::size_t k = 0; k < coefficients.size(); ++k)
+      coefficients[k] += more.row(static_cast<Eigen::Index>(k)).transpose();
   }
 
-  /// Divides cells with too much left, and their neighbours, so that new functions have room.
-  bool mark(const ThbSpace& space, const std::vector<Vec3>& coefficients, ThbSpace& finer, std::size_t& unresolved,
-            double& most) const {
+  /// Divides cells of the fit's space with too much left, and those around them, so that new functions have room.
+  bool mark(const ThbSpace& space, const std::vector<Vec3>& coefficients, ThbFit& fit) const {
     const auto& cells = space.cells();
-    std::vector<char> too_much(cells.size(), 0);
-    std::vector<double> most_of(cells.size(), 0.0);
+    std::vector<Remainder> left(cells.size());
     parallel_for(cells.size(), [&](std::size_t k) {
-      Remainder left;
-      each_left(space, cells[k], space.piece(cells[k], coefficients),
-                [&](const Vec3& d, const KnotWeights&, const KnotWeights&) { left.add(d); });
-      too_much[k] = left.too_much(noise_, settings_.tolerance) ? 1 : 0;
-      most_of[k] = std::sqrt(left.most);
+      left[k] = points_
+                    .sums(points_of(cells[k]), space.range(cells[k]), settings_.degree,
+                          space.piece(cells[k], coefficients), settings_.tolerance, true)
+                    .left;
     });
     bool changed = false;
+    double sum = 0.0;
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      most = std::max(most, most_of[k]);
-      if (!too_much[k]) continue;
+      fit.most_left = std::max(fit.most_left, std::sqrt(left[k].most));
+      sum += left[k].sum;
+      if (!left[k].too_much(noise_)) continue;
       const ThbCell& cell = cells[k];
       if (cell.level + 1 == space.levels()) {
-        ++unresolved;
+        ++fit.unresolved;
         continue;
       }
       changed = true;
-      const KnotLine &u = space.u(cell.level), &v = space.v(cell.level);
-      for (int du = -1; du <= 1; ++du)
-        for (int dv = -1; dv <= 1; ++dv) {
-          ThbCell near{cell.level, cell.iu + du, cell.iv + dv};
-          if (u.closed()) near.iu = (near.iu + u.intervals()) % u.intervals();
-          if (near.iu < 0 || near.iv < 0 || near.iu >= u.intervals() || near.iv >= v.intervals()) continue;
-          if (!finer.exists(near)) finer.divide(finer.parent(near));
-          finer.divide(near);
-        }
+      divide_around(fit.spline.space, cell);
     }
+    fit.rms_left = std::sqrt(sum / static_cast<double>(points_.size()));
     return changed;
   }
 
-  const sampling::PointGrid& points_;
+  void divide_around(ThbSpace& finer, const ThbCell& cell) const {
+    const KnotLine &u = finer.u(cell.level), &v = finer.v(cell.level);
+    // where a direction is not halved, functions are as wide as before
+    const auto halved = [](const KnotLine& line, const KnotLine& next, int k) {
+      return next.find(0.5 * (line.from(k) + line.to(k))) != next.find(line.from(k));
+    };
+    const int reach_u = halved(u, finer.u(cell.level + 1), cell.iu) ? 1 : 2,
+              reach_v = halved(v, finer.v(cell.level + 1), cell.iv) ? 1 : 2;
+    for (int du = -reach_u; du <= reach_u; ++du)
+      for (int dv = -reach_v; dv <= reach_v; ++dv) {
+        ThbCell near{cell.level, cell.iu + du, cell.iv + dv};
+        if (u.closed()) near.iu = (near.iu + u.intervals()) % u.intervals();
+        if (near.iu < 0 || near.iv < 0 || near.iu >= u.intervals() || near.iv >= v.intervals()) continue;
+        if (!finer.exists(near)) finer.divide(finer.parent(near));
+        finer.divide(near);
+      }
+  }
+
+  const FitPoints& points_;
   ThbFitSettings settings_;
-  Line u_, v_;
-  double radius_ = 1.0;
-  double noise_ = 0.0;
+  double noise_;
+  Eigen::Matrix<double, 16, 16> bending_;
   std::vector<std::vector<int>> u_breaks_, v_breaks_;  // by level
 };
 
+/// From fourth differences (their standard deviation is sqrt(70) times that of independent noise), along the quieter
+/// direction: of clean points it is next to nothing.
+double noise_of(const sampling::PointGrid& grid) {
+  const std::size_t nu = grid.u.size(), nv = grid.y.size();
+  const auto of = [&](std::size_t step_u, std::size_t step_v) {
+    std::vector<double> sizes;
+    const std::size_t skip = std::max<std::size_t>(1, nu * nv / 1'000'000);
+    for (std::size_t i = 0; i + 4 * step_u < nu; ++i)
+      for (std::size_t j = i % skip; j + 4 * step_v < nv; j += skip) {
+        const auto h = [&](std::size_t k) { return grid.h[grid.index(i + k * step_u, j + k * step_v)]; };
+        sizes.push_back(std::abs(h(0) - 4.0 * h(1) + 6.0 * h(2) - 4.0 * h(3) + h(4)));
+      }
+    return median(sizes) / (kMad * std::sqrt(70.0));
+  };
+  return std::min(of(1, 0), of(0, 1));
+}
+
+/// From quadratics through the points around some places, of their height over the plane of least squares.
+double noise_of(const FitPoints& points) {
+  constexpr std::size_t kPlaces = 2000, kFewest = 24;
+  const int rows = points.u().last(), columns = points.v().last();
+  const std::size_t all = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+  const std::size_t skip = std::max<std::size_t>(1, all / kPlaces) | 1;
+  std::vector<double> sizes;
+  for (std::size_t cell = skip / 2; cell < all; cell += skip) {
+    const int i = static_cast<int>(cell / static_cast<std::size_t>(columns)),
+              j = static_cast<int>(cell % static_cast<std::size_t>(columns));
+    const FitPoints::Block around{std::max(0, i - 1), std::min(rows, i + 2), std::max(0, j - 1),
+                                  std::min(columns, j + 2)};
+    std::vector<Vec3> near;
+    near.reserve(points.count(around));
+    points.each(around, [&](std::size_t, double, double, const Vec3& p) { near.push_back(p); });
+    if (near.size() < kFewest) continue;
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : near) middle += p / static_cast<double>(near.size());
+    Mat3 spread = Mat3::Zero();
+    for (const Vec3& p : near) spread += (p - middle) * (p - middle).transpose();
+    const Eigen::SelfAdjointEigenSolver<Mat3> axes(spread);
+    const double size = std::sqrt(axes.eigenvalues()[2] / static_cast<double>(near.size()));
+    Eigen::Matrix<double, Eigen::Dynamic, 6> a(static_cast<Eigen::Index>(near.size()), 6);
+    Eigen::VectorXd h(a.rows());
+    for (Eigen::Index k = 0; k < a.rows(); ++k) {
+      const Vec3 q = axes.eigenvectors().transpose() * (near[static_cast<std::size_t>(k)] - middle);
+      const double x = q[1] / size, y = q[2] / size;
+      a.row(k) << 1.0, x, y, x * x, x * y, y * y;
+      h[k] = q[0];
+    }
+    const Eigen::VectorXd left = h - a * (a.transpose() * a).ldlt().solve(a.transpose() * h);
+    sizes.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(near.size() - 6)));
+  }
+  return median(sizes);
+}
+
+void check(const ThbFitSettings& settings) {
+  if (settings.degree != 2 && settings.degree != 3)
+    throw Error(ErrorKind::configuration,
+                fmt::format("hierarchical splines are fitted with degree 2 or 3, not {}", settings.degree));
+  if (!(settings.tolerance >= 0.0) || !(settings.noise.value_or(0.0) >= 0.0))
+    throw Error(ErrorKind::configuration, "tolerance and noise of a hierarchical spline are lengths, 0 or more");
+}
+
 }  // namespace
 
-ThbFit fit_thb(const sampling::PointGrid& points, const ThbFitSettings& settings) {
-  if (settings.degree != 2 && settings.degree != 3)
-    throw Error(ErrorKind::configuration, "hierarchical splines are fitted with degree 2 or 3");
-  check_points(points);
-  return Fit(points, settings).run();
+ThbFit fit_thb(const sampling::PointGrid& grid, const ThbFitSettings& settings) {
+  check(settings);
+  check_points(grid);
+  return Fit(FitPoints(grid, settings.degree), settings.noise ? *settings.noise : noise_of(grid), settings).run();
+}
+
+ThbFit fit_thb(std::span<const Vec3> points, Body body, const sampling::Region& region,
+               const ThbFitSettings& settings) {
+  check(settings);
+  std::vector<double> u, v;
+  std::vector<Vec3> kept;
+  u.reserve(points.size()), v.reserve(points.size()), kept.reserve(points.size());
+  double radius = 0.0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Vec3& p = points[k];
+    if (!p.allFinite())
+      throw Error(ErrorKind::input_data, fmt::format("point {} of a scan is not finite", k + 1), {}, "leave it out");
+    const double at = body == Body::rail ? p.x() : std::atan2(p.x(), p.z());
+    if (at < region.u_min || at > region.u_max || p.y() < region.y_min || p.y() > region.y_max) continue;
+    u.push_back(at), v.push_back(p.y()), kept.push_back(p);
+    radius += std::hypot(p.x(), p.z());
+  }
+  const bool closed = body == Body::wheel && !(region.u_max - region.u_min < 2.0 * std::numbers::pi);
+  const auto fewest = static_cast<std::size_t>(4 * (settings.degree + 1) * (settings.degree + 1));
+  if (kept.size() < fewest)
+    throw Error(ErrorKind::input_data,
+                fmt::format("{} points in the region are too few for a hierarchical spline of degree {}: {} at least",
+                            kept.size(), settings.degree, fewest));
+  const auto flat = [](const std::vector<double>& x) {
+    const auto [low, high] = std::minmax_element(x.begin(), x.end());
+    return !(*high > *low);
+  };
+  if (flat(u) || flat(v))
+    throw Error(ErrorKind::input_data, "the points of a scan lie on a line; a surface needs them beside each other");
+  radius = body == Body::rail ? 1.0 : radius / static_cast<double>(kept.size());
+  const FitPoints sorted(std::move(u), std::move(v), std::move(kept), closed, radius, kPointsAPlace);
+  return Fit(sorted, settings.noise ? *settings.noise : noise_of(sorted), settings).run();
 }
 
 }  // namespace treadmark::spline
