@@ -12,8 +12,6 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr int kParts = 4;  // of a cell in each direction, for what noise cannot hide
-
 /// What a sum of squares of n independent normal numbers of variance 1 hardly ever exceeds (Wilson and Hilferty 1931).
 double hardly_exceeded(double n) {
   constexpr double kDeviations = 3.5;
@@ -75,11 +73,37 @@ KnotLine FitLine::knots(int degree, const std::vector<int>& breaks) const {
   return closed() ? KnotLine::periodic(degree, places) : KnotLine::open(degree, places);
 }
 
-bool Remainder::too_much(double noise) const {
-  if (!beyond) return false;
-  const double variance = noise * noise;
-  return sum > variance * hardly_exceeded(static_cast<double>(points)) ||
-         parts > variance * hardly_exceeded(static_cast<double>(filled_parts));
+Eigen::Matrix4d second_differences(int degree) {
+  Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
+  const Eigen::Vector3d d(1.0, -2.0, 1.0);
+  for (int k = 0; k + 1 < degree; ++k) out.block<3, 3>(k, k) += d * d.transpose();
+  return out;
+}
+
+double median_of(std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Remainder RemainderSum::result() const {
+  Remainder out = out_;
+  for (std::size_t k = 0; k < off_.size(); ++k) {
+    if (points_[k] == 0) continue;
+    out.parts += off_[k] * off_[k] / points_[k];
+    ++out.filled_parts;
+    out.points += points_[k];
+  }
+  return out;
+}
+
+bool FitTolerance::exceeded(const Remainder& left) const {
+  if (!left.beyond) return false;
+  if (!noisy()) return true;
+  // against what points of one part differ by: noise need not be the same everywhere
+  const auto points = static_cast<double>(left.points), parts = static_cast<double>(left.filled_parts);
+  return points > parts && left.parts > (left.sum - left.parts) / (points - parts) * hardly_exceeded(parts);
 }
 
 FitPoints::FitPoints(const sampling::PointGrid& grid, int degree)
@@ -165,7 +189,7 @@ CellSums FitPoints::sums(const Block& block, const ThbRange& range, int degree, 
   for (std::size_t k = 0; k < 16; ++k) control.row(static_cast<Eigen::Index>(k)) = piece[k / 4][k % 4].transpose();
   const Vec3 normal = normal_in_the_middle(piece, degree);
   const double per_u = 1.0 / (range.u1 - range.u0), per_v = 1.0 / (range.v1 - range.v0);
-  std::array<double, kParts * kParts> part{}, part_points{};
+  RemainderSum sum;
   Eigen::Matrix<double, 16, 1> b;
   each(block, [&](std::size_t place, double u, double v, const Vec3& point) {
     const double s = (u - range.u0) * per_u, t = (v - range.v0) * per_v;
@@ -173,25 +197,12 @@ CellSums FitPoints::sums(const Block& block, const ThbRange& range, int degree, 
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j) b[static_cast<Eigen::Index>(4 * i + j)] = along[i] * across[j];
     const Vec3 left = point - control.transpose() * b;
-    const double off = normal.dot(left);
-    const double square = left.squaredNorm(), most = std::max(allowed, doubt(place));
-    out.left.most = std::max(out.left.most, square);
-    out.left.beyond |= square > most * most;
-    out.left.sum += off * off;
-    const auto part_of = [](double x) { return static_cast<std::size_t>(std::clamp(kParts * x, 0.0, kParts - 0.5)); };
-    const std::size_t k = kParts * part_of(s) + part_of(t);
-    part[k] += off;
-    ++part_points[k];
+    sum.add(left.squaredNorm(), normal.dot(left), std::max(allowed, doubt(place)), s, t);
     if (only_left) return;
     out.right += b * left.transpose();
     if (scattered()) out.moments.selfadjointView<Eigen::Lower>().rankUpdate(b);
   });
-  for (std::size_t k = 0; k < part.size(); ++k) {
-    if (part_points[k] == 0.0) continue;
-    out.left.parts += part[k] * part[k] / part_points[k];
-    ++out.left.filled_parts;
-    out.left.points += static_cast<std::size_t>(part_points[k]);
-  }
+  out.left = sum.result();
   if (only_left) return out;
   if (scattered()) {
     out.moments.triangularView<Eigen::StrictlyUpper>() = out.moments.transpose();

@@ -38,16 +38,55 @@ struct FitLine {
   KnotLine knots(int degree, const std::vector<int>& breaks) const;
 };
 
-/// What points leave over, against their noise.
+/// Products of second differences of Bernstein coefficients.
+Eigen::Matrix4d second_differences(int degree);
+
+/// 0 if there are none.
+double median_of(std::vector<double>& values);
+
+/// What points leave over.
 struct Remainder {
   double most = 0.0;    ///< square of the greatest distance [m^2]
   bool beyond = false;  ///< some point is farther off than allowed
   double sum = 0.0;     ///< of squares of distances along the normal
   double parts = 0.0;   ///< the same of the means of parts: what noise cannot hide
   std::size_t points = 0, filled_parts = 0;
+};
 
-  /// Beyond what is allowed, and more than independent noise of that standard deviation [m] explains.
-  bool too_much(double noise) const;
+/// Adds up a remainder, also by 4 x 4 parts of a cell.
+class RemainderSum {
+ public:
+  /// square [m^2] of the distance, off [m] along the normal, s and t: where in the cell, 0 .. 1.
+  void add(double square, double off, double allowed, double s, double t) {
+    out_.most = square > out_.most ? square : out_.most;
+    out_.beyond |= square > allowed * allowed;
+    out_.sum += off * off;
+    const std::size_t k = 4 * part_of(s) + part_of(t);
+    off_[k] += off;
+    ++points_[k];
+  }
+  Remainder result() const;
+
+ private:
+  static std::size_t part_of(double x) { return x < 0.25 ? 0 : x < 0.5 ? 1 : x < 0.75 ? 2 : 3; }
+  std::array<double, 16> off_{};
+  std::array<std::uint32_t, 16> points_{};
+  Remainder out_;
+};
+
+/// How closely points are followed.
+struct FitTolerance {
+  double distance = 1e-9;  ///< of a point [m]
+  double noise = 0.0;      ///< standard deviation of points along the normal [m]
+  bool scattered = false;
+
+  bool noisy() const { return noise > distance; }
+  /// Points in a cell that is divided: each child needs some, and more of them against noise.
+  std::size_t fewest() const { return noisy() ? 64 : scattered ? 8 : 1; }
+  /// Beyond what is allowed, and parts are farther off than independent noise explains.
+  bool exceeded(const Remainder& left) const;
+  /// Weight of second differences of Bernstein coefficients of a cell with so many points.
+  double smoothing(double points) const { return (noisy() ? 1e-3 : 1e-10) * (1.0 + points); }
 };
 
 /// Sums over the points of a cell.
@@ -68,6 +107,9 @@ class FitPoints {
   FitPoints(std::vector<double> u, std::vector<double> v, std::vector<Vec3> points, bool closed, double length_of_u,
             double points_a_place);
 
+  /// Of the lattice: of scattered points one less than places.
+  int rows() const { return scattered() ? u_.last() : static_cast<int>(u_.at.size()); }
+  int columns() const { return columns_; }
   const FitLine& u() const { return u_; }
   const FitLine& v() const { return v_; }
   std::size_t size() const { return points_.size(); }

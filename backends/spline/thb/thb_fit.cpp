@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
 
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
+#include "treadmark/backends/spline/thb/coarsest_breaks.hpp"
 #include "treadmark/backends/spline/thb/fit_points.hpp"
+#include "treadmark/backends/spline/thb/normal_equations.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -22,26 +22,10 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr int kCoarsest = 64;           // points to the longest interval of level 0 of a grid
-constexpr int kCoarsestScattered = 32;  // places, with so many points each:
-constexpr double kPointsAPlace = 4.0;
-constexpr double kSmoothing = 1e-10;  // weight of second differences against the points of a cell
+constexpr double kPointsAPlace = 4.0;  // scattered
 
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 constexpr double kMad = 0.6744897501960817;  // median of the size of a normal number
 
-/// Products of second differences of Bernstein coefficients.
-Eigen::Matrix4d second_differences(int degree) {
-  Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
-  const Eigen::Vector3d d(1.0, -2.0, 1.0);
-  for (int k = 0; k + 1 < degree; ++k) out.block<3, 3>(k, k) += d * d.transpose();
-  return out;
-}
 /// Those along u and along v of a cell, index = 4 i + j.
 Eigen::Matrix<double, 16, 16> bending(int degree) {
   const Eigen::Matrix4d one = second_differences(degree);
@@ -55,154 +39,14 @@ Eigen::Matrix<double, 16, 16> bending(int degree) {
   return out;
 }
 
-/// Equations of least squares, several right sides at a time.
-class NormalEquations {
- public:
-  NormalEquations(std::size_t unknowns, Eigen::Index sides) : rhs_(static_cast<Eigen::Index>(unknowns), sides) {
-    rhs_.setZero();
-  }
-  void add(std::size_t i, std::size_t j, double value) {
-    entries_.emplace_back(static_cast<int>(std::max(i, j)), static_cast<int>(std::min(i, j)), value);
-  }
-  template <class Row>
-  void add_right(std::size_t i, const Row& row) {
-    rhs_.row(static_cast<Eigen::Index>(i)) += row;
-  }
-  void reserve(std::size_t entries) { entries_.reserve(entries); }
-  Eigen::MatrixXd solve() {
-    Eigen::SimplicialLDLT<Matrix> method(matrix());
-    return checked(method.info() == Eigen::Success ? method.solve(rhs_).eval() : Eigen::MatrixXd());
-  }
-  /// Many unknowns, well conditioned as bases of B-splines are: to some digits of the greatest number.
-  Eigen::MatrixXd iterate() {
-    constexpr double kDigits = 1e-7;
-    constexpr int kMostSteps = 500;
-    Eigen::ConjugateGradient<Matrix, Eigen::Lower> steps;
-    steps.setTolerance(kDigits);
-    steps.setMaxIterations(kMostSteps);
-    const Matrix m = matrix();
-    steps.compute(m);
-    return checked(steps.solve(rhs_));
-  }
-
- private:
-  using Matrix = Eigen::SparseMatrix<double>;
-  Matrix matrix() {
-    Matrix out(rhs_.rows(), rhs_.rows());
-    out.setFromTriplets(entries_.begin(), entries_.end());
-    std::vector<Eigen::Triplet<double>>().swap(entries_);
-    check_cancelled();
-    return out;
-  }
-  Eigen::MatrixXd checked(Eigen::MatrixXd x) const {
-    if (x.rows() != rhs_.rows() || !x.allFinite())
-      throw Error(ErrorKind::numerical, "the equations of a hierarchical spline are singular", {},
-                  "take a larger resolution, or leave out places without points");
-    return x;
-  }
-
-  std::vector<Eigen::Triplet<double>> entries_;
-  Eigen::MatrixXd rhs_;
-};
-
-/// A point at each place, and what it cannot tell.
-struct LinePoint {
-  Vec3 point;
-  double doubt;
-};
-using PointLine = std::vector<LinePoint>;
-
-/// Breaks that most of the lines need, neighbours differing by no more than a factor of about two.
-std::vector<int> breaks_for(const FitLine& line, const std::vector<PointLine>& lines, double noise,
-                            const ThbFitSettings& settings) {
-  const int p = settings.degree;
-  const auto sides = static_cast<Eigen::Index>(3 * lines.size());
-  const Eigen::Matrix4d bend = second_differences(p);
-  std::vector<int> breaks = line.even(line.last() / kCoarsest, p);
-  for (;;) {
-    const KnotLine knots = line.knots(p, breaks);
-    const int intervals = knots.intervals();
-    const auto end = [&](int i) {
-      return breaks[static_cast<std::size_t>(i) + 1] + (!line.closed() && i + 1 == intervals ? 1 : 0);
-    };
-    const auto values = [&](int i, int k) {
-      const KnotWeights w = bernstein_values(p, (line.place(k) - knots.from(i)) / (knots.to(i) - knots.from(i)));
-      return Eigen::Vector4d(w[0], w[1], w[2], w[3]);
-    };
-    const auto bernstein_of = [&](int i) {  // row: Bernstein coefficient, column: function
-      Eigen::Matrix4d out = Eigen::Matrix4d::Zero();
-      for (int k = 0; k <= p; ++k) {
-        const KnotWeights w = knots.bernstein(i, k);
-        for (int m = 0; m <= p; ++m) out(k, m) = w[static_cast<std::size_t>(m)];
-      }
-      return out;
-    };
-    const auto function = [&](int i, int k) { return static_cast<std::size_t>(knots.function(i, k)); };
-    NormalEquations equations(static_cast<std::size_t>(knots.functions()), sides);
-    for (int i = 0; i < intervals; ++i) {
-      Eigen::Matrix4d moments = Eigen::Matrix4d::Zero();
-      Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(4, sides);
-      for (int k = breaks[static_cast<std::size_t>(i)]; k < end(i); ++k) {
-        const Eigen::Vector4d b = values(i, k);
-        moments += b * b.transpose();
-        for (std::size_t l = 0; l < lines.size(); ++l)
-          sums.middleCols<3>(static_cast<Eigen::Index>(3 * l)) +=
-              b * lines[l][static_cast<std::size_t>(k)].point.transpose();
-      }
-      moments += kSmoothing * (1.0 + moments.sum()) * bend;
-      const Eigen::Matrix4d to = bernstein_of(i), products = to.transpose() * moments * to;
-      const Eigen::MatrixXd right = to.transpose() * sums;
-      for (int a = 0; a <= p; ++a) {
-        equations.add_right(function(i, a), right.row(a));
-        for (int b = 0; b <= p; ++b)
-          if (function(i, b) <= function(i, a)) equations.add(function(i, a), function(i, b), products(a, b));
-      }
-    }
-    const Eigen::MatrixXd x = equations.solve();
-
-    std::vector<char> halve(static_cast<std::size_t>(intervals), 0);
-    for (int i = 0; i < intervals; ++i) {
-      Eigen::MatrixXd local = Eigen::MatrixXd::Zero(4, sides);
-      for (int k = 0; k <= p; ++k) local.row(k) = x.row(static_cast<Eigen::Index>(function(i, k)));
-      const Eigen::MatrixXd b = bernstein_of(i) * local;
-      std::vector<Remainder> left(lines.size());
-      for (int k = breaks[static_cast<std::size_t>(i)]; k < end(i); ++k) {
-        const Eigen::RowVectorXd at = values(i, k).transpose() * b;
-        for (std::size_t l = 0; l < lines.size(); ++l) {
-          const LinePoint& of = lines[l][static_cast<std::size_t>(k)];
-          const double square = (of.point.transpose() - at.segment<3>(static_cast<Eigen::Index>(3 * l))).squaredNorm();
-          const double most = std::max(settings.tolerance, of.doubt);
-          left[l].beyond |= square > most * most;
-          left[l].sum += square;
-          ++left[l].points;
-        }
-      }
-      const auto too_much =
-          std::count_if(left.begin(), left.end(), [&](const Remainder& r) { return r.too_much(noise); });
-      if (2 * too_much <= static_cast<std::ptrdiff_t>(lines.size())) continue;
-      // with its neighbours, so that new functions have room
-      for (int k = i - 1; k <= i + 1; ++k) {
-        const int at = line.closed() ? (k + intervals) % intervals : k;
-        if (at >= 0 && at < intervals) halve[static_cast<std::size_t>(at)] = 1;
-      }
-    }
-    std::vector<int> next{0};
-    for (int i = 0; i < intervals; ++i) {
-      const int from = breaks[static_cast<std::size_t>(i)], to = breaks[static_cast<std::size_t>(i) + 1];
-      const int middle = halve[static_cast<std::size_t>(i)] ? line.half(from, to) : 0;
-      if (middle > 0) next.push_back(middle);
-      next.push_back(to);
-    }
-    if (next.size() == breaks.size()) return breaks;
-    breaks = std::move(next);
-    check_cancelled();
-  }
-}
-
 class Fit {
  public:
-  Fit(const FitPoints& points, double noise, const ThbFitSettings& settings)
-      : points_(points), settings_(settings), noise_(noise), bending_(bending(settings.degree)) {}
+  Fit(const FitPoints& points, Body body, double noise, const ThbFitSettings& settings)
+      : points_(points),
+        body_(body),
+        settings_(settings),
+        tolerance_{settings.tolerance, noise, points.scattered()},
+        bending_(bending(settings.degree)) {}
 
   ThbFit run() {
     ThbSpace space(levels());
@@ -212,7 +56,7 @@ class Fit {
     improve(space, coefficients);  // and once more below, free of the smoothing of the whole shape
     for (;;) {
       improve(space, coefficients);
-      ThbFit fit{{space, {}}, noise_, 0.0, 0.0, 0};
+      ThbFit fit{{space, {}}, tolerance_.noise, 0.0, 0.0, 0};
       if (!mark(space, coefficients, fit)) {
         fit.spline.coefficients = std::move(coefficients);
         return fit;
@@ -227,12 +71,9 @@ class Fit {
  private:
   /// Level 0, then the longest intervals halved, down to single places.
   std::vector<ThbSpace::Level> levels() {
-    if (points_.scattered()) {
-      u_breaks_ = {points_.u().even(points_.u().last() / kCoarsestScattered, settings_.degree)};
-      v_breaks_ = {points_.v().even(points_.v().last() / kCoarsestScattered, settings_.degree)};
-    } else {
-      coarsest();
-    }
+    CoarsestBreaks coarsest = coarsest_breaks(points_, body_, settings_.degree, tolerance_);
+    u_breaks_ = {std::move(coarsest.u)};
+    v_breaks_ = {std::move(coarsest.v)};
     const auto longest = [](const std::vector<int>& breaks) {
       int most = 0;
       for (std::size_t i = 0; i + 1 < breaks.size(); ++i) most = std::max(most, breaks[i + 1] - breaks[i]);
@@ -254,30 +95,6 @@ class Fit {
       out.push_back(
           {points_.u().knots(settings_.degree, u_breaks_[l]), points_.v().knots(settings_.degree, v_breaks_[l])});
     return out;
-  }
-
-  /// Breaks of level 0 of a grid from some of its lines.
-  void coarsest() {
-    constexpr int kLines = 15;
-    const int nu = static_cast<int>(points_.u().at.size()), nv = static_cast<int>(points_.v().at.size());
-    std::vector<PointLine> along, across;
-    const auto add = [&](std::vector<PointLine>& lines, const FitPoints::Block& block) {
-      lines.emplace_back();
-      lines.back().reserve(points_.count(block));
-      points_.each(block, [&](std::size_t k, double, double, const Vec3& p) {
-        lines.back().push_back({p, points_.doubt(k)});
-      });
-    };
-    for (int k = 0; k < std::min(kLines, nu); ++k) {
-      const int i = static_cast<int>((k + 0.5) * nu / std::min(kLines, nu));
-      add(across, {i, i + 1, 0, nv});
-    }
-    for (int k = 0; k < std::min(kLines, nv); ++k) {
-      const int j = static_cast<int>((k + 0.5) * nv / std::min(kLines, nv));
-      add(along, {0, nu, j, j + 1});
-    }
-    u_breaks_ = {breaks_for(points_.u(), along, noise_, settings_)};
-    v_breaks_ = {breaks_for(points_.v(), across, noise_, settings_)};
   }
 
   FitPoints::Block points_of(const ThbCell& cell) const {
@@ -309,7 +126,7 @@ class Fit {
       Eigen::MatrixXd products, right;
     };
     constexpr std::size_t kChunk = 4096;
-    NormalEquations equations(space.functions(), 3);
+    NormalEquations equations(space.functions());
     std::vector<Part> chunk;
     const auto& cells = space.cells();
     for (std::size_t begin = 0; begin < cells.size(); begin += kChunk) {
@@ -325,7 +142,7 @@ class Fit {
         for (std::size_t a = 0; a < out.columns.size(); ++a)
           for (std::size_t b = 0; b < 16; ++b)
             c(static_cast<Eigen::Index>(b), static_cast<Eigen::Index>(a)) = out.columns[a].b[b];
-        const double smooth = kSmoothing * (1.0 + static_cast<double>(sums.left.points));
+        const double smooth = tolerance_.smoothing(static_cast<double>(sums.left.points));
         out.products = c.transpose() * (sums.moments + smooth * bending_) * c;
         out.right = c.transpose() * sums.right;
       });
@@ -338,7 +155,7 @@ class Fit {
                           part.products(row, static_cast<Eigen::Index>(b)));
         }
     }
-    const Eigen::MatrixXd more = equations.iterate();
+    const NormalEquations::Solution more = equations.iterate();
     for (std::size_t k = 0; k < coefficients.size(); ++k)
       coefficients[k] += more.row(static_cast<Eigen::Index>(k)).transpose();
   }
@@ -358,9 +175,9 @@ class Fit {
     for (std::size_t k = 0; k < cells.size(); ++k) {
       fit.most_left = std::max(fit.most_left, std::sqrt(left[k].most));
       sum += left[k].sum;
-      if (!left[k].too_much(noise_)) continue;
+      if (!tolerance_.exceeded(left[k])) continue;
       const ThbCell& cell = cells[k];
-      if (cell.level + 1 == space.levels()) {
+      if (cell.level + 1 == space.levels() || left[k].points < tolerance_.fewest()) {
         ++fit.unresolved;
         continue;
       }
@@ -390,8 +207,9 @@ class Fit {
   }
 
   const FitPoints& points_;
+  Body body_;
   ThbFitSettings settings_;
-  double noise_;
+  FitTolerance tolerance_;
   Eigen::Matrix<double, 16, 16> bending_;
   std::vector<std::vector<int>> u_breaks_, v_breaks_;  // by level
 };
@@ -408,7 +226,7 @@ double noise_of(const sampling::PointGrid& grid) {
         const auto h = [&](std::size_t k) { return grid.h[grid.index(i + k * step_u, j + k * step_v)]; };
         sizes.push_back(std::abs(h(0) - 4.0 * h(1) + 6.0 * h(2) - 4.0 * h(3) + h(4)));
       }
-    return median(sizes) / (kMad * std::sqrt(70.0));
+    return median_of(sizes) / (kMad * std::sqrt(70.0));
   };
   return std::min(of(1, 0), of(0, 1));
 }
@@ -446,7 +264,7 @@ double noise_of(const FitPoints& points) {
     const Eigen::VectorXd left = h - a * (a.transpose() * a).ldlt().solve(a.transpose() * h);
     sizes.push_back(std::sqrt(left.squaredNorm() / static_cast<double>(near.size() - 6)));
   }
-  return median(sizes);
+  return median_of(sizes);
 }
 
 void check(const ThbFitSettings& settings) {
@@ -462,7 +280,8 @@ void check(const ThbFitSettings& settings) {
 ThbFit fit_thb(const sampling::PointGrid& grid, const ThbFitSettings& settings) {
   check(settings);
   check_points(grid);
-  return Fit(FitPoints(grid, settings.degree), settings.noise ? *settings.noise : noise_of(grid), settings).run();
+  const FitPoints points(grid, settings.degree);
+  return Fit(points, grid.body, settings.noise ? *settings.noise : noise_of(grid), settings).run();
 }
 
 ThbFit fit_thb(std::span<const Vec3> points, Body body, const sampling::Region& region,
@@ -495,7 +314,7 @@ ThbFit fit_thb(std::span<const Vec3> points, Body body, const sampling::Region& 
     throw Error(ErrorKind::input_data, "the points of a scan lie on a line; a surface needs them beside each other");
   radius = body == Body::rail ? 1.0 : radius / static_cast<double>(kept.size());
   const FitPoints sorted(std::move(u), std::move(v), std::move(kept), closed, radius, kPointsAPlace);
-  return Fit(sorted, settings.noise ? *settings.noise : noise_of(sorted), settings).run();
+  return Fit(sorted, body, settings.noise ? *settings.noise : noise_of(sorted), settings).run();
 }
 
 }  // namespace treadmark::spline
