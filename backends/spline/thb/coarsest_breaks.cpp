@@ -144,7 +144,9 @@ std::vector<double> median_section(const FitPoints& points, const auto& height) 
 
 }  // namespace
 
-CoarsestBreaks coarsest_breaks(const FitPoints& points, Body body, int degree, const FitTolerance& tolerance) {
+CoarsestBreaks coarsest_breaks(const FitPoints& points, Body body, int degree, const FitTolerance& wanted) {
+  FitTolerance tolerance = wanted;
+  if (points.scattered()) tolerance.noise = std::max(tolerance.noise, 2.0 * tolerance.distance);  // strips are wide
   const int rows = points.rows(), columns = points.columns();
   const auto height = [&](const Vec3& p) { return body == Body::rail ? p.z() : std::hypot(p.x(), p.z()); };
   std::vector<double> section;
@@ -193,6 +195,8 @@ CoarsestBreaks coarsest_breaks(const FitPoints& points, Body body, int degree, c
         std::sort(line.points.begin(), line.points.end(),
                   [](const LinePoint& a, const LinePoint& b) { return a.x < b.x; });
     }
+    // refused later, with a name, if nothing else lies there
+    std::erase_if(lines, [&](const PointLine& line) { return line.points.size() <= static_cast<std::size_t>(degree); });
     return lines;
   };
   return {breaks_for(points.u(), collected(true), degree, tolerance),

@@ -193,6 +193,18 @@ void ThbSpace::settle() {
   }
 }
 
+void ThbSpace::require_support() const {
+  std::vector<std::size_t> count(levels_.size(), 0);
+  for (const ThbCell& cell : cells_) ++count[static_cast<std::size_t>(cell.level)];
+  for (std::size_t l = 1; l < levels_.size(); ++l)
+    if (count[l] > 0 && levels_[l].active.empty())
+      throw Error(
+          ErrorKind::input_data,
+          fmt::format("level {} of a hierarchy of splines has {} cells, but no function lies in them", l, count[l]), {},
+          fmt::format("divide as many neighbours as functions are wide: {} x {} of its cells", u(0).degree() + 1,
+                      v(0).degree() + 1));
+}
+
 ThbCell ThbSpace::cell_at(double at_u, double at_v) const {
   ThbCell cell{0, u(0).find(at_u), v(0).find(at_v)};
   while (divided(cell)) cell = {cell.level + 1, u(cell.level + 1).find(at_u), v(cell.level + 1).find(at_v)};

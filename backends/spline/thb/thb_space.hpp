@@ -57,6 +57,10 @@ class ThbSpace {
   /// Numbers functions and cells.
   void settle();
 
+  /// Of a hierarchy from elsewhere, which need not be made by divide: each level that has cells has a function.
+  /// Errors: Error(input_data) that names the level.
+  void require_support() const;
+
   std::size_t functions() const { return functions_; }
   /// Those that are not divided, level by level.
   const std::vector<ThbCell>& cells() const { return cells_; }

