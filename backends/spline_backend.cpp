@@ -64,9 +64,9 @@ std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
   return spline::make_nurbs_surface(r.points(true));
 }
 
-std::shared_ptr<const Surface> as_thb(Resampling& r) {
+std::shared_ptr<const Surface> as_thb(Resampling& r, int degree) {
   std::string note;
-  auto surface = spline::make_thb_surface(r.points(true), note);
+  auto surface = spline::make_thb_surface(r.points(true), degree, note);
   r.add_note(note);
   return surface;
 }
@@ -79,7 +79,9 @@ std::vector<Backend> spline_backends() {
   spline.make_natural = natural_spline;
   return {spline,
           {"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs},
-          {"thb", "truncated hierarchical B-spline, fine where the shape asks for it", 4.0, false, as_thb}};
+          {"thb", "truncated hierarchical B-spline, fine where the shape asks for it", 4.0, false,
+           [](Resampling& r) { return as_thb(r, 3); }},
+          {"thb-quadratic", "the same of degree 2", 3.0, false, [](Resampling& r) { return as_thb(r, 2); }}};
 }
 
 }  // namespace treadmark

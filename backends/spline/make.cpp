@@ -34,15 +34,14 @@ std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body bo
       body == Body::rail ? sweep_chain(chain, x_min, x_max) : revolve_chain(chain, nominal_radius), body);
 }
 
-std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, std::string& note) {
-  const ThbFitSettings settings;
+std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, int degree, std::string& note) {
+  ThbFitSettings settings;
+  settings.degree = degree;
+  settings.noise = 0.0;  // of a surface
   const ThbFit fit = fit_thb(points, settings);
-  note += fmt::format("{} coefficients in {} cells of {} levels, at most {:.2g} um off the points. ",
-                      fit.spline.space.functions(), fit.spline.space.cells().size(), fit.spline.space.levels(),
-                      1e6 * fit.most_left);
-  if (fit.noise > settings.tolerance)
-    note += fmt::format("The points are noisy by {:.2g} um: what is less is not followed. ", 1e6 * fit.noise);
-  return std::make_shared<NurbsSurface>(extracted(fit.spline), points.body, "thb");
+  note += fmt::format("{} coefficients in place of {} points, at most {:.2g} um off them. ",
+                      fit.spline.space.functions(), points.h.size(), 1e6 * fit.most_left);
+  return std::make_shared<NurbsSurface>(extracted(fit.spline), points.body, degree == 3 ? "thb" : "thb-quadratic");
 }
 
 }  // namespace treadmark::spline

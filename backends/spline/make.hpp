@@ -31,8 +31,8 @@ std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& poi
 std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius,
                                                   double x_min = -1.0, double x_max = 1.0);
 
-/// The same points by truncated hierarchical B-splines: least squares, refined where more than noise remains; see
-/// fit_thb. note: how much of what it took, in sentences. Errors: those of fit_thb.
-std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, std::string& note);
+/// The same points by truncated hierarchical B-splines of degree 2 or 3, backend "thb-quadratic" or "thb"; see fit_thb.
+/// note: how much of what it took, in sentences. Errors: those of fit_thb.
+std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, int degree, std::string& note);
 
 }  // namespace treadmark::spline

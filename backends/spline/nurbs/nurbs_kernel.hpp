@@ -274,6 +274,23 @@ TREADMARK_LANES void indices(double low, double high, double first_point, double
   last = to < 0.0 ? -1 : to < count ? static_cast<int>(to) : count - 1;
 }
 
+/// The part of a row at dy from the middle where the linear guess may meet the patch.
+struct RowPart {
+  double low, high;
+  void meet(double slope, double from, double to) {
+    if ((slope < 0.0 ? -slope : slope) < 1e-6) return;  // [1/m] it hardly changes along the row
+    const double a = from / slope, b = to / slope, least = a < b ? a : b, greatest = a < b ? b : a;
+    low = least > low ? least : low;
+    high = greatest < high ? greatest : high;
+  }
+};
+RowPart row_part(const PatchPowers& patch, double dy) {
+  RowPart part{patch.range[0] - patch.middle[0], patch.range[1] - patch.middle[0]};
+  part.meet(patch.a[0], patch.reach[0] - patch.a[1] * dy, patch.reach[1] - patch.a[1] * dy);
+  part.meet(patch.a[2], patch.reach[2] - patch.a[3] * dy, patch.reach[3] - patch.a[3] * dy);
+  return part;
+}
+
 template <bool rational>
 bool hit_patch(const ViewArrays& view, const PatchPowers& patch, const TileArrays& tile) {
   int i0, i1, j0, j1;
@@ -282,8 +299,16 @@ bool hit_patch(const ViewArrays& view, const PatchPowers& patch, const TileArray
   if (i1 < i0) return true;
   bool settled = true;
   Waiting points;
+  constexpr int kWide = 8;  // rows of fewer points are not worth looking at one by one
+  const bool wide = i1 - i0 >= kWide;
   for (int j = j0; j <= j1; ++j) {
     const V y = all(tile.y0 + (tile.iy0 + j) * tile.dy);
+    if (wide) {
+      // a long patch that lies askew meets a part of each row only
+      const RowPart part = row_part(patch, y[0] - patch.middle[1]);
+      indices(patch.middle[0] + part.low, patch.middle[0] + part.high, tile.x0 + tile.ix0 * tile.dx, tile.dx, tile.nx,
+              i0, i1);
+    }
     for (int i = i0; i <= i1; i += 4) {
       const int k = tile.ix0 + i;
       const long at = i + j * tile.stride;
