@@ -65,8 +65,13 @@ std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
 }
 
 std::shared_ptr<const Surface> as_thb(Resampling& r, int degree) {
+  // a quadratic needs two points to each of its intervals, which are to be as long as was asked for
+  const double spacing = r.resolution();
+  if (degree == 2) r.set_resolution(0.5 * spacing);
+  const sampling::PointGrid points = r.points(true);
+  r.set_resolution(spacing);
   std::string note;
-  auto surface = spline::make_thb_surface(r.points(true), degree, note);
+  auto surface = spline::make_thb_surface(points, degree, note);
   r.add_note(note);
   return surface;
 }
