@@ -34,6 +34,16 @@ std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body bo
       body == Body::rail ? sweep_chain(chain, x_min, x_max) : revolve_chain(chain, nominal_radius), body);
 }
 
+std::shared_ptr<const Surface> make_thb_surface(std::span<const Vec3> points, Body body, const sampling::Region& region,
+                                                int degree, std::string& note) {
+  ThbFitSettings settings;
+  settings.degree = degree;
+  const ThbFit fit = fit_thb(points, body, region, settings);
+  note += fmt::format("{} coefficients in place of {} points, whose noise is {:.2g} um. ", fit.spline.space.functions(),
+                      points.size(), 1e6 * fit.noise);
+  return std::make_shared<NurbsSurface>(extracted(fit.spline), body, degree == 3 ? "thb" : "thb-quadratic");
+}
+
 std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, int degree, std::string& note) {
   ThbFitSettings settings;
   settings.degree = degree;
