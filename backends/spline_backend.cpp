@@ -68,8 +68,7 @@ std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
   return spline::make_nurbs_surface(r.points(true));
 }
 
-/// Triangles of a scan, unless their samples are asked for: their vertices are
-/// what was measured.
+/// Triangles of a scan, unless their samples are asked for: their vertices are what was measured.
 std::shared_ptr<const Surface> thb_of_vertices(const TriangleMesh& mesh, Resampling& r, int degree) {
   const Body body = r.spec().body;
   const std::vector<Vec3> seen = sampling::seen_vertices(r.surface(), body, mesh.vertices, r.region());
@@ -89,8 +88,7 @@ std::shared_ptr<const Surface> thb_of_vertices(const TriangleMesh& mesh, Resampl
 std::shared_ptr<const Surface> as_thb(Resampling& r, int degree) {
   const auto* mesh = std::get_if<TriangleMesh>(&r.spec().shape);
   if (mesh != nullptr && !r.asked() && r.spec().defects.empty()) return thb_of_vertices(*mesh, r, degree);
-  // a quadratic needs two points to each of its intervals, which are to be as
-  // long as was asked for
+  // a quadratic needs two points to each of its intervals, which are to be as long as was asked for
   const double spacing = r.resolution();
   if (degree == 2) r.set_resolution(0.5 * spacing);
   const sampling::PointGrid points = r.points(true);

@@ -13,8 +13,7 @@ namespace treadmark::sampling {
 std::vector<Vec3> seen_vertices(const Surface& surface, Body body, std::span<const Vec3> vertices,
                                 const Region& region) {
   constexpr double kSteepest = 0.25882;  // cosine of 75 degrees
-  constexpr double kSame = 1e-3;         // [m] what a smooth surface may pass its
-                                         // vertices by, less than parts are thick
+  constexpr double kSame = 1e-3;         // [m] what a smooth surface may pass vertices by; parts are thicker
   constexpr std::size_t kChunk = 4096;
   std::vector<char> seen(vertices.size(), 0);
   parallel_for((vertices.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {

@@ -54,8 +54,7 @@ class Fit {
     refuse_gaps(space);
     std::vector<Vec3> coefficients(space.functions(), Vec3::Zero());
     Part part = whole(space);
-    improve(space, part, coefficients);  // and once more below, free of the
-                                         // smoothing of the whole shape
+    improve(space, part, coefficients);  // and once more below, free of the smoothing of the whole shape
     for (;;) {
       improve(space, part, coefficients);
       ThbFit fit{{space, {}}, tolerance_.noise, 0.0, 0.0, 0};
@@ -121,22 +120,18 @@ class Fit {
       if (points_.count(points_of(cell)) > 0) continue;
       const ThbRange r = space.range(cell);
       throw Error(ErrorKind::input_data,
-                  fmt::format("there are no points from u = {:.6g} to {:.6g} "
-                              "and v = {:.6g} to {:.6g} m, as much as a "
+                  fmt::format("there are no points from u = {:.6g} to {:.6g} and v = {:.6g} to {:.6g} m, as much as a "
                               "coarse cell of a hierarchical spline",
                               r.u0, r.u1, r.v0, r.v1),
                   {}, "limit the region to where there are points");
     }
   }
 
-  /// Functions that are free, and the cells over which some of them do not
-  /// vanish.
+  /// Functions that are free, and the cells over which some of them do not vanish.
   struct Part {
     static constexpr std::size_t kFixed = static_cast<std::size_t>(-1);
     std::vector<ThbCell> cells;
-    std::vector<std::size_t> functions,
-        unknown;  ///< numbers of the free ones; of each function: its place
-                  ///< there
+    std::vector<std::size_t> functions, unknown;  ///< numbers of the free ones; of each function: its place there
 
     void free(std::size_t function) {
       if (unknown[function] != kFixed) return;
@@ -206,8 +201,7 @@ class Fit {
       coefficients[part.functions[k]] += more.row(static_cast<Eigen::Index>(k)).transpose();
   }
 
-  /// Divides cells of the fit's space with too much left, and those around
-  /// them, so that new functions have room.
+  /// Divides cells of the fit's space with too much left, and those around them, so that new functions have room.
   bool mark(const ThbSpace& space, const Part& part, const std::vector<Vec3>& coefficients, ThbFit& fit) const {
     const auto& cells = part.cells;
     std::vector<Remainder> left(cells.size());
@@ -261,9 +255,8 @@ class Fit {
   std::vector<std::vector<int>> u_breaks_, v_breaks_;  // by level
 };
 
-/// From fourth differences (their standard deviation is sqrt(70) times that of
-/// independent noise), along the quieter direction: of clean points it is next
-/// to nothing.
+/// From fourth differences (their standard deviation is sqrt(70) times that of independent noise), along the quieter
+/// direction: of clean points it is next to nothing.
 double noise_of(const sampling::PointGrid& grid) {
   const std::size_t nu = grid.u.size(), nv = grid.y.size();
   const auto of = [&](std::size_t step_u, std::size_t step_v) {
@@ -279,8 +272,7 @@ double noise_of(const sampling::PointGrid& grid) {
   return std::min(of(1, 0), of(0, 1));
 }
 
-/// From quadratics through the points around some places, of their height over
-/// the plane of least squares.
+/// From quadratics through the points around some places, of their height over the plane of least squares.
 double noise_of(const FitPoints& points) {
   constexpr std::size_t kPlaces = 2000, kFewest = 24;
   const int rows = points.u().last(), columns = points.v().last();
@@ -352,17 +344,15 @@ ThbFit fit_thb(std::span<const Vec3> points, Body body, const sampling::Region& 
   const bool closed = body == Body::wheel && !(region.u_max - region.u_min < 2.0 * std::numbers::pi);
   const auto fewest = static_cast<std::size_t>(4 * (settings.degree + 1) * (settings.degree + 1));
   if (kept.size() < fewest)
-    throw Error(ErrorKind::input_data, fmt::format("{} points in the region are too few for a "
-                                                   "hierarchical spline of degree {}: {} at least",
-                                                   kept.size(), settings.degree, fewest));
+    throw Error(ErrorKind::input_data,
+                fmt::format("{} points in the region are too few for a hierarchical spline of degree {}: {} at least",
+                            kept.size(), settings.degree, fewest));
   const auto flat = [](const std::vector<double>& x) {
     const auto [low, high] = std::minmax_element(x.begin(), x.end());
     return !(*high > *low);
   };
   if (flat(u) || flat(v))
-    throw Error(ErrorKind::input_data,
-                "the points of a scan lie on a line; a "
-                "surface needs them beside each other");
+    throw Error(ErrorKind::input_data, "the points of a scan lie on a line; a surface needs them beside each other");
   radius = body == Body::rail ? 1.0 : radius / static_cast<double>(kept.size());
   const FitPoints sorted(std::move(u), std::move(v), std::move(kept), closed, radius, kPointsAPlace);
   return Fit(sorted, body, settings.noise ? *settings.noise : noise_of(sorted), settings).run();

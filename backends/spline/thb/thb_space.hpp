@@ -18,8 +18,7 @@ struct ThbCell {
   friend bool operator==(const ThbCell&, const ThbCell&) = default;
 };
 
-/// Bernstein coefficients of a polynomial over a cell: b[i][j], i along u, j
-/// along v; 0 .. degree of them count.
+/// Bernstein coefficients of a polynomial over a cell: b[i][j], i along u, j along v; 0 .. degree of them count.
 using ThbPiece = std::array<std::array<Vec3, kMostDegree + 1>, kMostDegree + 1>;
 
 /// A part of the parameters.
@@ -29,20 +28,17 @@ struct ThbRange {
 /// The same polynomials with the Bernstein coefficients of another range.
 ThbPiece over_range(const ThbPiece& piece, int degree_u, int degree_v, const ThbRange& from, const ThbRange& to);
 
-/// Truncated hierarchical B-splines (Giannelli, Juettler and Speleers 2012):
-/// tensor splines of level 0 in which some cells are divided into those of
-/// level 1, and so on. A function of a level counts if all of its support lies
-/// in cells that are divided to that level, and not all of it in such that are
-/// divided further; where it overlaps functions that are finer it is truncated,
-/// so that the sum of all is 1. Use: divide, then settle, then the rest, which
-/// is const and thread-safe.
+/// Truncated hierarchical B-splines (Giannelli, Juettler and Speleers 2012): tensor splines of level 0 in which some
+/// cells are divided into those of level 1, and so on. A function of a level counts if all of its support lies in cells
+/// that are divided to that level, and not all of it in such that are divided further; where it overlaps functions that
+/// are finer it is truncated, so that the sum of all is 1. Use: divide, then settle, then the rest, which is
+/// const and thread-safe.
 class ThbSpace {
  public:
   struct Level {
     KnotLine u, v;
   };
-  /// Errors: Error(input_data) if there is no level, or one does not hold the
-  /// one before.
+  /// Errors: Error(input_data) if there is no level, or one does not hold the one before.
   explicit ThbSpace(std::vector<Level> levels);
 
   int levels() const { return static_cast<int>(levels_.size()); }
@@ -53,18 +49,16 @@ class ThbSpace {
   bool exists(const ThbCell& cell) const;
   bool divided(const ThbCell& cell) const;
   ThbCell parent(const ThbCell& cell) const;
-  /// Divides a cell, and others so that all neighbours of a cell of level l lie
-  /// in cells of level l - 1 at least.
+  /// Divides a cell, and others so that all neighbours of a cell of level l lie in cells of level l - 1 at least.
   void divide(const ThbCell& cell);
-  /// Divides a cell of an existing one and nothing else. Errors:
-  /// Error(input_data) if it does not exist or is of the last level.
+  /// Divides a cell of an existing one and nothing else. Errors: Error(input_data) if it does not exist or is of the
+  /// last level.
   void divide_alone(const ThbCell& cell);
   /// Numbers functions and cells.
   void settle();
 
-  /// Of a hierarchy from elsewhere, which need not be made by divide: each
-  /// level that has cells has a function. Errors: Error(input_data) that names
-  /// the level.
+  /// Of a hierarchy from elsewhere, which need not be made by divide: each level that has cells has a function.
+  /// Errors: Error(input_data) that names the level.
   void require_support() const;
 
   std::size_t functions() const { return functions_; }
@@ -85,8 +79,7 @@ class ThbSpace {
   };
   /// Those that do not vanish over a cell.
   std::vector<Column> columns(const ThbCell& cell) const;
-  /// Calls use(function) for these, and maybe for some that finer ones replace
-  /// there.
+  /// Calls use(function) for these, and maybe for some that finer ones replace there.
   template <class Use>
   void each_function(const ThbCell& cell, const Use& use) const {
     for (ThbCell on = cell;; on = parent(on)) {
@@ -97,11 +90,9 @@ class ThbSpace {
   /// A spline of this space over a cell.
   ThbPiece piece(const ThbCell& cell, const std::vector<Vec3>& coefficients) const;
 
-  /// The coefficients of a spline that lies in this space, known by its
-  /// polynomials: piece_of(cell) for cells that are not divided. A truncated
-  /// function keeps the coefficient that the level's own spline has (Giannelli,
-  /// Juettler and Speleers 2014), so each is a blossom of the polynomial over
-  /// one cell of its support.
+  /// The coefficients of a spline that lies in this space, known by its polynomials: piece_of(cell) for cells that are
+  /// not divided. A truncated function keeps the coefficient that the level's own spline has (Giannelli, Juettler and
+  /// Speleers 2014), so each is a blossom of the polynomial over one cell of its support.
   template <class PieceOf>
   std::vector<Vec3> coefficients(const PieceOf& piece_of) const {
     std::vector<Vec3> out(functions_, Vec3::Zero());
@@ -117,16 +108,14 @@ class ThbSpace {
     return out;
   }
 
-  /// Of this space, finer: the coefficients of the same spline there. The
-  /// levels must be the same.
+  /// Of this space, finer: the coefficients of the same spline there. The levels must be the same.
   std::vector<Vec3> refined(const std::vector<Vec3>& coefficients, const ThbSpace& finer) const;
 
   ThbRange range(const ThbCell& cell) const;
   std::size_t memory_bytes() const;
 
  private:
-  using Matrix = std::array<KnotWeights, kMostDegree + 1>;  // row: function over the child,
-                                                            // or Bernstein coefficient
+  using Matrix = std::array<KnotWeights, kMostDegree + 1>;  // row: function over the child, or Bernstein coefficient
   struct Direction {
     std::vector<int> parent;       // of each interval, in the level before
     std::vector<int> first_child;  // of each interval of the level before, and one more
