@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Triangles of a scan become hierarchical splines: not through the vertices,
-// but as closely as their noise allows.
+// Triangles of a scan become hierarchical splines: not through the vertices, but as closely as their noise allows.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -76,7 +76,7 @@ class RemainderSum {
 
 /// How closely points are followed.
 struct FitTolerance {
-  double distance = 1e-9;  ///< of a point [m]
+  double distance = 0.0;  ///< of a point [m]
   double noise = 0.0;      ///< standard deviation of points along the normal [m]
   bool scattered = false;
 

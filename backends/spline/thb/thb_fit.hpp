@@ -13,7 +13,7 @@ namespace treadmark::spline {
 struct ThbFitSettings {
   int degree = 3;  ///< 2 or 3
   /// What remains between points and surface counts where it is more [m], and more than noise.
-  double tolerance = 1e-9;
+  double tolerance = 2e-9;
   /// Standard deviation of the points along the normal [m]; without it it is estimated.
   std::optional<double> noise;
 };

@@ -346,7 +346,7 @@ TEST(ThbFit, CoefficientsFollowTheDamage) {
   const ThbFit fit = fit_thb(round_wheel(nu, ny, dented));
   const NurbsSurface tensor(fit_point_grid(round_wheel(nu, ny, dented)), Body::wheel);
   const double most = errors_of(fit.spline, Body::wheel, 0.06, 0.045, dented).most;
-  EXPECT_LT(most, 1.1 * errors_of(tensor, 0.06, 0.045, dented).most + 1e-9);
+  EXPECT_LT(most, 1.1 * errors_of(tensor, 0.06, 0.045, dented).most + 2e-9);
   EXPECT_LT(fit.spline.space.functions(), static_cast<std::size_t>(nu * ny / 15));
   EXPECT_EQ(fit.unresolved, 0u);
   EXPECT_LT(extracted(fit.spline).memory_bytes(), tensor.net().memory_bytes() / 12);
