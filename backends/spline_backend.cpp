@@ -71,10 +71,15 @@ std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
 /// Triangles of a scan, unless their samples are asked for: their vertices are what was measured.
 std::shared_ptr<const Surface> thb_of_vertices(const TriangleMesh& mesh, Resampling& r, int degree) {
   const Body body = r.spec().body;
-  const std::vector<Vec3> seen = sampling::seen_vertices(r.surface(), body, mesh.vertices, r.region());
+  // the outermost vertices lie inside of the region, and the surface is to reach its ends
+  constexpr double kBeyond = 2e-3;
+  const double beyond_u = kBeyond / (body == Body::wheel ? r.spec().nominal_radius : 1.0);
+  const Region& wanted = r.region();
+  const Region region{wanted.u_min - beyond_u, wanted.u_max + beyond_u, wanted.y_min - kBeyond, wanted.y_max + kBeyond};
+  const std::vector<Vec3> seen = sampling::seen_vertices(r.surface(), body, mesh.vertices, region);
   std::string note;
   try {
-    auto surface = spline::make_thb_surface(seen, body, r.region(), degree, note);
+    auto surface = spline::make_thb_surface(seen, body, region, degree, note);
     r.set_resolution(0.0);
     r.add_note(note);
     return surface;

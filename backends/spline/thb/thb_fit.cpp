@@ -49,9 +49,9 @@ class Fit {
         bending_(bending(settings.degree)) {}
 
   ThbFit run() {
+    refuse_gaps();
     ThbSpace space(levels());
     space.settle();
-    refuse_gaps(space);
     std::vector<Vec3> coefficients(space.functions(), Vec3::Zero());
     Part part = whole(space);
     improve(space, part, coefficients);  // and once more below, free of the smoothing of the whole shape
@@ -115,16 +115,23 @@ class Fit {
             v_breaks_[l][static_cast<std::size_t>(cell.iv)], end(points_.v(), v_breaks_[l], cell.iv)};
   }
 
-  void refuse_gaps(const ThbSpace& space) const {
-    for (const ThbCell& cell : space.cells()) {
-      if (points_.count(points_of(cell)) > 0) continue;
-      const ThbRange r = space.range(cell);
-      throw Error(ErrorKind::input_data,
-                  fmt::format("there are no points from u = {:.6g} to {:.6g} and v = {:.6g} to {:.6g} m, as much as a "
-                              "coarse cell of a hierarchical spline",
-                              r.u0, r.u1, r.v0, r.v1),
-                  {}, "limit the region to where there are points");
-    }
+  /// Of scattered points: blocks of places so large that they are not empty by chance.
+  void refuse_gaps() const {
+    constexpr int kBlock = 4;
+    if (!points_.scattered()) return;
+    for (int i = 0; i < points_.rows(); i += kBlock / 2)
+      for (int j = 0; j < points_.columns(); j += kBlock / 2) {
+        const int i1 = std::min(i + kBlock, points_.rows()), j1 = std::min(j + kBlock, points_.columns()),
+                  i0 = std::max(0, i1 - kBlock), j0 = std::max(0, j1 - kBlock);
+        if (points_.count({i0, i1, j0, j1}) > 0) continue;
+        throw Error(
+            ErrorKind::input_data,
+            fmt::format("there are no points from u = {:.6g} to {:.6g} and v = {:.6g} to {:.6g} m, where {:.0f} "
+                        "would lie if they were spread evenly",
+                        points_.u().place(i0), points_.u().place(i1), points_.v().place(j0), points_.v().place(j1),
+                        kPointsAPlace * (i1 - i0) * (j1 - j0)),
+            {}, "limit the region to where there are points");
+      }
   }
 
   /// Functions that are free, and the cells over which some of them do not vanish.

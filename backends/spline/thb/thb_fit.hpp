@@ -35,8 +35,8 @@ ThbFit fit_thb(const sampling::PointGrid& points, const ThbFitSettings& settings
 
 /// The same through scattered points, as of a scanner, free of outliers, in the surface frame: u is x [m] or the angle,
 /// v is y [m]. Points beside the region are left out. A wheel is closed unless the region ends. Cells become as small
-/// as four points; without points a smooth surface goes on. Errors: those above; Error(input_data) for points that are
-/// not finite, too few of them, and places as large as a coarse cell without any.
+/// as four points. Errors: those above; Error(input_data) for points that are not finite, too few of them, and holes
+/// where 64 would lie if all were spread evenly; over smaller ones a smooth surface goes on.
 ThbFit fit_thb(std::span<const Vec3> points, Body body, const sampling::Region& region,
                const ThbFitSettings& settings = {});
 
