@@ -64,9 +64,9 @@ TEST_P(Inversion, ConvergesWhereCurvatureIsLarge) {
   const auto surface = represent(natural, {GetParam(), kSpacing, {-2e-3, 2e-3, -1.3e-3, 1.3e-3}}).surface;
   const Pose X{Vec3(0.0, 0.0, 1e-3), rotation({0.08, 0.0, 0.1})};
   std::vector<Vec2> lines;
-  lines.reserve(21 * 201);
+  lines.reserve(std::size_t{21} * 201);
   for (int i = 0; i < 21; ++i)
-    for (int j = 0; j < 201; ++j) lines.push_back({(i - 10) * 0.15e-3, (j - 100) * 9e-6});
+    for (int j = 0; j < 201; ++j) lines.emplace_back((i - 10) * 0.15e-3, (j - 100) * 9e-6);
   std::vector<SurfacePoint> found(lines.size()), exact(lines.size());
   surface->locate(X, lines, found);
   natural.surface->locate(X, lines, exact);

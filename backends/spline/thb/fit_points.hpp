@@ -77,7 +77,7 @@ class RemainderSum {
 /// How closely points are followed.
 struct FitTolerance {
   double distance = 0.0;  ///< of a point [m]
-  double noise = 0.0;      ///< standard deviation of points along the normal [m]
+  double noise = 0.0;     ///< standard deviation of points along the normal [m]
   bool scattered = false;
 
   bool noisy() const { return noise > distance; }

@@ -80,7 +80,7 @@ KnotLine KnotLine::of_knots(int degree, std::vector<double> knots) {
 }
 
 KnotLine::KnotLine(int degree, std::vector<double> knots, bool closed)
-    : degree_(degree), functions_(0), closed_(closed), knots_(std::move(knots)) {
+    : degree_(degree), closed_(closed), knots_(std::move(knots)) {
   const auto p = static_cast<std::size_t>(degree);
   const std::size_t all = knots_.size() - p - 1;
   for (std::size_t i = p; i < all; ++i) {

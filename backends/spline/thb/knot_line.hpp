@@ -69,7 +69,7 @@ class KnotLine {
  private:
   KnotLine(int degree, std::vector<double> knots, bool closed);
 
-  int degree_, functions_;
+  int degree_, functions_ = 0;
   bool closed_;
   std::vector<double> knots_, breaks_;
   std::vector<int> span_;  // of each interval: the knot at which it begins

@@ -349,7 +349,8 @@ ThbFit fit_thb(std::span<const Vec3> points, Body body, const sampling::Region& 
     radius += std::hypot(p.x(), p.z());
   }
   const bool closed = body == Body::wheel && !(region.u_max - region.u_min < 2.0 * std::numbers::pi);
-  const auto fewest = static_cast<std::size_t>(4 * (settings.degree + 1) * (settings.degree + 1));
+  const auto fewest =
+      std::size_t{4} * static_cast<std::size_t>(settings.degree + 1) * static_cast<std::size_t>(settings.degree + 1);
   if (kept.size() < fewest)
     throw Error(ErrorKind::input_data,
                 fmt::format("{} points in the region are too few for a hierarchical spline of degree {}: {} at least",

@@ -269,7 +269,8 @@ std::vector<ThbSpace::Column> ThbSpace::columns(const ThbCell& cell) const {
     double most = 0.0;
     for (int i = 0; i <= pu; ++i)
       for (int j = 0; j <= pv; ++j) {
-        column.b[static_cast<std::size_t>((kMostDegree + 1) * i + j)] = one.x[i][j];
+        column.b[std::size_t{kMostDegree + 1} * static_cast<std::size_t>(i) + static_cast<std::size_t>(j)] =
+            one.x[i][j];
         most = std::max(most, one.x[i][j]);
       }
     if (most > 0.0) out.push_back(column);

@@ -75,7 +75,7 @@ class ThbSpace {
   /// A function over a cell by its Bernstein coefficients.
   struct Column {
     std::size_t function;
-    std::array<double, (kMostDegree + 1) * (kMostDegree + 1)> b;  ///< index = 4 i + j, i along u
+    std::array<double, std::size_t{kMostDegree + 1} * (kMostDegree + 1)> b;  ///< index = 4 i + j, i along u
   };
   /// Those that do not vanish over a cell.
   std::vector<Column> columns(const ThbCell& cell) const;

@@ -81,6 +81,7 @@ NurbsNet extracted(const ThbSpline& spline) {
   const int degree_u = space.u(0).degree(), degree_v = space.v(0).degree();
   CornerList list;
   std::vector<NurbsNet::Cell> cells;
+  cells.reserve(space.cells().size());
   double along = 0.0, across = 0.0, length = 0.0, width = 0.0;
   for (const ThbCell& cell : space.cells()) {
     check_cancelled();
@@ -109,12 +110,14 @@ NurbsNet extracted(const ThbSpline& spline) {
     return static_cast<std::uint32_t>((middle - first) * per / extent * 16'000'000.0);
   };
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  order.reserve(cells.size());
   for (std::size_t k = 0; k < cells.size(); ++k)
-    order.push_back({woven(place(0.5 * (cells[k].u0 + cells[k].u1), u.breaks().front(), per_u),
-                           place(0.5 * (cells[k].v0 + cells[k].v1), v.breaks().front(), per_v)),
-                     k});
+    order.emplace_back(woven(place(0.5 * (cells[k].u0 + cells[k].u1), u.breaks().front(), per_u),
+                             place(0.5 * (cells[k].v0 + cells[k].v1), v.breaks().front(), per_v)),
+                       k);
   std::sort(order.begin(), order.end());
   std::vector<NurbsNet::Cell> sorted;
+  sorted.reserve(order.size());
   for (const auto& [key, k] : order) sorted.push_back(cells[k]);
   list.corners.shrink_to_fit();
   return NurbsNet(std::move(sorted), std::move(list.corners));

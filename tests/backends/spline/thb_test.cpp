@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_P(ThbBasis, FunctionsAreNotNegativeAndSumToOne) {
   ThbSpace space = space_of(GetParam().degree, GetParam().closed, 4);
   divide_some(space, 9, 1);
-  const auto used = static_cast<std::size_t>((GetParam().degree + 1) * (GetParam().degree + 1));
+  const auto used = static_cast<std::size_t>(GetParam().degree + 1) * static_cast<std::size_t>(GetParam().degree + 1);
   int finest = 0;
   for (const ThbCell& cell : space.cells()) {
     finest = std::max(finest, cell.level);
@@ -447,7 +447,8 @@ TEST(ThbFit, RefusesScatteredPointsThatDoNotSuffice) {
   EXPECT_NE(refusal(line, Body::rail).find("lie on a line"), std::string::npos);
   std::vector<Vec3> half = points;
   std::erase_if(half, [](const Vec3& p) { return p.x() < 0.0; });
-  EXPECT_NE(refusal(half, Body::wheel).find("there are no points from u"), std::string::npos) << refusal(half, Body::wheel);
+  EXPECT_NE(refusal(half, Body::wheel).find("there are no points from u"), std::string::npos)
+      << refusal(half, Body::wheel);
   EXPECT_EQ(refusal(half, Body::wheel, {0.0, kPi, -0.05, 0.05}), "");
   points[7].z() = std::nan("");
   EXPECT_NE(refusal(points, Body::wheel).find("point 8"), std::string::npos);
