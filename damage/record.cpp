@@ -49,22 +49,12 @@ Shares shares_of(double middle, double a, double b, double x0, double d) {
   return shares;
 }
 
-int wrapped(const SurfaceCells& cells, int i) {
-  if (!cells.closed()) return i;
-  const int k = i % cells.nu;
-  return k < 0 ? k + cells.nu : k;
-}
-
-bool exists(const SurfaceCells& cells, int j) {
-  return j >= 0 && j < cells.ny && std::isfinite(cells.radius[static_cast<std::size_t>(j)]);
-}
-
 /// Rows under an element; what hangs over the border of the surface goes to the rows that are there.
 Shares rows_of(const SurfaceCells& cells, double y_low, double y_high) {
   const double half = 0.5 * (y_high - y_low);
   Shares rows = shares_of(0.5 * (y_low + y_high), std::max(half, 1e-12), 0.0, cells.y0, cells.dy);
   double there = 0.0;
-  std::erase_if(rows, [&](const auto& row) { return !exists(cells, row.first); });
+  std::erase_if(rows, [&](const auto& row) { return !cells.exists(row.first); });
   for (const auto& row : rows) there += row.second;
   if (!(there > 0.0))
     throw Error(ErrorKind::input_data,
@@ -82,7 +72,7 @@ Shares columns_of(const SurfaceCells& cells, const PassedPatch& patch, const Pas
   // the larger one first; a whole turn is not more than one
   Shares shares = shares_of(middle, half, std::max(moved, 0.0), cells.u0, cells.du);
   for (auto& share : shares) {
-    share.first = wrapped(cells, share.first);
+    share.first = cells.wrapped(share.first);
     if (share.first < 0 || share.first >= cells.nu)
       throw Error(ErrorKind::input_data,
                   fmt::format("a contact at x = {:.1f} mm lies beyond the cells of the rail", 1e3 * middle), {},
@@ -173,7 +163,7 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
     along = shares_of(stretch.begin + half, half, 0.0, cells.u0, cells.du);
     for (auto& share : along) share.second *= 2.0 * half / cells.du;
   }
-  for (auto& share : along) share.first = wrapped(cells, share.first);
+  for (auto& share : along) share.first = cells.wrapped(share.first);
   std::erase_if(along, [&](const auto& share) { return share.first < 0 || share.first >= cells.nu; });
   const auto raise = [&along](CellSheet& sheet, int j, double value) {
     if (!(value > 0.0)) return;
@@ -215,6 +205,7 @@ void add_times(SurfaceRecord& record, const SurfaceRecord& other, double times) 
   gather(kSheets, record, other, times);
   for (std::size_t k = 0; k < record.stresses.size(); ++k)
     gather(kStressSheets, record.stresses[k], other.stresses[k], times);
+  for (std::size_t k = 0; k < record.flow.size(); ++k) gather(kFlowSheets, record.flow[k], other.flow[k], times);
   record.volume_by_law += times * other.volume_by_law;
   record.work_of_contacts += times * other.work_of_contacts;
 }
@@ -240,9 +231,9 @@ void smooth_across(CellSheet& sheet, const SurfaceCells& cells, double deviation
     if (std::ranges::count(row, 0.0) == static_cast<std::ptrdiff_t>(row.size())) continue;
     double sum = 0.0;
     for (int k = -reach; k <= reach; ++k)
-      if (exists(cells, j + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];
+      if (cells.exists(j + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];
     for (int k = -reach; k <= reach; ++k) {
-      if (!exists(cells, j + k)) continue;
+      if (!cells.exists(j + k)) continue;
       const double share = weights[static_cast<std::size_t>(std::abs(k))] / sum;
       double* values = &out.ref(0, j + k);
       for (std::size_t i = 0; i < row.size(); ++i) values[i] += share * row[i];
@@ -264,7 +255,7 @@ void smooth_along(CellSheet& sheet, const SurfaceCells& cells, double deviation)
         if (there(i + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];
       for (int k = -reach; k <= reach; ++k)
         if (there(i + k))
-          out[static_cast<std::size_t>(wrapped(cells, i + k))] +=
+          out[static_cast<std::size_t>(cells.wrapped(i + k))] +=
               row[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(std::abs(k))] / sum;
     }
     row = std::move(out);
@@ -294,9 +285,14 @@ DepthExtent depth_extent(const SurfaceCells& cells, const CellSheet& volume) {
     for (int i = 0; i < cells.nu; ++i) {
       const double d = depth_of(cells, row[static_cast<std::size_t>(i)], j);
       extent.depth = std::max(extent.depth, d);
+      extent.raised = std::max(extent.raised, -d);
       for (const int side : {j - 1, j + 1})
-        if (exists(cells, side))
-          extent.slope = std::max(extent.slope, (d - depth_of(cells, volume.at(i, side), side)) / cells.dy);
+        if (cells.exists(side))
+          extent.slope = std::max(extent.slope, std::fabs(d - depth_of(cells, volume.at(i, side), side)) / cells.dy);
+      if (const int before = cells.wrapped(i - 1); !cells.uniform() && before >= 0)
+        extent.slope_along =
+            std::max(extent.slope_along, std::fabs(d - depth_of(cells, row[static_cast<std::size_t>(before)], j)) /
+                                             (cells.du * cells.radius[static_cast<std::size_t>(j)]));
     }
   return extent;
 }

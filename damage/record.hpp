@@ -46,9 +46,11 @@ void smooth(CellSheet& sheet, const SurfaceCells& cells, double deviation);
 /// Depth removed from a cell, along z of a rail, along the radius of a wheel (exactly: r d - d^2/2) [m]. Errors:
 /// Error(numerical) where more is removed than there is.
 double depth_of(const SurfaceCells& cells, double volume, int row);
-/// The largest of a sheet of volumes [m], and the largest slope of the depth across [-].
+/// Of a sheet of volumes: the largest depth and the largest height above the surface as it was [m], and the largest
+/// slopes of the depth across and along [-].
 struct DepthExtent {
-  double depth = 0.0, slope = 0.0;
+  double depth = 0.0, raised = 0.0, slope = 0.0, slope_along = 0.0;
+  double change() const { return depth > raised ? depth : raised; }
 };
 DepthExtent depth_extent(const SurfaceCells& cells, const CellSheet& volume);
 

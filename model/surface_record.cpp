@@ -8,7 +8,12 @@ StressRecord::StressRecord(int nu) {
   for (const auto& row : kStressSheets) this->*row.sheet = CellSheet(nu);
 }
 
-SurfaceRecord::SurfaceRecord(int nu, std::size_t depths) : stresses(depths, StressRecord(nu)) {
+FlowRecord::FlowRecord(int nu) {
+  for (const auto& row : kFlowSheets) this->*row.sheet = CellSheet(nu);
+}
+
+SurfaceRecord::SurfaceRecord(int nu, std::size_t depths, std::size_t flow_depths)
+    : stresses(depths, StressRecord(nu)), flow(flow_depths, FlowRecord(nu)) {
   for (const auto& row : kSheets) this->*row.sheet = CellSheet(nu);
 }
 
@@ -17,6 +22,8 @@ std::size_t SurfaceRecord::memory_bytes() const {
   for (const auto& row : kSheets) sum += (this->*row.sheet).memory_bytes();
   for (const StressRecord& s : stresses)
     for (const auto& row : kStressSheets) sum += (s.*row.sheet).memory_bytes();
+  for (const FlowRecord& f : flow)
+    for (const auto& row : kFlowSheets) sum += (f.*row.sheet).memory_bytes();
   return sum;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <vector>
@@ -26,6 +27,10 @@ struct SurfaceCells {
   bool uniform() const { return nu == 1; }
   /// Whether the last column joins the first.
   bool closed() const { return body == Body::wheel; }
+  /// Whether there is surface in a row.
+  bool exists(int j) const { return j >= 0 && j < ny && std::isfinite(radius[static_cast<std::size_t>(j)]); }
+  /// Number of the column that one beyond the ends is; of a rail it stays outside.
+  int wrapped(int i) const { return closed() ? (i % nu + nu) % nu : i; }
   double y(int j) const { return y0 + j * dy; }
   double u(int i) const { return u0 + i * du; }
   /// Of the projection along which depth is removed [m2].
@@ -68,12 +73,19 @@ struct StressRecord {
   CellSheet dang_van;   ///< shear round the middle of the passage and weighted hydrostatic stress
 };
 
+/// What has flowed at a depth below the cells.
+struct FlowRecord {
+  explicit FlowRecord(int nu = 1);
+
+  CellSheet strain;  ///< shear that passages have added up [-]
+};
+
 /// What contacts have done to the points of a surface.
 struct SurfaceRecord {
-  /// Of so many columns, and stresses at so many depths.
-  explicit SurfaceRecord(int nu = 1, std::size_t depths = 0);
+  /// Of so many columns, stresses at so many depths and flow at so many.
+  explicit SurfaceRecord(int nu = 1, std::size_t depths = 0, std::size_t flow_depths = 0);
 
-  CellSheet volume;       ///< removed [m3]
+  CellSheet volume;       ///< removed, negative: raised [m3]
   CellSheet work;         ///< of friction [J]
   CellSheet sliding;      ///< distance [m]
   CellSheet passages;     ///< of contacts over the cell
@@ -84,6 +96,7 @@ struct SurfaceRecord {
   CellSheet damage;       ///< sum over passages by their T gamma [-]
   CellSheet temperature;  ///< largest above 0 [deg C]
   std::vector<StressRecord> stresses;
+  std::vector<FlowRecord> flow;
   double volume_by_law = 0.0;     ///< sum of what the law takes from the elements of the contacts [m3]
   double work_of_contacts = 0.0;  ///< sum over the power that the contacts state [J]
 
@@ -99,7 +112,7 @@ struct SheetRow {
   bool summed;
 };
 inline constexpr SheetRow<SurfaceRecord> kSheets[] = {
-    {&SurfaceRecord::volume, "volume", "m3", "removed from the cell", true},
+    {&SurfaceRecord::volume, "volume", "m3", "removed from the cell, negative: raised", true},
     {&SurfaceRecord::work, "work", "J", "of friction in the cell", true},
     {&SurfaceRecord::sliding, "sliding", "m", "distance, mean over the cell", true},
     {&SurfaceRecord::passages, "passages", "1", "of contacts over the cell", true},
@@ -114,5 +127,7 @@ inline constexpr SheetRow<StressRecord> kStressSheets[] = {
     {&StressRecord::shear, "shear", "Pa", "largest amplitude of all planes", false},
     {&StressRecord::shakedown, "shakedown", "Pa", "largest shear yield that shakedown needs", false},
     {&StressRecord::dang_van, "dang_van", "Pa", "largest shear and weighted hydrostatic stress", false}};
+inline constexpr SheetRow<FlowRecord> kFlowSheets[] = {
+    {&FlowRecord::strain, "strain", "1", "shear that passages have added up", true}};
 
 }  // namespace treadmark

@@ -16,7 +16,7 @@ namespace {
 
 struct EvolveOptions {
   std::string file, output_folder, report_file, json_file;
-  bool resume = false;
+  bool resume = false, vtk = false;
   std::vector<std::string> overrides;
 };
 
@@ -30,6 +30,7 @@ int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
   const io::EvolutionResult result =
       with_progress(common.quiet, [&](const Progress& progress) { return app::run_evolution(file, wanted, progress); });
   app::write_evolution_folder(options.output_folder, result);
+  if (options.vtk) app::write_evolution_vtk(file, options.output_folder);
   const auto json = [&] { return app::evolution_json(result); };
   write_json_file(options.json_file, json);
   write_report_file(options.report_file, [&] { return app::report::read_report(options.output_folder); });
@@ -58,6 +59,7 @@ Command add_evolve(CLI::App& verb) {
       ->required();
   verb.add_flag("--resume", options->resume,
                 "Go on with an evolution that was stopped; there must be one in the folder");
+  verb.add_flag("--vtk", options->vtk, "Write the surfaces of all generations for ParaView too: FOLDER/vtk");
   verb.add_option("--json", options->json_file, "Write the results here as JSON; - for standard output")
       ->type_name("FILE");
   add_report_file(verb, options->report_file);

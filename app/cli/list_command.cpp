@@ -11,6 +11,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/flow_law.hpp"
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/model/theories.hpp"
 #include "treadmark/model/wear_law.hpp"
@@ -56,10 +57,11 @@ int list_command(const std::string& what) {
       std::cout << fmt::format("{:<24} {:<6} {}\n", row.name, row.grave ? "doubt" : "remark", row.meaning);
   } else if (what == "laws") {
     const auto print_row = [](const auto& row) {
-      std::cout << fmt::format("{:<10} {}\n{:<10} source: {}\n{:<10} for: {}\n{:<10} needs: {}\n", row.word, row.name,
+      std::cout << fmt::format("{:<11} {}\n{:<11} source: {}\n{:<11} for: {}\n{:<11} needs: {}\n", row.word, row.name,
                                "", row.source, "", row.validity, "", row.keys);
     };
     for (const WearTheoryRow& row : kWearTheories) print_row(row);
+    for (const FlowTheoryRow& row : kFlowTheories) print_row(row);
     for (const FatigueMeasureRow& row : kFatigueMeasures) print_row(row);
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},

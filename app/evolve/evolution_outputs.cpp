@@ -76,6 +76,10 @@ std::string evolution_json(const io::EvolutionResult& result) {
       if (!b.fatigue.measures.empty())
         out["fatigue"].push_back(
             {{"body", body_name(b.body)}, {"measures", b.fatigue.measures}, {"source", b.fatigue.source}});
+  if (!result.generations.empty())
+    for (const io::EvolvedBody& b : result.generations.front().bodies)
+      if (!b.flow.theory.empty())
+        out["flow"].push_back({{"body", body_name(b.body)}, {"theory", b.flow.theory}, {"source", b.flow.source}});
   out["generations"] = EvolutionJson::array();
   for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
   return out.dump(2) + '\n';

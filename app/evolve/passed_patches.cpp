@@ -58,36 +58,47 @@ damage::PassedPatch passed_patch(const io::PatchResult& patch, Body body, bool l
   return out;
 }
 
-/// Tractions of a patch with as much free surface before and behind it as it is long: where points come from and go to.
+/// Tractions of a patch with as much free surface before and behind it as it is long, where points come from and go to,
+/// and with so many more rows to both sides.
 struct WiderTractions {
   Grid2 grid;
   std::vector<double> pressure, x, s;
 
-  explicit WiderTractions(const io::PatchFields& f) : grid(f.grid) {
+  explicit WiderTractions(const io::PatchFields& f, int more_rows = 0) : grid(f.grid) {
     const int more = f.grid.nx;
-    grid.nx += 2 * more;
-    grid.x0 -= more * grid.dx;
+    grid.nx += 2 * more, grid.ny += 2 * more_rows;
+    grid.x0 -= more * grid.dx, grid.y0 -= more_rows * grid.dy;
     for (auto [to, from] : {std::pair{&pressure, &f.pressure}, {&x, &f.traction_x}, {&s, &f.traction_s}}) {
       to->assign(grid.size(), 0.0);
-      for (int iy = 0; iy < grid.ny; ++iy)
-        for (int ix = 0; ix < f.grid.nx; ++ix) (*to)[grid.index(ix + more, iy)] = (*from)[f.grid.index(ix, iy)];
+      for (int iy = 0; iy < f.grid.ny; ++iy)
+        for (int ix = 0; ix < f.grid.nx; ++ix)
+          (*to)[grid.index(ix + more, iy + more_rows)] = (*from)[f.grid.index(ix, iy)];
     }
   }
 };
 
+void check_depths(const std::vector<double>& depths, const Grid2& grid, const SourcePosition& where) {
+  if (const double least = std::max(grid.dx, grid.dy); depths.front() < 0.999 * least)
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("stresses at a depth of {:.3g} mm below elements of {:.3g} mm", 1e3 * depths.front(), 1e3 * least),
+        where, "choose smaller elements (discretisation.dx_mm and ds_mm), or greater depths_mm");
+}
+
+/// Depths as the solver counts them: the wheel is the other half-space.
+std::vector<double> depths_in(Body body, std::vector<double> depths) {
+  if (body == Body::wheel)
+    for (double& depth : depths) depth = -depth;
+  return depths;
+}
+
 void add_stresses_of(damage::PassedPatch& out, const io::PatchResult& patch, const io::Case& given, Body body,
                      bool left, const Pose& X_BT, const FatigueSettings& fatigue) {
   const io::PatchFields& f = patch.fields;
-  if (const double least = std::max(f.grid.dx, f.grid.dy); fatigue.depths.front() < 0.999 * least)
-    throw Error(ErrorKind::configuration,
-                fmt::format("stresses at a depth of {:.3g} mm below elements of {:.3g} mm",
-                            1e3 * fatigue.depths.front(), 1e3 * least),
-                given.where, "choose smaller elements (discretisation.dx_mm and ds_mm), or greater depths_mm");
+  check_depths(fatigue.depths, f.grid, given.where);
   const WiderTractions wider(f);
   const auto& input = std::get<io::WheelRailCase>(given.content);
-  std::vector<double> z = fatigue.depths;
-  if (body == Body::wheel)
-    for (double& depth : z) depth = -depth;  // the other half-space
+  const std::vector<double> z = depths_in(body, fatigue.depths);
   const auto points =
       kalker::subsurface_stress_on_grid({wider.grid, wider.pressure, wider.x, wider.s}, input.material, z);
   const std::vector<Vec2> edges = io::row_edges(f, patch.reference_s);
@@ -141,6 +152,47 @@ void add_stresses(std::vector<damage::PassedPatch>& patches, const io::Case& giv
   const Pose X_BT = (body == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS).inverse();
   for (std::size_t k = 0; k < patches.size(); ++k)
     add_stresses_of(patches[k], result.patches[k], given, body, input.side == Side::left, X_BT, fatigue);
+}
+
+std::vector<damage::PassedShear> passed_shears(const io::Case& given, const io::CaseResult& result, std::size_t number,
+                                               Body body, const FlowLaw& law) {
+  const io::PatchResult& patch = result.patches[number];
+  const io::PatchFields& f = patch.fields;
+  const auto& input = std::get<io::WheelRailCase>(given.content);
+  const bool left = input.side == Side::left;
+  const Pose X_BT = (body == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS).inverse();
+  check_depths(law.depths, f.grid, given.where);
+  const int more = f.grid.ny / 2 + 1;
+  const WiderTractions wider(f, more);
+  const std::vector<double> z = depths_in(body, law.depths);
+  const auto points =
+      kalker::subsurface_stress_on_grid({wider.grid, wider.pressure, wider.x, wider.s}, input.material, z);
+  std::vector<Vec2> edges = io::row_edges(f, patch.reference_s);
+  const Vec2 first = edges[0] - edges[1], last = edges[edges.size() - 1] - edges[edges.size() - 2];
+  for (int k = 0; k < more; ++k) {
+    edges.insert(edges.begin(), edges.front() + first);
+    edges.emplace_back(edges.back() + last);
+  }
+  // the rail's surface is dragged by the traction, the wheel's against it; stresses xz and yz are less the traction
+  const double sense = body == Body::wheel ? 1.0 : -1.0;
+  std::vector<damage::PassedShear> out;
+  for (int iy = 0; iy < wider.grid.ny; ++iy) {
+    const Vec2 &low = edges[static_cast<std::size_t>(iy)], &high = edges[static_cast<std::size_t>(iy) + 1];
+    const Vec2 middle = 0.5 * (low + high);
+    for (int ix = 0; ix < wider.grid.nx; ++ix) {
+      const auto at = [&](const Vec2& sn) {
+        return place_on(body, left, X_BT, f.X_TC.apply({wider.grid.x(ix), sn.x(), sn.y()}));
+      };
+      const double y_first = at(low).y, y_last = at(high).y;
+      for (std::size_t depth = 0; depth < z.size(); ++depth) {
+        const Mat3& stress = points[depth * wider.grid.size() + wider.grid.index(ix, iy)].stress;
+        const Vec2 shear = sense * Vec2(stress(0, 2), y_last > y_first ? stress(1, 2) : -stress(1, 2));
+        if (shear.norm() > law.shear_yield)
+          out.push_back({at(middle).u, std::min(y_first, y_last), std::max(y_first, y_last), depth, shear});
+      }
+    }
+  }
+  return out;
 }
 
 double place_along(const io::WheelRailCase& input, Body body) {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "treadmark/damage/flow.hpp"
 #include "treadmark/damage/passed_patch.hpp"
 #include "treadmark/damage/record.hpp"
 #include "treadmark/io/cases/case_model.hpp"
@@ -23,6 +24,11 @@ std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io:
 /// Error(configuration) for depths of less than an element.
 void add_stresses(std::vector<damage::PassedPatch>& patches, const io::Case& given, const io::CaseResult& result,
                   Body body, const FatigueSettings& fatigue);
+
+/// Shear stresses on planes parallel to the surface, at the depths of the law below one of the patches and beside it,
+/// where they are above the yield of the fresh material. Half-spaces, as above. Errors: as above.
+std::vector<damage::PassedShear> passed_shears(const io::Case& given, const io::CaseResult& result, std::size_t number,
+                                               Body body, const FlowLaw& law);
 
 /// Where along a body the contacts of a case are: x of a rail [m], theta of a wheel, within [0, 2 pi) [rad].
 double place_along(const io::WheelRailCase& input, Body body);

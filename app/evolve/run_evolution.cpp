@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/evolve/contact_source.hpp"
+#include "treadmark/app/evolve/evolution_vtk.hpp"
 #include "treadmark/app/evolve/passed_patches.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/study_identity.hpp"
@@ -24,6 +25,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/model/body_name.hpp"
 
@@ -53,6 +55,25 @@ class EvolutionRun {
         source_(file.positions.base_is_simulation ? simulated_contacts(file, options.settings) : case_contacts(file)) {
     bodies_.reserve(file.bodies.size());
     for (const io::EvolvingBody& body : file.bodies) bodies_.push_back(prepare(body));
+  }
+
+  /// See write_evolution_vtk.
+  void write_vtk(const fs::path& folder) const {
+    const fs::path out = folder / "vtk";
+    fs::create_directories(out);
+    std::string entries;
+    for (int number = 0; fs::exists(folder / io::generation_file(number)); ++number) {
+      const io::Generation g = io::read_generation(folder / io::generation_file(number));
+      for (std::size_t b = 0; b < bodies_.size(); ++b) {
+        const io::EvolvedBody& body = g.bodies[b];
+        const std::string text = evolved_surface_vts(*evolved(bodies_[b], body.record).surface, body);
+        if (text.empty()) continue;
+        const std::string name = fmt::format("{}_{:04}.vts", body_name(body.body), number);
+        write_file(out / name, text);
+        entries += io::vtk_entry(g.distance > 0.0 ? 1e-3 * g.distance : g.passages, static_cast<int>(b), name);
+      }
+    }
+    write_file(out / "evolution.pvd", io::vtk_collection(entries));
   }
 
   io::EvolutionResult run() {
@@ -131,8 +152,13 @@ class EvolutionRun {
     return solved;
   }
 
+  /// Whether a case is the last one of its wheel in its position.
+  static bool ends_position(const std::vector<PassedCase>& passed, std::size_t i) {
+    return i + 1 == passed.size() || passed[i + 1].run != passed[i].run || passed[i + 1].number <= passed[i].number;
+  }
+
   static SurfaceRecord empty_record(const Evolving& body) {
-    return SurfaceRecord(body.cells.nu, body.input.fatigue.depths.size());
+    return SurfaceRecord(body.cells.nu, body.input.fatigue.depths.size(), body.input.flow.depths.size());
   }
 
   io::EvolvedFatigue fatigue_of(const FatigueSettings& known,
@@ -158,13 +184,14 @@ class EvolutionRun {
     return out;
   }
 
-  /// What the whole amount would do at this speed, the volumes smoothed.
-  Records rates_of(Solved& solved) const {
+  /// What the whole amount would do at this speed, the volumes smoothed, to bodies that have endured their records.
+  Records rates_of(Solved& solved, const std::vector<io::EvolvedBody>& present) const {
     const std::vector<io::CaseResult>& cases = solved.contacts.run.cases;
     Records rates;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
       const Evolving& body = bodies_[b];
       SurfaceRecord rate = empty_record(body);
+      damage::MaterialFlow flow(body.cells, body.input.flow, present[b].record);
       for (std::size_t i = 0; i < cases.size(); ++i) {
         const PassedCase& place = solved.contacts.passed[i];
         const damage::Stretch& stretch = place.stretch[b];
@@ -175,6 +202,7 @@ class EvolutionRun {
                       place.given.where, "give wheelset.velocity_m_s and wheelset.vpitch_rad_s");
         // time for which the contacts of this case run, all in all, and passages over a point
         double seconds = body.input.amount / speed * place.weight, count = seconds * (wheel ? turns : speed);
+        const double passages = body.input.local ? count : count / place.beside;
         if (!body.input.local) {
           seconds /= place.beside;
           count /= place.beside;
@@ -185,7 +213,14 @@ class EvolutionRun {
         add_stresses(patches, place.given, cases[i], body.input.body, body.input.fatigue);
         for (const damage::PassedPatch& patch : patches)
           damage::add_patch(rate, body.cells, body.input.law, patch, stretch, seconds, count);
+        if (body.input.flow.theory == FlowTheory::none) continue;
+        for (std::size_t k = 0; k < patches.size(); ++k)
+          flow.meet(passed_shears(place.given, cases[i], k, body.input.body, body.input.flow),
+                    {patches[k].length, patches[k].width}, stretch);
+        // the places of a body that differs along are met in one passage
+        if (!body.input.local || ends_position(solved.contacts.passed, i)) flow.end_passage(rate, passages);
       }
+      flow.displace(rate);
       damage::smooth(rate.volume, body.cells, body.input.smoothing);
       rates.push_back(std::move(rate));
     }
@@ -206,6 +241,9 @@ class EvolutionRun {
       out.fatigue = fatigue_of(body.input.fatigue, solved.patches[b]);
       const damage::DepthExtent extent = damage::depth_extent(body.cells, records[b].volume);
       out.record = std::move(records[b]);
+      if (body.input.flow.theory != FlowTheory::none)
+        out.flow = {std::string(flow_row(body.input.flow.theory).word), body.input.flow.source, body.input.flow.depths,
+                    extent.raised};
       out.max_depth = extent.depth;
       out.max_slope = extent.slope;
       std::vector<Vec2> points;
@@ -291,10 +329,10 @@ class EvolutionRun {
 
   void check_update(const Evolving& body, const SurfaceRecord& update) const {
     const damage::DepthExtent extent = damage::depth_extent(body.cells, update.volume);
-    if (extent.slope > kSteepest)
+    if (const double slope = std::max(extent.slope, extent.slope_along); slope > kSteepest)
       throw Error(ErrorKind::numerical,
-                  fmt::format("an update of the {} removes {:.3g} mm with slopes of {:.2g}: the surface would fold",
-                              body_name(body.input.body), 1e3 * extent.depth, extent.slope),
+                  fmt::format("an update of the {} changes {:.3g} mm with slopes of {:.2g}: the surface would fold",
+                              body_name(body.input.body), 1e3 * extent.change(), slope),
                   body.input.where, "allow less depth an update (more updates), or smooth more");
   }
 
@@ -306,7 +344,7 @@ class EvolutionRun {
       constexpr double kPart = 1e-6;
       SurfaceRecord part = empty_record(bodies_[b]);
       damage::add_times(part, rates[b], kPart);
-      depth = std::max(depth, damage::depth_extent(bodies_[b].cells, part.volume).depth / kPart);
+      depth = std::max(depth, damage::depth_extent(bodies_[b].cells, part.volume).change() / kPart);
     }
     return depth > 0.0 ? file_.max_depth / depth : 1.0;
   }
@@ -336,7 +374,7 @@ class EvolutionRun {
 
   void advance(io::EvolutionResult& result, Solved& present) {
     const io::Generation& now = result.generations.back();
-    const Records rates = rates_of(present);
+    const Records rates = rates_of(present, now.bodies);
     const bool adaptive = file_.updates == 0;
     const double rest = 1.0 - now.progress;
     double step = adaptive ? std::min({now.next_step, std::max(step_by_depth(rates), file_.smallest_step), rest})
@@ -399,6 +437,10 @@ void identify(const io::EvolutionFile& file, const EvolutionOptions& options) {
 }
 
 }  // namespace
+
+void write_evolution_vtk(const io::EvolutionFile& file, const fs::path& folder) {
+  EvolutionRun(file, {}, {}).write_vtk(folder);
+}
 
 void check_evolution(const io::EvolutionFile& file) { EvolutionRun(file, {}, {}); }
 

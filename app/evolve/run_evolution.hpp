@@ -32,6 +32,10 @@ void check_evolution(const io::EvolutionFile& file);
 
 /// evolution.json, evolution.csv and evolution.h5 into the folder, from its generations.
 void write_evolution_folder(const std::filesystem::path& folder, const io::EvolutionResult& result);
+/// What the points of the bodies have endured, for ParaView: FOLDER/vtk/wheel_0001.vts and rail_0001.vts of every
+/// generation of the folder that has changed, and evolution.pvd, whose time is the distance [km] or, where no wheel
+/// evolves, the passages. Errors: as above.
+void write_evolution_vtk(const io::EvolutionFile& file, const std::filesystem::path& folder);
 std::string evolution_json(const io::EvolutionResult& result);
 /// For people: a line a generation.
 std::string evolution_table(const io::EvolutionResult& result);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -43,8 +45,6 @@ double summary_value(const io::SimulationResult& result, std::string_view name) 
   return row == result.summary.end() ? 0.0 : row->value;
 }
 
-bool evolves(const io::WheelContactInput& wheel) { return wheel.model == io::ContactModelInput::full && wheel.defects; }
-
 class SimulatedContacts : public ContactSource {
  public:
   SimulatedContacts(const io::EvolutionFile& file, const std::vector<std::string>& settings)
@@ -57,27 +57,20 @@ class SimulatedContacts : public ContactSource {
 
   GivenBody given(const io::EvolvingBody& input) override {
     SurfaceStore store;
-    GivenBody body;
-    body.radius = runs_.front().contact.wheelset.nominal_radius;
-    body.surface = natural_of(store, runs_.front(), true);
-    for (const io::SimulationFile& run : runs_) {
-      if (natural_of(store, run, true) != body.surface || run.contact.wheelset.nominal_radius != body.radius)
-        throw Error(ErrorKind::configuration, "the positions have different wheels, which evolve",
-                    run.contact.wheel.where, "what evolves is one surface; vary the other body");
-      if (!std::ranges::all_of(run.wheels, evolves) && natural_of(store, run, false) == body.surface)
-        throw Error(ErrorKind::configuration, "the wheel that evolves is that of the other wheels too", input.where,
-                    "give it a defect of its own, or let all wheels evolve (contact = \"full\")");
-      check_vehicle(run, store);
-    }
-    return body;
+    return input.body == Body::wheel ? given_wheel(store, input) : given_rail(store, input);
   }
 
   PassedContacts solve(const std::vector<NaturalSurface>& surfaces, const Progress& progress) override {
-    const auto wheel = std::make_shared<const NaturalSurface>(surfaces.front());
     PassedContacts out;
     for (std::size_t k = 0; k < runs_.size(); ++k) {
+      const io::SimulationFile& run = runs_[k];
       SurfaceStore store;
-      store.put(runs_[k].contact.wheel, Body::wheel, runs_[k].contact.wheelset.nominal_radius, wheel);
+      for (std::size_t b = 0; b < surfaces.size(); ++b) {
+        const bool wheel = file_.bodies[b].body == Body::wheel;
+        store.put(wheel ? run.contact.wheel : run.rail(first_passing(run)->side), file_.bodies[b].body,
+                  wheel ? run.contact.wheelset.nominal_radius : 0.0,
+                  std::make_shared<const NaturalSurface>(surfaces[b]));
+      }
       SimulationOptions options;
       options.settings = settings_;
       options.swept = swept_of(file_.positions, file_.positions.runs[k]);
@@ -105,21 +98,90 @@ class SimulatedContacts : public ContactSource {
   }
 
  private:
+  GivenBody given_wheel(SurfaceStore& store, const io::EvolvingBody& input) const {
+    GivenBody body;
+    body.radius = runs_.front().contact.wheelset.nominal_radius;
+    body.surface = natural_of(store, runs_.front(), true);
+    for (const io::SimulationFile& run : runs_) {
+      if (natural_of(store, run, true) != body.surface || run.contact.wheelset.nominal_radius != body.radius)
+        throw Error(ErrorKind::configuration, "the positions have different wheels, which evolve",
+                    run.contact.wheel.where, "what evolves is one surface; vary the other body");
+      if (!std::ranges::all_of(run.wheels, [&](const auto& wheel) { return passes(wheel); }) &&
+          natural_of(store, run, false) == body.surface)
+        throw Error(ErrorKind::configuration, "the wheel that evolves is that of the other wheels too", input.where,
+                    "give it a defect of its own, or let all wheels evolve (contact = \"full\")");
+      check_vehicle(run, store);
+    }
+    return body;
+  }
+
+  /// The rail below the wheels that pass, of all positions.
+  GivenBody given_rail(SurfaceStore& store, const io::EvolvingBody& input) const {
+    GivenBody body;
+    body.x_min = std::numeric_limits<double>::max(), body.x_max = -body.x_min;
+    for (const io::SimulationFile& run : runs_) {
+      for (const io::WheelContactInput& wheel : run.wheels) {
+        const io::SurfaceSource& source = run.rail(wheel.side);
+        if (passes(wheel)) {
+          const auto rail = natural_of(store, source, Body::rail, 0.0);
+          if (body.surface == nullptr) body.surface = rail;
+          if (rail != body.surface)
+            throw Error(ErrorKind::configuration,
+                        "wheels with full contact pass over different rails, of which one evolves", source.where,
+                        "let only wheels of one side have full contact, or give both sides one rail");
+          const double begin = rail_place(run, wheel.wheelset);
+          body.x_min = std::min(body.x_min, begin);
+          body.x_max = std::max(body.x_max, begin + run.settings.distance);
+        }
+      }
+      for (const io::WheelContactInput& wheel : run.wheels) {
+        io::SurfaceSource sound = run.rail(wheel.side);
+        sound.defects = {};
+        if ((wheel.model != io::ContactModelInput::full || wheel.changes_over()) &&
+            natural_of(store, sound, Body::rail, 0.0) == body.surface)
+          throw Error(ErrorKind::configuration, "the rail that evolves is that of tables of contact too", input.where,
+                      "give every wheel contact = \"full\", or the other side a rail of its own");
+      }
+      check_vehicle(run, store);
+    }
+    return body;
+  }
+
   /// What an evolution asks of a simulation.
   void check(const io::SimulationFile& run) const {
-    const io::EvolvingBody& body = file_.bodies.front();
     const SourcePosition where{run.path.string()};
     const auto first = std::ranges::find(run.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
-    if (first == run.wheels.end() || !first->defects)
+    if (first == run.wheels.end() || !passes(*first))
       throw Error(ErrorKind::configuration, "the first wheel with full contact must be one that evolves", where,
                   "give it contact = \"full\", and leave defects = false to the others");
-    if (run.fields.pitch.empty() && (body.local || run.fields.position.empty()))
-      throw Error(ErrorKind::configuration, "the simulation keeps no contacts that could change the wheel", where,
-                  body.local ? "name the angles of the places in [simulation.fields] pitch_deg"
-                             : "name instants in [simulation.fields]: pitch_deg or position_m");
-    if (body.local && run.settings.distance > 2.0 * kPi * run.contact.wheelset.nominal_radius)
+    const bool local_wheel = wheel_evolves() && file_.bodies.front().local;
+    if (run.fields.pitch.empty() && (local_wheel || run.fields.position.empty()))
+      throw Error(ErrorKind::configuration,
+                  fmt::format("the simulation keeps no contacts that could change the {}",
+                              body_name(file_.bodies.front().body)),
+                  where,
+                  local_wheel ? "name the angles of the places in [simulation.fields] pitch_deg"
+                              : "name instants in [simulation.fields]: pitch_deg or position_m");
+    if (local_wheel && run.settings.distance > 2.0 * kPi * run.contact.wheelset.nominal_radius)
       throw Error(ErrorKind::configuration, "the wheel turns more than once: its places would be met again", where,
                   "let the simulation end within one turn (simulation.distance_m)");
+  }
+
+  bool wheel_evolves() const { return file_.bodies.front().body == Body::wheel; }
+
+  /// Whether the contacts of a wheel count: it evolves, or the rail below it.
+  bool passes(const io::WheelContactInput& wheel) const {
+    return wheel.model == io::ContactModelInput::full && (wheel.defects || !wheel_evolves());
+  }
+  std::vector<io::WheelContactInput>::const_iterator first_passing(const io::SimulationFile& run) const {
+    return std::ranges::find_if(run.wheels, [this](const auto& wheel) { return passes(wheel); });
+  }
+
+  static std::shared_ptr<const NaturalSurface> natural_of(SurfaceStore& store, io::SurfaceSource source, Body body,
+                                                          double radius) {
+    source.backend.clear();
+    source.resolution = 0.0;
+    return store.get(source, body, radius, {}).natural;
   }
 
   /// Of the wheels that evolve, or of the others.
@@ -127,18 +189,15 @@ class SimulatedContacts : public ContactSource {
                                                           bool evolving) {
     io::WheelContactInput wheel;
     wheel.defects = evolving;
-    io::SurfaceSource source = wheel_source(run, wheel);
-    source.backend.clear();
-    source.resolution = 0.0;
-    return store.get(source, Body::wheel, run.contact.wheelset.nominal_radius, {}).natural;
+    return natural_of(store, wheel_source(run, wheel), Body::wheel, run.contact.wheelset.nominal_radius);
   }
 
   /// The instants of the wheels that evolve: those of a wheel share its weight.
   void take(PassedContacts& out, std::size_t k, const io::SimulationResult& result, SurfaceStore& store) const {
     const io::SimulationFile& run = runs_[k];
-    const auto wheels = std::ranges::count_if(run.wheels, evolves);
+    const auto wheels = std::ranges::count_if(run.wheels, [this](const auto& w) { return passes(w); });
     for (std::size_t wheel = 0; wheel < run.wheels.size(); ++wheel) {
-      if (!evolves(run.wheels[wheel])) continue;
+      if (!passes(run.wheels[wheel])) continue;
       const std::size_t first = out.passed.size();
       const double weight = file_.weights[k] / static_cast<double>(wheels);
       io::WheelRailCase input = contact_input(run, run.wheels[wheel]);

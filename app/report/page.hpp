@@ -78,7 +78,9 @@ struct MapView {
   bool diverging = false;
   int nx = 0, ny = 0;
   double x0 = 0.0, dx = 0.0, y0 = 0.0, dy = 0.0;
-  std::vector<double> values;  ///< rows of equal y; NaN = nothing there
+  std::vector<double> values = {};  ///< rows of equal y; NaN = nothing there
+  /// Instead of `values`: as many for each step; still pictures show the last.
+  std::vector<std::vector<double>> by_step = {};
   struct Mark {
     std::string label;
     std::vector<std::array<double, 2>> points;

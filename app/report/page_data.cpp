@@ -293,7 +293,14 @@ class Writer {
     for (const auto& [name, value] : {std::pair{"x0", map.x0}, {"dx", map.dx}, {"y0", map.y0}, {"dy", map.dy}})
       out[name] = number(value);
     blobs_.begin_blob();
-    out["values"] = to_json(blobs_.add(map.values, Precision::two_bytes));
+    if (map.by_step.empty()) {
+      out["values"] = to_json(blobs_.add(map.values, Precision::two_bytes));
+    } else {
+      Json& steps = out["by_step"] = Json::array();
+      for (const std::vector<double>& values : map.by_step)
+        steps.push_back(to_json(blobs_.add(values, Precision::two_bytes)));
+      out["values"] = steps.back();
+    }
     Json& marks = out["marks"] = Json::array();
     for (const MapView::Mark& mark : map.marks) marks.push_back({{"label", mark.label}, {"points", mark.points}});
   }

@@ -87,7 +87,8 @@ std::string map_svg(const MapView& map, const std::string& title) {
   sheet.title = title;
   sheet.right = 100.0, sheet.height = 260.0;
   if (map.nx < 1 || map.ny < 1) return draw_sheet(sheet);
-  const std::vector<float> values(map.values.begin(), map.values.end());
+  const std::vector<double>& shown = map.by_step.empty() ? map.values : map.by_step.back();
+  const std::vector<float> values(shown.begin(), shown.end());
   float low = INFINITY, high = -INFINITY;
   for (const float value : values)
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);

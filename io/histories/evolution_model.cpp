@@ -86,7 +86,7 @@ double work_balance(const EvolvedBody& body) {
 
 void forget_records(Generation& g) {
   g.quantities = quantities_of(g);
-  for (EvolvedBody& b : g.bodies) b.record = SurfaceRecord(b.cells.nu, b.fatigue.depths.size());
+  for (EvolvedBody& b : g.bodies) b.record = SurfaceRecord(b.cells.nu, b.fatigue.depths.size(), b.flow.depths.size());
 }
 
 std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
@@ -132,6 +132,12 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
                    "largest pressure that has passed; the present contacts have not",
                    1e-6 * largest_of(b.record.pressure)});
     out.push_back({name + "_sliding_m", "m", "largest sliding distance of a point", largest_of(b.record.sliding)});
+    if (!b.flow.theory.empty()) {
+      double strain = 0.0;
+      for (const FlowRecord& layer : b.record.flow) strain = std::max(strain, largest_of(layer.strain));
+      out.push_back({name + "_raised_mm", "mm", "largest height above the surface as it was", 1e3 * b.flow.max_raised});
+      out.push_back({name + "_strain", "1", "largest shear strain that passages have added up at the depths", strain});
+    }
     add_fatigue(b, name, out);
     out.insert(out.end(), b.numbers.begin(), b.numbers.end());
   }

@@ -24,6 +24,13 @@ struct EvolvedFatigue {
   bool has(FatigueMeasure measure) const;
 };
 
+/// By which law the material of a body flows; no theory: it does not.
+struct EvolvedFlow {
+  std::string theory, source;  ///< word of kFlowTheories, and where its numbers come from
+  std::vector<double> depths;  ///< of the strains of the record [m]
+  double max_raised = 0.0;     ///< largest height above the surface as it was [m]
+};
+
 /// A number of a generation, for tables and charts.
 struct EvolutionQuantity {
   std::string name;  ///< with its unit at the end
@@ -38,6 +45,7 @@ struct EvolvedBody {
   SurfaceCells cells;
   SurfaceRecord record;
   EvolvedFatigue fatigue;
+  EvolvedFlow flow;
   double max_depth = 0.0;                  ///< [m]
   double max_slope = 0.0;                  ///< of the depth across [-]
   std::string surface_file;                ///< name in the folder

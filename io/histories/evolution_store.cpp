@@ -110,6 +110,30 @@ void read_fatigue(const Hdf5GroupReader& body, const SurfaceCells& cells, Evolve
   }
 }
 
+void write_flow(const Hdf5GroupWriter& body, const EvolvedFlow& flow, const SurfaceRecord& record) {
+  const Hdf5GroupWriter group = body.make_group("flow");
+  const std::vector<Attribute> head{{"theory", flow.theory}, {"source", flow.source}, {"max_raised", flow.max_raised}};
+  group.add(head);
+  group.write({"depths", {flow.depths.size()}, "m", "below the surface, of the groups depth_1 ..."}, flow.depths);
+  for (std::size_t k = 0; k < record.flow.size(); ++k) {
+    const Hdf5GroupWriter at = group.make_group(depth_group(k));
+    for (const auto& row : kFlowSheets) write_sheet(at, row, record.flow[k]);
+  }
+}
+
+void read_flow(const Hdf5GroupReader& body, const SurfaceCells& cells, EvolvedFlow& flow, SurfaceRecord& record) {
+  if (!body.has("flow")) return;
+  const Hdf5GroupReader group = body.open_group("flow");
+  flow.theory = group.text("theory"), flow.source = group.text("source");
+  flow.max_raised = group.number("max_raised");
+  flow.depths = group.numbers("depths");
+  record.flow.assign(flow.depths.size(), FlowRecord(cells.nu));
+  for (std::size_t k = 0; k < record.flow.size(); ++k) {
+    const Hdf5GroupReader at = group.open_group(depth_group(k));
+    for (const auto& row : kFlowSheets) read_sheet(at, row, cells, record.flow[k]);
+  }
+}
+
 void write_numbers(const Hdf5GroupWriter& parent, const std::vector<EvolutionQuantity>& numbers) {
   if (numbers.empty()) return;
   const Hdf5GroupWriter group = parent.make_group(kNumbers);
@@ -152,6 +176,7 @@ void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
   group.write({"section_z", {body.z.size()}, "m", "height of the section of the first column by row", true}, body.z);
   for (const auto& row : kSheets) write_sheet(group, row, body.record);
   if (!body.fatigue.measures.empty()) write_fatigue(group, body.fatigue, body.record);
+  if (!body.flow.theory.empty()) write_flow(group, body.flow, body.record);
   write_numbers(group, body.numbers);
 }
 
@@ -173,6 +198,7 @@ EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
   body.record.work_of_contacts = group.number("work_of_contacts");
   for (const auto& row : kSheets) read_sheet(group, row, c, body.record);
   read_fatigue(group, c, body.fatigue, body.record);
+  read_flow(group, c, body.flow, body.record);
   body.numbers = read_numbers(group);
   return body;
 }

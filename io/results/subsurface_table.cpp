@@ -135,6 +135,20 @@ std::string vtk_structured_grid(const std::string& extent, const std::string& da
                      vtk_byte_order(), extent, extent, data_element, data, data_element, points);
 }
 
+std::string vtk_collection(const std::string& entries) {
+  return fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="1.0" byte_order="{}" header_type="UInt64">
+  <Collection>
+{}  </Collection>
+</VTKFile>
+)",
+                     vtk_byte_order(), entries);
+}
+
+std::string vtk_entry(double time, int part, const std::string& file) {
+  return fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", time, part, file);
+}
+
 const char* vtk_byte_order() { return std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian"; }
 
 }  // namespace treadmark::io

@@ -44,6 +44,10 @@ std::string vtk_data_array(const std::string& name, const std::vector<std::uint8
 std::string vtk_structured_grid(const std::string& extent, const std::string& data_element, const std::string& data,
                                 const std::string& points);
 
+/// A collection (.pvd) of files; entries are DataSet elements, see vtk_entry.
+std::string vtk_collection(const std::string& entries);
+std::string vtk_entry(double time, int part, const std::string& file);
+
 /// "LittleEndian" or "BigEndian".
 const char* vtk_byte_order();
 

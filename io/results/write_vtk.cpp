@@ -78,8 +78,7 @@ class VtkFiles {
   void add(int case_number, int part, const std::string& name, const std::string& text) {
     write_file(folder_ / name, text);
     written.push_back(folder_ / name);
-    entries +=
-        fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", case_number, part, name);
+    entries += vtk_entry(case_number, part, name);
   }
 
   std::vector<std::filesystem::path> written;
@@ -117,13 +116,7 @@ std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder
   VtkFiles files(folder);
   for (const CaseResult& result : run.cases) write_case(files, result, stem);
   const std::filesystem::path collection = folder / (stem + ".pvd");
-  write_file(collection, fmt::format(R"(<?xml version="1.0"?>
-<VTKFile type="Collection" version="1.0" byte_order="{}" header_type="UInt64">
-  <Collection>
-{}  </Collection>
-</VTKFile>
-)",
-                                     vtk_byte_order(), files.entries));
+  write_file(collection, vtk_collection(files.entries));
   files.written.push_back(collection);
   return files.written;
 }

@@ -7,6 +7,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/simulations/study_model.hpp"
 #include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/flow_law.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/wear_law.hpp"
 
@@ -20,6 +21,7 @@ struct EvolvingBody {
   double du = 1e-3, dy = 0.5e-3, smoothing = 1e-3;  ///< [m]
   WearLaw law;
   FatigueSettings fatigue;
+  FlowLaw flow;
   SourcePosition where;  ///< of its table
 };
 

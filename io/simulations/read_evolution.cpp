@@ -90,6 +90,19 @@ FatigueSettings read_fatigue(const TableReader& body) {
   return checked(table, std::move(out));
 }
 
+FlowLaw read_flow(const TableReader& body) {
+  FlowLaw law;
+  const CaseTable* given = body.table("flow");
+  if (given == nullptr) return law;
+  const TableReader table(*given, body.need("flow").where, body.path_of("flow"), flow_law_keys());
+  const FlowTheoryRow& row = *std::ranges::find(kFlowTheories, table.text("theory"), &FlowTheoryRow::word);
+  law.theory = row.theory;
+  law.source = source_of(table);
+  need_keys(table, "law", row);
+  read_plain(table, plain_flow_law_keys(), law);
+  return checked(table, std::move(law));
+}
+
 EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, const char* amount) {
   const TableReader table(*evolve.table(key), evolve.need(key).where, evolve.path_of(key), evolving_body_keys());
   EvolvingBody out;
@@ -100,6 +113,7 @@ EvolvingBody read_body(const TableReader& evolve, const char* key, Body body, co
   read_plain(table, plain_evolving_body_keys(), out);
   out.law = read_law(table);
   out.fatigue = read_fatigue(table);
+  out.flow = read_flow(table);
   return out;
 }
 
@@ -135,9 +149,6 @@ EvolutionFile read_evolution_file(const std::filesystem::path& file, std::span<c
   read_plain(evolve, plain_evolve_keys(), out);
   for (const char* limit : {"max_depth_mm", "max_pressure_change", "smallest_step"}) evolve.exclude("updates", limit);
   tables.read_runs(evolve);
-  if (tables.study.base_is_simulation && evolve.find("rail") != nullptr)
-    throw Error(ErrorKind::configuration, "where contacts come from a simulation the wheel evolves alone",
-                evolve.need("rail").where, "name a case file with the positions of the wheel");
   out.weights = read_weights(evolve, tables.study.runs.size());
   out.positions = std::move(tables.study);
   return out;

@@ -675,6 +675,7 @@ const TableKeys& evolving_body_keys() {
     list.push_back(needed(table_key("law", KeyType::table, "how contact removes depth", wear_law_keys())));
     list.push_back(table_key("fatigue", KeyType::table, "what contact does to the material below, without changing it",
                              fatigue_keys()));
+    list.push_back(table_key("flow", KeyType::table, "how contact makes the material below flow", flow_law_keys()));
     return list;
   }();
   return keys;
@@ -767,6 +768,41 @@ const TableKeys& fatigue_keys() {
     TableKeys list{needed(key_info("measures", KeyType::text_list, words + ": see `treadmark list laws`")),
                    needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it"))};
     for (const auto& key : plain_fatigue_keys()) list.push_back(key.info);
+    return list;
+  }();
+  return keys;
+}
+
+const std::vector<SettingKey<FlowLaw>>& plain_flow_law_keys() {
+  using L = FlowLaw;
+  static const std::vector<SettingKey<L>> keys = [] {
+    SettingKeys<L> list;
+    const auto number = [&list](const char* name, const char* doc, auto place) {
+      list.number(name, kPositive, doc, place).default_text.clear();
+    };
+    number("shear_yield_MPa", "k of the fresh material, in cyclic shear",
+           [](L& l) -> double& { return l.shear_yield; });
+    number("strain_per_cycle", "C: shear strain of a passage with twice the shear stress at which the material yields",
+           [](L& l) -> double& { return l.strain_per_cycle; });
+    list.number_list(
+        "depths_mm", "of the layers, increasing, at least two: from the size of an element down to where nothing flows",
+        [](L & l) -> auto& { return l.depths; }, kPositive);
+    number("hardening_factor", "beta: yield after much strain over k; without it the material does not harden",
+           [](L& l) -> double& { return l.hardening_factor; });
+    number("hardening_rate", "alpha: yield is k max(1, beta sqrt(1 - exp(-alpha strain)))",
+           [](L& l) -> double& { return l.hardening_rate; });
+    return list.keys;
+  }();
+  return keys;
+}
+
+const TableKeys& flow_law_keys() {
+  static const TableKeys keys = [] {
+    std::vector<std::string> words;
+    for (const FlowTheoryRow& row : kFlowTheories) words.emplace_back(row.word);
+    TableKeys list{needed(one_of("theory", words, "see `treadmark list laws`")),
+                   needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it"))};
+    for (const auto& key : plain_flow_law_keys()) list.push_back(key.info);
     return list;
   }();
   return keys;

@@ -72,15 +72,18 @@ std::string track_file_schema();
 std::string simulation_file_schema();
 std::string study_file_schema();
 
-/// [evolve] of files of `treadmark evolve`, its [evolve.wheel] and [evolve.rail], and their [law].
+/// [evolve] of files of `treadmark evolve`, its [evolve.wheel] and [evolve.rail], and their [law], [fatigue] and
+/// [flow].
 const TableKeys& evolve_keys();
 const TableKeys& evolving_body_keys();
 const TableKeys& wear_law_keys();
 const TableKeys& fatigue_keys();
+const TableKeys& flow_law_keys();
 /// Those of their keys that are one member each.
 const std::vector<SettingKey<EvolutionFile>>& plain_evolve_keys();
 const std::vector<SettingKey<EvolvingBody>>& plain_evolving_body_keys();
 const std::vector<SettingKey<WearLaw>>& plain_wear_law_keys();
+const std::vector<SettingKey<FlowLaw>>& plain_flow_law_keys();
 const std::vector<SettingKey<FatigueSettings>>& plain_fatigue_keys();
 std::string evolve_file_schema();
 std::string evolve_key_table();

@@ -160,8 +160,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   r.patches = 1;
   r.elastic_energy = elastic.energy;
   r.frictional_power = creep.power;
-  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y(), elastic.normal_force,
-                        free_creep_damping(r.area, material_.shear_modulus, creepage.velocity), patch.friction_bound});
+  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y(), elastic.normal_force});
   return r;
 }
 

@@ -82,10 +82,17 @@ std::vector<SectionLine> endured(const io::EvolvedBody& b) {
   if (b.fatigue.has(FatigueMeasure::martensite))
     out.push_back({"largest temperature up to here", "°C", "temperature", 1.0,
                    [](Record r, std::size_t) -> const CellSheet& { return r.temperature; }});
-  const auto at_depths = [&](const std::string& panel, const std::string& unit, double scale, auto sheet) {
-    for (std::size_t k = 0; k < b.fatigue.depths.size(); ++k)
-      out.push_back({panel, unit, fmt::format("{:.3g} mm deep", kMilli * b.fatigue.depths[k]), scale, sheet, k});
+  const auto below = [&](const std::vector<double>& depths, const std::string& panel, const std::string& unit,
+                         double scale, auto sheet) {
+    for (std::size_t k = 0; k < depths.size(); ++k)
+      out.push_back({panel, unit, fmt::format("{:.3g} mm deep", kMilli * depths[k]), scale, sheet, k});
   };
+  const auto at_depths = [&](const std::string& panel, const std::string& unit, double scale, auto sheet) {
+    below(b.fatigue.depths, panel, unit, scale, sheet);
+  };
+  if (!b.flow.theory.empty())
+    below(b.flow.depths, "shear strain that passages have added up", "", 1.0,
+          [](Record r, std::size_t k) -> const CellSheet& { return r.flow[k].strain; });
   if (b.fatigue.has(FatigueMeasure::subsurface)) {
     at_depths("largest von Mises stress up to here", "MPa", 1e-6,
               [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].von_mises; });
@@ -134,26 +141,134 @@ ChartView section_by_generation(const io::EvolutionResult& result, const fs::pat
   return view;
 }
 
-/// Depth over the surface of a body that differs along, as the last generation has it.
-MapView depth_map(const io::EvolvedBody& b) {
-  MapView map;
-  const bool wheel = b.body == Body::wheel;
-  map.x = Axis{wheel ? "theta" : "x", wheel ? "°" : "mm"};
-  map.y = Axis{"y", "mm"};
-  map.label = "depth removed";
-  map.unit = "mm";
-  const double along = wheel ? 180.0 / kPi : kMilli;
-  const int every = std::max(1, b.cells.nu / 1000);
-  map.nx = (b.cells.nu + every - 1) / every;
-  map.x0 = along * b.cells.u0, map.dx = along * b.cells.du * every;
-  const auto& rows = b.record.volume.rows();
-  const int first = rows.begin()->first, last = rows.rbegin()->first;
-  map.ny = last - first + 1;
-  map.y0 = kMilli * b.cells.y(first), map.dy = kMilli * b.cells.dy;
-  for (int j = first; j <= last; ++j)
-    for (int i = 0; i < b.cells.nu; i += every)
-      map.values.push_back(in_file(kMilli * b.record.volume.at(i, j) / b.cells.area(j)));
-  return map;
+/// What is shown over the surface of a body that differs along.
+struct SurfaceSheet {
+  std::string id, title, label, unit;
+  double scale = 1.0;
+  bool by_area = false;  ///< volumes that become depths
+  const CellSheet& (*sheet)(const SurfaceRecord& record) = nullptr;
+};
+
+std::vector<SurfaceSheet> surface_sheets(const io::EvolvedBody& b) {
+  using Record = const SurfaceRecord&;
+  std::vector<SurfaceSheet> out{
+      {"depth", "Depth", "depth removed", "mm", kMilli, true, [](Record r) -> const CellSheet& { return r.volume; }},
+      {"pressure", "Largest pressure", "largest pressure up to here", "MPa", 1e-6, false,
+       [](Record r) -> const CellSheet& { return r.pressure; }}};
+  if (b.fatigue.has(FatigueMeasure::fi_surf))
+    out.push_back({"index", "Surface fatigue index", "largest index above 0 up to here", "", 1.0, false,
+                   [](Record r) -> const CellSheet& { return r.fi_surf; }});
+  if (b.fatigue.has(FatigueMeasure::whole_life))
+    out.push_back({"damage", "Damage", "damage of passages", "", 1.0, false,
+                   [](Record r) -> const CellSheet& { return r.damage; }});
+  if (b.fatigue.has(FatigueMeasure::subsurface))
+    out.push_back({"yield", "Shear yield that shakedown needs", "at the first depth, over that of the material", "",
+                   1.0 / b.fatigue.shear_yield, false,
+                   [](Record r) -> const CellSheet& { return r.stresses.front().shakedown; }});
+  if (!b.flow.theory.empty())
+    out.push_back({"strain", "Shear strain", "added up at the first depth", "", 1.0, false,
+                   [](Record r) -> const CellSheet& { return r.flow.front().strain; }});
+  return out;
+}
+
+/// Value of some cells beside each other, the one that is farthest from zero, in the unit that is shown.
+double shown_value(const SurfaceSheet& what, const io::EvolvedBody& b, int i, int count, int j) {
+  double value = 0.0;
+  for (int k = i; k < i + count; ++k)
+    if (const double one = what.sheet(b.record).at(b.cells.wrapped(k), j); std::fabs(one) > std::fabs(value))
+      value = one;
+  return in_file(what.scale * (what.by_area ? value / b.cells.area(j) : value));
+}
+
+Axis along_axis(Body body) { return body == Body::wheel ? Axis{"theta", "°"} : Axis{"x", "mm"}; }
+double along_scale(Body body) { return body == Body::wheel ? 180.0 / kPi : kMilli; }
+
+/// Rows of the last generation that contacts have reached.
+std::pair<int, int> touched_rows(const io::EvolvedBody& last) {
+  const auto& rows = last.record.volume.rows();
+  return {rows.begin()->first, rows.rbegin()->first};
+}
+
+/// The row that has changed most.
+int changed_row(const io::EvolvedBody& last) {
+  int row = 0;
+  double most = -1.0;
+  for (const auto& [j, values] : last.record.volume.rows()) {
+    double sum = 0.0;
+    for (const double value : values) sum += std::fabs(value);
+    if (sum > most) most = sum, row = j;
+  }
+  return row;
+}
+
+/// First and last column where depth is more than some of the largest, and as much again to both sides; of a wheel
+/// counted from -180 degrees on, where defects of files begin at 0.
+std::pair<int, int> changed_columns(const io::EvolvedBody& last) {
+  constexpr double kShare = 0.02;
+  const SurfaceCells& c = last.cells;
+  const int low = c.closed() ? -c.nu / 2 : 0, high = low + c.nu - 1;
+  std::vector<double> depth(static_cast<std::size_t>(c.nu), 0.0);
+  for (const auto& [j, row] : last.record.volume.rows())
+    for (int i = low; i <= high; ++i) {
+      double& most = depth[static_cast<std::size_t>(i - low)];
+      most = std::max(most, std::fabs(row[static_cast<std::size_t>(c.wrapped(i))]));
+    }
+  const double enough = kShare * *std::ranges::max_element(depth);
+  int first = high, end = low;
+  for (int i = low; i <= high; ++i)
+    if (depth[static_cast<std::size_t>(i - low)] > enough) first = std::min(first, i), end = std::max(end, i);
+  if (first > end) return {low, high};
+  const int more = (end - first + 1) / 4 + 1;
+  return {std::max(low, first - more), std::min(high, end + more)};
+}
+
+/// Over the unrolled surface and along the row that has changed most, at the chosen generation.
+void add_surface_figures(Section& section, const io::EvolutionResult& result, const fs::path& folder,
+                         std::size_t body) {
+  constexpr double kMostNumbers = 1.5e6;  // of a map over all generations
+  const io::EvolvedBody& last = result.generations.back().bodies[body];
+  const std::string word = body_name(last.body);
+  const auto [first_row, last_row] = touched_rows(last);
+  const auto [first, last_column] = changed_columns(last);
+  const int ny = last_row - first_row + 1, nu = last_column - first + 1, middle = changed_row(last);
+  const double cells = static_cast<double>(nu) * ny * static_cast<double>(result.generations.size());
+  const int every = std::max({1, nu / 1000, static_cast<int>(std::ceil(cells / kMostNumbers))});
+  const std::vector<SurfaceSheet> sheets = surface_sheets(last);
+  ChartView lines;
+  lines.x = along_axis(last.body);
+  std::vector<MapView> maps;
+  for (const SurfaceSheet& what : sheets) {
+    lines.panels.push_back({what.label, what.unit, false, {Series{what.id, {}}}});
+    MapView& map = maps.emplace_back();
+    map.x = along_axis(last.body);
+    map.y = Axis{"y", "mm"};
+    map.label = what.label, map.unit = what.unit;
+    map.nx = (nu + every - 1) / every, map.ny = ny;
+    map.diverging = what.by_area && !last.flow.theory.empty();
+    map.x0 = along_scale(last.body) * last.cells.u(first), map.dx = along_scale(last.body) * last.cells.du * every;
+    map.y0 = kMilli * last.cells.y(first_row), map.dy = kMilli * last.cells.dy;
+  }
+  for (const io::Generation& summary : result.generations) {
+    const io::Generation g = io::read_generation(folder / io::generation_file(summary.number));
+    const io::EvolvedBody& b = g.bodies[body];
+    ChartView::Curves curves;
+    for (int i = first; i <= last_column; i += every) curves.x.push_back(in_file(along_scale(b.body) * b.cells.u(i)));
+    for (std::size_t k = 0; k < sheets.size(); ++k) {
+      std::vector<double>& values = maps[k].by_step.emplace_back();
+      values.reserve(static_cast<std::size_t>(maps[k].nx) * static_cast<std::size_t>(ny));
+      for (int j = first_row; j <= last_row; ++j)
+        for (int i = first; i <= last_column; i += every) values.push_back(shown_value(sheets[k], b, i, every, j));
+      std::vector<double>& line = curves.y.emplace_back(1).front();
+      for (int i = first; i <= last_column; i += every) line.push_back(shown_value(sheets[k], b, i, every, middle));
+    }
+    lines.by_step.push_back(std::move(curves));
+  }
+  section.blocks.emplace_back(Figure{
+      word + "-along", fmt::format("Along y = {:.4g} mm at the chosen generation", kMilli * last.cells.y(middle)),
+      std::move(lines)});
+  for (std::size_t k = 0; k < sheets.size(); ++k)
+    section.blocks.emplace_back(Figure{
+        word + "-" + sheets[k].id, sheets[k].title + " over the surface at the chosen generation", std::move(maps[k])});
 }
 
 Table generation_table(const io::EvolutionResult& result) {
@@ -186,9 +301,10 @@ void add_contacts(Page& page, const io::EvolutionResult& result, const fs::path&
   if (set.frames.empty()) return;
   page.timeline->frames = std::move(frames);
   page.sets.push_back(std::move(set));
-  page.sections.push_back({"contact",
-                           "Contact",
-                           {Figure{"contact", "Contact of the position with the largest pressure", ContactView{{0}}}}});
+  page.sections.push_back(
+      {"contact",
+       "Contact",
+       {Figure{"hardest-contact", "Contact of the position with the largest pressure", ContactView{{0}}}}});
 }
 
 }  // namespace
@@ -219,7 +335,8 @@ Page evolution_page(const fs::path& folder) {
     summary.blocks.emplace_back(Banner{Banner::Kind::warning, result.status, result.message});
   Cards cards;
   for (const io::EvolutionQuantity& q : io::quantities_of(last))
-    if (q.name == "distance_km" || q.name == "passages" || q.name == "pmax_MPa" || q.name.ends_with("_depth_mm"))
+    if (q.name == "distance_km" || q.name == "passages" || q.name == "pmax_MPa" || q.name.ends_with("_depth_mm") ||
+        q.name.ends_with("_raised_mm"))
       if (q.value > 0.0)
         cards.cards.push_back({q.meaning, fmt::format("{} {}", shown({q.value, 4}), unit_shown(q.unit))});
   summary.blocks.emplace_back(std::move(cards));
@@ -227,21 +344,25 @@ Page evolution_page(const fs::path& folder) {
     summary.blocks.emplace_back(
         Paragraph{fmt::format("Law of the {}: {}. Its numbers: {}.", body_name(b.body), b.law, b.source)});
   for (const io::EvolvedBody& b : last.bodies)
+    if (!b.flow.theory.empty())
+      summary.blocks.emplace_back(Paragraph{
+          fmt::format("Flow of the {}: {}. Its numbers: {}.", body_name(b.body), b.flow.theory, b.flow.source)});
+  for (const io::EvolvedBody& b : last.bodies)
     if (!b.fatigue.measures.empty())
       summary.blocks.emplace_back(Paragraph{fmt::format("Fatigue of the {}: {}. Its numbers: {}.", body_name(b.body),
                                                         b.fatigue.measures, b.fatigue.source)});
   page.sections.push_back(std::move(summary));
-  page.sections.push_back({"numbers",
-                           "Over the generations",
-                           {Figure{"numbers", "Numbers over the generations", numbers_over_generations(result)}}});
+  page.sections.push_back(
+      {"numbers",
+       "Over the generations",
+       {Figure{"over-generations", "Numbers over the generations", numbers_over_generations(result)}}});
   for (std::size_t b = 0; b < last.bodies.size(); ++b) {
     const io::EvolvedBody& body = last.bodies[b];
     const std::string word = body_name(body.body);
     Section section{word, body.body == Body::wheel ? "Wheel" : "Rail"};
     section.blocks.emplace_back(
         Figure{word + "-section", "Section at the chosen generation", section_by_generation(result, folder, b)});
-    if (!body.cells.uniform() && !body.record.volume.rows().empty())
-      section.blocks.emplace_back(Figure{word + "-depth", "Depth of the last generation", depth_map(body)});
+    if (!body.cells.uniform() && !body.record.volume.rows().empty()) add_surface_figures(section, result, folder, b);
     page.sections.push_back(std::move(section));
   }
   add_contacts(page, result, folder);

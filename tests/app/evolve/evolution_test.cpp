@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -25,9 +27,11 @@
 #include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 #include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/solvers/kalker/subsurface/subsurface_stress.hpp"
 #include "treadmark/tests/app/evolve/wheel_law.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
+#include "treadmark/tests/io/results/xml_reader.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -92,6 +96,15 @@ dang_van_slope = 0.3
 dang_van_limit_MPa = 250
 t_gamma_N = [15, 65, 175]
 damage_per_passage = [0, 1e-5, 0]
+)";
+
+const std::string kFlow = R"(
+[evolve.wheel.flow]
+theory = "ratchetting"
+source = "invented"
+shear_yield_MPa = 120
+strain_per_cycle = 0.00237
+depths_mm = [1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0, 14.0]
 )";
 
 /// Depth of the rows of a body.
@@ -228,6 +241,89 @@ TEST_F(Evolution, TemperaturesTellOfMartensite) {
               HasSubstr("must move and turn"));
 }
 
+/// A wheel that slides to the right drags the rail's material to the right and its own to the left. How far is summed
+/// up anew, with stresses at points: the first moment of the volume is the flux of a passage times passages and way.
+TEST_F(Evolution, MaterialFlowsAlongTheTraction) {
+  const auto of_rail = [](std::string text) { return text.replace(text.find("wheel"), 5, "rail"); };
+  const std::string still = io::replaced(kLaw, "1e-4", "0");
+  std::string base = io::replaced(kHertz, "coefficient = 0.05", "coefficient = 0.3");
+  base = io::replaced(base, "vpitch_rad_s = -3.9130434782608696", "vpitch_rad_s = -4.3478260869565215\nvy_m_s = 0.2");
+  const double passages = 20.0, turn = 2.0 * std::numbers::pi * 0.46;
+  const auto result =
+      run(file(base,
+               "distance_km = " + std::to_string(1e-3 * passages * turn) +
+                   "\npassages = 20\nupdates = 1\n[evolve.wheel]\ndy_mm = 0.4\n[evolve.rail]\ndy_mm = 0.4\n",
+               still + of_rail(still) + kFlow + of_rail(kFlow)));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const auto contacts = app::run_cases(io::parse_case_text(base, folder_.path() / "again.toml"));
+  const io::PatchResult& patch = contacts.cases.front().patches.front();
+  ASSERT_GT(patch.fs, 0.25 * patch.fn);
+  const io::EvolvingBody law = file(base, "distance_km = 1\n[evolve.wheel]\n", still + kFlow).bodies.front();
+  for (const io::EvolvedBody& body : result.generations.back().bodies) {
+    const bool rail = body.body == Body::rail;
+    double moment = 0.0;
+    const Grid2& grid = patch.fields.grid;
+    for (int iy = -grid.ny; iy < 2 * grid.ny; ++iy) {
+      double before = 0.0, z_before = 0.0;
+      for (std::size_t depth = 0; depth < law.flow.depths.size(); ++depth) {
+        const double z = law.flow.depths[depth];
+        std::vector<Vec3> points;
+        for (int ix = -grid.nx; ix < 2 * grid.nx; ++ix)
+          points.emplace_back(grid.x0 + ix * grid.dx, grid.y0 + iy * grid.dy, rail ? z : -z);
+        double forward = 0.0, back = 0.0;
+        for (const auto& p : kalker::subsurface_stress(
+                 {grid, patch.fields.pressure, patch.fields.traction_x, patch.fields.traction_s}, Material{}, points)) {
+          const double size = std::hypot(p.stress(0, 2), p.stress(1, 2));
+          const double over = size > 120e6 ? (size / 120e6 - 1.0) / size * (rail ? -1.0 : 1.0) * p.stress(1, 2) : 0.0;
+          forward = std::max(forward, over), back = std::max(back, -over);
+        }
+        const double here = z * 0.00237 * (forward - back);
+        moment += 0.5 * (here + before) * (z - z_before) * grid.dy;
+        before = here, z_before = z;
+      }
+    }
+    moment *= passages * (rail ? 1.0 : turn);
+    double found = 0.0, moved = 0.0;
+    for (const auto& [j, row] : body.record.volume.rows()) {
+      found -= row.front() * body.cells.y(j);
+      moved += 0.5 * std::fabs(row.front());
+    }
+    EXPECT_EQ(found > 0.0, rail);
+    EXPECT_NEAR(found, moment, 0.03 * std::fabs(moment)) << rail;
+    EXPECT_NEAR(damage::total(body.record.volume), 0.0, 1e-12 * moved);
+    EXPECT_GT(body.flow.max_raised, 1e-7);
+    const io::Generation again = io::read_generation(folder_.path() / "out" / io::generation_file(1));
+    const io::EvolvedBody& read = again.bodies[rail ? 1 : 0];
+    EXPECT_EQ(read.flow.theory + read.flow.source, "ratchettinginvented");
+    EXPECT_EQ(read.record.flow[2].strain.rows(), body.record.flow[2].strain.rows());
+  }
+}
+
+/// Shear below the yield moves nothing; pressure alone shears points both ways along, and presses them out across.
+TEST_F(Evolution, MaterialIsElasticBelowItsYield) {
+  const std::string still = io::replaced(kLaw, "1e-4", "0");
+  const auto strong = run(file(kHertz, "distance_km = 1\nupdates = 1\n[evolve.wheel]\ndy_mm = 0.4\n",
+                               still + io::replaced(kFlow, "= 120", "= 400")));
+  ASSERT_EQ(strong.status, "complete") << strong.message;
+  EXPECT_EQ(strong.generations.back().bodies.front().max_depth, 0.0);
+  EXPECT_EQ(strong.generations.back().bodies.front().flow.max_raised, 0.0);
+  const std::string rolling =
+      io::replaced(kHertz, "vpitch_rad_s = -3.9130434782608696", "vpitch_rad_s = -4.3478260869565215");
+  const auto pressed =
+      run(file(rolling, "distance_km = 0.1\nupdates = 1\n[evolve.wheel]\ndy_mm = 0.4\n", still + kFlow));
+  ASSERT_EQ(pressed.status, "complete") << pressed.message;
+  const io::EvolvedBody& wheel = pressed.generations.back().bodies.front();
+  double centre = 0.0, spread = 0.0, lost = 0.0;
+  for (const auto& [j, row] : wheel.record.volume.rows()) {
+    if (row.front() > 0.0) lost += row.front(), centre += row.front() * wheel.cells.y(j);
+  }
+  ASSERT_GT(lost, 0.0);
+  centre /= lost;
+  for (const auto& [j, row] : wheel.record.volume.rows())
+    spread -= row.front() * std::pow(wheel.cells.y(j) - centre, 2);
+  EXPECT_GT(spread, 0.0);  // outwards
+}
+
 /// Tractions on the bodies are opposite: below an ellipse that slips along x all over, stresses are mirror images.
 TEST_F(Evolution, WheelAndRailEndureTheSame) {
   const auto of_rail = [](std::string text) { return text.replace(text.find("wheel"), 5, "rail"); };
@@ -320,13 +416,81 @@ TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
             0u);
 }
 
+/// Values of an array of float or double.
+template <class T>
+std::vector<T> vtk_values(const XmlElement& root, const std::string& name) {
+  const std::string text = root.find("DataArray", "Name", name).at(0)->text;
+  const auto decoded = [](const std::string& base64) {
+    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string bytes;
+    std::uint32_t group = 0;
+    int bits = 0;
+    for (const char c : base64) {
+      if (c == '=') break;
+      group = group << 6 | static_cast<std::uint32_t>(digits.find(c));
+      if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
+    }
+    return bytes;
+  };
+  const std::string bytes = decoded(text.substr(12));  // behind their number
+  std::vector<T> out(bytes.size() / sizeof(T));
+  std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
+  return out;
+}
+
+/// ParaView's files have the surface where it is, with what it has endured.
+TEST_F(Evolution, WritesSurfacesForParaView) {
+  folder_.write("base.toml", standard_case("1.0"));
+  const std::string study = folder_.write("study.toml",
+                                          "[evolve]\nbase = \"base.toml\"\ndistance_km = 2000\nupdates = "
+                                          "2\nfields_every = 0\n[evolve.wheel]\n" +
+                                              io::replaced(kLaw, "1e-4", "1e-2") + kFatigue);
+  const fs::path out = folder_.path() / "out";
+  ASSERT_EQ(run_program({"evolve", study, "-o", out, "--vtk", "--quiet"}).status, 0);
+  std::ostringstream pvd, vts;
+  pvd << std::ifstream(out / "vtk" / "evolution.pvd").rdbuf();
+  const auto entries = read_xml(pvd.str()).find("DataSet");
+  ASSERT_EQ(entries.size(), 2u);  // nothing has changed at first
+  EXPECT_EQ(entries[1]->attributes.at("timestep"), "2000");
+  ASSERT_EQ(entries[1]->attributes.at("file"), "wheel_0002.vts");
+  vts << std::ifstream(out / "vtk" / "wheel_0002.vts").rdbuf();
+  const XmlElement root = read_xml(vts.str());
+  const io::Generation last = io::read_generation(out / io::generation_file(2));
+  const io::EvolvedBody& wheel = last.bodies.front();
+  const auto depth = vtk_values<float>(root, "depth_m");
+  const auto points = vtk_values<double>(root, "points_m");
+  constexpr std::size_t kParts = 72;
+  const std::size_t rows = depth.size() / kParts;
+  ASSERT_EQ(points.size(), 3 * (kParts + 1) * (rows + 1));
+  EXPECT_NEAR(*std::ranges::max_element(depth), wheel.max_depth, 1e-6 * wheel.max_depth);
+  const auto radius = [&](std::size_t k, std::size_t i) {
+    const double* p = points.data() + 3 * (k * (kParts + 1) + i);
+    return std::hypot(p[0], p[2]);
+  };
+  for (std::size_t k = 0; k < rows; ++k) {
+    const double y = 0.5 * (points[3 * k * (kParts + 1) + 1] + points[3 * (k + 1) * (kParts + 1) + 1]);
+    const int j = static_cast<int>(std::lround((y - wheel.cells.y0) / wheel.cells.dy));
+    EXPECT_NEAR(y, wheel.cells.y(j), 1e-12);
+    EXPECT_NEAR(0.5 * (radius(k, 5) + radius(k + 1, 5)), 0.46 + wheel.z[static_cast<std::size_t>(j)],
+                2e-6 + 0.02 * wheel.max_depth);  // curvature within a row
+    EXPECT_NEAR(radius(k, 5), radius(k, 60), 1e-12);
+  }
+  EXPECT_EQ(vtk_values<float>(root, "depth_1_shear_Pa").size(), depth.size());
+  const auto pressure = vtk_values<float>(root, "pressure_Pa");
+  double largest = 0.0;
+  for (const auto& [j, row] : wheel.record.pressure.rows()) largest = std::max(largest, row.front());
+  EXPECT_NEAR(*std::ranges::max_element(pressure), largest, 1e-6 * largest);
+}
+
 TEST_F(Evolution, LeftAndRightEvolveAlike) {
   const std::string evolve = "distance_km = 100\nupdates = 1\n[evolve.wheel]\n";
   const std::string right = standard_case("1.0") + "[[cases]]\nwheelset.y_mm = 2\nwheelset.yaw_deg = 0.2\n";
   const std::string left =
       standard_case("1.0") + "[case]\nside = \"left\"\n[[cases]]\nwheelset.y_mm = -2\nwheelset.yaw_deg = -0.2\n";
-  const auto one = run(file(right, evolve, kLaw)), other = run(file(left, evolve, kLaw));
-  ASSERT_EQ(one.status + other.status, "completecomplete");
+  const std::string laws = kLaw + io::replaced(kFlow, "0.00237", "1e-6");
+  const auto one = run(file(right, evolve, laws)), other = run(file(left, evolve, laws));
+  ASSERT_EQ(one.status + other.status, "completecomplete") << one.message << other.message;
+  EXPECT_GT(one.generations.back().bodies.front().flow.max_raised, 1e-8);
   const auto a = depths(one.generations.back().bodies.front()), b = depths(other.generations.back().bodies.front());
   ASSERT_GT(*std::ranges::max_element(a), 0.0);
   for (std::size_t j = 0; j < a.size(); ++j) EXPECT_NEAR(a[j], b[j], 1e-9 * *std::ranges::max_element(a));
@@ -372,6 +536,29 @@ TEST_F(Evolution, UpdatesConvergeWithOrderOne) {
   EXPECT_NEAR(std::log2(steps[1] / steps[2]), 1.0, 0.4);
 }
 
+/// Finer elements come to Archard's closed form: volume is k / H times force and way of sliding, whatever the shape.
+TEST_F(Evolution, ElementsConverge) {
+  const double way = 0.2 * 1e3 / 2.0, expected = 1e-4 / 3e9 * way;
+  std::vector<double> errors, found;
+  for (const char* element : {"0.8", "0.4", "0.2"}) {
+    std::string base = kHertz;
+    for (const char* key : {"dx_mm = ", "ds_mm = "})
+      base = io::replaced(base, key + std::string("0.4"), key + std::string(element));
+    const auto result = run(file(
+        base, "distance_km = 1\nupdates = 1\nfields_every = 0\n[evolve.wheel]\nsmoothing_mm = 0\ndy_mm = 0.4\n", kLaw));
+    ASSERT_EQ(result.status, "complete") << result.message;
+    const double volume = damage::total(result.generations.back().bodies.front().record.volume);
+    errors.push_back(std::fabs(volume / (expected * 60e3) - 1.0));
+    found.push_back(result.generations.back().bodies.front().max_depth);
+  }
+  std::cout << "errors of volume: " << errors[0] << ' ' << errors[1] << ' ' << errors[2] << '\n';
+  EXPECT_LT(errors[0], 1e-3);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_GT(std::log2(errors[k] / errors[k + 1]), 0.8);
+    EXPECT_NEAR(found[k], found[2], 2e-3 * found[2]);
+  }
+}
+
 /// Every generation sampled anew as a spline: the same evolution but for the error of the fit.
 TEST_F(Evolution, SplinesOfEveryGenerationEvolveAlike) {
   const std::string evolve = "distance_km = 2000\nupdates = 3\nfields_every = 0\n[evolve.wheel]\n";
@@ -402,7 +589,7 @@ TEST_F(Evolution, GoesOnAfterAKillToTheSameBytes) {
   folder_.write("base.toml", standard_case("1.0"));
   const std::string study =
       folder_.write("study.toml", "[evolve]\nbase = \"base.toml\"\ndistance_km = 2000\nupdates = 5\n[evolve.wheel]\n" +
-                                      kLaw + kFatigue);
+                                      kLaw + kFatigue + io::replaced(kFlow, "0.00237", "1e-7"));
   const std::string one = folder_.path() / "one", two = folder_.path() / "two";
   ASSERT_EQ(run_program({"evolve", study, "-o", one, "--quiet"}).status, 0);
   RunningProgram killed({"treadmark", "evolve", study, "-o", two});
@@ -460,8 +647,8 @@ TEST(EvolveDocs, TableOfKeysIsUpToDate) {
 }
 
 TEST(EvolveExamples, AreReadAndBuilt) {
-  for (const char* name :
-       {"hollow-wheel.toml", "spread-of-rails.toml", "rounding-flat.toml", "flat-in-motion.toml", "tired-rail.toml"})
+  for (const char* name : {"hollow-wheel.toml", "spread-of-rails.toml", "rounding-flat.toml", "flat-in-motion.toml",
+                           "flowing-flat.toml", "tired-rail.toml", "growing-squat.toml", "growing-polygon.toml"})
     EXPECT_EQ(error_of([&] {
                 app::check_evolution(io::read_evolution_file(fs::path(TREADMARK_SOURCE_DIR) / "examples" / name));
               }),
@@ -516,6 +703,21 @@ TEST_F(Evolution, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(fatigue("[1.0, 2.0, 4.0]", "[0.2]"), HasSubstr("0.2 mm below elements of 1 mm"));
   EXPECT_THAT(error(base, "distance_km = 1e6\nupdates = 1\n[evolve.wheel]\nsmoothing_mm = 0\n", kLaw),
               HasSubstr("would fold"));
+  const auto flow = [&](const char* from, const char* to) {
+    return error(base, "distance_km = 200\nupdates = 1\n[evolve.wheel]\n", kLaw + io::replaced(kFlow, from, to));
+  };
+  EXPECT_THAT(flow("shear_yield_MPa = 120\n", ""),
+              HasSubstr("study.toml:13:1: evolve.wheel.flow.shear_yield_MPa is missing"));
+  EXPECT_THAT(flow("shear_yield_MPa = 120", "shear_yield_MPa = -120"), HasSubstr("study.toml:16:19"));
+  EXPECT_THAT(flow("source = \"invented\"\n", ""), HasSubstr("evolve.wheel.flow.source is missing"));
+  EXPECT_THAT(flow("\"ratchetting\"", "\"ratcheting\""), HasSubstr("study.toml:14:10"));
+  EXPECT_THAT(flow("[1.0, 1.5, 2.0,", "[2.0, 1.5, 1.0,"), HasSubstr("depths_mm must be positive and increase"));
+  EXPECT_THAT(flow("0.00237", "0.00237\nhardening_rate = 3"),
+              HasSubstr("hardening_factor and hardening_rate go together"));
+  EXPECT_THAT(flow("[1.0, 1.5, 2.0,", "[0.4, 1.5, 2.0,"), HasSubstr("0.4 mm below elements of 1 mm"));
+  EXPECT_THAT(flow("depths_mm = [1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0, 14.0]", "depths_mm = [1, 2]"),
+              HasSubstr("the material flows at 2 mm, the deepest of depths_mm"));
+  EXPECT_THAT(flow("invented", "guessed"), HasSubstr("would fold"));
 }
 
 }  // namespace

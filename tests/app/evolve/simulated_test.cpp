@@ -193,6 +193,27 @@ TEST_F(SimulatedEvolution, FlatRoundsOffAndForcesFall) {
   }
 }
 
+/// Flow alone does so within some hundred turns of the wheel, and takes nothing away.
+TEST_F(SimulatedEvolution, FlatFlowsAndForcesFall) {
+  std::string flowing = io::replaced(io::replaced(kStudy, "distance_km = 20000", "distance_km = 0.4"), "1e-4", "0");
+  flowing +=
+      "[evolve.wheel.flow]\ntheory = \"ratchetting\"\nsource = \"assumed\"\nshear_yield_MPa = 400\n"
+      "strain_per_cycle = 0.00237\ndepths_mm = [2, 3, 4, 5, 6, 8, 10, 12, 15, 20]\n";
+  const io::EvolutionResult result =
+      app::run_evolution(io::read_evolution_file(study(kPassage, flowing)), {path("out"), false, {}});
+  ASSERT_EQ(result.status, "complete") << result.message;
+  for (std::size_t k = 1; k < result.generations.size(); ++k) {
+    EXPECT_LT(number(result.generations[k], "q_max_N"), number(result.generations[k - 1], "q_max_N"));
+    EXPECT_GT(number(result.generations[k], "wheel_strain"), number(result.generations[k - 1], "wheel_strain"));
+  }
+  const io::EvolvedBody& wheel = result.generations.back().bodies.front();
+  EXPECT_GT(wheel.max_depth, 5e-6);
+  double moved = 0.0;
+  for (const auto& [j, row] : wheel.record.volume.rows())
+    for (const double volume : row) moved += std::fabs(volume);
+  EXPECT_LT(std::fabs(damage::total(wheel.record.volume)), 1e-12 * moved);
+}
+
 TEST_F(SimulatedEvolution, GoesOnToTheSameBytes) {
   const std::string file = study(kPassage, io::replaced(kStudy, "updates = 4", "updates = 2"));
   run_program({"evolve", file, "-o", path("one"), "--quiet"});
@@ -212,6 +233,73 @@ TEST_F(SimulatedEvolution, GoesOnToTheSameBytes) {
   }
 }
 
+/// Both wheels pass over a rail with a dip: it wears where they are, by the work that the simulation states, and the
+/// force of the next generation is that of a simulation over its surface file.
+TEST_F(SimulatedEvolution, RailsWearBelowWheelsThatPass) {
+  std::string passage = io::replaced(kPassage, "pitch_deg = 9",
+                                     "[[simulation.wheels]]\nwheelset = 1\nside = \"left\"\n"
+                                     "contact = \"full\"\n");
+  passage = io::replaced(passage, "flats = [{ shape = \"fresh\", length_mm = 60 }]\n", "");
+  passage = io::replaced(passage, "[track]",
+                         "squats = [{ length_mm = 40, width_mm = 30, depth_mm = 0.3, x_center_mm = 80 }]\n[track]");
+  const auto from = passage.find("pitch_deg = [-7"), to = passage.find(']', from);
+  passage.replace(from, to - from + 1,
+                  "position_m = [0.01, 0.03, 0.05, 0.06, 0.07, 0.08, 0.09, 0.1, 0.11, 0.13, 0.15]");
+  const std::string evolve = io::replaced(
+      io::replaced(io::replaced(kStudy, "distance_km = 20000", "passages = 3e5"), "evolve.wheel", "evolve.rail"),
+      "updates = 4", "updates = 1");
+  const io::EvolutionResult result = app::run_evolution(
+      io::read_evolution_file(study(passage, io::replaced(evolve, "evolve.wheel.law", "evolve.rail.law"))),
+      {path("out"), false, {}});
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const io::EvolvedBody& rail = result.generations.back().bodies.front();
+  EXPECT_EQ(rail.body, Body::rail);
+  EXPECT_LT(std::fabs(io::volume_balance(rail)), 1e-9);
+  EXPECT_LT(std::fabs(io::work_balance(rail)), 1e-6);
+  EXPECT_GT(rail.max_depth, 1e-6);
+  // each wheel makes half of the passages; between the first and the last place all of them go over every cell
+  for (const auto& [j, row] : rail.record.passages.rows())
+    for (int i = 0; i < rail.cells.nu; ++i) {
+      if (rail.cells.u(i) < 0.01 || rail.cells.u(i) > 0.15) continue;
+      EXPECT_LE(row[static_cast<std::size_t>(i)], 3e5 * (1.0 + 1e-9));
+    }
+  std::string worn = passage;
+  const auto shape = worn.find("shape.standard = \"60E1\""), end = worn.find("[track]", shape);
+  worn.replace(shape, end - shape, "shape.file = \"" + path("out") + "/" + rail.surface_file + "\"\n");
+  folder_.write("worn.toml", worn);
+  run_program({"simulate", path("worn.toml"), "-o", path("simulated"), "--quiet"});
+  const io::SimulationResult again = io::read_simulation(path("simulated") + "/simulation.h5");
+  for (const io::NamedValue& value : again.summary)
+    if (value.name == "q_max_N") {
+      EXPECT_NEAR(value.value, number(result.generations.back(), "q_max_N"), 1e-3 * value.value);
+    }
+}
+
+/// A wheel falls into a squat and strikes its far edge: forces, Tγ and damage are largest there, and a squat that wears
+/// there strikes harder.
+TEST_F(SimulatedEvolution, SquatSuffersAtItsFarEdge) {
+  const io::EvolutionFile file =
+      io::read_evolution_file(fs::path(TREADMARK_SOURCE_DIR) / "examples/growing-squat.toml",
+                              std::vector<std::string>{"evolve.updates=1", "evolve.passages=5e4"});
+  const io::EvolutionResult result = app::run_evolution(file, {path("out"), false, {}});
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const io::EvolvedBody& rail = result.generations.back().bodies.front();
+  constexpr double kFarEdge = 0.35;  // [m]; the squat ends there
+  double most = 0.0, at = 0.0;
+  for (const auto& [j, row] : rail.record.damage.rows())
+    for (int i = 0; i < rail.cells.nu; ++i)
+      if (const double damage = row[static_cast<std::size_t>(i)]; damage > most) most = damage, at = rail.cells.u(i);
+  EXPECT_NEAR(at, kFarEdge, 6e-3);
+  EXPECT_GT(most, 0.05);
+  const io::SimulationResult first = io::read_simulation(path("out") + "/" + io::simulation_file(0, 0, 1));
+  for (const io::NamedValue& value : first.summary)
+    if (value.name == "q_max_x_m") {
+      EXPECT_NEAR(value.value, kFarEdge, 12e-3);
+    }
+  EXPECT_GT(number(result.generations.back(), "q_max_N"), number(result.generations.front(), "q_max_N"));
+  EXPECT_LT(std::fabs(io::volume_balance(rail)), 1e-9);
+}
+
 TEST_F(SimulatedEvolution, SaysWhatIsWrongAndWhere) {
   const auto passage = [&](const char* from, const char* to) {
     return error(io::replaced(kPassage, from, to), kStudy);
@@ -225,7 +313,8 @@ TEST_F(SimulatedEvolution, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(passage("flats = [{ shape = \"fresh\", length_mm = 60 }]\n", ""),
               HasSubstr("is that of the other wheels too"));
   const std::string rail = io::replaced(kStudy, "evolve.wheel", "evolve.rail");
-  EXPECT_THAT(error(kPassage, io::replaced(rail, "distance_km", "passages")), HasSubstr("the wheel evolves alone"));
+  EXPECT_THAT(error(kPassage, io::replaced(rail, "distance_km", "passages")),
+              HasSubstr("that of tables of contact too"));
 }
 
 }  // namespace

@@ -377,8 +377,6 @@ class LeaningSpring : public ContactElement {
     constexpr double kLeast = 0.02;  // as a contact in full has
     t.damping_s = creep_ * std::max(kLeast, 1.0 / std::pow(std::hypot(1.0, used), 3.0));
     t.normal_force = f;
-    t.free_damping_s = creep_;
-    t.creep_bound = mu_ * f;
     r.tangents = {t};
     return r;
   }
@@ -479,8 +477,7 @@ TEST(ContactOnRailSideways, EnergyIsBalanced) {
   }
 }
 
-/// As the wheelset suddenly goes aside: what counts as agreed is the force at the slip that it leaves. The slope of a
-/// contact that slides would let it stand beside slip of the other direction.
+/// As the wheelset suddenly goes to and fro: what counts as agreed is the force at the slip that it leaves.
 TEST(ContactOnRailSideways, CreepThatFrictionBoundsAgreesWithItsSlip) {
   constexpr double kFriction = 0.3, kSide = 0.75, kTolerance = 1e-3;
   constexpr int kMost = 30;

@@ -5,7 +5,7 @@
 
 export interface ReportData {
   format: "treadmark report 1";
-  kind: "run" | "check" | "compare" | "bench" | "import" | "simulation" | "assessment" | "sweep";
+  kind: "run" | "check" | "compare" | "bench" | "import" | "simulation" | "assessment" | "evolution" | "sweep";
   title: string;
   timeline: Timeline | null;
   /** Quantities that patches may have, in the order of the menu. */
@@ -195,6 +195,8 @@ export interface MapView {
   y0: number;
   dy: number;
   values: Packed;
+  /** Those of each step of the timeline; `values` are the last ones. */
+  by_step?: Packed[];
   marks: { label: string; points: [number, number][] }[];
 }
 

@@ -13,8 +13,8 @@ import type { Store } from "./store";
 import { el, standaloneSvg, svgToPng, textWidth } from "./svg";
 
 /** Range of the colours: of the values; about zero where the sign matters. */
-export function colourRange(values: ArrayLike<number>, kind: "sequential" | "diverging"): Domain {
-  const extent = extentOf([values], false) ?? [0, 1];
+export function colourRange(lists: ArrayLike<number>[], kind: "sequential" | "diverging"): Domain {
+  const extent = extentOf(lists, false) ?? [0, 1];
   if (kind === "diverging") {
     const most = Math.max(Math.abs(extent[0]), Math.abs(extent[1])) || 1;
     return [-most, most];
@@ -68,7 +68,7 @@ function barPicture(kind: "sequential" | "diverging"): string {
 
 class MapPlot {
   readonly svg = el("svg", { class: "map", tabindex: 0, role: "img" });
-  private readonly values: ArrayLike<number>;
+  private values: ArrayLike<number>;
   private readonly range: Domain;
   private readonly x: Domain;
   private readonly y: Domain;
@@ -86,10 +86,11 @@ class MapPlot {
     private readonly frame: HTMLElement,
     title: string,
     private readonly view: MapView,
-    store: Store,
+    private readonly store: Store,
   ) {
-    this.values = decode(view.values, store.data.blobs);
-    this.range = colourRange(this.values, view.value.kind);
+    this.values = this.valuesNow();
+    // One range for all steps, so that colours keep their meaning.
+    this.range = colourRange((view.by_step ?? [view.values]).map((packed) => decode(packed, store.data.blobs)), view.value.kind);
     const edges = (start: number, step: number, n: number): Domain => {
       const a = start - step / 2;
       const b = start + (n - 0.5) * step;
@@ -106,7 +107,18 @@ class MapPlot {
     this.listen();
   }
 
+  private valuesNow(): ArrayLike<number> {
+    return decode(this.view.by_step?.[this.store.step] ?? this.view.values, this.store.data.blobs);
+  }
+
   private listen(): void {
+    if (this.view.by_step)
+      this.store.onStep(() => {
+        this.values = this.valuesNow();
+        this.picture = "";
+        this.drawnWidth = 0;
+        this.draw();
+      });
     new ResizeObserver(() => this.draw()).observe(this.frame);
     new IntersectionObserver(
       (entries) => {

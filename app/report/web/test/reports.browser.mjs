@@ -340,6 +340,48 @@ test("a study", async () => {
   await photograph(file, "sweep", "#summaries");
 });
 
+test("evolutions follow the slider over their generations", async () => {
+  const [flat, tread] = results.evolutions();
+  for (const [file, folderName, figures] of [
+    [flat, "worn-flat", ["over-generations", "wheel-section", "wheel-along", "wheel-depth", "wheel-pressure", "wheel-strain"]],
+    [tread, "worn-tread", ["over-generations", "wheel-section"]],
+  ]) {
+    assert.ok(statSync(join(folder, file)).size < 8e6);
+    const json = read(`${folderName}/evolution.json`);
+    const last = json.generations.length - 1;
+    const tab = await Tab.open(file);
+    const { page } = tab;
+    assert.equal(await tab.step(), last);
+    const ids = await page.locator("[id]").evaluateAll((all) => all.map((one) => one.id));
+    assert.deepEqual(ids.filter((id, k) => ids.indexOf(id) !== k), [], "ids that are there twice");
+    for (const name of ["pmax_MPa", "wheel_volume_mm3", ...(file === tread ? ["wheel_conicity_3mm"] : ["wheel_raised_mm", "wheel_strain"])])
+      for (let k = 0; k <= last; ++k)
+        near(await tab.cell("generations", k, name), json.generations[k][name], 1e-9 * Math.abs(json.generations[k][name]), `${name} of generation ${k}`);
+    for (const id of figures) {
+      await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+      await page.waitForSelector(`#${id} svg`, { state: "attached" });
+    }
+    if (file === flat) {
+      // The map is another picture at another generation, and its file has the depths of that one.
+      await page.locator("#wheel-depth").scrollIntoViewIfNeeded();
+      const picture = () => page.locator("#wheel-depth svg image").first().getAttribute("href");
+      const largest = async () => {
+        const [csv] = await Promise.all([page.waitForEvent("download"), page.locator("#wheel-depth .downloads button", { hasText: "CSV" }).first().click()]);
+        return Math.max(...readFileSync(await csv.path(), "utf8").trim().split("\n").slice(1).map((line) => Number(line.split(",")[2])));
+      };
+      await page.waitForSelector("#wheel-depth svg image", { state: "attached" });
+      const worn = await picture();
+      near(await largest(), json.generations[last].wheel_depth_mm, 0.01 * json.generations[last].wheel_depth_mm, "depth of the last generation");
+      await tab.key(".timeline-slider", "Home");
+      await tab.waitForStep(0);
+      await page.waitForFunction((before) => document.querySelector("#wheel-depth svg image").getAttribute("href") !== before, worn);
+      near(await largest(), 0, 1e-12, "depth of the first generation");
+    }
+    await tab.close();
+  }
+  await photograph(flat, "evolution", "#wheel-depth");
+});
+
 test("fixed pictures need no scripts", async () => {
   results.treadmark(["report", results.path("run"), "--static", "-o", results.path("static.html")]);
   const tab = await Tab.open("static.html", { scripts: false });

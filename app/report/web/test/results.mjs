@@ -114,4 +114,17 @@ export class Results {
     return "sweep.html";
   }
 
+  /** A flat that wears and flows, and a tread that becomes hollow. */
+  evolutions() {
+    const places = readFileSync(join(this.examples, "flowing-flat.toml"), "utf8").match(/wheelset\.pitch_deg = \[.*\]/)[0];
+    const flat = this.input("worn-flat.toml", "flowing-flat.toml", [
+      ["max_depth_mm = 0.03\nmax_pressure_change = 0.25\nsmallest_step = 0.001", "updates = 3"],
+      [places, "wheelset.pitch_deg = [-6, -5, -4.25, -3.75, -3, -2, -1, 0, 1, 2, 3, 3.75, 4.25, 5, 6]"],
+    ]);
+    this.treadmark(["evolve", flat, "-o", this.path("worn-flat"), "--report", this.path("worn-flat.html"), "--set", "evolve.distance_km=0.05"], [0, 1]);
+    const tread = this.input("worn-tread.toml", "hollow-wheel.toml", []);
+    this.treadmark(["evolve", tread, "-o", this.path("worn-tread"), "--report", this.path("worn-tread.html"), "--set", "evolve.distance_km=5000"]);
+    return ["worn-flat.html", "worn-tread.html"];
+  }
+
 }
