@@ -12,7 +12,7 @@ namespace treadmark {
 
 /// The rows of the built-in backends, each group in the file of its name.
 std::vector<Backend> analytic_backends();
-std::vector<Backend> spline_backends();  ///< spline, nurbs
+std::vector<Backend> spline_backends();  ///< spline, nurbs, thb
 std::vector<Backend> mesh_backends();    ///< mesh, mesh-flat
 std::vector<Backend> offset_backends();  ///< offset, offset-quadratic, offset-bilinear
 

@@ -23,10 +23,11 @@ class ShapeKeys {
     add_geometry();
     add_file_options();
     if (body_ == "wheel") add_seam();
-    KeyInfo backend = backend_key(body_ + ".backend",
-                                  "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, "
-                                  "offset-quadratic or offset-bilinear; "
-                                  "without it the one that fits the shape");
+    KeyInfo backend =
+        backend_key(body_ + ".backend",
+                    "surface representation: analytic, spline, nurbs, thb, thb-quadratic, mesh, mesh-flat, offset, "
+                    "offset-quadratic or offset-bilinear; "
+                    "without it the one that fits the shape");
     backend.scope = KeyScope::wheel_rail;
     CaseKey& representation = list_.add(backend);
     representation.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
