@@ -39,6 +39,7 @@ UsedBodies bodies_of(const wheelrail::Geometry& geometry, const io::SimulationFi
 io::SurfaceSource round_wheel(const io::SimulationFile& file) {
   io::SurfaceSource source = file.other_wheel ? *file.other_wheel : file.contact.wheel;
   source.defects = {};
+  source.offsets = {};
   return source;
 }
 
@@ -127,8 +128,10 @@ class Builder {
     };
     const auto wheel = natural();
     if (wheel->constant_profile()) return nullptr;
-    if (given.defects.empty()) return std::make_shared<const DefectDepth>(wheel->surface, nullptr);
+    if (given.defects.empty() && given.offsets.file.empty())
+      return std::make_shared<const DefectDepth>(wheel->surface, nullptr);
     given.defects = {};
+    given.offsets = {};
     return std::make_shared<const DefectDepth>(wheel->surface, natural()->surface);
   }
 
@@ -183,6 +186,7 @@ class Builder {
  private:
   static io::SurfaceSource undamaged(io::SurfaceSource rail) {
     rail.defects = {};
+    rail.offsets = {};
     rail.backend = "";
     rail.resolution = 0.0;
     return rail;

@@ -9,7 +9,9 @@
 #include <string>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -37,6 +39,12 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   Converted out;
   out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
   out.body = out.source.spec.body;
+  const NaturalSurface below = out.source;
+  std::optional<OffsetMap> table;
+  if (!settings.offsets.file.empty()) {
+    table = read_offset_table(settings.offsets, out.source);
+    out.source = add_offsets(out.source, *table);
+  }
   Representation wanted{triangles ? "mesh"
                         : slices  ? "spline"
                                   : "offset",
@@ -58,7 +66,10 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     io::write_slices(output, to_slices(out.source, wanted, &sampled));
   } else {
     out.kind = "offsets";
-    write_offsets(place, out.source, wanted, &sampled);
+    if (table)
+      write_added_offsets(place, below, *table, wanted);
+    else
+      write_offsets(place, out.source, wanted, &sampled);
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   // measured on the surface that a reader of the file gets

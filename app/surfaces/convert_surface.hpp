@@ -21,6 +21,7 @@ struct ConvertSettings {
   /// Part that is written: along the track [m], round the wheel [rad]. The other body's range is an error.
   std::optional<std::pair<double, double>> range_x, range_theta;
   std::vector<std::string> overrides;  ///< of a case
+  io::OffsetsInput offsets;            ///< a table of deviations that is added
 };
 
 struct Converted {

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/surfaces/offset_table.hpp"
+#include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
@@ -74,7 +76,9 @@ MovingSection motion_of(const io::CrossingInput& c) {
   return m;
 }
 
-NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
+namespace {
+
+NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double radius) {
   if (!source.parts.empty()) return read_parts(source, body, radius);
   SurfaceSpec spec;
   spec.body = body;
@@ -99,6 +103,17 @@ NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double r
   if (source.crossing.part != io::CrossingInput::Part::none)
     spec.shape = move_section(spec, motion_of(source.crossing));
   return create_natural(std::move(spec));
+}
+
+}  // namespace
+
+NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
+  NaturalSurface shape = read_shape(source, body, radius);
+  if (source.offsets.file.empty()) return shape;
+  if (body == Body::rail && radius != 0.0)
+    throw Error(ErrorKind::configuration, "a table of deviations cannot be added to a roller", source.offsets.where,
+                "use a profile, slices or triangles that have them");
+  return add_offsets(shape, read_offset_table(source.offsets, shape));
 }
 
 }  // namespace treadmark::app
