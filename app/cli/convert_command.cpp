@@ -132,12 +132,14 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
 Command add_convert(CLI::App& verb) {
   auto options = std::make_shared<ConvertOptions>();
   verb.add_option("IN", options->input,
-                  "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), a case file, or with --at the "
+                  "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), offsets (.vdb), a case file, "
+                  "or with --at the "
                   "simulation.h5 of a simulation")
       ->required();
-  verb.add_option("OUT,-o,--output", options->output,
-                  ".ply .stl .obj .off, .slcs .slcw, .vdb, or a profile: .prr .prw .ban .whl .csv; of a case file also "
-                  ".inp (CONTACT) or .toml: its cases")
+  verb.add_option(
+          "OUT,-o,--output", options->output,
+          ".ply .stl .obj .off, .slcs .slcw, .vdb, .step, or a profile: .prr .prw .ban .whl .csv; of a case file also "
+          ".inp (CONTACT) or .toml: its cases")
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

@@ -13,6 +13,7 @@
 #include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
@@ -44,6 +45,24 @@ NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSourc
 
 SliceSet slices_of(const io::GeometryFile& file, Body body, const SourcePosition& where) {
   SliceSet slices = io::read_slices(file.file, body, file.options, where);
+  slices.open_seam = file.open_seam;
+  return slices;
+}
+
+/// Its units are its own: another scale is a mistake.
+decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body body, double radius,
+                                          const SourcePosition& where, std::string& note) {
+  if (file.options.scale != 1.0)
+    throw Error(ErrorKind::configuration, "files of CAD have units of their own", where, "leave out scale_to_mm");
+  if (body == Body::rail && radius != 0.0)
+    throw Error(ErrorKind::configuration, "a file of CAD cannot become a roller", where, "use a profile or slices");
+  io::CadSections sections = io::read_cad(file.file, body, radius, where);
+  note = std::move(sections.note);
+  if (auto* profile = std::get_if<Profile>(&sections.shape)) {
+    profile->smoothing = file.options.smoothing;
+    return std::move(*profile);
+  }
+  SliceSet slices = std::get<SliceSet>(std::move(sections.shape));
   slices.open_seam = file.open_seam;
   return slices;
 }
@@ -84,10 +103,13 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
   spec.body = body;
   (body == Body::wheel ? spec.nominal_radius : spec.roller_radius) = radius;
   spec.defects = source.defects;
+  std::string note;
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
     if (io::is_mesh_file(file->file))
       spec.shape = io::read_mesh(file->file, file->options.scale, source.where);
+    else if (io::is_cad_file(file->file))
+      spec.shape = shape_of_cad(*file, body, radius, source.where, note);
     else if (io::is_slices_file(file->file))
       spec.shape = slices_of(*file, body, source.where);
     else
@@ -102,7 +124,9 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
   }
   if (source.crossing.part != io::CrossingInput::Part::none)
     spec.shape = move_section(spec, motion_of(source.crossing));
-  return create_natural(std::move(spec));
+  NaturalSurface natural = create_natural(std::move(spec));
+  natural.note += note;
+  return natural;
 }
 
 }  // namespace
