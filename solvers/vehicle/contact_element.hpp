@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "treadmark/core/byte_archive.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/report.hpp"
 #include "treadmark/solvers/wheelrail/configuration.hpp"
 #include "treadmark/solvers/wheelrail/loads.hpp"
@@ -35,7 +36,15 @@ struct PatchTangent {
   double stiffness_n = 0.0;                 ///< [N/m]
   double damping_x = 0.0, damping_s = 0.0;  ///< of creep [N s/m]
   double normal_force = 0.0;                ///< [N]
+  /// Of lateral creep before it slides [N s/m], and what friction allows [N]; 0: it has no bound.
+  double free_damping_s = 0.0, creep_bound = 0.0;
 };
+
+/// Slope of lateral creep before a contact slides [N s/m], by Kalker's coefficient of a circle: tangents need no more.
+inline double free_creep_damping(double area, double shear_modulus, double velocity) {
+  constexpr double kLateral = 3.7;
+  return velocity > 0.0 ? kLateral * shear_modulus * area / (kPi * velocity) : 0.0;
+}
 
 /// What acts between one wheel and one rail.
 struct ContactReaction {

@@ -47,6 +47,16 @@ Vec3 rates(const RailMotion& rail) { return {rail.vy, rail.vz, rail.vroll}; }
 
 double size_of(const Vec3& force) { return (Vec3(1.0, 1.0, 1.0 / kArm).cwiseProduct(force)).cwiseAbs().maxCoeff(); }
 
+/// Slope of lateral creep from one slip to another: the tangent there, steeper as a law that saturates is in between.
+double creep_to(const PatchTangent& patch, double tangent, double from, double to) {
+  const double bound = patch.creep_bound, free = patch.free_damping_s;
+  if (!(bound > 0.0 && free > 0.0) || from == to) return tangent;
+  const auto force = [&](double slip) { return free * slip / std::hypot(1.0, free * slip / bound); };
+  const double there = free / std::pow(std::hypot(1.0, free * from / bound), 3.0),
+               between = (force(to) - force(from)) / (to - from);
+  return std::clamp(tangent * (between / there), tangent, std::max(tangent, between));
+}
+
 /// Change of the forces by what they are off, also where there is no contact yet.
 double change_by(const Vec3& change, const Vec3& moved, double softening) {
   return std::max(size_of(change), std::abs(moved.y()) * kLeastStiffness / softening);
@@ -85,44 +95,65 @@ ContactOnRail::Tangents ContactOnRail::tangents_of(const ContactReaction& r, con
         t.patches.emplace_back(Tangents::Patch{on_rail, on_wheel, along(normal, on_rail), along(aside, on_rail),
                                                along(normal, on_wheel), along(aside, on_wheel)});
     t.stiffness += patch.stiffness_n * p.normal * p.normal.transpose();
-    t.damping += patch.damping_s * p.aside * p.aside.transpose();
     t.wheel_stiffness += patch.stiffness_n * p.normal * p.wheel_normal.transpose();
-    t.wheel_damping += patch.damping_s * p.aside * p.wheel_aside.transpose();
+    t.creep.push_back(patch.damping_s);
   }
-  // Where friction is used up creep forces rise less than they begin to: the secant of two evaluations knows.
+  // Where evaluations at a time show creep forces that rise more than their tangents, these were short of it.
   t.creep_force = r.lateral_creep_force;
+  const bool again = rail_->started() && is_again(motion.time) && trial_->tangents.slip.size() == t.patches.size();
   double rise = 0.0;
   for (std::size_t i = 0; i < t.patches.size(); ++i) {
-    const double slip =
-        t.patches[i].wheel_aside.dot(rates(motion.wheelset_velocity)) - t.patches[i].aside.dot(rates(motion.rail));
-    t.slip.push_back(slip);
-    if (rail_->started() && is_again(motion.time) && trial_->tangents.slip.size() == t.patches.size())
-      rise += r.tangents[i].damping_s * (slip - trial_->tangents.slip[i]);
+    t.slip.push_back(t.patches[i].wheel_aside.dot(rates(motion.wheelset_velocity)) -
+                     t.patches[i].aside.dot(rates(motion.rail)));
+    if (again) rise += t.creep[i] * (t.slip[i] - trial_->tangents.slip[i]);
   }
   constexpr double kSteepest = 1e4;
   if (rise != 0.0) {
-    const double share = std::clamp((t.creep_force - trial_->tangents.creep_force) / rise, 0.0, kSteepest);
-    t.share = share;
-    t.damping *= share;
-    t.wheel_damping *= share;
+    const double share = std::clamp((t.creep_force - trial_->tangents.creep_force) / rise, 1.0, kSteepest);
+    for (double& damping : t.creep) damping *= share;
   }
-  t.by_force = t.stiffness * answer.compliance + t.damping * answer.rate_by_force;
-  t.together = (Mat3::Identity() + t.by_force).inverse();
+  t.find_agreement(answer);
   return t;
+}
+
+void ContactOnRail::Tangents::find_agreement(const LoadedRail::Answer& answer) {
+  damping = wheel_damping = Mat3::Zero();
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    damping += creep[i] * patches[i].aside * patches[i].aside.transpose();
+    wheel_damping += creep[i] * patches[i].aside * patches[i].wheel_aside.transpose();
+  }
+  by_force = stiffness * answer.compliance + damping * answer.rate_by_force;
+  together = (Mat3::Identity() + by_force).inverse();
 }
 
 /// Brings a reaction that was found under predicted forces to agreement with the rail: motions and forces are those at
 /// which the tangents meet the rail's answer. Presses these forces on the rail.
 void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const LoadedRail::Answer& answer,
                           const Vec3& predicted, Tangents t) {
-  const Vec3 found = force_on_top(r), off = found - predicted, more = t.together * off, force = predicted + more;
+  const Vec3 found = force_on_top(r), off = found - predicted;
+  const std::vector<double> evaluated = t.creep;
+  // The tangent of creep that slides knows nothing of slip that the rail's answer turns round: secants do.
+  constexpr int kMostSecants = 20;
+  constexpr double kSame = 0.01;
+  for (int round = 0; round < kMostSecants; ++round) {
+    const Vec3 rate = answer.rate_by_force * (t.together * off);
+    bool same = true;
+    for (std::size_t i = 0; i < t.patches.size(); ++i) {
+      const double steeper = creep_to(r.tangents[i], evaluated[i], t.slip[i], t.slip[i] - t.patches[i].aside.dot(rate));
+      same = same && std::abs(steeper - t.creep[i]) <= kSame * t.creep[i];
+      t.creep[i] = round == 0 ? steeper : std::sqrt(steeper * t.creep[i]);
+    }
+    if (same) break;
+    t.find_agreement(answer);
+  }
+  const Vec3 more = t.together * off, force = predicted + more;
   const Vec3 moved = answer.compliance * more, rate = answer.rate_by_force * more;
   r.corrected = change_by(t.by_force * more, moved, 1.0);
   for (std::size_t i = 0; i < t.patches.size(); ++i) {
     const Tangents::Patch& p = t.patches[i];
     PatchTangent& patch = r.tangents[i];
     const double deeper = -p.normal.dot(moved), normal = patch.stiffness_n * deeper,
-                 aside = -t.share * patch.damping_s * p.aside.dot(rate);
+                 aside = -t.creep[i] * p.aside.dot(rate);
     const Vec3 change = normal * patch.X_TC.rotation.col(2) + aside * patch.X_TC.rotation.col(1);
     r.on_rail += {change, p.on_rail.cross(change)};
     r.on_wheelset += {-change, -p.on_wheel.cross(change)};
@@ -138,13 +169,12 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
       sum += std::max(0.0, r.tangents[i].stiffness_n * by.dot(answer.compliance * t.patches[i].normal));
     return sum;
   };
-  for (PatchTangent& patch : r.tangents) patch.damping_s *= t.share;
   std::vector<double> soft;
   for (const Tangents::Patch& p : t.patches) soft.push_back(softening(p.normal));
   for (std::size_t i = 0; i < t.patches.size(); ++i) {
     PatchTangent& patch = r.tangents[i];
     const Vec3& aside = t.patches[i].aside;
-    patch.damping_s /= 1.0 + patch.damping_s * std::max(0.0, aside.dot(answer.rate_by_force * aside));
+    patch.damping_s = t.creep[i] / (1.0 + t.creep[i] * std::max(0.0, aside.dot(answer.rate_by_force * aside)));
     patch.stiffness_n /= soft[i];
   }
   r.bending = bending_under(answer, force);

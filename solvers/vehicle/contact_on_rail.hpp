@@ -42,13 +42,14 @@ class ContactOnRail : public ContactElement {
       Vec3 wheel_normal, wheel_aside;  ///< of it on the wheel by y, z and roll of the wheelset
     };
     std::vector<Patch> patches;
+    std::vector<double> slip, creep;                                    ///< lateral, of patches [m/s]; damping [N s/m]
+    double creep_force = 0.0;                                           ///< lateral, all patches [N]
     Mat3 stiffness = Mat3::Zero(), damping = Mat3::Zero();              ///< of the contact, by the top's motions, rates
     Mat3 wheel_stiffness = Mat3::Zero(), wheel_damping = Mat3::Zero();  ///< by those of the wheelset
-    double creep_force = 0.0,
-           share = 1.0;                ///< lateral, all patches [N]; of the damping that evaluations at a time found
-    std::vector<double> slip;          ///< lateral, of each patch [m/s]
     Mat3 by_force = Mat3::Zero();      ///< what forces lose as they themselves move the rail
     Mat3 together = Mat3::Identity();  ///< forces in agreement with the rail over those without
+    /// All that follows from `creep`.
+    void find_agreement(const LoadedRail::Answer& answer);
   };
   /// What was found at a time, and how it goes on: linear in the motions and in time.
   struct Found {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
@@ -14,8 +13,8 @@ namespace {
 
 using wheelrail::Side;
 
-/// Kalker's coefficients of a circle and nu = 0.25 and 0.3; tangents need no more.
-constexpr double kLongitudinal = 4.2, kLateral = 3.7;
+/// By Kalker's coefficients of a circle; tangents need no more.
+constexpr double kLongitudinalOverLateral = 1.14;
 /// Mindlin: a contact is less stiff in shear than along its normal.
 constexpr double kShearStiffness = 0.85;
 constexpr double kLeastShare = 0.02;
@@ -32,16 +31,19 @@ PatchTangent tangent_of(const wheelrail::PatchSolution& patch, const wheelrail::
   const double bound = std::max(1e-12, p.friction.static_friction() * c.force_n);
   const double used = std::hypot(c.force_x, c.force_y) / bound;
   const double share = std::max(kLeastShare, 1.0 - used * used);
-  const double kalker = combine(p.material).shear_modulus * area / std::numbers::pi * share;
-  const auto damping = [&](double coefficient) {
-    const double steady = velocity / (kalker * coefficient);
+  const double shear_modulus = combine(p.material).shear_modulus;
+  const auto damping = [&](double free, double of_free) {
+    const double steady = 1.0 / (of_free * free);
     // A short step of transient rolling only shears the contact further.
     if (p.regime != kalker::Regime::transient || !(travelled > 0.0)) return 1.0 / steady;
     const double shear = kShearStiffness * t.stiffness_n * (travelled / velocity);
     return 1.0 / (steady + 1.0 / shear);
   };
-  t.damping_x = damping(kLongitudinal);
-  t.damping_s = damping(kLateral);
+  const double lateral = free_creep_damping(area, shear_modulus, velocity);
+  t.damping_x = damping(kLongitudinalOverLateral * lateral, share);
+  t.damping_s = damping(lateral, share);
+  t.free_damping_s = damping(lateral, 1.0);
+  t.creep_bound = bound;
   return t;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "treadmark/core/constants.hpp"
 
@@ -14,8 +15,9 @@ namespace {
 /// A moment at one point would leave a kink in the twist of the rail, which coordinates at nodes feel as it passes
 /// them: creep would jump [m].
 constexpr double kSpread = 0.02;
-/// What is deflected beyond the coordinates has mass, too: it follows forces within this time [s].
-constexpr double kQuickest = 5e-5;
+/// What is deflected between nodes lies on springs and dampers: it follows forces with this time constant, that of
+/// waves over half an element [s].
+constexpr double kFollows = 1e-5;
 
 void add_rail_state(ByteWriter& out, const Eigen::VectorXd& v) {
   out.put(std::span<const double>(v.data(), static_cast<std::size_t>(v.size())));
@@ -98,7 +100,7 @@ void RailInTime::rest(const std::vector<double>& places, double speed) {
 }
 
 void RailInTime::begin(const Column& forces) {
-  force_ = force_before_ = forces;
+  force_ = followed_ = followed_before_ = forces;
   length_before_ = 0.0;
   q_ = unit_q_ * forces;
   v_ = unit_v_ * forces;
@@ -164,6 +166,14 @@ void RailInTime::step(double h, const std::vector<double>& before, const std::ve
   } else {
     t.free = a_;
   }
+  // Backward differences of second order, or friction would lack work; of first order where a step is far longer than
+  // the one before, whose differences tell nothing then.
+  constexpr double kMostRatio = 2.0;
+  const bool goes_on = length_before_ > 0.0 && h <= kMostRatio * length_before_;
+  const double ratio = goes_on ? h / length_before_ : 0.0, of_end = (1.0 + 2.0 * ratio) / (1.0 + ratio);
+  t.follows = h / (h + of_end * kFollows);
+  t.known_followed = kFollows / (h + of_end * kFollows) *
+                     ((1.0 + ratio) * followed_ - ratio * ratio / (1.0 + ratio) * followed_before_);
   const Eigen::Index per = motions_of_top(), forces = force_.size();
   t.motion = t.rate = {Column::Zero(forces), Columns::Zero(forces, forces)};
   for (Eigen::Index i = 0; i < forces; ++i) {
@@ -180,15 +190,14 @@ void RailInTime::step(double h, const std::vector<double>& before, const std::ve
       t.motion.compliance(i, j) = t.of_q * by_force;
       t.rate.compliance(i, j) = t.of_v * by_force;
       if (i / per != j / per) continue;
-      t.motion.compliance(i, j) += here.own_compliance(i % per, j % per);
-      if (!(h > 0.0)) continue;
-      // What is moved beyond the coordinates, as the force changes and, by half, as the place does: the other half is
-      // the slope there. The rate of the force by backward differences of second order, or friction would lack work.
-      const double ratio = length_before_ > 0.0 ? h / length_before_ : 0.0,
-                   of_change = here.own_compliance(i % per, j % per) / std::max(h, kQuickest);
-      t.rate.compliance(i, j) += of_change * (1.0 + 2.0 * ratio) / (1.0 + ratio) +
-                                 0.5 * speeds[static_cast<std::size_t>(i / per)] * here.own_slope(i % per, j % per);
-      t.rate.free[i] += of_change * (ratio * ratio / (1.0 + ratio) * force_before_[j] - (1.0 + ratio) * force_[j]);
+      // What lies between nodes is moved as the force changes and, by half, as the place does: the other half is the
+      // slope there.
+      const double own = here.own_compliance(i % per, j % per),
+                   by_place = 0.5 * speeds[static_cast<std::size_t>(i / per)] * here.own_slope(i % per, j % per);
+      t.motion.compliance(i, j) += own * t.follows;
+      t.motion.free[i] += own * t.known_followed[j];
+      t.rate.compliance(i, j) += own * (1.0 - t.follows) / kFollows + by_place * t.follows;
+      t.rate.free[i] += (by_place - own / kFollows) * t.known_followed[j];
     }
   }
 }
@@ -209,8 +218,9 @@ double RailInTime::rise(Eigen::Index place, Eigen::Index motion, const Column& f
   };
   // What is moved beyond the coordinates is elastic: half of it yields no work where it only moves along.
   const Eigen::Index per = motions_of_top();
-  const double further =
-      0.25 * (here.own_compliance - before.own_compliance).row(motion).dot((force_ + forces).segment(place * per, per));
+  const double further = 0.25 * (here.own_compliance - before.own_compliance)
+                                    .row(motion)
+                                    .dot((followed_ + followed(forces)).segment(place * per, per));
   return between(here) - between(before) + further;
 }
 
@@ -238,8 +248,10 @@ const RailInTime::End& RailInTime::end(const Column& forces) {
 RailInTime::Moved RailInTime::moved(const Column& forces) {
   const End& e = end(forces);
   Moved m;
-  m.energy = 0.5 * (rail_->mass().form(e.v) + rail_->stiffness().form(e.q) + beyond(trial_.place, forces));
-  if (trial_.length > 0.0) m.dissipated = rail_->damping().form(e.q - q_) / trial_.length;
+  const Column now = followed(forces);
+  m.energy = 0.5 * (rail_->mass().form(e.v) + rail_->stiffness().form(e.q) + beyond(trial_.place, now));
+  if (trial_.length > 0.0)
+    m.dissipated = (rail_->damping().form(e.q - q_) + kFollows * beyond(trial_.place, now - followed_)) / trial_.length;
   return m;
 }
 
@@ -248,7 +260,7 @@ void RailInTime::accept(const Column& forces) {
   q_.swap(end_.q);
   v_.swap(end_.v);
   a_.swap(end_.a);
-  force_before_ = force_;
+  followed_before_ = std::exchange(followed_, followed(forces));
   force_ = forces;
   length_before_ = trial_.length;
   end_ = {};
@@ -271,12 +283,12 @@ void RailInTime::move_on(int bay_elements) {
 }
 
 void RailInTime::save(ByteWriter& out) const {
-  for (const Column* column : {&force_, &force_before_, &q_, &v_, &a_}) add_rail_state(out, *column);
+  for (const Column* column : {&force_, &followed_, &followed_before_, &q_, &v_, &a_}) add_rail_state(out, *column);
   out.put(length_before_);
 }
 
 bool RailInTime::restore(ByteReader& in) {
-  for (Column* column : {&force_, &force_before_, &q_, &v_, &a_}) {
+  for (Column* column : {&force_, &followed_, &followed_before_, &q_, &v_, &a_}) {
     std::vector<double> values;
     in.get(values);
     if (static_cast<Eigen::Index>(values.size()) != column->size()) return false;

@@ -77,6 +77,9 @@ class RailInTime {
     std::vector<std::vector<const Column*>> unit;  ///< accelerations by unit forces at the places' coordinates
     Column known_q, known_v, free;                 ///< free: accelerations without the forces
     double of_q = 0.0, of_v = 0.0;                 ///< of displacements and rates by accelerations
+    /// Forces that what lies between nodes follows: a share of those at the end and what is known.
+    double follows = 0.0;
+    Column known_followed;
     Answer motion, rate;
   };
   /// Where a step ends.
@@ -88,6 +91,7 @@ class RailInTime {
   void factorise(double length);
   const Column& by_unit(int coordinate);
   const End& end(const Column& forces);
+  Column followed(const Column& forces) const { return trial_.follows * forces + trial_.known_followed; }
 
   RailPlane plane_;
   RailScheme scheme_;
@@ -97,7 +101,8 @@ class RailInTime {
   std::vector<RailOnSeats::Place> place_at_rest_;
 
   Column force_, q_, v_, a_;
-  Column force_before_;         ///< a step earlier
+  Column followed_;             ///< forces that what lies between nodes has followed so far
+  Column followed_before_;      ///< a step earlier
   double length_before_ = 0.0;  ///< of that step [s]; 0: none
   Trial trial_;
   End end_;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kSafety = 0.9, kLeastFactor = 0.2, kMostFactor = 2.0;
 /// Step lengths change only where it is worth a new factorisation.
 constexpr double kWorthShortening = 0.95, kWorthGrowing = 1.25;
-constexpr std::uint32_t kStateFormat = 4;
+constexpr std::uint32_t kStateFormat = 5;
 
 double step_factor(double error, double tolerance) {
   if (!(error > 0.0)) return kMostFactor;

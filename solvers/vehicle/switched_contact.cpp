@@ -30,7 +30,9 @@ ContactReaction mixed(const ContactReaction& table, const ContactReaction& full,
   out.tangents.clear();
   for (const auto& [from, weight] : {std::pair{&full, share}, std::pair{&table, 1.0 - share}})
     for (PatchTangent t : from->tangents) {
-      for (double* value : {&t.stiffness_n, &t.damping_x, &t.damping_s, &t.normal_force}) *value *= weight;
+      for (double* value :
+           {&t.stiffness_n, &t.damping_x, &t.damping_s, &t.normal_force, &t.free_damping_s, &t.creep_bound})
+        *value *= weight;
       out.tangents.push_back(t);
     }
   return out;

@@ -160,7 +160,8 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   r.patches = 1;
   r.elastic_energy = elastic.energy;
   r.frictional_power = creep.power;
-  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y(), elastic.normal_force});
+  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y(), elastic.normal_force,
+                        free_creep_damping(r.area, material_.shear_modulus, creepage.velocity), patch.friction_bound});
   return r;
 }
 

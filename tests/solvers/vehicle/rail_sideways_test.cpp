@@ -331,12 +331,14 @@ TEST(RailSidewaysInTime, AFlatProfileIsAConstantSpeed) {
   }
 }
 
-/// Oracle: a normal that leans by an angle, beside the middle of the head and at its height, with lateral creep c and
-/// F = k d^1.5.
+/// Oracle: a normal that leans by an angle, beside the middle of the head and at its height, with lateral creep c,
+/// which friction may bound, and F = k d^1.5.
 class LeaningSpring : public ContactElement {
  public:
-  static constexpr double kLean = 0.3, kAside = 0.012, kStiffness = 9e10, kCreep = 3e5, kRadius = 0.46;
-  explicit LeaningSpring(double side_y) : y_(side_y), out_(side_y > 0.0 ? 1.0 : -1.0) {}
+  static constexpr double kLean = 0.3, kAside = 0.012, kStiffness = 9e10, kCreep = 3e5, kRadius = 0.46,
+                          kSteepCreep = 3e6;
+  explicit LeaningSpring(double side_y, double friction)
+      : y_(side_y), out_(side_y > 0.0 ? 1.0 : -1.0), mu_(friction), creep_(friction > 0.0 ? kSteepCreep : kCreep) {}
 
   ContactReaction evaluate(const PairMotion& m) override {
     // Into the rail and outwards.
@@ -356,7 +358,8 @@ class LeaningSpring : public ContactElement {
       r.status = Status::no_contact;
       return r;
     }
-    const double f = kStiffness * std::pow(d, 1.5), creep = kCreep * aside.dot(slip);
+    const double f = kStiffness * std::pow(d, 1.5), used = mu_ > 0.0 ? creep_ * aside.dot(slip) / (mu_ * f) : 0.0,
+                 creep = creep_ * aside.dot(slip) / std::hypot(1.0, used);
     const Vec3 force = f * normal + creep * aside;
     r.on_rail = {force, rail_arm.cross(force)};
     r.on_wheelset = {-force, -wheel_arm.cross(force)};
@@ -371,8 +374,11 @@ class LeaningSpring : public ContactElement {
     t.X_TC.rotation.col(1) = aside;
     t.X_TC.rotation.col(2) = normal;
     t.stiffness_n = 1.5 * f / d;
-    t.damping_s = kCreep;
+    constexpr double kLeast = 0.02;  // as a contact in full has
+    t.damping_s = creep_ * std::max(kLeast, 1.0 / std::pow(std::hypot(1.0, used), 3.0));
     t.normal_force = f;
+    t.free_damping_s = creep_;
+    t.creep_bound = mu_ * f;
     r.tangents = {t};
     return r;
   }
@@ -381,12 +387,12 @@ class LeaningSpring : public ContactElement {
   void restore(ByteReader&) override {}
 
  private:
-  double y_, out_;
+  double y_, out_, mu_, creep_;
 };
 
 /// Two wheelsets below masses, free sideways and in roll.
 VehicleOnTrack on_leaning_springs(const FlexibleTrack& track, double speed, double tolerance, bool shared,
-                                  const SpeedProfile& profile) {
+                                  const SpeedProfile& profile, double friction = 0.0) {
   constexpr std::array<bool, kFreedoms> kFree{false, true, true, true, false, false};
   VehicleModel model;
   for (int i = 0; i < 2; ++i) {
@@ -413,10 +419,11 @@ VehicleOnTrack on_leaning_springs(const FlexibleTrack& track, double speed, doub
       const auto rail = shared ? rails[side]
                                : std::make_shared<LoadedRail>(MovingRail(track, profile, {places[own]}, 1.0),
                                                               std::vector{loads[own]});
-      v.wheels.push_back({set, side, "wheel",
-                          std::make_shared<ContactOnRail>(std::make_shared<LeaningSpring>(y), rail, shared ? own : 0,
-                                                          tolerance, Vec3(0.0, y, 0.0), LeaningSpring::kRadius),
-                          Vec3(0.0, y, 0.0)});
+      v.wheels.push_back(
+          {set, side, "wheel",
+           std::make_shared<ContactOnRail>(std::make_shared<LeaningSpring>(y, friction), rail, shared ? own : 0,
+                                           tolerance, Vec3(0.0, y, 0.0), LeaningSpring::kRadius),
+           Vec3(0.0, y, 0.0)});
     }
   }
   v.connect();
@@ -470,6 +477,44 @@ TEST(ContactOnRailSideways, EnergyIsBalanced) {
     EXPECT_LT(std::abs(s.energy().integration_error(s.energy_at_start())), 1e-4 * turnover) << shared;
     EXPECT_LT(std::abs(s.energy().contact_error(s.energy_at_start())), 1e-4 * turnover) << shared;
   }
+}
+
+/// As the wheelset suddenly goes aside: what counts as agreed is the force at the slip that it leaves. The slope of a
+/// contact that slides would let it stand beside slip of the other direction.
+TEST(ContactOnRailSideways, CreepThatFrictionBoundsAgreesWithItsSlip) {
+  constexpr double kFriction = 0.3, kSide = 0.75, kTolerance = 1e-3;
+  constexpr int kMost = 30;
+  for (const double step : {2e-6, 1e-5, 5e-5})
+    for (const double kick : {-0.4, -0.1, -0.02, 0.02, 0.1, 0.4}) {
+      const auto rail = std::make_shared<LoadedRail>(
+          MovingRail(calm_ends(side_track(0.545, 60), 15), constant_speed(20.0), {0.0}, 1.0), std::vector{5e4});
+      const auto spring = std::make_shared<LeaningSpring>(kSide, kFriction);
+      ContactOnRail contact(spring, rail, 0, 1e-6, Vec3(0.0, kSide, 0.0), LeaningSpring::kRadius);
+      PairMotion m;
+      m.wheelset.z = 5e-4;
+      m.wheelset_velocity.x = 20.0;
+      ContactReaction r = contact.evaluate(m);
+      ASSERT_EQ(r.status, Status::ok) << r.message;
+      ASSERT_TRUE(contact.settle(r));
+      contact.accept();
+      for (const double velocity : {kick, -kick, 0.2 * kick}) {
+        m.time += step;
+        m.wheelset.x = 20.0 * m.time;
+        m.wheelset_velocity.y = velocity;
+        int rounds = 0;
+        do {
+          r = contact.evaluate(m);
+          contact.settle(r);
+        } while (r.corrected > kTolerance * r.normal_force && ++rounds < kMost);
+        ASSERT_LT(rounds, kMost) << velocity << " m/s, " << step << " s";
+        PairMotion there = m;
+        there.rail = r.bending;
+        EXPECT_NEAR(r.lateral_creep_force, spring->evaluate(there).lateral_creep_force,
+                    0.01 * kFriction * r.normal_force)
+            << velocity << " m/s, " << step << " s";
+        contact.accept();
+      }
+    }
 }
 
 /// One evaluation a step: what the linearised contact and rail leave is small.
