@@ -12,7 +12,7 @@ namespace treadmark {
 /// A point of a surface given by its parameters, and derivatives by them, in the surface's frame. NaN where there is no
 /// surface; derivatives also where there is none within the step of a difference.
 struct SurfaceJet {
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();                    ///< what is not there
   Vec3 p = Vec3::Constant(kNone);                                                              ///< [m]
   Vec3 pu = Vec3::Constant(kNone), pv = Vec3::Constant(kNone);                                 ///< per unit of u and v
   Vec3 puu = Vec3::Constant(kNone), puv = Vec3::Constant(kNone), pvv = Vec3::Constant(kNone);  ///< likewise
