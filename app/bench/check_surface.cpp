@@ -105,7 +105,7 @@ std::string check_slopes(const Surface& subject, const BenchView::Plane& plane, 
     const int nx = g.nx, k = static_cast<int>(i);
     const Vec2 p(g.x(k % nx), g.y(k / nx));
     for (const Vec2& d : {Vec2(-kStep, 0.0), Vec2(kStep, 0.0), Vec2(0.0, -kStep), Vec2(0.0, kStep)})
-      points.push_back(p + d);
+      points.emplace_back(p + d);
   }
   std::vector<double> z(points.size());
   subject.heights_at(plane.X_SP, points, {z, {}, {}});

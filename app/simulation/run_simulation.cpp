@@ -110,6 +110,18 @@ class Run {
         file_.settings.speed, least->frequency_Hz, least->damping_ratio, least->shape);
   }
 
+  void say_if_unbalanced() {
+    constexpr double kDoubtful = 0.02;  // full contacts leave up to 0.005
+    const vehicle::EnergyBalance &now = simulation_->energy(), &start = simulation_->energy_at_start();
+    const double off = std::max(std::abs(now.contact_error(start)), std::abs(now.integration_error(start)));
+    if (!(off > kDoubtful * now.turnover)) return;
+    if (!result_.message.empty()) result_.message += "; ";
+    result_.message += fmt::format(
+        "energies do not balance: {:.2g} of the turnover is missing (energy.contact_error_J, "
+        "energy.integration_error_J), so forces are doubtful; try shorter steps or smaller elements",
+        off / now.turnover);
+  }
+
   void describe_statics() {
     const auto add = [&](std::string name, double value, const char* unit, const char* description) {
       result_.statics.push_back({std::move(name), value, unit, description});
@@ -198,6 +210,7 @@ class Run {
   }
 
   void finish() {
+    if (result_.status == "complete") say_if_unbalanced();
     result_.events.clear();
     for (const vehicle::ContactEvent& e : simulation_->events())
       result_.events.push_back({e.time, built_.vehicle.travel(e.time).distance, built_.vehicle.wheels[e.wheel].name,

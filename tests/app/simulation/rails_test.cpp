@@ -287,6 +287,23 @@ shape.standard = "60E1"
   }
 }
 
+/// A flange that stands within the face where it begins is pushed as if by a spring that nobody has loaded.
+TEST_F(RailsOfSimulations, EnergyOutOfNothingIsTold) {
+  write(R"(speed_m_s = 10
+distance_m = 0.6
+[[simulation.check_rails]]
+side = "right"
+from_m = 0.1
+to_m = 2.1
+face_y_mm = 682
+stiffness_N_per_m = 5e7
+damping_N_s_per_m = 1e5
+[rail]
+shape.standard = "60E1"
+)");
+  EXPECT_THAT(simulate().message, ::testing::HasSubstr("energies do not balance"));
+}
+
 std::string changing_over(const std::string& stretch) {
   return "speed_m_s = 10\ndistance_m = 0.4\n[[simulation.wheels]]\nwheelset = 1\nside = \"right\"\ncontact = "
          "\"full\"\n" +
