@@ -23,6 +23,17 @@
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
 
 namespace treadmark::app {
+
+std::string energy_doubt(const vehicle::EnergyBalance& now, const vehicle::EnergyBalance& start) {
+  constexpr double kDoubtful = 0.02;  // full contacts leave up to 0.005
+  const double off = std::max(std::abs(now.contact_error(start)), std::abs(now.integration_error(start)));
+  if (!(off > kDoubtful * now.turnover)) return {};
+  return fmt::format(
+      "energies do not balance: {:.2g} of the turnover is missing (energy.contact_error_J, "
+      "energy.integration_error_J), so forces are doubtful; try shorter steps or smaller elements",
+      off / now.turnover);
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -108,18 +119,6 @@ class Run {
         "the linearised vehicle is unstable at {:.6g} m/s: {:.3g} Hz, damping {:.2g} of critical, {} (treadmark "
         "stability)",
         file_.settings.speed, least->frequency_Hz, least->damping_ratio, least->shape);
-  }
-
-  void say_if_unbalanced() {
-    constexpr double kDoubtful = 0.02;  // full contacts leave up to 0.005
-    const vehicle::EnergyBalance &now = simulation_->energy(), &start = simulation_->energy_at_start();
-    const double off = std::max(std::abs(now.contact_error(start)), std::abs(now.integration_error(start)));
-    if (!(off > kDoubtful * now.turnover)) return;
-    if (!result_.message.empty()) result_.message += "; ";
-    result_.message += fmt::format(
-        "energies do not balance: {:.2g} of the turnover is missing (energy.contact_error_J, "
-        "energy.integration_error_J), so forces are doubtful; try shorter steps or smaller elements",
-        off / now.turnover);
   }
 
   void describe_statics() {
@@ -210,7 +209,10 @@ class Run {
   }
 
   void finish() {
-    if (result_.status == "complete") say_if_unbalanced();
+    if (result_.status == "complete") {
+      const std::string doubt = energy_doubt(simulation_->energy(), simulation_->energy_at_start());
+      if (!doubt.empty()) result_.message += (result_.message.empty() ? "" : "; ") + doubt;
+    }
     result_.events.clear();
     for (const vehicle::ContactEvent& e : simulation_->events())
       result_.events.push_back({e.time, built_.vehicle.travel(e.time).distance, built_.vehicle.wheels[e.wheel].name,

@@ -13,6 +13,7 @@
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
+#include "treadmark/solvers/vehicle/simulation.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::app {
@@ -61,5 +62,8 @@ bool is_finished(const std::filesystem::path& store, const io::SimulationFile& f
 /// Vehicle, track and contacts in equilibrium, without integration: static values and modes.
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,
                                     const SimulationOptions& options);
+
+/// What makes forces doubtful where energies do not balance since the start; empty: they do.
+std::string energy_doubt(const vehicle::EnergyBalance& now, const vehicle::EnergyBalance& start);
 
 }  // namespace treadmark::app

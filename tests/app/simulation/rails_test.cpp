@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/tests/app/program.hpp"
@@ -287,21 +288,19 @@ shape.standard = "60E1"
   }
 }
 
-/// A flange that stands within the face where it begins is pushed as if by a spring that nobody has loaded.
-TEST_F(RailsOfSimulations, EnergyOutOfNothingIsTold) {
-  write(R"(speed_m_s = 10
-distance_m = 0.6
-[[simulation.check_rails]]
-side = "right"
-from_m = 0.1
-to_m = 2.1
-face_y_mm = 682
-stiffness_N_per_m = 5e7
-damping_N_s_per_m = 1e5
-[rail]
-shape.standard = "60E1"
-)");
-  EXPECT_THAT(simulate().message, ::testing::HasSubstr("energies do not balance"));
+TEST(EnergyDoubt, TellsWhatIsMissing) {
+  vehicle::EnergyBalance start, now;
+  start.elastic = 3.0;
+  now.turnover = 100.0;
+  now.drive = 10.0;
+  now.friction = 9.0;
+  now.elastic = 3.0;  // 1 J of 100 J
+  EXPECT_EQ(app::energy_doubt(now, start), "");
+  now.friction = 18.0;
+  EXPECT_THAT(app::energy_doubt(now, start), HasSubstr("0.08 of the turnover"));
+  now.friction = 10.0;
+  now.dampers = 5.0;
+  EXPECT_THAT(app::energy_doubt(now, start), HasSubstr("0.05 of the turnover"));
 }
 
 std::string changing_over(const std::string& stretch) {
