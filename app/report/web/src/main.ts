@@ -6,7 +6,9 @@ import type { ReportData, View } from "./data";
 import { mountLicences } from "./licences";
 import { mountMap } from "./map";
 import { mountNavigation } from "./navigation";
+import { mountPaperTables } from "./paper-tables";
 import { mountPicture } from "./picture";
+import { mountPrint } from "./print";
 import { mountScene } from "./scene/index";
 import { Store } from "./store";
 import { mountTables } from "./tables";
@@ -50,10 +52,14 @@ function start(): void {
   const data = JSON.parse(element.textContent) as ReportData;
   const store = new Store(data);
   const toolbar = document.getElementById("toolbar");
-  if (toolbar) mountTheme(toolbar, store);
+  if (toolbar) {
+    mountTheme(toolbar, store);
+    mountPrint(toolbar, store);
+  }
   const bar = document.getElementById("timeline");
   if (bar) mountTimeline(bar, store);
   mountTables(store);
+  mountPaperTables();
   mountAll(store);
   mountNavigation();
   const footer = document.querySelector<HTMLElement>("body > footer");

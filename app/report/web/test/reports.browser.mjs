@@ -10,6 +10,7 @@ import { pathToFileURL } from "node:url";
 
 import { chromium } from "playwright-core";
 
+import { clipped } from "./clipped.mjs";
 import { Results } from "./results.mjs";
 
 const folder = resolve(process.env.OUT ?? "dist/reports");
@@ -130,6 +131,34 @@ async function photograph(file, name, selector) {
   }
 }
 
+/** Every view of a page drawn at both widths and on A4: no text is cut off. `steps`: what the reader chooses for paper. */
+async function readWhole(file, name, steps = "") {
+  for (const size of [...Object.keys(sizes), "paper"]) {
+    const paper = size === "paper";
+    const tab = await Tab.open(file, { size: paper ? "desktop" : size });
+    const { page } = tab;
+    for (const view of await page.locator("figure.view").all()) {
+      await view.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
+      await page.waitForTimeout(paper ? 0 : 250);
+    }
+    if (paper) {
+      if (steps) {
+        await page.locator(".print-menu summary").click();
+        await page.locator(".print-menu input").fill(steps);
+        assert.equal(await page.locator(".print-note").textContent(), "");
+      }
+      await page.pdf({ path: join(pictures, `${name}.pdf`), format: "A4", preferCSSPageSize: true });
+      // What is printed has gone again; for measuring it is made anew, as wide as A4 between its margins.
+      await page.setViewportSize({ width: Math.floor(((210 - 2 * 14) / 25.4) * 96), height: 1016 });
+      await page.emulateMedia({ media: "print" });
+      await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    }
+    assert.deepEqual(await page.evaluate(clipped, paper), [], `cut off in ${name}, ${size}`);
+    await page.screenshot({ path: join(pictures, `${name}-${size}-whole.png`), fullPage: true });
+    await tab.close();
+  }
+}
+
 test("a wheel flat in 26 positions", async () => {
   const file = results.run();
   assert.ok(statSync(join(folder, file)).size < 8e6);
@@ -167,6 +196,40 @@ test("a wheel flat in 26 positions", async () => {
   }
   await tab.close();
   await photograph(file, "run", "#contact");
+  await readWhole(file, "run", "1, 13-14");
+});
+
+test("paper has the chosen cases, each with its own picture, and the view in space that was never in sight", async () => {
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  await page.locator(".print-menu summary").click();
+  const input = page.locator(".print-menu input");
+  await input.fill("3-99");
+  assert.match(await page.locator(".print-note").textContent(), /“3-99” is not within 1 to 26/);
+  await input.fill("1, 13-14");
+  const pressures = await page.evaluate(() => {
+    window.dispatchEvent(new Event("beforeprint"));
+    const painted = (canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value > 0);
+    return ["patches-view", "scene"].map((id) =>
+      [...document.querySelectorAll(`#${id} .paper-step`)].map((step) => ({
+        name: step.querySelector(".paper-name").textContent,
+        picture: step.querySelector("canvas").toDataURL(),
+        painted: id === "scene" || painted(step.querySelector("canvas")),
+        text: step.textContent,
+      })),
+    );
+  });
+  const json = read("run/result.json");
+  for (const steps of pressures) {
+    assert.deepEqual(steps.map(({ name }) => Number(/^case (\d+) of 26/.exec(name)[1])), [1, 13, 14]);
+    assert.equal(new Set(steps.map(({ picture }) => picture)).size, 3, "pictures differ");
+    assert.ok(steps.every(({ painted }) => painted));
+  }
+  pressures[0].forEach(({ text }, k) => assert.ok(text.includes(String(Math.round(json.cases[[0, 12, 13][k]].patches[0].pmax_MPa))), text));
+  // Afterwards the page is as it was.
+  await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.locator(".paper-step, .scene-print").count(), 0);
+  await tab.close();
 });
 
 test("the view in space shows wheel, rail and patch and is picked", async () => {
@@ -284,6 +347,7 @@ test("a comparison of representations", async () => {
   assert.ok((await tab.page.locator("[data-view='chart'] path.line, [data-view='chart'] .mark").count()) > 0);
   await tab.close();
   await photograph(file, "compare", "[data-view='contact']");
+  await readWhole(file, "compare", "all");
 });
 
 test("a benchmark", async () => {
@@ -295,6 +359,7 @@ test("a benchmark", async () => {
   await tab.page.waitForTimeout(300);
   await tab.close();
   await photograph(file, "bench");
+  await readWhole(file, "bench");
 });
 
 test("the audit of an import", async () => {
@@ -306,6 +371,7 @@ test("the audit of an import", async () => {
   await tab.page.locator("[data-view='map'] svg").first().waitFor();
   await tab.close();
   await photograph(file, "import", "[data-view='map']");
+  await readWhole(file, "import");
 });
 
 test("a simulation in time", async () => {
@@ -325,6 +391,7 @@ test("a simulation in time", async () => {
   await tab.key(".timeline-slider", "End");
   await tab.close();
   await photograph(file, "simulation", "#forces");
+  await readWhole(file, "simulation", "all");
 });
 
 test("a study", async () => {
@@ -338,6 +405,7 @@ test("a study", async () => {
   await tab.waitForStep(4);
   await tab.close();
   await photograph(file, "sweep", "#summaries");
+  await readWhole(file, "sweep");
 });
 
 test("evolutions follow the slider over their generations", async () => {
@@ -380,6 +448,7 @@ test("evolutions follow the slider over their generations", async () => {
     await tab.close();
   }
   await photograph(flat, "evolution", "#wheel-depth");
+  await readWhole(flat, "evolution", "1-2");
 });
 
 test("fixed pictures need no scripts", async () => {
