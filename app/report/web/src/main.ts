@@ -14,6 +14,7 @@ import { Store } from "./store";
 import { mountTables } from "./tables";
 import { mountTheme } from "./theme";
 import { mountTimeline } from "./timeline";
+import { mountTrack } from "./track";
 
 function mountView(figure: HTMLElement, view: View, store: Store): void {
   switch (view.type) {
@@ -23,6 +24,8 @@ function mountView(figure: HTMLElement, view: View, store: Store): void {
       return mountContact(figure, view, store);
     case "scene":
       return mountScene(figure, view, store);
+    case "track":
+      return mountTrack(figure, view, store);
     case "map":
       return mountMap(figure, view, store);
     case "picture":

@@ -239,6 +239,7 @@ test("the view in space shows wheel, rail and patch and is picked", async () => 
   await page.waitForFunction(() => document.querySelector("#scene").dataset.ready === "true", undefined, { polling: 200 });
   assert.ok(Number(await page.locator("#scene").getAttribute("data-triangles")) > 2000);
   const canvas = page.locator("#scene canvas").first();
+  await canvas.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
   const box = await canvas.boundingBox();
   // Somewhere near the middle there is the patch.
   let picked = null;
@@ -251,6 +252,44 @@ test("the view in space shows wheel, rail and patch and is picked", async () => 
   assert.ok(Number(picked) > 0, `picked ${picked}`);
   await tab.close();
   await photograph("run.html", "scene", "#scene");
+});
+
+test("contact lies in the track where the result file says, over its section, on the named side", async () => {
+  const json = read("run/result.json");
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  await page.locator("#positions").scrollIntoViewIfNeeded();
+  await page.waitForSelector("#positions .track-panel", { state: "attached" });
+  const panels = await page.locator("#positions .track-panel").evaluateAll((all) =>
+    all.map((panel) => {
+      const ticks = [...panel.querySelectorAll("text")].map((text) => [Number(text.textContent), Number(text.getAttribute("x"))]).filter(([value]) => value > 700);
+      const [[y0, x0], [y1, x1]] = [ticks[0], ticks.at(-1)];
+      const dot = Number(panel.querySelector("circle").getAttribute("cx"));
+      return {
+        head: panel.querySelector("text").textContent,
+        y: y0 + ((dot - x0) / (x1 - x0)) * (y1 - y0),
+        scale: (x1 - x0) / (y1 - y0),
+        sides: [...panel.querySelectorAll("text")].filter(({ textContent }) => / side$/.test(textContent)).map((text) => text.textContent),
+        curves: panel.querySelectorAll("path[stroke-width='1.5']").length,
+        images: panel.querySelectorAll("image").length,
+      };
+    }),
+  );
+  assert.ok(panels.length > 12 && panels.length <= 24);
+  assert.ok(panels.some(({ head }) => head === `case ${1 + json.cases.findIndex((one) => one.patches[0].pmax_MPa === Math.max(...json.cases.map((c) => c.patches[0].pmax_MPa)))}`));
+  for (const { head, y, scale, sides, curves, images } of panels) {
+    const [patch] = json.cases[Number(head.replace("case ", "")) - 1].patches;
+    near(y, patch.reference.y_tr_mm, 0.15 / scale, `y of ${head}`);  // tenths of a pixel
+    assert.deepEqual(sides, ["gauge side", "field side"]);
+    assert.equal(curves, 2);
+    assert.ok(images >= 1);
+  }
+  // It wanders with the flat, and a click chooses the case.
+  assert.ok(Math.max(...panels.map(({ y }) => y)) - Math.min(...panels.map(({ y }) => y)) > 1);
+  await page.locator("#positions .track-hit").nth(2).click();
+  await tab.waitForStep(Number(panels[2].head.replace("case ", "")) - 1);
+  await tab.close();
+  await photograph("run.html", "positions", "#positions");
 });
 
 test("26 positions open and follow the slider without delay", async () => {
@@ -387,6 +426,16 @@ test("a simulation in time", async () => {
     return Number([...row.cells].find((cell) => cell.dataset.value).dataset.value);
   });
   near(summary, largest, 1e-9 * largest, "largest force");
+  // ParaView has contact, wheel and rail at the seconds that the history has for the pitch of the snapshots.
+  const times = (name) => [...readFileSync(join(folder, "simulation", "vtk", name), "utf8").matchAll(/timestep="([^"]*)".*file="([^"]*)"/g)];
+  const last = Number(csv.at(-1).split(",")[csv[0].split(",").indexOf("t_s")]);
+  const seconds = [...new Set(times("bodies.pvd").map(([, time]) => Number(time)))];
+  assert.equal(seconds.length, 4);
+  assert.ok(seconds.every((time, k) => time >= 0 && time <= last && (k === 0 || time > seconds[k - 1])), String(seconds));
+  for (const [, time, name] of [...times("bodies.pvd"), ...times("snapshots.pvd")]) {
+    assert.ok(seconds.includes(Number(time)), name);
+    assert.ok(statSync(join(folder, "simulation", "vtk", name)).size > 1000, name);
+  }
   assert.equal(await tab.page.locator(".timeline-slider").getAttribute("max"), String(csv.length - 2));
   await tab.key(".timeline-slider", "End");
   await tab.close();
