@@ -12,9 +12,10 @@ namespace treadmark {
 
 /// The rows of the built-in backends, each group in the file of its name.
 std::vector<Backend> analytic_backends();
-std::vector<Backend> spline_backends();  ///< spline, nurbs
-std::vector<Backend> mesh_backends();    ///< mesh, mesh-flat
-std::vector<Backend> offset_backends();  ///< offset, offset-quadratic, offset-bilinear
+std::vector<Backend> spline_backends();    ///< spline, nurbs, thb
+std::vector<Backend> mesh_backends();      ///< mesh, mesh-flat
+std::vector<Backend> offset_backends();    ///< offset, offset-quadratic, offset-bilinear
+std::vector<Backend> shortcut_backends();  ///< chords, prismatic
 
 /// Whether the shape is a standard profile or a chain of arcs.
 bool is_formula(const SurfaceSpec& spec);

@@ -34,6 +34,9 @@ struct Backend {
 
   std::string
       part{};  ///< of parts() (core/parts.hpp) that it needs; a build without that refuses it by name. Empty: none
+
+  /// Made for one place, the middle of the region: cases at different places get surfaces of their own.
+  bool one_place = false;
 };
 
 /// Adds a representation; from then on it is a choice wherever names of backends are read, and last in every list.

@@ -10,9 +10,11 @@
 #include <fmt/format.h>
 
 #include "treadmark/backends/sampling/convert_points.hpp"
+#include "treadmark/backends/sampling/lateral_nodes.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/natural_view.hpp"
 
 namespace treadmark {
 
@@ -65,6 +67,17 @@ Profile Resampling::section() const {
   }
   return sampling::median_section(sampling::sample_points(surface(), spec().body, spec().nominal_radius, s),
                                   spec().nominal_radius, name_of_samples());
+}
+
+Profile Resampling::section_at(double u) const {
+  const std::vector<double> station{u};
+  sampling::PointGrid one;
+  one.body = spec().body;
+  one.u = station;
+  one.y = sampling::lateral_nodes(surface(), spec().body, station, resolution_, region_.y_min, region_.y_max);
+  one.h.resize(one.y.size());
+  section_heights(surface(), spec().body, u, one.y, {one.h, {}, {}});
+  return sampling::to_slices(one, spec().nominal_radius, name_of_samples()).profiles.front();
 }
 
 SliceSet Resampling::slices() { return sampling::to_slices(points(false), spec().nominal_radius, name_of_samples()); }

@@ -43,6 +43,8 @@ class Resampling {
   sampling::PointGrid points(bool common, bool staggered = false);
   /// That of a surface with one cross-section.
   Profile section() const;
+  /// That at one station u [m] or [rad]. Errors: Error(input_data) if it has gaps or hardly any points.
+  Profile section_at(double u) const;
   /// Cross-sections at stations.
   SliceSet slices();
   /// Those that are given if nothing else is asked for, else made of points.

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <optional>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/assembly/outermost_surface.hpp"
 #include "treadmark/backends/builtin.hpp"
+#include "treadmark/backends/sampling/seen_vertices.hpp"
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/backends/spline/slices/slice_net.hpp"
+#include "treadmark/core/error.hpp"
 
 namespace treadmark {
 namespace {
@@ -64,13 +68,53 @@ std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
   return spline::make_nurbs_surface(r.points(true));
 }
 
+/// Triangles of a scan, unless their samples are asked for: their vertices are what was measured.
+std::shared_ptr<const Surface> thb_of_vertices(const TriangleMesh& mesh, Resampling& r, int degree) {
+  const Body body = r.spec().body;
+  // the outermost vertices lie inside of the region, and the surface is to reach its ends
+  constexpr double kBeyond = 2e-3;
+  const double beyond_u = kBeyond / (body == Body::wheel ? r.spec().nominal_radius : 1.0);
+  const Region& wanted = r.region();
+  const Region region{wanted.u_min - beyond_u, wanted.u_max + beyond_u, wanted.y_min - kBeyond, wanted.y_max + kBeyond};
+  const std::vector<Vec3> seen = sampling::seen_vertices(r.surface(), body, mesh.vertices, region);
+  std::string note;
+  try {
+    auto surface = spline::make_thb_surface(seen, body, region, degree, note);
+    r.set_resolution(0.0);
+    r.add_note(note);
+    return surface;
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::input_data) throw;
+    throw Error(e.kind(), e.message() + " (vertices of triangles are fitted where no resolution is given)", e.where(),
+                "give a resolution, at which the triangles are sampled");
+  }
+}
+
+std::shared_ptr<const Surface> as_thb(Resampling& r, int degree) {
+  const auto* mesh = std::get_if<TriangleMesh>(&r.spec().shape);
+  if (mesh != nullptr && !r.asked() && r.spec().defects.empty()) return thb_of_vertices(*mesh, r, degree);
+  // a quadratic needs two points to each of its intervals, which are to be as long as was asked for
+  const double spacing = r.resolution();
+  if (degree == 2) r.set_resolution(0.5 * spacing);
+  const sampling::PointGrid points = r.points(true);
+  r.set_resolution(spacing);
+  std::string note;
+  auto surface = spline::make_thb_surface(points, degree, note);
+  r.add_note(note);
+  return surface;
+}
+
 }  // namespace
 
 std::vector<Backend> spline_backends() {
   Backend spline{"spline", "cubic along the section, tensor B-spline of slices along or round", 4.0, false, as_spline};
   spline.natural_for = is_measured_lines;
   spline.make_natural = natural_spline;
-  return {spline, {"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs}};
+  return {spline,
+          {"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs},
+          {"thb", "truncated hierarchical B-spline, fine where the shape asks for it", 4.0, false,
+           [](Resampling& r) { return as_thb(r, 3); }},
+          {"thb-quadratic", "the same of degree 2", 3.0, false, [](Resampling& r) { return as_thb(r, 2); }}};
 }
 
 }  // namespace treadmark

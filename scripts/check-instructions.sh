@@ -17,7 +17,7 @@ while (($#)); do
   case $1 in
     --build) [[ $# -gt 1 ]] || usage; build=$2; shift 2 ;;
     --no-build) no_build=1; shift ;;
-    --short) pattern='^(heights/(wheel|rail)/(analytic|spline)/|search/.*/analytic|distance/analytic|normal|large|case|rolling)'; shift ;;
+    --short) pattern='^(heights/(wheel|rail)/(analytic|spline)/|search/.*/analytic|distance/analytic|normal|large|case|rolling|build/mesh/rail|import/ply)'; shift ;;
     --update) update=(--update); shift ;;
     -*) usage ;;
     *) pattern=$1; shift ;;

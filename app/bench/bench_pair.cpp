@@ -2,8 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/bench/bench_pair.hpp"
 
+#include <algorithm>
+
 #include "treadmark/app/bench/check_surface.hpp"
 #include "treadmark/app/bench/machine.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 
@@ -36,6 +39,12 @@ class PairBench {
     return median_time(call, seconds_);
   }
 
+  /// Of names that are in no list: not.
+  bool one_place() const {
+    const auto all = backends();
+    return std::ranges::any_of(all, [&](const Backend* b) { return b->name == pair_.backend && b->one_place; });
+  }
+
   BenchRow body_row(Body body) {
     const bool rail = body == Body::rail;
     const std::string word = rail ? "rail" : "wheel";
@@ -48,7 +57,7 @@ class PairBench {
     row.memory_bytes = surface.memory_bytes();
     row.points = view.grid.size();
     next(word + ", agreement");
-    const SurfaceAgreement agreement = check_surface(surface, view, pair_.resolution);
+    const SurfaceAgreement agreement = check_surface(surface, view, pair_.resolution, one_place());
     row.difference = agreement.difference;
     row.reason = agreement.reason;
     row.agrees = row.reason.empty();

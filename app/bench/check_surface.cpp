@@ -9,6 +9,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 
 namespace treadmark::app {
@@ -138,9 +139,9 @@ double representation_limit(double resolution, double largest_curvature) {
   return resolution > 0.0 ? kRoom * resolution * resolution / 8.0 * largest_curvature + kRounding : kExact;
 }
 
-SurfaceAgreement check_surface(const Surface& subject, const BenchView& truth, double resolution) {
+SurfaceAgreement check_surface(const Surface& subject, const BenchView& truth, double resolution, bool one_place) {
   const Grid2& g = truth.grid;
-  const double limit = representation_limit(resolution, truth.largest_curvature);
+  const double limit = one_place ? kInfinity : representation_limit(resolution, truth.largest_curvature);
   const double turned = turning_limit(resolution, truth.largest_curvature);
   SurfaceAgreement result;
   for (const bool level : {true, false}) {

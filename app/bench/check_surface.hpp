@@ -17,8 +17,10 @@ struct SurfaceAgreement {
 
 /// Heights, seen level and tilted, against the surface as given (within what samples so far apart may lose where it is
 /// so curved), against the same surface's single points seen in a third plane, and slopes against differences of
-/// heights. resolution: of the samples [m]; 0 = no samples, the surfaces must be equal.
-SurfaceAgreement check_surface(const Surface& subject, const BenchView& truth, double resolution);
+/// heights. resolution: of the samples [m]; 0 = no samples, the surfaces must be equal. one_place: the surface stands
+/// for the one as given at one place only, its difference is told and not judged.
+SurfaceAgreement check_surface(const Surface& subject, const BenchView& truth, double resolution,
+                               bool one_place = false);
 
 /// How far chords of this length may lie from a surface so curved, with room for two directions [m].
 double representation_limit(double resolution, double largest_curvature);

@@ -42,6 +42,13 @@ void put_reference(const wheelrail::PatchSolution& patch, io::PatchResult& r) {
   r.angle_rail = patch.angle_rail;
   r.angle_wheelset = patch.angle_wheelset;
   r.angle_wheel = patch.angle_wheel;
+  const auto curvatures = [](const std::optional<wheelrail::ContactShape>& shape) {
+    std::optional<io::PatchResult::Curvatures> out;
+    if (shape) out = {shape->curvature_1, shape->curvature_2, shape->angle};
+    return out;
+  };
+  r.rail_curvatures = curvatures(patch.rail_shape);
+  r.wheel_curvatures = curvatures(patch.wheel_shape);
   // Elements of grids that stay aligned in time have another origin than the contact reference.
   r.reference_x = patch.reference_C.x();
   r.reference_s = patch.reference_C.y();

@@ -25,6 +25,7 @@
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
+#include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -39,6 +40,8 @@ struct ConvertOptions {
   std::optional<double> at;                 ///< of the results of a simulation [s]
   std::string simulation;                   ///< its file; empty: to be looked for
   std::vector<std::string> overrides;
+  std::string offsets, offsets_unit, deviation_unit;  ///< a table of deviations, and its units: empty = as it says
+  bool offsets_deg = false;
   app::ProfileConversion profile;  ///< where a profile is written
 };
 
@@ -96,12 +99,17 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   settings.nominal_radius = 1e-3 * options.nominal_radius_mm;
   settings.scale_to_mm = options.scale_to_mm;
   settings.overrides = options.overrides;
+  settings.offsets = {
+      options.offsets, length_unit(options.offsets_unit), length_unit(options.deviation_unit), options.offsets_deg, {}};
   constexpr double kDegree = std::numbers::pi / 180.0;
   if (!options.range_mm.empty()) settings.range_x = {1e-3 * options.range_mm[0], 1e-3 * options.range_mm[1]};
   if (!options.range_deg.empty())
     settings.range_theta = {kDegree * options.range_deg[0], kDegree * options.range_deg[1]};
 
   if (io::is_writable_profile(options.output)) {
+    if (!options.offsets.empty())
+      throw Error(ErrorKind::configuration, "deviations on a grid cannot be written as one profile", {options.output},
+                  "write triangles, slices or offsets: .ply .stl .obj .off .slcs .slcw .vdb");
     std::cout << options.output << ": "
               << app::convert_profile(options.input, options.output, settings, options.profile) << '\n';
     return kOk;
@@ -124,12 +132,14 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
 Command add_convert(CLI::App& verb) {
   auto options = std::make_shared<ConvertOptions>();
   verb.add_option("IN", options->input,
-                  "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), a case file, or with --at the "
+                  "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), offsets (.vdb), a case file, "
+                  "or with --at the "
                   "simulation.h5 of a simulation")
       ->required();
-  verb.add_option("OUT,-o,--output", options->output,
-                  ".ply .stl .obj .off, .slcs .slcw, .vdb, or a profile: .prr .prw .ban .whl .csv; of a case file also "
-                  ".inp (CONTACT) or .toml: its cases")
+  verb.add_option(
+          "OUT,-o,--output", options->output,
+          ".ply .stl .obj .off, .slcs .slcw, .vdb, .step, or a profile: .prr .prw .ban .whl .csv; of a case file also "
+          ".inp (CONTACT) or .toml: its cases")
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
@@ -156,6 +166,20 @@ Command add_convert(CLI::App& verb) {
       ->type_name("MM");
   verb.add_flag("--derivatives", options->profile.derivatives,
                 "Profile as .csv, .ban or .whl: columns of arc length, inclination and curvature too");
+  std::vector<std::string> units;
+  for (const LengthUnit unit : kLengthUnits) units.emplace_back(symbol(unit));
+  CLI::Option* table = verb.add_option("--offsets", options->offsets,
+                                       "Table of deviations that is added (z of a rail, radius of a wheel): .csv .txt "
+                                       "matrix or .asc grid, as rail.offsets.file of a case")
+                           ->type_name("TABLE");
+  verb.add_option("--offsets-unit", options->offsets_unit, "Of its positions, where it does not tell: mm")
+      ->check(CLI::IsMember(units))
+      ->needs(table);
+  verb.add_option("--deviation-unit", options->deviation_unit, "Of its deviations; default: that of the positions")
+      ->check(CLI::IsMember(units))
+      ->needs(table);
+  verb.add_flag("--offsets-deg", options->offsets_deg, "Its places round a wheel are degrees, not lengths")
+      ->needs(table);
   verb.add_option("--at", options->at, "Time of an instant of a simulation [s]: its contacts become cases")
       ->type_name("SECONDS");
   verb.add_option("--simulation", options->simulation,

@@ -127,11 +127,16 @@ void compare(io::ComparisonRow& row, const io::CaseResult& result, const io::Com
 
 io::RepresentedBody body_of(const std::vector<io::SurfaceUse>& uses, std::string_view body) {
   io::RepresentedBody out;
-  for (const io::SurfaceUse& use : uses)
-    if (use.body == body) {
+  for (const io::SurfaceUse& use : uses) {
+    if (use.body != body) continue;
+    if (out.backend.empty()) {
       out = {use.backend, use.resolution, use.build_seconds, use.memory_bytes, use.fit, use.note};
-      break;
+      continue;
     }
+    // one a case: the worst of them
+    out.build_seconds += use.build_seconds;
+    if (use.fit.height_max > out.difference.height_max) out.difference = use.fit, out.note = use.note;
+  }
   return out;
 }
 

@@ -162,6 +162,7 @@ class CaseContacts : public ContactSource {
     wheelrail::Geometry geometry;
     for (const Body body : {Body::rail, Body::wheel}) {
       const io::SurfaceSource& source = source_of(input, body);
+      refuse_one_place(source, "an evolution");
       const sampling::Region& region = body == Body::wheel ? regions_.wheel : regions_.rail;
       const auto evolving = std::ranges::find(file_.bodies, body, &io::EvolvingBody::body);
       std::shared_ptr<const Surface> surface;

@@ -12,6 +12,7 @@
 
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
+#include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
@@ -170,22 +171,65 @@ void write_offset_file(const std::filesystem::path& file, const FittedScan& fit,
                 fmt::format("{}", fmt::join(summary, "\n")));
 }
 
-/// Distance of the surface, as anyone reads it, from the fitted one, along the section's normals, on a grid that meets
-/// no nodes.
-void compare(const std::filesystem::path& file, const FittedScan& fit, const std::optional<NaturalSurface>& sections,
-             io::ImportReport::Output& out) {
-  io::SurfaceSource source;
-  source.geometry = io::GeometryFile{file, {}};
-  source.where = {file.string(), 0, 0};
-  const NaturalSurface back = read_surface(source, fit.scan.body, radius_of(fit));
-  constexpr std::size_t kStations = 400, kAcross = 101;
+/// Where surfaces are compared along the band: at places that meet no nodes.
+class Stations {
+ public:
+  static constexpr std::size_t kCount = 120, kAcross = 337;
+  static constexpr double kMargin = 1.5e-3 + 1e-3 * 0.5;  ///< from the rims [m]
+
+  explicit Stations(const FittedScan& fit)
+      : fitted_(fit.fitted),
+        first_(fitted_.band.closed ? 0.0 : kMargin),
+        step_((fitted_.band.length() - 2.0 * first_) / kCount) {}
+
+  double at(std::size_t i) const { return first_ + step_ * (static_cast<double>(i) + kOff); }
+  /// Whether a place is within a distance [m] of one.
+  bool near(double u, double distance) const {
+    const double a = (u - fitted_.u_at(0.0)) * fitted_.band.radius, k = (a - first_) / step_ - kOff;
+    return std::fabs(k - std::round(k)) * step_ <= distance;
+  }
+
+ private:
+  static constexpr double kOff = 0.37;
+  const scans::FittedBand& fitted_;
+  double first_, step_;
+};
+
+/// Triangles of a file, all of them checked, those about the stations kept: what a smooth surface depends on there.
+TriangleMesh triangles_about(const Stations& stations, const std::filesystem::path& file, Body body, double reach) {
+  TriangleMesh mesh = io::read_mesh(file);
+  mesh::check_mesh(mesh, body);
+  std::vector<std::uint8_t> near(mesh.vertices.size());
+  for (std::size_t v = 0; v < near.size(); ++v) near[v] = stations.near(natural(body, mesh.vertices[v]).u, reach);
+  std::erase_if(mesh.triangles, [&](const auto& corners) {
+    return !std::ranges::any_of(corners, [&](auto v) { return near[v] != 0; });
+  });
+  return mesh;
+}
+
+/// Distance of the surface, as anyone reads it, from the fitted one, along the section's normals.
+void compare(const std::filesystem::path& file, const FittedScan& fit, const io::ImportSettings& settings,
+             const std::optional<NaturalSurface>& sections, io::ImportReport::Output& out) {
+  const Stations stations(fit);
+  NaturalSurface back;
+  if (io::is_mesh_file(file) && settings.fit.decimate_um == 0.0) {
+    constexpr double kRings = 6.0;  // of triangles; a vertex is fitted to two
+    SurfaceSpec spec;
+    spec.body = fit.scan.body;
+    spec.nominal_radius = radius_of(fit);
+    spec.shape = triangles_about(stations, file, fit.scan.body, kRings * 1e-3 * settings.fit.resolution_mm);
+    back = create_natural(std::move(spec));
+  } else {
+    io::SurfaceSource source;
+    source.geometry = io::GeometryFile{file, {}};
+    source.where = {file.string(), 0, 0};
+    back = read_surface(source, fit.scan.body, radius_of(fit));
+  }
+  constexpr std::size_t kStations = Stations::kCount, kAcross = Stations::kAcross;
+  constexpr double margin = Stations::kMargin;
   std::vector<double> worst(kStations, 0.0), square(kStations, 0.0), count(kStations, 0.0);
-  const double margin = 1.5e-3 + 1e-3 * 0.5;
   parallel_for(kStations, [&](std::size_t i) {
-    const double length = fit.fitted.band.length();
-    const double a = fit.fitted.band.closed
-                         ? length * (static_cast<double>(i) + 0.37) / kStations
-                         : margin + (length - 2.0 * margin) * (static_cast<double>(i) + 0.37) / kStations;
+    const double a = stations.at(i);
     std::vector<double> y, v, slope(kAcross), z(kAcross);
     for (std::size_t k = 0; k < kAcross; ++k) {
       const double s = fit.fitted.s_min + margin +
@@ -304,7 +348,7 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const s
     sections = create_natural(std::move(spec));
   }
   try {
-    compare(place, fit, sections, out);
+    compare(place, fit, settings, sections, out);
   } catch (const Error& error) {
     throw Error(ErrorKind::input_data, "the surface that was made could not be read again: " + error.message(),
                 {file.string()},

@@ -14,6 +14,7 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/line_summary.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/vehicle/check_rail.hpp"
@@ -39,6 +40,7 @@ UsedBodies bodies_of(const wheelrail::Geometry& geometry, const io::SimulationFi
 io::SurfaceSource round_wheel(const io::SimulationFile& file) {
   io::SurfaceSource source = file.other_wheel ? *file.other_wheel : file.contact.wheel;
   source.defects = {};
+  source.offsets = {};
   return source;
 }
 
@@ -127,8 +129,10 @@ class Builder {
     };
     const auto wheel = natural();
     if (wheel->constant_profile()) return nullptr;
-    if (given.defects.empty()) return std::make_shared<const DefectDepth>(wheel->surface, nullptr);
+    if (given.defects.empty() && given.offsets.file.empty())
+      return std::make_shared<const DefectDepth>(wheel->surface, nullptr);
     given.defects = {};
+    given.offsets = {};
     return std::make_shared<const DefectDepth>(wheel->surface, natural()->surface);
   }
 
@@ -183,6 +187,7 @@ class Builder {
  private:
   static io::SurfaceSource undamaged(io::SurfaceSource rail) {
     rail.defects = {};
+    rail.offsets = {};
     rail.backend = "";
     rail.resolution = 0.0;
     return rail;
@@ -264,6 +269,7 @@ class Builder {
 
   wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source,
                                const Region& region) {
+    for (const io::SurfaceSource* source : {&rail_source, &wheel_source}) refuse_one_place(*source, "a simulation");
     const StoredSurface& rail = store_.get(rail_source, Body::rail, 0.0, region);
     const StoredSurface& wheel = store_.get(wheel_source, Body::wheel, file_.contact.wheelset.nominal_radius, Region{});
     return {rail.represented.surface, wheel.represented.surface, rail.constant_profile(), wheel.constant_profile()};

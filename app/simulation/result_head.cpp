@@ -55,6 +55,7 @@ class Hashes {
     for (const io::SurfaceSource& part : source.parts) add(part);
     const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
     if (geometry != nullptr && source.parts.empty()) add(geometry->file, source.where);
+    if (!source.offsets.file.empty()) add(source.offsets.file, source.offsets.where);
   }
 
   void add(const io::InfluenceInput& influence) {

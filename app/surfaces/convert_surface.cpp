@@ -9,10 +9,15 @@
 #include <string>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/backends/resampling.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -23,20 +28,60 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// One section where there is one, else a grid of points.
+io::CadPoints to_cad(const NaturalSurface& natural, const Representation& wanted, Sampled& sampled) {
+  if (natural.spec.roller_radius != 0.0)
+    throw Error(ErrorKind::configuration, "CAD files hold rails and wheels, not rollers", {}, "convert its profile");
+  Resampling resampling(natural, wanted);
+  io::CadPoints out;
+  out.body = natural.spec.body;
+  if (natural.constant_profile()) {
+    Profile section = resampling.section();
+    const double zero = out.body == Body::wheel ? natural.spec.nominal_radius : 0.0;
+    for (double& z : section.z) z += zero;
+    out.y = std::move(section.y);
+    out.h = std::move(section.z);
+    resampling.limit_rail();
+    const Region& r = resampling.region();
+    const bool part = r.u_max - r.u_min < 2.0 * kPi;
+    out.from = out.body == Body::rail || part ? r.u_min : 0.0;
+    out.to = out.body == Body::rail || part ? r.u_max : 2.0 * kPi;
+  } else {
+    const sampling::PointGrid points = resampling.points(true);
+    out.stations = static_cast<int>(points.u.size() + (points.closed ? 1 : 0));
+    out.grid.reserve(static_cast<std::size_t>(out.stations) * points.y.size());
+    for (std::size_t iu = 0; iu < static_cast<std::size_t>(out.stations); ++iu)
+      for (std::size_t iy = 0; iy < points.y.size(); ++iy) {
+        if (!points.present(iu % points.u.size(), iy))
+          throw Error(ErrorKind::input_data, "a surface with gaps cannot become one face of CAD", {},
+                      "write triangles, or limit the range");
+        out.grid.push_back(points.point(iu % points.u.size(), iy));
+      }
+  }
+  sampled = resampling.sampled();
+  return out;
+}
+
 }  // namespace
 
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
                           const ConvertSettings& settings) {
   const std::string extension = io::profiles::lower(output.extension().string());
   const bool triangles = io::is_mesh_file(output), slices = io::is_slices_file(output),
-             offsets = is_offset_file(output);
-  if (!triangles && !slices && !offsets)
-    throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
-                {output.string()},
-                "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets");
+             offsets = is_offset_file(output), cad = io::is_step_file(output);
+  if (!triangles && !slices && !offsets && !cad)
+    throw Error(
+        ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {output.string()},
+        "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets, .step for CAD");
   Converted out;
   out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
   out.body = out.source.spec.body;
+  const NaturalSurface below = out.source;
+  std::optional<OffsetMap> table;
+  if (!settings.offsets.file.empty()) {
+    table = read_offset_table(settings.offsets, out.source);
+    out.source = add_offsets(out.source, *table);
+  }
   Representation wanted{triangles ? "mesh"
                         : slices  ? "spline"
                                   : "offset",
@@ -50,7 +95,10 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
   const std::filesystem::path place = own ? own->path() / output.filename() : output;
   const auto start = Clock::now();
-  if (triangles) {
+  if (cad) {
+    out.kind = "CAD";
+    io::write_cad(place, to_cad(out.source, wanted, sampled));
+  } else if (triangles) {
     out.kind = "triangles";
     io::write_mesh(place, to_triangles(out.source, wanted, &sampled));
   } else if (slices) {
@@ -58,7 +106,10 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     io::write_slices(output, to_slices(out.source, wanted, &sampled));
   } else {
     out.kind = "offsets";
-    write_offsets(place, out.source, wanted, &sampled);
+    if (table)
+      write_added_offsets(place, below, *table, wanted);
+    else
+      write_offsets(place, out.source, wanted, &sampled);
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   // measured on the surface that a reader of the file gets

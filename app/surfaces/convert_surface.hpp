@@ -21,6 +21,7 @@ struct ConvertSettings {
   /// Part that is written: along the track [m], round the wheel [rad]. The other body's range is an error.
   std::optional<std::pair<double, double>> range_x, range_theta;
   std::vector<std::string> overrides;  ///< of a case
+  io::OffsetsInput offsets;            ///< a table of deviations that is added
 };
 
 struct Converted {
@@ -32,7 +33,8 @@ struct Converted {
 };
 
 /// Reads any geometry (profile, slices, triangles, offsets, or the wheel or rail of the first case of a case file) and
-/// writes it as triangles (.ply .stl .obj .off), slices (.slcs .slcw) or offsets over the undamaged section (.vdb).
+/// writes it as triangles (.ply .stl .obj .off), slices (.slcs .slcw), offsets over the undamaged section (.vdb) or CAD
+/// (.step).
 /// Errors: those of readers, backends and writers; Error(configuration) if the body is not known or the extension means
 /// nothing.
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,

@@ -11,6 +11,7 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -86,7 +87,9 @@ void collect(const io::SurfaceSource& source, Body body, const io::ExpectedWheel
   for (const io::SurfaceSource& part : source.parts) collect(part, body, expected, uses);
   const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
   if (!source.parts.empty() || file == nullptr) return;
-  if (is_offset_file(file->file) || io::is_mesh_file(file->file) || io::is_slices_file(file->file)) return;
+  if (is_offset_file(file->file) || io::is_mesh_file(file->file) || io::is_cad_file(file->file) ||
+      io::is_slices_file(file->file))
+    return;
   ProfileUse use{*file, body, expected, source.where};
   if (std::none_of(uses.begin(), uses.end(), [&](const ProfileUse& u) { return u.same_as(use); }))
     uses.push_back(std::move(use));

@@ -9,8 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/surfaces/offset_table.hpp"
+#include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
@@ -46,6 +49,24 @@ SliceSet slices_of(const io::GeometryFile& file, Body body, const SourcePosition
   return slices;
 }
 
+/// Its units are its own: another scale is a mistake.
+decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body body, double radius,
+                                          const SourcePosition& where, std::string& note) {
+  if (file.options.scale != 1.0)
+    throw Error(ErrorKind::configuration, "files of CAD have units of their own", where, "leave out scale_to_mm");
+  if (body == Body::rail && radius != 0.0)
+    throw Error(ErrorKind::configuration, "a file of CAD cannot become a roller", where, "use a profile or slices");
+  io::CadSections sections = io::read_cad(file.file, body, radius, where);
+  note = std::move(sections.note);
+  if (auto* profile = std::get_if<Profile>(&sections.shape)) {
+    profile->smoothing = file.options.smoothing;
+    return std::move(*profile);
+  }
+  SliceSet slices = std::get<SliceSet>(std::move(sections.shape));
+  slices.open_seam = file.open_seam;
+  return slices;
+}
+
 NaturalSurface read_parts(const io::SurfaceSource& source, Body body, double radius) {
   if (!source.defects.empty())
     throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
@@ -74,16 +95,21 @@ MovingSection motion_of(const io::CrossingInput& c) {
   return m;
 }
 
-NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
+namespace {
+
+NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double radius) {
   if (!source.parts.empty()) return read_parts(source, body, radius);
   SurfaceSpec spec;
   spec.body = body;
   (body == Body::wheel ? spec.nominal_radius : spec.roller_radius) = radius;
   spec.defects = source.defects;
+  std::string note;
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
     if (io::is_mesh_file(file->file))
       spec.shape = io::read_mesh(file->file, file->options.scale, source.where);
+    else if (io::is_cad_file(file->file))
+      spec.shape = shape_of_cad(*file, body, radius, source.where, note);
     else if (io::is_slices_file(file->file))
       spec.shape = slices_of(*file, body, source.where);
     else
@@ -98,7 +124,20 @@ NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double r
   }
   if (source.crossing.part != io::CrossingInput::Part::none)
     spec.shape = move_section(spec, motion_of(source.crossing));
-  return create_natural(std::move(spec));
+  NaturalSurface natural = create_natural(std::move(spec));
+  natural.note += note;
+  return natural;
+}
+
+}  // namespace
+
+NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
+  NaturalSurface shape = read_shape(source, body, radius);
+  if (source.offsets.file.empty()) return shape;
+  if (body == Body::rail && radius != 0.0)
+    throw Error(ErrorKind::configuration, "a table of deviations cannot be added to a roller", source.offsets.where,
+                "use a profile, slices or triangles that have them");
+  return add_offsets(shape, read_offset_table(source.offsets, shape));
 }
 
 }  // namespace treadmark::app

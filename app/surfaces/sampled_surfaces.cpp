@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/pose.hpp"
 
@@ -98,7 +99,7 @@ std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io
                                     SurfaceStore& store) {
   std::map<int, const io::WheelRailCase*> inputs;
   for (const io::Case& c : file.cases) inputs[c.number] = std::get_if<io::WheelRailCase>(&c.content);
-  const SampledRegions regions = sampled_regions(file);
+  const SampledRegions all = sampled_regions(file);
   std::vector<UsedBodies> out;
   for (const io::CaseResult& result : cases) {
     UsedBodies& used = out.emplace_back();
@@ -106,6 +107,7 @@ std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io
     if (found == inputs.end() || found->second == nullptr) continue;
     const io::WheelRailCase& input = *found->second;
     used.left = input.side == Side::left;
+    const SampledRegions regions = regions_of(input, all);
     const auto body = [&](const StoredSurface& s, bool constant, double size) {
       UsedBody one{s.body(), s.represented.surface, nullptr, constant, size};
       if (!s.represented.resampled) return one;
@@ -145,21 +147,18 @@ struct Interval {
   }
 };
 
-}  // namespace
+/// Both bodies of a case.
+void include(const io::WheelRailCase& input, Interval& theta, Interval& x) {
+  const WheelsetState& w = input.state;
+  const double turned = std::fabs(w.position.yaw) + std::fabs(w.wheel_offset.yaw);
+  const double sideways = std::fabs(w.position.roll) + std::fabs(w.wheel_offset.roll) + std::fabs(input.track.cant);
+  theta.include(wrap_angle(-(w.position.pitch + w.wheel_offset.pitch)),
+                kSearchAngle + kMarginAngle + turned + 0.2 * sideways);
+  x.include(w.position.x + w.wheel_offset.x,
+            (kSearchAngle + kMarginAngle) * input.wheelset.nominal_radius + kHalfGauge * turned);
+}
 
-SampledRegions sampled_regions(const io::CaseFile& file) {
-  Interval theta, x;
-  for (const io::Case& c : file.cases) {
-    const auto* input = std::get_if<io::WheelRailCase>(&c.content);
-    if (input == nullptr) continue;
-    const WheelsetState& w = input->state;
-    const double turned = std::fabs(w.position.yaw) + std::fabs(w.wheel_offset.yaw);
-    const double sideways = std::fabs(w.position.roll) + std::fabs(w.wheel_offset.roll) + std::fabs(input->track.cant);
-    theta.include(wrap_angle(-(w.position.pitch + w.wheel_offset.pitch)),
-                  kSearchAngle + kMarginAngle + turned + 0.2 * sideways);
-    x.include(w.position.x + w.wheel_offset.x,
-              (kSearchAngle + kMarginAngle) * input->wheelset.nominal_radius + kHalfGauge * turned);
-  }
+SampledRegions regions_within(const Interval& theta, const Interval& x) {
   SampledRegions regions;
   if (!x.any) return regions;
   regions.rail.u_min = x.low;
@@ -169,6 +168,41 @@ SampledRegions sampled_regions(const io::CaseFile& file) {
     regions.wheel.u_max = theta.high;
   }
   return regions;
+}
+
+bool made_for_one_place(const std::string& backend) { return !backend.empty() && backend_of(backend).one_place; }
+
+bool made_for_one_place(const io::SurfaceSource& source) {
+  return made_for_one_place(source.backend) ||
+         std::ranges::any_of(source.parts, [](const io::SurfaceSource& p) { return made_for_one_place(p.backend); });
+}
+
+}  // namespace
+
+SampledRegions sampled_regions(const io::CaseFile& file) {
+  Interval theta, x;
+  for (const io::Case& c : file.cases)
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) include(*input, theta, x);
+  return regions_within(theta, x);
+}
+
+SampledRegions regions_of(const io::WheelRailCase& input, const SampledRegions& all) {
+  SampledRegions out = all;
+  const bool wheel = made_for_one_place(input.wheel), rail = made_for_one_place(input.rail);
+  if (!wheel && !rail) return out;
+  Interval theta, x;
+  include(input, theta, x);
+  const SampledRegions own = regions_within(theta, x);
+  if (wheel) out.wheel = own.wheel;
+  if (rail) out.rail = own.rail;
+  return out;
+}
+
+void refuse_one_place(const io::SurfaceSource& source, const char* what) {
+  if (made_for_one_place(source))
+    throw Error(ErrorKind::configuration,
+                fmt::format("the representation of this body is made for one place, {} takes in many", what),
+                source.where, "choose another backend, see treadmark list backends");
 }
 
 }  // namespace treadmark::app

@@ -42,4 +42,11 @@ struct SampledRegions {
 /// whole wheel. Rail: positions along the track likewise. Without a wheel-rail case everything.
 SampledRegions sampled_regions(const io::CaseFile& file);
 
+/// What has to be sampled for one of the cases: as for all of them, but of a body in a representation that is made for
+/// one place (Backend::one_place) only what this case needs.
+SampledRegions regions_of(const io::WheelRailCase& input, const SampledRegions& all);
+
+/// Errors: Error(configuration) for a representation that is made for one place, where what says takes in many.
+void refuse_one_place(const io::SurfaceSource& source, const char* what);
+
 }  // namespace treadmark::app

@@ -24,6 +24,9 @@ std::string key_of(const io::SurfaceSource& source, Body body, double radius) {
   for (const io::SurfaceSource& part : source.parts)
     key += fmt::format(" [{} at {:.17g} {:.17g} {:.17g} as {} {:.17g}]", key_of(part, body, radius), part.offset.x(),
                        part.offset.y(), part.offset.z(), part.backend, part.resolution);
+  if (const io::OffsetsInput& o = source.offsets; !o.file.empty())
+    key += fmt::format(" offsets {} {} {} {}", o.file.string(), o.unit ? symbol(*o.unit) : "-",
+                       o.deviation_unit ? symbol(*o.deviation_unit) : "-", o.angles_deg);
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     const io::ProfileOptions& o = file->options;
     const SmoothingOptions& s = o.smoothing;
@@ -64,12 +67,14 @@ auto located(const SourcePosition& where, Build build) {
 
 void SurfaceStore::note_hashes(const io::SurfaceSource& source) {
   for (const io::SurfaceSource& part : source.parts) note_hashes(part);
+  const auto note = [&](const std::string& file, const std::filesystem::path& content) {
+    const bool known =
+        std::any_of(hashes_.begin(), hashes_.end(), [&](const auto& entry) { return entry.first == file; });
+    if (!known) hashes_.emplace_back(file, io::sha256_file(content));
+  };
+  if (!source.offsets.file.empty()) note(source.offsets.file.string(), source.offsets.file);
   const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
-  if (geometry == nullptr || !source.parts.empty()) return;
-  const std::string file = geometry->file.string();
-  const bool known =
-      std::any_of(hashes_.begin(), hashes_.end(), [&](const auto& entry) { return entry.first == file; });
-  if (!known) hashes_.emplace_back(file, io::sha256_file(io::profile_file(file)));
+  if (geometry != nullptr && source.parts.empty()) note(geometry->file.string(), io::profile_file(geometry->file));
 }
 
 std::string SurfaceStore::content_key(const io::SurfaceSource& source, Body body, double radius) {

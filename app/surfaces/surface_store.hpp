@@ -16,9 +16,10 @@ namespace treadmark::app {
 
 /// A surface ready for contact analysis.
 struct StoredSurface {
-  std::shared_ptr<const NaturalSurface> natural;                         ///< as given
-  RepresentedSurface represented;                                        ///< as asked for; used in the analysis
-  bool constant_profile() const { return natural->constant_profile(); }  ///< prismatic rail (so no roller), round wheel
+  std::shared_ptr<const NaturalSurface> natural;  ///< as given
+  RepresentedSurface represented;                 ///< as asked for; used in the analysis
+  /// Prismatic rail (so no roller), round wheel; as given, or made so.
+  bool constant_profile() const { return natural->constant_profile() || represented.surface->constant_profile(); }
   Body body() const { return natural->spec.body; }
 };
 

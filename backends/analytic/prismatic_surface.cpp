@@ -257,6 +257,23 @@ void PrismaticSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> poi
   });
 }
 
+void PrismaticSurface::do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double u = uv[i].x(), v = uv[i].y();
+    out[i] = {};
+    const ChainSegment& last = chain_.back();
+    if (!std::isfinite(u) || !(v >= chain_.front().s && v <= last.s + last.length)) continue;
+    const auto after = std::upper_bound(chain_.begin() + 1, chain_.end(), v,
+                                        [](double at, const ChainSegment& s) { return at < s.s; });
+    const ChainSegment& segment = *(after - 1);
+    const ChainPoint q = point_on(segment, std::min(v - segment.s, segment.length));
+    const double sine = std::sin(q.angle), cosine = std::cos(q.angle);
+    out[i] = {{u, q.y, q.z}, Vec3::UnitX(), {0.0, cosine, sine},
+              Vec3::Zero(),  Vec3::Zero(),  segment.curvature * Vec3(0.0, -sine, cosine),
+              -1.0};
+  }
+}
+
 void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   const Projection p(X_SP);
   std::fill(out.begin(), out.end(), SurfacePoint{});

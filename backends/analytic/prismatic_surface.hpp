@@ -9,14 +9,14 @@
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/backends/analytic/chain_view.hpp"
 #include "treadmark/backends/analytic/chord_tree.hpp"
-#include "treadmark/core/surface.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::analytic {
 
 /// A chain of arcs and lines extruded along x without end: a rail. Every query is in closed form: a line along the
 /// plane normal meets the surface where its projection to the y-z plane meets the chain. u = x [m], v = arc length
 /// along the chain [m].
-class PrismaticSurface final : public Surface {
+class PrismaticSurface final : public Surface, public Parametric {
  public:
   explicit PrismaticSurface(const ArcChain& chain);
 
@@ -32,6 +32,7 @@ class PrismaticSurface final : public Surface {
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
   /// The chain seen along (d_y, d_z). The views used last are kept by every thread, because neighbouring calls share

@@ -11,6 +11,7 @@
 #include "treadmark/backends/analytic/curve_pieces.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::analytic {
 
@@ -90,7 +91,7 @@ ArcChain rail_uic60_chain() { return head_of_60(10.5e-3, 25.988e-3); }
 namespace {
 
 /// z = 0 in the surface frame; u = x, v = y.
-class PlaneSurface final : public Surface {
+class PlaneSurface final : public Surface, public Parametric {
  public:
   explicit PlaneSurface(Facing facing) : facing_(facing) {}
 
@@ -139,6 +140,13 @@ class PlaneSurface final : public Surface {
       out[i].u = out[i].position_S.x();
       out[i].v = out[i].position_S.y();
       out[i].normal_S = Vec3::UnitZ() * (facing_ == Facing::up ? -1.0 : 1.0);
+    }
+  }
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override {
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+      const Vec3 flat = Vec3::Zero();
+      out[i] = {{uv[i].x(), uv[i].y(), 0.0},       Vec3::UnitX(), Vec3::UnitY(), flat, flat, flat,
+                facing_ == Facing::up ? -1.0 : 1.0};
     }
   }
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& r) const override {

@@ -10,11 +10,12 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::assembly {
 namespace {
 
-class LimitedSurface final : public Surface {
+class LimitedSurface final : public Surface, public Parametric {
  public:
   LimitedSurface(std::shared_ptr<const Surface> rail, double x_min, double x_max)
       : rail_(std::move(rail)), x_min_(x_min), x_max_(x_max) {
@@ -67,6 +68,12 @@ class LimitedSurface final : public Surface {
     for (SurfacePoint& p : out)
       if (p.status != LocateStatus::outside && !inside(p.position_S.x())) p = {};
   }
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override {
+    evaluate(*rail_, uv, out);
+    for (SurfaceJet& jet : out)
+      if (!inside(jet.p.x())) jet = {};
+  }
+  bool exact_derivatives() const override { return has_exact_derivatives(*rail_); }
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& r) const override {
     return rail_->height_bounds(X_SP, r);
   }

@@ -88,6 +88,17 @@ class OutermostSurface final : public Surface {
     std::copy_n(best_z.begin(), out.z.size(), out.z.begin());
   }
 
+  /// Whether the part has nothing over the points; bounds are dearer than a few points of a few parts.
+  bool nowhere_over(const Surface& part, const Pose& X_SP, std::span<const Vec2> points_P) const {
+    constexpr std::size_t kFewParts = 8;
+    if (parts_.size() <= kFewParts || points_P.empty()) return false;
+    Rectangle whole{points_P[0].x(), points_P[0].x(), points_P[0].y(), points_P[0].y()};
+    for (const Vec2& p : points_P)
+      whole = {std::min(whole.x_min, p.x()), std::max(whole.x_max, p.x()), std::min(whole.y_min, p.y()),
+               std::max(whole.y_max, p.y())};
+    return whole.x_max >= whole.x_min && whole.y_max >= whole.y_min && part.height_bounds(X_SP, whole).empty;
+  }
+
   void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
     const Grid2& g = plane.grid;
     const Rectangle whole{g.x0, g.x(g.nx - 1), g.y0, g.y(g.ny - 1)};
@@ -100,7 +111,7 @@ class OutermostSurface final : public Surface {
     outermost(
         points_P.size(), out,
         [&](const Surface& part, const HeightsOut& fields) { part.heights_at(X_SP, points_P, fields); },
-        [](const Surface&) { return false; });
+        [&](const Surface& part) { return nowhere_over(part, X_SP, points_P); });
   }
 
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override {
@@ -109,6 +120,7 @@ class OutermostSurface final : public Surface {
     std::vector<SurfacePoint> found(out.size());
     const Vec3 normal = X_SP.rotation.col(2);
     for (const auto& part : parts_) {
+      if (nowhere_over(*part, X_SP, points_P)) continue;
       part->locate(X_SP, points_P, found);
       for (std::size_t i = 0; i < out.size(); ++i) {
         if (found[i].status == LocateStatus::outside) continue;
@@ -116,7 +128,11 @@ class OutermostSurface final : public Surface {
         if (!wins(z, best_z[i])) continue;
         best_z[i] = z;
         out[i] = found[i];
-        out[i].arc_length = kNaN;  // every part has a zero of its own
+        // every part has parameters and a zero of its own
+        out[i].arc_length = kNaN;
+        const Vec3& p = found[i].position_S;
+        out[i].u = facing() == Facing::up ? p.x() : std::atan2(p.x(), p.z());
+        out[i].v = p.y();
       }
     }
   }

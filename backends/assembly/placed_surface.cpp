@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::assembly {
 namespace {
@@ -28,7 +29,7 @@ Box3 moved(const Box3& box, const Pose& X) {
 }
 
 /// What both kinds share: where the surface stands.
-class Placed : public Surface {
+class Placed : public Surface, public Parametric {
  public:
   Placed(std::shared_ptr<const Surface> surface, const Pose& X_SB)
       : surface_(std::move(surface)), X_SB_(X_SB), X_BS_(X_SB.inverse()) {
@@ -38,6 +39,7 @@ class Placed : public Surface {
   Box3 bounds() const override { return moved(surface_->bounds(), X_SB_); }
   std::size_t memory_bytes() const override { return sizeof(*this) + surface_->memory_bytes(); }
   std::vector<double> data_v() const override { return surface_->data_v(); }
+  bool exact_derivatives() const override { return has_exact_derivatives(*surface_); }
 
  protected:
   const Surface& surface() const { return *surface_; }
@@ -53,6 +55,14 @@ class Placed : public Surface {
   }
 
  private:
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override {
+    evaluate(*surface_, uv, out);
+    for (SurfaceJet& jet : out) {
+      jet.p = X_SB_.apply(jet.p);
+      for (Vec3* d : {&jet.pu, &jet.pv, &jet.puu, &jet.puv, &jet.pvv}) *d = X_SB_.rotation * *d;
+    }
+  }
+
   std::shared_ptr<const Surface> surface_;
   Pose X_SB_, X_BS_;
 };

@@ -18,6 +18,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::displacement {
 
@@ -29,7 +30,7 @@ constexpr double kFar = 1e30;
 constexpr double kCoarsest = 2.5e-3;
 constexpr std::size_t kFewest = 16;
 
-class DisplacedSurface final : public Surface {
+class DisplacedSurface final : public Surface, public Parametric {
  public:
   DisplacedSurface(std::shared_ptr<const Surface> base, std::shared_ptr<const OffsetField> field, Body body,
                    std::string backend)
@@ -70,6 +71,8 @@ class DisplacedSurface final : public Surface {
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override;
+  bool exact_derivatives() const override { return has_exact_derivatives(*base_); }
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
   bool rail_heights(const Pose& X_SP, const Rectangle& r, Interval& t) const;
@@ -202,6 +205,43 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
     p.v = below[k].v;
     p.arc_length = below[k].arc_length;
     p.status = below[k].status == LocateStatus::ambiguous ? LocateStatus::ambiguous : LocateStatus::converged;
+  }
+}
+
+/// p = q + d e with the base's q(u, v) and the offset d at the station and y of q: neither changes along e.
+void DisplacedSurface::do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const {
+  evaluate(*base_, uv, out);
+  for (SurfaceJet& jet : out) {
+    if (!jet.found()) continue;
+    const NaturalPoint at(body_, jet.p);
+    // the station, x of a rail or the angle of a wheel, and its derivatives by u and v
+    const Vec3 grad = at.du_along * at.along;
+    const double s_u = grad.dot(jet.pu), s_v = grad.dot(jet.pv);
+    const bool turns = at.de_along != 0.0;
+    const auto second = [&](const Vec3& a, const Vec3& b, const Vec3& ab) {
+      if (!turns) return grad.dot(ab);
+      // Hessian of the angle: -(e along^T + along e^T)/r^2
+      return grad.dot(ab) - (a.dot(at.e) * b.dot(at.along) + a.dot(at.along) * b.dot(at.e)) / (at.r * at.r);
+    };
+    const double s_uu = second(jet.pu, jet.pu, jet.puu), s_uv = second(jet.pu, jet.pv, jet.puv),
+                 s_vv = second(jet.pv, jet.pv, jet.pvv);
+    const double y_u = jet.pu.y(), y_v = jet.pv.y();
+    const OffsetJet d = field_->jet(at.u(), at.y);
+    const double d_u = d.d_u * s_u + d.d_y * y_u, d_v = d.d_u * s_v + d.d_y * y_v;
+    const auto second_offset = [&](double s_a, double s_b, double y_a, double y_b, double s_ab, double y_ab) {
+      return d.d_uu * s_a * s_b + d.d_uy * (s_a * y_b + s_b * y_a) + d.d_yy * y_a * y_b + d.d_u * s_ab + d.d_y * y_ab;
+    };
+    // derivatives of e by the station
+    const Vec3 e_1 = turns ? at.along : Vec3::Zero(), e_2 = turns ? Vec3(-at.e) : Vec3::Zero();
+    const auto second_shift = [&](double d_a, double d_b, double d_ab, double s_a, double s_b, double s_ab) -> Vec3 {
+      return d_ab * at.e + (d_a * s_b + d_b * s_a + d.value * s_ab) * e_1 + d.value * s_a * s_b * e_2;
+    };
+    jet.puu += second_shift(d_u, d_u, second_offset(s_u, s_u, y_u, y_u, s_uu, jet.puu.y()), s_u, s_u, s_uu);
+    jet.puv += second_shift(d_u, d_v, second_offset(s_u, s_v, y_u, y_v, s_uv, jet.puv.y()), s_u, s_v, s_uv);
+    jet.pvv += second_shift(d_v, d_v, second_offset(s_v, s_v, y_v, y_v, s_vv, jet.pvv.y()), s_v, s_v, s_vv);
+    jet.p += d.value * at.e;
+    jet.pu += d_u * at.e + d.value * s_u * e_1;
+    jet.pv += d_v * at.e + d.value * s_v * e_1;
   }
 }
 

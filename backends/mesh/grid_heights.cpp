@@ -165,7 +165,7 @@ class GridHeights {
   void write_triangle(const Piece& p, const TileTriangle& triangle, int begin, int end) {
     if (begin == end) return;
     std::array<double, kPatchEntries> patch;
-    if (!smooth_->prepare(kernels().patch, mesh_, lines_, triangle.index, triangle.q, patch.data())) {
+    if (!smooth_->prepare(kernels().patch, lines_, triangle.index, triangle.q, patch.data())) {
       for (int i = begin; i < end; ++i) again(p, triangle, i);
       return;
     }

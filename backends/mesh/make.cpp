@@ -35,4 +35,10 @@ std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, co
   return make(std::move(mesh), body, options, repair, false);
 }
 
+MeshRepair check_mesh(const TriangleMesh& mesh, Body body) {
+  MeshRepair found;
+  prepare(mesh, body, found);
+  return found;
+}
+
 }  // namespace treadmark::mesh

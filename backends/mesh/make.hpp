@@ -49,4 +49,7 @@ std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh, Body body, c
 std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, const MeshOptions& options = {},
                                                 MeshRepair* repair = nullptr);
 
+/// What make_mesh_surface would repair, and its errors.
+MeshRepair check_mesh(const TriangleMesh& mesh, Body body);
+
 }  // namespace treadmark::mesh

@@ -33,11 +33,14 @@ enum PatchEntry : int {
   kPatchEntries = kFits + 3 * kFitEntries,
 };
 
+/// A VertexFit as it is kept, in a line of the cache. The third axis is normal x axis_u.
+struct alignas(64) KeptFit {
+  float normal[3], axis_u[3], cubic[9];
+};
+
 /// What prepare_patch needs of a triangle.
 struct PatchSource {
-  struct Fit {
-    const double *axis_u, *axis_v, *normal, *cubic;
-  } fits[3];
+  const KeptFit* fits[3];
   const double* corners[3];  ///< local [m]
   const double* places;      ///< the corners in the plane frame, x, y, z one after the other
   double bulge;              ///< [m] along the mean normal

@@ -23,11 +23,14 @@ TREADMARK_LANES void prepare_fits(const double* direction, const PatchSource& so
     // the foot of corner k on the edge from the next corner to the other one
     above[k] = -dot3(facing, next);
     below[k] = dot3(facing, facing);
-    const PatchSource::Fit& fit = source.fits[k];
+    const KeptFit& fit = *source.fits[k];
+    const double n[3] = {fit.normal[0], fit.normal[1], fit.normal[2]};
+    const double a[3] = {fit.axis_u[0], fit.axis_u[1], fit.axis_u[2]};
+    const double axis_v[3] = {n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0]};
     double* f = patch + kFits + k * kFitEntries;
     V4 to_next = all(0.0), to_other = to_next, along = to_next;
     for (int j = 0; j < 3; ++j) {
-      const V4 axes = {fit.axis_u[j], fit.axis_v[j], fit.normal[j], 0.0};
+      const V4 axes = {a[j], axis_v[j], n[j], n[j]};  // the last counts for nothing
       to_next = fma(axes, all(next[j]), to_next);
       to_other = fma(axes, all(-back[j]), to_other);
       along = fma(axes, all(direction[j]), along);
@@ -35,9 +38,9 @@ TREADMARK_LANES void prepare_fits(const double* direction, const PatchSource& so
     store(f + kNextU, to_next);  // each writes one entry of the one behind it
     store(f + kOtherU, to_other);
     store(f + kAlongU, along);
-    const double du = along[0], dv = along[1], *c = fit.cubic;
+    const double du = along[0], dv = along[1], *c = f + kCubic;
     towards += along[2];
-    for (int i = 0; i < 9; ++i) f[kCubic + i] = c[i];
+    for (int i = 0; i < 9; ++i) f[kCubic + i] = fit.cubic[i];
     const double uu = du * du, uv = du * dv, vv = dv * dv;
     f[kBend] = c[2] * uu + c[3] * uv + c[4] * vv;
     f[kBendU] = 3.0 * c[5] * uu + 2.0 * c[6] * uv + c[7] * vv;

@@ -42,7 +42,7 @@ void PointHeights::add(std::size_t result, double x, double y, const LineHit& hi
   if (hit.triangle == last_ && count_ > 0)
     return add(result, x, y, hit.triangle, patches_.data() + (count_ - 1) * kPatchEntries);
   double* patch = patches_.data() + count_ * kPatchEntries;
-  if (!smooth_->prepare(kernels().patch, mesh_, lines_, hit.triangle, triangle.q[0].data(), patch))
+  if (!smooth_->prepare(kernels().patch, lines_, hit.triangle, triangle.q[0].data(), patch))
     return put(result, x, y, hit, triangle);
   add(result, x, y, hit.triangle, patch);
 }

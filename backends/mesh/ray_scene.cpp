@@ -53,17 +53,16 @@ RayScene::RayScene(const PreparedMesh& mesh) : library_(std::make_unique<Library
   RTCGeometry geometry = rtcNewGeometry(lib.device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                                3 * sizeof(float), mesh.vertices.size()));
-  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
-  if (vertices && indices) {
+  rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.triangles.data(), 0,
+                             sizeof(Corners), mesh.triangles.size());
+  if (vertices) {
     for (const Vec3& v : mesh.vertices)
       for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(v[k]);
-    for (const Corners& c : mesh.triangles) indices = std::copy(c.begin(), c.end(), indices);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(lib.scene, geometry);
   }
   rtcReleaseGeometry(geometry);
-  require(vertices && indices, lib.device, mesh.name);
+  require(vertices != nullptr, lib.device, mesh.name);
   if (const CancellationToken* token = current_cancellation())
     rtcSetSceneProgressMonitorFunction(lib.scene, goes_on, const_cast<CancellationToken*>(token));
   rtcCommitScene(lib.scene);

@@ -20,6 +20,7 @@ class RayScene {
     int count = 0;
   };
 
+  /// Keeps a reference to the triangles.
   explicit RayScene(const PreparedMesh& mesh);
   ~RayScene();
   RayScene(const RayScene&) = delete;

@@ -34,12 +34,12 @@ std::array<Jet, 3> barycentric_jets(const ProjectedTriangle& triangle, const Lin
 }  // namespace
 
 SmoothPatches::SmoothPatches(const PreparedMesh& mesh, double crease_angle)
-    : fits_(fit_vertices(mesh, crease_angle)), bulge_(mesh.triangles.size(), 0.0f) {
+    : mesh_(mesh), fits_(fit_vertices(mesh, crease_angle)), bulge_(mesh.triangles.size(), 0.0f) {
   constexpr std::size_t kChunk = 512;
   const std::size_t n = mesh.triangles.size();
   parallel_for((n + kChunk - 1) / kChunk, [&](std::size_t chunk) {
     for (std::size_t t = chunk * kChunk; t < std::min(n, (chunk + 1) * kChunk); ++t)
-      bulge_[t] = std::nextafter(static_cast<float>(sampled_bulge(mesh, static_cast<std::uint32_t>(t))),
+      bulge_[t] = std::nextafter(static_cast<float>(sampled_bulge(static_cast<std::uint32_t>(t))),
                                  std::numeric_limits<float>::infinity());
   });
   largest_bulge_ = *std::max_element(bulge_.begin(), bulge_.end());
@@ -50,20 +50,28 @@ SmoothPatches::SmoothPatches(const PreparedMesh& mesh, double crease_angle)
   }
 }
 
-PatchSource SmoothPatches::source_of(const PreparedMesh& mesh, std::uint32_t triangle) const {
+PatchSource SmoothPatches::source_of(std::uint32_t triangle) const {
+  const Corners& fits = fits_.of(mesh_, triangle);
   PatchSource source{};
   for (std::size_t k = 0; k < 3; ++k) {
-    const VertexFit& fit = fits_.fits[fits_.of_corner[triangle][k]];
-    source.fits[k] = {fit.axis_u.data(), fit.axis_v.data(), fit.normal.data(), fit.c.data()};
-    source.corners[k] = mesh.vertices[mesh.triangles[triangle][k]].data();
+    source.fits[k] = &fits_.fits[fits[k]];
+    source.corners[k] = mesh_.vertices[mesh_.triangles[triangle][k]].data();
   }
   return source;
 }
 
-bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines,
-                            std::uint32_t triangle, const double* places, double* patch) const {
+std::array<VertexFit, 3> SmoothPatches::fits_of(std::uint32_t triangle) const {
+  const Corners& fits = fits_.of(mesh_, triangle);
+  std::array<VertexFit, 3> out;
+  for (std::size_t k = 0; k < 3; ++k)
+    out[k] = restored(fits_.fits[fits[k]], mesh_.vertices[mesh_.triangles[triangle][k]]);
+  return out;
+}
+
+bool SmoothPatches::prepare(const PatchKernel& kernel, const PlaneLines& lines, std::uint32_t triangle,
+                            const double* places, double* patch) const {
   if (needle_[triangle]) return false;
-  PatchSource source = source_of(mesh, triangle);
+  PatchSource source = source_of(triangle);
   source.places = places;
   source.bulge = static_cast<double>(bulge_[triangle]);
   kernel.prepare(lines, source, patch);
@@ -71,17 +79,19 @@ bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh,
 }
 
 Vec3 SmoothPatches::mean_of_normals(std::uint32_t triangle) const {
-  const Corners& c = fits_.of_corner[triangle];
-  return (fits_.fits[c[0]].normal + fits_.fits[c[1]].normal + fits_.fits[c[2]].normal) / 3.0;
+  Vec3 sum = Vec3::Zero();
+  for (const std::uint32_t fit : fits_.of(mesh_, triangle))
+    sum += Eigen::Map<const Eigen::Vector3f>(fits_.fits[fit].normal).cast<double>();
+  return sum / 3.0;
 }
 
 /// t along the line from start where the blend vanishes: a cubic in t, because the weights stay.
-bool SmoothPatches::solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w,
-                          const Vec3& start, const Vec3& direction, double side, double& t) const {
+bool SmoothPatches::solve(const std::array<VertexFit, 3>& fits, const std::array<double, 3>& w, const Vec3& start,
+                          const Vec3& direction, double side, double& t) const {
   double g0 = 0.0, g1 = 0.0, g2 = 0.0, g3 = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (w[k] == 0.0) continue;
-    const VertexFit& f = *fits[k];
+    const VertexFit& f = fits[k];
     const Vec3 d = start - f.origin;
     const double u = f.axis_u.dot(d), v = f.axis_v.dot(d), du = f.axis_u.dot(direction), dv = f.axis_v.dot(direction);
     const auto& c = f.c;
@@ -104,8 +114,7 @@ bool SmoothPatches::solve(const std::array<const VertexFit*, 3>& fits, const std
 
 bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit, double x,
                              double y, int derivatives, Evaluated& out) const {
-  const Corners& corners = fits_.of_corner[triangle.index];
-  const std::array<const VertexFit*, 3> fits{&fits_.fits[corners[0]], &fits_.fits[corners[1]], &fits_.fits[corners[2]]};
+  const std::array<VertexFit, 3> fits = fits_of(triangle.index);
   const std::array<double, 3> feet = edge_feet(triangle.q);
   const Vec3 direction = view.direction(), start = view.to_local(x, y, hit.z);
   std::array<double, 3> w = blend_weights<double>(hit.b, feet);
@@ -132,7 +141,7 @@ bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& tri
   std::array<double, 3> f{}, su{}, sv{};
   std::array<Vec3, 3> g;
   for (std::size_t k = 0; k < 3; ++k) {
-    const VertexFit& fit = *fits[k];
+    const VertexFit& fit = fits[k];
     const Vec3 d = point - fit.origin;
     const double u = su[k] = fit.axis_u.dot(d), v = sv[k] = fit.axis_v.dot(d);
     f[k] = fit.normal.dot(d) - fit.height(u, v);
@@ -148,7 +157,7 @@ bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& tri
 
   Mat3 H = Mat3::Zero();  // second derivatives of G by the plane's x, y, z
   for (std::size_t k = 0; k < 3; ++k) {
-    const VertexFit& fit = *fits[k];
+    const VertexFit& fit = fits[k];
     const Vec3 a = to_plane * fit.axis_u, b = to_plane * fit.axis_v, slope = to_plane * g[k];
     const Mat3 ab = a * b.transpose();
     H -= w[k] * (fit.bend_uu(su[k], sv[k]) * a * a.transpose() + fit.bend_uv(su[k], sv[k]) * (ab + ab.transpose()) +
@@ -171,13 +180,13 @@ double SmoothPatches::reach(const PlaneView& view, std::uint32_t triangle) const
 }
 
 /// Distance between facet and surface along the mean normal, on a lattice of barycentric coordinates.
-double SmoothPatches::sampled_bulge(const PreparedMesh& mesh, std::uint32_t triangle) const {
-  PatchSource source = source_of(mesh, triangle);
+double SmoothPatches::sampled_bulge(std::uint32_t triangle) const {
+  PatchSource source = source_of(triangle);
   source.bulge = std::numeric_limits<double>::infinity();
   const Vec3 direction = mean_of_normals(triangle).normalized();
   const double most = kernels().patch.bulge(source, direction.data());
-  const Corners& c = mesh.triangles[triangle];
-  const std::array<Vec3, 3> v{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]};
+  const Corners& c = mesh_.triangles[triangle];
+  const std::array<Vec3, 3> v{mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]};
   const double longest = std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
   if (!(most <= kWild * longest)) return 0.0;
   constexpr double kFloor = 1e-6;  // of the longest side, for surfaces that are flat at the samples

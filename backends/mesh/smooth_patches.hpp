@@ -26,6 +26,7 @@ struct Evaluated {
 /// reach() allows, or the line grazes, the facet counts.
 class SmoothPatches {
  public:
+  /// Keeps a reference to the mesh.
   SmoothPatches(const PreparedMesh& mesh, double crease_angle);
 
   /// derivatives: how many orders are wanted, 0 to 2. False: the facet counts.
@@ -34,8 +35,8 @@ class SmoothPatches {
 
   /// The triangle made ready for kernels; places: its corners in the plane frame. False for needles, which evaluate()
   /// takes.
-  bool prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines, std::uint32_t triangle,
-               const double* places, double* patch) const;
+  bool prepare(const PatchKernel& kernel, const PlaneLines& lines, std::uint32_t triangle, const double* places,
+               double* patch) const;
 
   /// Greatest distance along the plane normal between the facet and the surface over it [m].
   double reach(const PlaneView& view, std::uint32_t triangle) const;
@@ -52,11 +53,13 @@ class SmoothPatches {
  private:
   static constexpr double kSteepest = 10.0;  ///< longest way along a line, in bulges
 
-  bool solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start,
+  std::array<VertexFit, 3> fits_of(std::uint32_t triangle) const;
+  bool solve(const std::array<VertexFit, 3>& fits, const std::array<double, 3>& w, const Vec3& start,
              const Vec3& direction, double side, double& t) const;
-  PatchSource source_of(const PreparedMesh& mesh, std::uint32_t triangle) const;
-  double sampled_bulge(const PreparedMesh& mesh, std::uint32_t triangle) const;
+  PatchSource source_of(std::uint32_t triangle) const;
+  double sampled_bulge(std::uint32_t triangle) const;
 
+  const PreparedMesh& mesh_;
   VertexFits fits_;
   std::vector<float> bulge_;  ///< along the mean normal of the corners [m]
   std::vector<bool> needle_;

@@ -212,7 +212,7 @@ VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::v
 /// Up to four sectors at a time. Where two rings determine a cubic beyond doubt that is fit_one's result; the others
 /// are left to it.
 void fit_some(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals, std::uint32_t first,
-              std::uint32_t end, Rings& rings, std::vector<VertexFit>& fits) {
+              std::uint32_t end, Rings& rings, std::vector<KeptFit>& fits) {
   FitBlock block;
   std::array<bool, FitBlock::kLanesOfFit> fine{};
   std::memset(block.from, 0, sizeof block.from);
@@ -245,48 +245,71 @@ void fit_some(const PreparedMesh& mesh, const Sectors& sectors, const std::vecto
   kernels().fit_cubics(block);
   for (std::uint32_t s = first; s < std::min(end, first + FitBlock::kLanesOfFit); ++s) {
     const std::size_t lane = s - first;
-    VertexFit& fit = fits[s];
+    VertexFit fit;
     bool finite = true;
     for (std::size_t k = 0; k < fit.c.size(); ++k) finite = finite && std::isfinite(fit.c[k] = block.cubic[k][lane]);
     // what pivots leave last is no smaller than the least singular value
     if (!(fine[lane] && finite && block.least_singular_value[lane] > kIllConditioned)) {
-      fit = fit_one(mesh, sectors, normals, s, rings);
+      fits[s] = kept(fit_one(mesh, sectors, normals, s, rings));
       continue;
     }
-    fit.origin = mesh.vertices[sectors.vertex[s]];
     fit.normal = normals[s];
-    for (std::size_t k = 0; k < 3; ++k) {
-      fit.axis_u[static_cast<int>(k)] = block.axis_u[k][lane];
-      fit.axis_v[static_cast<int>(k)] = block.axis_v[k][lane];
-    }
+    for (std::size_t k = 0; k < 3; ++k) fit.axis_u[static_cast<int>(k)] = block.axis_u[k][lane];
+    fits[s] = kept(fit);
   }
 }
 
 }  // namespace
+
+KeptFit kept(const VertexFit& fit) {
+  KeptFit out{};
+  for (int k = 0; k < 3; ++k) {
+    out.normal[k] = static_cast<float>(fit.normal[k]);
+    out.axis_u[k] = static_cast<float>(fit.axis_u[k]);
+  }
+  for (std::size_t k = 0; k < fit.c.size(); ++k) out.cubic[k] = static_cast<float>(fit.c[k]);
+  return out;
+}
+
+VertexFit restored(const KeptFit& kept, const Vec3& origin) {
+  VertexFit fit;
+  fit.origin = origin;
+  fit.normal = Eigen::Map<const Eigen::Vector3f>(kept.normal).cast<double>();
+  fit.axis_u = Eigen::Map<const Eigen::Vector3f>(kept.axis_u).cast<double>();
+  fit.axis_v = fit.normal.cross(fit.axis_u);
+  std::copy(std::begin(kept.cubic), std::end(kept.cubic), fit.c.begin());
+  return fit;
+}
 
 VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
   Sectors sectors = find_sectors(mesh, crease_angle);
   const std::size_t n = sectors.size();
   constexpr std::size_t kChunk = 256;
   const std::size_t chunks = (n + kChunk - 1) / kChunk;
-  std::vector<Vec3> normals(n);
-  parallel_for(chunks, [&](std::size_t chunk) {
-    for (std::size_t s = chunk * kChunk; s < std::min(n, (chunk + 1) * kChunk); ++s) {
-      Vec3 sum = Vec3::Zero();
-      for (const std::uint32_t t : sectors.around(static_cast<std::uint32_t>(s))) sum += doubled_area(mesh, t);
-      if (!(sum.norm() > 0.0)) sum = doubled_area(mesh, sectors.around(static_cast<std::uint32_t>(s)).front());
-      normals[s] = sum.normalized();
-    }
-  });
   VertexFits result;
   result.fits.resize(n);
+  const auto for_all = [&](const auto& body) {
+    parallel_for(chunks, [&](std::size_t chunk) {
+      for (std::size_t s = chunk * kChunk; s < std::min(n, (chunk + 1) * kChunk); ++s) body(s);
+    });
+  };
+  for_all([&](std::size_t s) {
+    Vec3 sum = Vec3::Zero();
+    for (const std::uint32_t t : sectors.around(static_cast<std::uint32_t>(s))) sum += doubled_area(mesh, t);
+    if (!(sum.norm() > 0.0)) sum = doubled_area(mesh, sectors.around(static_cast<std::uint32_t>(s)).front());
+    sum.normalize();
+    for (int k = 0; k < 3; ++k) result.fits[s].normal[k] = static_cast<float>(sum[k]);
+  });
+  // As they are kept; by way of memory, because GCC 12 leaves out a rounding to float and back.
+  std::vector<Vec3> normals(n);
+  for_all([&](std::size_t s) { normals[s] = Eigen::Map<const Eigen::Vector3f>(result.fits[s].normal).cast<double>(); });
   parallel_for(chunks, [&](std::size_t chunk) {
     Rings rings(sectors);
     const auto end = static_cast<std::uint32_t>(std::min(n, (chunk + 1) * kChunk));
     for (auto s = static_cast<std::uint32_t>(chunk * kChunk); s < end; s += FitBlock::kLanesOfFit)
       fit_some(mesh, sectors, normals, s, end, rings, result.fits);
   });
-  result.of_corner = std::move(sectors.of_corner);
+  if (sectors.of_corner != mesh.triangles) result.of_corner = std::move(sectors.of_corner);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "treadmark/backends/mesh/patch.hpp"
 #include "treadmark/backends/mesh/prepared_mesh.hpp"
 
 namespace treadmark::mesh {
@@ -30,13 +31,21 @@ struct VertexFit {
   double bend_vv(double u, double v) const { return 2.0 * c[4] + 2.0 * u * c[7] + 6.0 * v * c[8]; }
 };
 
+/// What is kept of a fit, and back. The normal must have been rounded to single precision before the fit, so that
+/// rounding leaves out 1e-7 of what the surface rises over its tangent plane, and turns no plane.
+KeptFit kept(const VertexFit& fit);
+VertexFit restored(const KeptFit& kept, const Vec3& origin);
+
 /// One fit for every vertex and, at creases, for every smooth sector of triangles round it.
 struct VertexFits {
-  std::vector<VertexFit> fits;
-  std::vector<Corners> of_corner;  ///< fit of each corner of each triangle
+  std::vector<KeptFit> fits;
+  std::vector<Corners> of_corner;  ///< fit of each corner of each triangle; empty where it has the vertex's number
 
+  const Corners& of(const PreparedMesh& mesh, std::uint32_t triangle) const {
+    return of_corner.empty() ? mesh.triangles[triangle] : of_corner[triangle];
+  }
   std::size_t memory_bytes() const {
-    return fits.capacity() * sizeof(VertexFit) + of_corner.capacity() * sizeof(Corners);
+    return fits.capacity() * sizeof(KeptFit) + of_corner.capacity() * sizeof(Corners);
   }
 };
 

@@ -13,4 +13,6 @@ std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh, Body, const MeshOp
   left_out("embree", "surfaces of triangles");
 }
 
+MeshRepair check_mesh(const TriangleMesh&, Body) { left_out("embree", "surfaces of triangles"); }
+
 }  // namespace treadmark::mesh

@@ -2,12 +2,15 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/make.hpp"
 
+#include <fmt/format.h>
+
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
 #include "treadmark/backends/spline/slices/slice_surface.hpp"
+#include "treadmark/backends/spline/thb/thb_fit.hpp"
 
 namespace treadmark::spline {
 
@@ -29,6 +32,26 @@ std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body bo
                                                   double x_max) {
   return std::make_shared<NurbsSurface>(
       body == Body::rail ? sweep_chain(chain, x_min, x_max) : revolve_chain(chain, nominal_radius), body);
+}
+
+std::shared_ptr<const Surface> make_thb_surface(std::span<const Vec3> points, Body body, const sampling::Region& region,
+                                                int degree, std::string& note) {
+  ThbFitSettings settings;
+  settings.degree = degree;
+  const ThbFit fit = fit_thb(points, body, region, settings);
+  note += fmt::format("{} coefficients in place of {} points, whose noise is {:.2g} um. ", fit.spline.space.functions(),
+                      points.size(), 1e6 * fit.noise);
+  return std::make_shared<NurbsSurface>(extracted(fit.spline), body, degree == 3 ? "thb" : "thb-quadratic");
+}
+
+std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, int degree, std::string& note) {
+  ThbFitSettings settings;
+  settings.degree = degree;
+  settings.noise = 0.0;  // of a surface
+  const ThbFit fit = fit_thb(points, settings);
+  note += fmt::format("{} coefficients in place of {} points, at most {:.2g} um off them. ",
+                      fit.spline.space.functions(), points.h.size(), 1e6 * fit.most_left);
+  return std::make_shared<NurbsSurface>(extracted(fit.spline), points.body, degree == 3 ? "thb" : "thb-quadratic");
 }
 
 }  // namespace treadmark::spline

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string>
 
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
@@ -29,5 +31,12 @@ std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& poi
 /// about the axle by exact circles (wheel). Errors: Error(configuration) for a bad chain, radius or range.
 std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius,
                                                   double x_min = -1.0, double x_max = 1.0);
+
+/// The same points by truncated hierarchical B-splines of degree 2 or 3, backend "thb-quadratic" or "thb"; see fit_thb.
+/// note: how much of what it took, in sentences. Errors: those of fit_thb.
+std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& points, int degree, std::string& note);
+/// Scattered points of a scan, as closely as their noise allows.
+std::shared_ptr<const Surface> make_thb_surface(std::span<const Vec3> points, Body body, const sampling::Region& region,
+                                                int degree, std::string& note);
 
 }  // namespace treadmark::spline

@@ -216,6 +216,23 @@ void PrismaticSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> poi
   });
 }
 
+namespace {
+
+SurfaceDerivatives prismatic_derivatives(const ProfileSpline& profile, double u, double v) {
+  const Vec2 p = profile.position(v), d = profile.derivative(v), dd = profile.second_derivative(v);
+  return {{u, p.x(), p.y()}, {1, 0, 0}, {0, d.x(), d.y()}, Vec3::Zero(), Vec3::Zero(), {0, dd.x(), dd.y()}};
+}
+
+}  // namespace
+
+void PrismaticSurface::do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double u = uv[i].x(), v = uv[i].y();
+    const bool inside = std::isfinite(u) && v >= profile_.begin() && v <= profile_.end();
+    out[i] = inside ? jet_of(prismatic_derivatives(profile_, u, v)) : SurfaceJet{};
+  }
+}
+
 void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   const ProfileView view(X_SP.rotation.col(2));
   if (!view.visible()) {
@@ -234,9 +251,7 @@ void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
     const double v = hits.v[0];
     out[i].u = foot.x() + n * X_SP.rotation(0, 2);
     out[i].v = out[i].arc_length = v;
-    const Vec2 d = profile_.derivative(v), dd = profile_.second_derivative(v);
-    set_geometry({point(out[i].u, v), {1, 0, 0}, {0, d.x(), d.y()}, Vec3::Zero(), Vec3::Zero(), {0, dd.x(), dd.y()}},
-                 out[i]);
+    set_geometry(prismatic_derivatives(profile_, out[i].u, v), out[i]);
   }
 }
 

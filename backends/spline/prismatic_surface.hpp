@@ -6,13 +6,13 @@
 
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
-#include "treadmark/core/surface.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::spline {
 
 /// A rail of constant cross-section: p(u, v) = (u, y(v), z(v)), u = x unlimited, v = arc length along the profile [m].
 /// Heights are those of one plane curve for a plane in any position. A plane whose normal runs along x meets nothing.
-class PrismaticSurface final : public Surface {
+class PrismaticSurface final : public Surface, public Parametric {
  public:
   explicit PrismaticSurface(ProfileSpline profile);
 
@@ -29,6 +29,7 @@ class PrismaticSurface final : public Surface {
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
   void do_grid_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const override;
 

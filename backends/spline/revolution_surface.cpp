@@ -238,6 +238,14 @@ void RevolutionSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> po
   });
 }
 
+void RevolutionSurface::do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double u = uv[i].x(), v = uv[i].y();
+    const bool inside = std::isfinite(u) && v >= profile_.begin() && v <= profile_.end();
+    out[i] = inside ? jet_of(derivatives(profile_, u, v)) : SurfaceJet{};
+  }
+}
+
 void RevolutionSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   const bool along_y = wheel_lines_along_y(X_SP.rotation);
   const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0),

@@ -6,7 +6,7 @@
 
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
-#include "treadmark/core/surface.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::spline {
 
@@ -14,7 +14,7 @@ namespace treadmark::spline {
 /// v = arc length along the profile [m]. Only the half turned towards the plane is hit: a line through the inside of
 /// the wheel to its far side is a miss. Within a profile segment of x = +-r, where the surface stands upright over the
 /// plane, points may be misses too.
-class RevolutionSurface final : public Surface {
+class RevolutionSurface final : public Surface, public Parametric {
  public:
   /// Errors: Error(configuration) unless the radius is positive everywhere.
   RevolutionSurface(ProfileSpline profile, double nominal_radius);
@@ -34,6 +34,7 @@ class RevolutionSurface final : public Surface {
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
   ProfileSpline profile_;  // (y, r)

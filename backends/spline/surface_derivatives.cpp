@@ -2,24 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 
-#include <Eigen/Geometry>
-#include <cmath>
-
 namespace treadmark::spline {
 
+SurfaceJet jet_of(const SurfaceDerivatives& at) { return {at.p, at.pu, at.pv, at.puu, at.puv, at.pvv, -1.0}; }
+
 void set_geometry(const SurfaceDerivatives& at, SurfacePoint& out) {
+  const SurfaceShape shape = shape_of(jet_of(at));
   out.position_S = at.p;
-  out.normal_S = -at.pu.cross(at.pv).normalized();
-  const double e = at.pu.dot(at.pu), f = at.pu.dot(at.pv), g = at.pv.dot(at.pv);
-  // Curvature is positive where the surface bends away from the outward normal.
-  const double l = -at.puu.dot(out.normal_S), m = -at.puv.dot(out.normal_S), n = -at.pvv.dot(out.normal_S);
-  // The second form in unit tangents t1 along pu and t2 at right angles to it: no digits are lost where the two are
-  // equal.
-  const double skew = f / e, across = g - f * skew;
-  const double a = l / e, b = (m - skew * l) / std::sqrt(e * across), c = (n - skew * (2.0 * m - skew * l)) / across;
-  const double mean = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
-  out.curvature_1 = mean + spread;
-  out.curvature_2 = mean - spread;
+  out.normal_S = shape.normal;
+  out.curvature_1 = shape.curvature_1;
+  out.curvature_2 = shape.curvature_2;
 }
 
 }  // namespace treadmark::spline

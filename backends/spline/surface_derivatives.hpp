@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/core/surface.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::spline {
 
@@ -11,8 +11,10 @@ struct SurfaceDerivatives {
   Vec3 p, pu, pv, puu, puv, pvv;
 };
 
-/// With pu x pv pointing into the material (u forward, v such that it does): position, outward unit normal and
-/// principal curvatures from the two fundamental forms (do Carmo 1976). status and (u, v) are left alone.
+/// With pu x pv pointing into the material (u forward, v such that it does).
+SurfaceJet jet_of(const SurfaceDerivatives& at);
+
+/// Likewise: position, outward unit normal and principal curvatures, see shape_of. status and (u, v) are left alone.
 void set_geometry(const SurfaceDerivatives& at, SurfacePoint& out);
 
 }  // namespace treadmark::spline

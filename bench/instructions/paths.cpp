@@ -20,6 +20,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
+#include "treadmark/bench/instructions/import_paths.hpp"
 #include "treadmark/bench/solvers/solver_cases.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
@@ -250,6 +251,8 @@ std::vector<Entry> make_entries() {
     if (has_backend("mesh"))
       all.push_back(
           {std::string("build/mesh/") + (body == Body::rail ? "rail" : "wheel"), [=] { return build(body); }});
+  for (const std::string& kind : import_kinds())
+    all.push_back({"import/" + kind, [=] { return import_path(*scene().rail->surface, kind); }});
   for (const bool flat : {false, true})
     for (const bool after : {false, true})
       all.push_back({std::string("case/") + (flat ? "flat" : "round") + (after ? "/after_another" : ""),

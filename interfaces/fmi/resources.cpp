@@ -40,9 +40,9 @@ class Packer {
 
   /// Makes the source name its packed files.
   void pack(io::SurfaceSource& source, Body body) {
-    if (source.backend.starts_with("offset"))
+    if (source.backend.starts_with("offset") || !source.offsets.file.empty())
       throw Error(ErrorKind::configuration, "FMUs do not take OpenVDB with them, which offsets need", source.where,
-                  "choose another backend");
+                  "choose another backend, or convert the surface to triangles or slices: treadmark convert");
     for (io::SurfaceSource& part : source.parts) pack(part, body);
     auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
     if (geometry == nullptr || !source.parts.empty()) return;

@@ -4,46 +4,13 @@
 
 #include <utility>
 
+#include "treadmark/backends/assembly/renamed_surface.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 
 namespace treadmark::python {
 namespace {
-
-/// A surface that a backend in Python has made of built-in ones, under its name.
-class Renamed final : public Surface {
- public:
-  Renamed(std::shared_ptr<const Surface> made, std::string name) : made_(std::move(made)), name_(std::move(name)) {}
-
-  std::string_view backend() const override { return name_; }
-  Facing facing() const override { return made_->facing(); }
-  Box3 bounds() const override { return made_->bounds(); }
-  std::size_t memory_bytes() const override { return made_->memory_bytes(); }
-  bool constant_profile() const override { return made_->constant_profile(); }
-  bool constant_between(double u_min, double u_max) const override { return made_->constant_between(u_min, u_max); }
-  std::vector<double> data_v() const override { return made_->data_v(); }
-
- private:
-  void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override {
-    made_->heights(plane_grid, out);
-  }
-  void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override {
-    made_->heights_at(X_SP, points_P, out);
-  }
-  void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override {
-    made_->locate(X_SP, points_P, out);
-  }
-  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override {
-    return made_->height_bounds(X_SP, rectangle_P);
-  }
-  void do_grid_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const override {
-    made_->height_bounds(X_SP, rectangles_P, out);
-  }
-
-  std::shared_ptr<const Surface> made_;
-  std::string name_;
-};
 
 py::array_t<double> copy_of(const std::vector<double>& values, std::vector<py::ssize_t> shape) {
   return py::array_t<double>(std::move(shape), values.data());
@@ -62,7 +29,7 @@ std::shared_ptr<const Surface> represented_by(py::handle make, const std::string
   try {
     const py::object made = make(copy_of(grid.u, {n_u}), copy_of(grid.y, {n_y}), copy_of(z, {n_u, n_y}),
                                  radius > 0.0 ? "wheel" : "rail", radius);
-    return std::make_shared<const Renamed>(made.cast<const tm_surface&>().represented.surface, name);
+    return assembly::rename_surface(made.cast<const tm_surface&>().represented.surface, name);
   } catch (py::error_already_set& raised) {
     if (raised.matches(PyExc_KeyboardInterrupt)) {
       PyErr_SetInterrupt();  // raised again where the call ends

@@ -3,13 +3,16 @@
 #include <pybind11/numpy.h>
 
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
+#include "treadmark/app/surfaces/trace_line.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parametric.hpp"
 #include "treadmark/interfaces/c/surfaces.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
@@ -117,7 +120,7 @@ Numbers section(const tm_surface& s, double u, const Numbers& y) {
 }
 
 /// What is found at points (x, y) seen along z of the surface's own axes: found, position, normal, principal
-/// curvatures.
+/// curvatures, parameters.
 py::tuple locate(const tm_surface& s, const Numbers& x, const Numbers& y) {
   const auto n = static_cast<std::size_t>(x.size());
   auto points = std::make_shared<std::vector<SurfacePoint>>(n);
@@ -136,7 +139,57 @@ py::tuple locate(const tm_surface& s, const Numbers& x, const Numbers& y) {
   const auto column = [&](const void* data, char item) { return view(data, item, {count}, {kStep}, owner); };
   return py::make_tuple(column(&first->status, 'B'), view(&first->position_S, 'd', {count, 3}, {kStep, kDouble}, owner),
                         view(&first->normal_S, 'd', {count, 3}, {kStep, kDouble}, owner),
-                        column(&first->curvature_1, 'd'), column(&first->curvature_2, 'd'));
+                        column(&first->curvature_1, 'd'), column(&first->curvature_2, 'd'), column(&first->u, 'd'),
+                        column(&first->v, 'd'));
+}
+
+/// Position, derivatives, normal, curvatures and directions at parameters, and whether derivatives are exact.
+py::tuple evaluate_at(const tm_surface& s, const Numbers& u, const Numbers& v) {
+  struct Shaped {
+    SurfaceJet jet;
+    SurfaceShape shape;
+  };
+  const auto n = static_cast<std::size_t>(u.size());
+  auto all = std::make_shared<std::vector<Shaped>>(n);
+  const Surface& surface = *s.represented.surface;
+  released([&] {
+    std::vector<Vec2> uv;
+    uv.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) uv.emplace_back(u.data()[i], v.data()[i]);
+    std::vector<SurfaceJet> jets(n);
+    evaluate(surface, uv, jets);
+    for (std::size_t i = 0; i < n; ++i) (*all)[i] = {jets[i], shape_of(jets[i])};
+  });
+  const py::object owner = owner_of(all);
+  const auto count = static_cast<py::ssize_t>(n);
+  constexpr py::ssize_t kStep = sizeof(Shaped), kDouble = sizeof(double);
+  const Shaped* first = all->data();
+  const auto vectors = [&](const Vec3* data) { return view(data, 'd', {count, 3}, {kStep, kDouble}, owner); };
+  const auto numbers = [&](const double* data) { return view(data, 'd', {count}, {kStep}, owner); };
+  return py::make_tuple(vectors(&first->jet.p), vectors(&first->jet.pu), vectors(&first->jet.pv),
+                        vectors(&first->jet.puu), vectors(&first->jet.puv), vectors(&first->jet.pvv),
+                        vectors(&first->shape.normal), numbers(&first->shape.curvature_1),
+                        numbers(&first->shape.curvature_2), vectors(&first->shape.direction_1),
+                        vectors(&first->shape.direction_2), has_exact_derivatives(surface));
+}
+
+/// A line by arc length: s, u, v, position, normal, principal curvatures, curvature along.
+py::tuple trace(const tm_surface& s, bool section, double at, std::optional<std::pair<double, double>> range,
+                double step) {
+  auto line = std::make_shared<app::TracedLine>();
+  released([&] {
+    c::require(s.natural->spec.roller_radius == 0.0, "lines are traced on rails and wheels, not on rollers");
+    *line = app::trace_line(*s.represented.surface, s.natural->spec.body, {section, at, range, step});
+  });
+  const py::object owner = owner_of(line);
+  const auto count = static_cast<py::ssize_t>(line->points.size());
+  constexpr py::ssize_t kStep = sizeof(app::TracedPoint), kDouble = sizeof(double);
+  const app::TracedPoint* first = line->points.data();
+  const auto numbers = [&](const double* data) { return view(data, 'd', {count}, {kStep}, owner); };
+  const auto vectors = [&](const Vec3* data) { return view(data, 'd', {count, 3}, {kStep, kDouble}, owner); };
+  return py::make_tuple(numbers(&first->s), numbers(&first->u), numbers(&first->v), vectors(&first->position),
+                        vectors(&first->normal), numbers(&first->curvature_1), numbers(&first->curvature_2),
+                        numbers(&first->curvature_along));
 }
 
 py::tuple bounds(const tm_surface& s) {
@@ -273,6 +326,8 @@ void add_surfaces(py::module_& module) {
       .def("heights", heights)
       .def("section", section)
       .def("locate", locate)
+      .def("evaluate", evaluate_at)
+      .def("trace", trace)
       .def("bounds", bounds)
       .def_property_readonly("body",
                              [](const tm_surface& s) { return s.natural->spec.body == Body::wheel ? "wheel" : "rail"; })

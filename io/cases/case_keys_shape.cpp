@@ -23,9 +23,10 @@ class ShapeKeys {
     add_geometry();
     add_file_options();
     if (body_ == "wheel") add_seam();
+    add_offsets();
     KeyInfo backend = backend_key(body_ + ".backend",
-                                  "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, "
-                                  "offset-quadratic or offset-bilinear; "
+                                  "surface representation: analytic, spline, nurbs, thb, thb-quadratic, mesh, "
+                                  "mesh-flat, offset, offset-quadratic, offset-bilinear, chords or prismatic; "
                                   "without it the one that fits the shape");
     backend.scope = KeyScope::wheel_rail;
     CaseKey& representation = list_.add(backend);
@@ -153,6 +154,62 @@ class ShapeKeys {
       if (file == nullptr)
         throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
       file->open_seam = v.flag();
+    };
+  }
+
+  /// Keys of wheel.offsets or rail.offsets.
+  void add_offsets() {
+    const bool wheel = body_ == "wheel";
+    const std::string prefix = body_ + ".offsets.";
+    const auto offsets = [surface = surface_](auto& c) -> auto& { return (c.*surface).offsets; };
+    const auto key = [&](const char* name, KeyType type, std::string doc) {
+      KeyInfo info = key_info(prefix + name, type, std::move(doc));
+      info.scope = KeyScope::wheel_rail;
+      return info;
+    };
+    CaseKey& file = list_.add(key(
+        "file", KeyType::path,
+        wheel ? "table of deviations that are added to the radius: a .csv or .txt matrix (first row y, first column "
+                "the place round the wheel) or an .asc grid, relative to the folder of the case file"
+              : "table of deviations that are added to z: a .csv or .txt matrix (first row y, first column x) or an "
+                ".asc grid, relative to the folder of the case file"));
+    file.set = [offsets](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
+      OffsetsInput& o = offsets(content_of<W>(c));
+      std::string name = v.text();
+      std::replace(name.begin(), name.end(), '\\', '/');
+      o.file = (folder / name).lexically_normal();
+      o.where = v.where;
+    };
+    file.written = [offsets](const Case& c, const std::filesystem::path& folder) {
+      const OffsetsInput& o = offsets(std::get<W>(c.content));
+      return o.file.empty() ? std::string() : written_path(o.file, folder);
+    };
+    const auto unit = [&](const char* name, const char* doc, std::optional<LengthUnit> OffsetsInput::*member) {
+      KeyInfo info = key(name, KeyType::choice, doc);
+      info.choices.reserve(kLengthUnits.size());
+      for (const LengthUnit u : kLengthUnits) info.choices.emplace_back(symbol(u));
+      CaseKey& added = list_.add(info);
+      added.set = [offsets, member](Case& c, const CaseValue& v, const std::filesystem::path&) {
+        offsets(content_of<W>(c)).*member = length_unit(v.text());
+      };
+      added.written = [offsets, member](const Case& c, const std::filesystem::path&) {
+        const auto& given = offsets(std::get<W>(c.content)).*member;
+        return given ? toml_text(std::string(symbol(*given))) : std::string();
+      };
+    };
+    unit("unit", "unit of the table's positions; without it what the table says, else mm", &OffsetsInput::unit);
+    unit("deviation_unit", "unit of the table's deviations; without it what the table says, else that of the positions",
+         &OffsetsInput::deviation_unit);
+    if (!wheel) return;
+    KeyInfo degrees = key("angles_deg", KeyType::flag,
+                          "the table's places round the wheel are degrees; false: lengths at the nominal radius");
+    degrees.default_text = "false";
+    CaseKey& angles = list_.add(degrees);
+    angles.set = [offsets](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      offsets(content_of<W>(c)).angles_deg = v.flag();
+    };
+    angles.text = [offsets](const Case& c) {
+      return std::string(offsets(std::get<W>(c.content)).angles_deg ? "true" : "false");
     };
   }
 

@@ -12,6 +12,7 @@
 #include "treadmark/core/pose.hpp"
 #include "treadmark/model/contact_settings.hpp"
 #include "treadmark/model/friction.hpp"
+#include "treadmark/model/length_unit.hpp"
 #include "treadmark/model/material.hpp"
 #include "treadmark/model/surface_spec.hpp"
 #include "treadmark/model/wheel_on_rail.hpp"
@@ -52,11 +53,21 @@ struct CrossingInput {
   friend bool operator==(const CrossingInput&, const CrossingInput&) = default;
 };
 
+/// A table of deviations that are added to a surface.
+struct OffsetsInput {
+  std::filesystem::path file;                ///< empty: none; resolved against the folder of the case file
+  std::optional<LengthUnit> unit;            ///< of the positions; none: as the file says, else mm
+  std::optional<LengthUnit> deviation_unit;  ///< none: as the file says, else that of the positions
+  bool angles_deg = false;                   ///< wheel: the rows' positions are degrees
+  SourcePosition where;
+};
+
 /// The shape of a wheel or rail, and the representation it is wanted in.
 struct SurfaceSource {
   /// A file to be read, or a shape given in the case file itself.
   std::variant<GeometryFile, StandardProfile, ArcChain> geometry;
   Defects defects;
+  OffsetsInput offsets;     ///< on top of the defects
   std::string backend;      ///< "" = the natural one; see `treadmark list backends`
   double resolution = 0.0;  ///< [m]; 0 = the backend's default
   SourcePosition where;

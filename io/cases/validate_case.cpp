@@ -28,6 +28,9 @@ class Checker {
     const std::string body = which == Body::rail ? "rail" : "wheel";
     if (!s.parts.empty()) return parts(s);
     shape(s, body);
+    const OffsetsInput& o = s.offsets;
+    require(!o.file.empty() || (!o.unit && !o.deviation_unit && !o.angles_deg),
+            body + ".offsets says how a table is meant, but names none", body + ".offsets.file is missing");
     for (const WheelFlat& flat : s.defects.flats)
       require(flat.shape == WheelFlat::Shape::fresh || flat.depth > 0.0, "wheel.flats: a rounded flat needs depth_mm");
     try {
@@ -43,6 +46,7 @@ class Checker {
     require(s.crossing.part == CrossingInput::Part::none, "rail.shape.crossing does not belong to rail.parts",
             "give it in the part");
     require(s.defects.empty(), "defects cannot be added to rail.parts");
+    require(s.offsets.file.empty(), "a table of deviations (rail.offsets) cannot be added to rail.parts");
     for (std::size_t i = 0; i < s.parts.size(); ++i) shape(s.parts[i], fmt::format("rail.parts[{}]", i));
   }
 

@@ -35,6 +35,7 @@ constexpr Unit kPower{"W", unchanged, "W", unchanged};
 constexpr Unit kSpeed{"m/s", by_thousand, "mm/s", by_thousand};
 constexpr Unit kRate{"rad/s", unchanged, "rad/s", unchanged};
 constexpr Unit kTime{"s", unchanged, "s", unchanged};
+constexpr Unit kCurvature{"1/m", unchanged, "1/m", unchanged};
 constexpr Unit kCelsius{"degC", unchanged, "degC", unchanged};
 
 template <class Member>
@@ -92,6 +93,7 @@ constexpr Access<C> deflection() {
 }
 
 using Local = P::LocalForces;
+using Curvatures = P::Curvatures;
 using Roller = C::Roller;
 
 // A row of a table stays a row: clang-format would give each column a line.
@@ -124,6 +126,19 @@ constexpr Quantity<P> kPatchQuantities[] = {
      {"contact_angle_wheelset"}},
     {"reference", "angle_wheel_rad", kAngle, B::angle, of<&P::angle_wheel>(), "contact angle in wheel axes",
      {"contact_angle_wheel"}},
+    {"rail_curvatures", "greater_per_m", kCurvature, B::shape, within<&P::rail_curvatures, &Curvatures::greater>(),
+     "principal curvatures of the rail at the contact reference, the greater and the lesser one; positive: convex",
+     {"rail_curvature_1"}, {"", Digits::five, "rail_1_per_m"}},
+    {"rail_curvatures", "lesser_per_m", kCurvature, B::shape, within<&P::rail_curvatures, &Curvatures::lesser>(), "",
+     {"rail_curvature_2"}, {"", Digits::five, "rail_2_per_m"}},
+    {"rail_curvatures", "direction_rad", kAngle, B::shape, within<&P::rail_curvatures, &Curvatures::direction>(),
+     "direction of the greater one in the contact plane, from x towards s", {"rail_curvature_direction"}},
+    {"wheel_curvatures", "greater_per_m", kCurvature, B::shape, within<&P::wheel_curvatures, &Curvatures::greater>(),
+     "the same of the wheel", {"wheel_curvature_1"}, {"", Digits::five, "wheel_1_per_m"}},
+    {"wheel_curvatures", "lesser_per_m", kCurvature, B::shape, within<&P::wheel_curvatures, &Curvatures::lesser>(), "",
+     {"wheel_curvature_2"}, {"", Digits::five, "wheel_2_per_m"}},
+    {"wheel_curvatures", "direction_rad", kAngle, B::shape, within<&P::wheel_curvatures, &Curvatures::direction>(),
+     "", {"wheel_curvature_direction"}},
     {"kinematics", "chi_rad", kAngle, B::rolling, of<&P::chi>(), "rolling direction", {"chi"}},
     {"kinematics", "dq_mm", kLength, B::rolling, of<&P::dq>(), "rolled distance per step", {"dq"}},
     {"kinematics", "velocity_mm_s", kSpeed, B::rolling, of<&P::velocity>(), "rolling speed", {"velocity"}},

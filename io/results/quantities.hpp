@@ -40,6 +40,7 @@ enum class Block {
   relative,  ///< older files lack these
   count,     ///< older files lack these
   heat,      ///< each where it was computed
+  shape,     ///< older files lack these, and contacts at the end of a surface
   rolling,
   place,
   angle,

@@ -63,12 +63,14 @@ void read_block(const Hdf5GroupReader& group, Block block, T& item) {
   for_each_stored<T>(block, [&](auto rows) { read_rows<T>(group, rows, item); });
 }
 
-/// The same where the group has the first attribute of the block; temperatures are known each for itself.
+/// The same where the group has the first attribute of the block; temperatures and curvatures are known each for
+/// itself.
 template <class T>
 void read_block_if_there(const Hdf5GroupReader& group, Block block, T& item) {
   bool first = true, there = false;
   for_each_stored<T>(block, [&](auto rows) {
-    if (first || block == Block::heat) there = group.has_attribute(std::string(rows.front().stored.name));
+    if (first || block == Block::heat || block == Block::shape)
+      there = group.has_attribute(std::string(rows.front().stored.name));
     first = false;
     if (there) read_rows<T>(group, rows, item);
   });

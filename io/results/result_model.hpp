@@ -137,6 +137,12 @@ struct PatchResult {
     double fn = 0.0, fx = 0.0, fs = 0.0;  ///< [N]
   };
   std::optional<LocalForces> local;  ///< curved reference: sums of the components in the axes of the rows
+  /// Principal curvatures of a body at the contact reference.
+  struct Curvatures {
+    double greater = 0.0, lesser = 0.0;  ///< [1/m], positive: convex
+    double direction = 0.0;              ///< of the greater one against x, towards s [rad]
+  };
+  std::optional<Curvatures> rail_curvatures, wheel_curvatures;
   bool has_rolling = false;
   double chi = 0.0, dq = 0.0, velocity = 0.0;                  ///< [rad], [m], [m/s]
   bool shift = false;                                          ///< creepages are lengths, power is work

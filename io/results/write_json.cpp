@@ -68,8 +68,8 @@ Json patch_json(const PatchResult& patch) {
     out["came_from"] = patch.came_from;
   }
   add_quantities(out, patch,
-                 {Block::place, Block::angle, Block::arc, Block::rolling, Block::creepage, Block::force, Block::energy,
-                  Block::work, Block::relative, Block::approach, Block::pressure});
+                 {Block::place, Block::angle, Block::arc, Block::shape, Block::rolling, Block::creepage, Block::force,
+                  Block::energy, Block::work, Block::relative, Block::approach, Block::pressure});
   if (patch.loads) out["loads"] = loads_json(*patch.loads);
   add_quantities(out, patch, {Block::local});
   if (patch.sensitivities) {

@@ -30,7 +30,7 @@ class EsriReader {
     bool any = false;
     for (std::size_t row = 0; row < ny; ++row, more = next_line(line)) {
       if (!more) lines_.fail(fmt::format("the file ends after {} of {} rows", row, ny), 0, "is it truncated?");
-      any = read_row(line, map_.offset.data() + nx * (ny - 1 - row)) || any;
+      any = read_row(line, static_cast<int>(ny - 1 - row)) || any;
     }
     if (more) lines_.fail(fmt::format("more than the {} rows of the header", ny), 1, "is nrows right?");
     if (!any) no_data(lines_.bytes().file());
@@ -99,7 +99,8 @@ class EsriReader {
   }
 
   /// Whether there is a value.
-  bool read_row(std::string_view line, float* row) {
+  bool read_row(std::string_view line, int iy) {
+    float* row = map_.offset.data() + map_.grid.index(0, iy);
     FieldScanner fields(line, ' ');
     Field field;
     const int columns = map_.grid.nx;
@@ -109,6 +110,8 @@ class EsriReader {
         lines_.fail(fmt::format("the row has {} values, ncols says {}", k, columns), 0, "is the file truncated?");
       const double value = number_in(lines_, field, true);
       const bool none = std::isnan(value) || value == no_data_;
+      options_.judge([&](const auto& what, const auto& advice) { lines_.fail(what, field.column, advice); }, k, iy,
+                     none);
       row[k] =
           none ? std::numeric_limits<float>::quiet_NaN() : deviation_in_metres(lines_, value, height_, field.column);
       any = any || !none;

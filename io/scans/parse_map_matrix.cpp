@@ -85,6 +85,8 @@ class MatrixReader {
       }
       const double value = field.text.empty() ? std::numeric_limits<double>::quiet_NaN()
                                               : number_in(lines_, field, head_.style.decimal_comma);
+      options_.judge([&](const auto& what, const auto& advice) { lines_.fail(what, field.column, advice); },
+                     static_cast<int>(rows_.size()) - 1, static_cast<int>(n), std::isnan(value));
       values_.push_back(deviation_in_metres(lines_, value, scales_.height, field.column));
       ++n;
     }

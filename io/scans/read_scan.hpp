@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -86,7 +87,22 @@ struct MapReadOptions {
       unit;  ///< of positions along y, along the track or circumference; default: the file's word, else mm
   std::optional<LengthUnit> height_unit;  ///< of the deviations; default: the file's word, else as unit
   bool angles_deg = false;                ///< wheel: the rows' positions are degrees, not lengths
+  bool complete = false;                  ///< every cell must hold a number
+  /// What is wrong with a cell, found after the map had been read; the reader then says it at the cell's place.
+  struct Objection {
+    int iu = 0, iy = 0;  ///< in the grid of the map
+    std::string message, advice;
+  };
+  std::optional<Objection> objection;
   SourcePosition asked_by;
+
+  /// Throws where the cell is to be refused.
+  void judge(const std::function<void(const std::string&, const std::string&)>& fail, int iu, int iy,
+             bool missing) const {
+    if (complete && missing)
+      fail("a cell without a deviation", "every cell needs a number here; write 0 where the surface is as it was");
+    if (objection && objection->iu == iu && objection->iy == iy) fail(objection->message, objection->advice);
+  }
 };
 
 /// A map of deviations: a CSV matrix (first row: lateral positions y, first column: positions x along the track or
@@ -95,8 +111,9 @@ struct MapReadOptions {
 /// Deviations are positive along +z of a rail (material gone) and along +r of a wheel (material added), as OffsetMap
 /// has them. Units: a comment or the first cell that states one ("unit mm", "[mm]", "deviations in um"). Errors:
 /// Error(input_data) with file:line:column: positions that do not increase evenly (within 5 % of a step), ragged rows,
-/// no data at all, deviations that cannot be metres after scaling (beyond 50 mm, with a hint on units), a wheel's rows
-/// that go round more than once. Error(configuration): degrees on a rail, lengths round a wheel without its radius.
+/// no data at all, a cell without data where the options want all of them, deviations that cannot be metres after
+/// scaling (beyond 50 mm, with a hint on units), a wheel's rows that go round more than once. Error(configuration):
+/// degrees on a rail, lengths round a wheel without its radius.
 OffsetMap read_deviation_map(const std::filesystem::path& file, const MapReadOptions& options);
 
 }  // namespace treadmark::io

@@ -168,7 +168,7 @@ WheelRailCase read_in_place(const ContactPart& part, const TableReader& simulati
 
 void refuse_defects(const SurfaceSource& source, const TableReader& simulation, std::string_view key,
                     std::string_view what, std::string_view advice) {
-  if (source.defects.empty()) return;
+  if (source.defects.empty() && source.offsets.file.empty()) return;
   throw Error(ErrorKind::configuration,
               fmt::format("{} is the shape of {}, it has no defects", simulation.path_of(key), what),
               simulation.need(key).where, std::string(advice));

@@ -114,11 +114,12 @@ wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& m
     if (p.regime == kalker::Regime::transient) p.regime = kalker::Regime::steady;
     p.history = kalker::HistoryUse::start;
   }
-  pair_.restore(past.state);
   return pair_.solve(p);
 }
 
 ContactReaction FullContact::evaluate(const PairMotion& motion) {
+  if (!at_past_) pair_.restore(past_.state);
+  at_past_ = false;
   const wheelrail::PairSolution solution = solve(past_, motion);
   tried_ = motion;
   times_ += solution.times;
@@ -157,15 +158,18 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
 void FullContact::accept() {
   accepted_ = {past_, tried_};
   past_ = {pair_.save(), true, tried_.wheelset.x};
+  at_past_ = true;
 }
 
 void FullContact::forget() {
   pair_.reset();
   past_ = {pair_.save(), false, 0.0};
+  at_past_ = true;
 }
 
 wheelrail::PairSolution FullContact::repeat(const Instant& instant) {
   const auto now = pair_.save();
+  pair_.restore(instant.before.state);
   wheelrail::PairSolution solution = solve(instant.before, instant.motion);
   pair_.restore(now);
   return solution;
@@ -218,6 +222,7 @@ void FullContact::save(ByteWriter& out) const {
 
 void FullContact::restore(ByteReader& in) {
   get(past_, in);
+  at_past_ = false;
   accepted_ = read(in);
 }
 

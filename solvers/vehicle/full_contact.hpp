@@ -58,6 +58,7 @@ class FullContact : public ContactElement {
   double rail_x_;
   wheelrail::Pair pair_;
   Past past_;
+  bool at_past_ = false;  ///< the pair is as the past left it
   PairMotion tried_;
   Instant accepted_;
   wheelrail::PhaseTimes times_;

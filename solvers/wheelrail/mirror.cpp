@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
+
 namespace treadmark::wheelrail {
 namespace {
 
@@ -64,6 +66,8 @@ void flip(PatchSolution& p) {
   p.reference_s = -p.reference_s;
   p.reference_C.y() = -p.reference_C.y();
   for (double* angle : {&p.angle_rail, &p.angle_wheelset, &p.angle_wheel}) *angle = -*angle;
+  for (auto* shape : {&p.rail_shape, &p.wheel_shape})
+    if (*shape && (*shape)->angle < 0.5 * kPi) (*shape)->angle = -(*shape)->angle;
   p.force_C.y() = -p.force_C.y();
   flip_axial(p.moment_C);
   p.load = mirrored(p.load);

@@ -80,8 +80,11 @@ void note(PairSolution& solution, Status status, const std::string& message) {
 }
 
 /// Loads, places and status of a solution whose patches are solved.
-void complete(PairSolution& solution) {
+void complete(const Geometry& bodies, PairSolution& solution) {
+  const Pose X_ST = solution.placement.X_TS.inverse(), X_AT = solution.placement.X_TA.inverse();
   for (PatchSolution& patch : solution.patches) {
+    patch.rail_shape = contact_shape(*bodies.rail, X_ST * patch.frame.X_TC);
+    patch.wheel_shape = contact_shape(*bodies.wheel, X_AT * patch.frame.X_TC);
     const kalker::ContactSolution& c = patch.contact;
     patch.load = loads(solution.placement, patch.frame.X_TC, {patch.force_C, patch.moment_C});
     solution.load += patch.load;
@@ -181,7 +184,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   if (solution.patches.empty()) note(solution, Status::no_contact, "the bodies do not touch at this position");
   add_damping(p, next->previous, next->last, solution.patches);
   move_down(solution, balance.rail_dz);
-  complete(solution);
+  complete(geometry_, solution);
   judge(geometry_, p, solution);
   state_ = std::move(next);
   return solution;

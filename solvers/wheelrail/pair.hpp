@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
+#include "treadmark/solvers/wheelrail/contact_shape.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 #include "treadmark/solvers/wheelrail/loads.hpp"
 
@@ -43,6 +45,7 @@ struct PatchSolution {
   Vec3 reference_wheelset = Vec3::Zero();  ///< in wheelset axes [m]
   double reference_s = 0.0;                ///< arc length along the rail profile from y = 0 [m]
   double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
+  std::optional<ContactShape> rail_shape, wheel_shape;  ///< at the contact reference; none where a surface ends there
 };
 
 /// Seconds spent, and how often.

@@ -120,7 +120,7 @@ TEST(CommandLine, ListsAndSchema) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
   EXPECT_EQ(run_program({"list", "verbs"}).out,
-            "run\ncompare\ndiff\nbench\ngeometry\nconvert\n" + verb("import", "scans") + verb("scan", "scans") +
+            "run\ncompare\ndiff\nbench\ngeometry\nconvert\ntrace\n" + verb("import", "scans") + verb("scan", "scans") +
                 "measure\n" + verb("simulate", "vehicle") + verb("assess", "vehicle") + verb("sweep", "vehicle") +
                 verb("evolve", "vehicle") + verb("stability", "vehicle") + verb("track", "vehicle") +
                 verb("fmu", "fmu") + verb("report", "report") + verb("plot", "report") +

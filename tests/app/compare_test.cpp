@@ -30,6 +30,28 @@ const io::ComparisonCandidate& find(const io::Comparison& comparison, const std:
   throw std::runtime_error("no candidate " + name);
 }
 
+TEST(CompareCases, ThePrismaticSectionIsThatOfEachCase) {
+  const treadmark::testing::SampleInput input;
+  // at the flat, and where the wheel is round
+  input.write("flat.toml", treadmark::testing::standard_case("1.0", treadmark::testing::kWheelWithFlat,
+                                                             "[[cases]]\nwheelset.pitch_deg = [0, 20]\n"));
+  const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
+  CompareSettings settings;
+  settings.backends = {"prismatic", "chords"};
+  settings.resolutions = {0.5e-3};
+  const io::Comparison comparison = compare_cases(file, settings);
+  const io::ComparisonCandidate& prismatic = find(comparison, "prismatic", 0.5e-3);
+  ASSERT_EQ(prismatic.failure, "");
+  ASSERT_EQ(prismatic.rows.size(), 2u);
+  EXPECT_GT(std::fabs(prismatic.rows[0].pmax_error), 0.05) << "the flat is no ring";
+  EXPECT_LT(std::fabs(prismatic.rows[1].pmax_error), 0.01);
+  EXPECT_GT(prismatic.wheel.difference.height_max, 0.1e-3) << "and the comparison says so";
+  const io::ComparisonCandidate& chords = find(comparison, "chords", 0.5e-3);
+  ASSERT_EQ(chords.failure, "");
+  for (const io::ComparisonRow& row : chords.rows) EXPECT_LT(row.position_error, 1e-3);
+  EXPECT_LT(chords.wheel.difference.height_max, 5e-6);
+}
+
 TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
   TREADMARK_NEEDS("embree");
   const treadmark::testing::SampleInput input;

@@ -55,6 +55,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
       {"bench", {{toml, "--backends", "spline", "--resolutions", "4", "--seconds-per-measure", "0.001"}}},
       {"geometry", {{"--wheel", "S1002", "--rail", "60E1", "--gauge-mm", "1435", "--cant", "1:40"}}},
       {"convert", {{rail, path("rail.csv")}}},
+      {"trace", {{rail, "--section-mm", "0"}}},
       {"import", {{"--list-settings"}, "scans"}},
       {"scan", {{rail, "-o", path("rail.xyz"), "--points", "100", "--range-mm=0,10"}, "scans"}},
       {"measure", {{"wheel", "S1002"}}},

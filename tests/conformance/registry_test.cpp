@@ -81,7 +81,8 @@ TEST(Registry, ChoicesAreAsGivenFirstThenAtEveryResolution) {
   EXPECT_EQ(text(backend_choices({"spline", "analytic"}, {1e-3}, {&spline})), "spline spline@ analytic ");
   EXPECT_EQ(text(backend_choices({"spline"}, {1e-3}, {&spline, &rail})), "spline@ ");
   EXPECT_THAT(text(backend_choices({}, {1e-3}, {&rail})),
-              HasSubstr(has_part("embree") ? "analytic spline@ nurbs@ mesh@ " : "analytic spline@ nurbs@ "));
+              HasSubstr(has_part("embree") ? "analytic spline@ nurbs@ thb@ thb-quadratic@ mesh@ "
+                                           : "analytic spline@ nurbs@ "));
   EXPECT_THAT(text(backend_choices({}, {1e-3}, {&spline})), ::testing::StartsWith("spline spline@ nurbs@ "));
   EXPECT_THROW(backend_choices({"splines"}, {1e-3}, {&rail}), Error);
 }

@@ -40,7 +40,8 @@ struct Contestant {
   Tolerance constant;                                     ///< for shapes of one cross-section
   Tolerance damaged;                                      ///< for shapes with defects
   bool facets() const { return backend == "mesh-flat"; }  ///< slopes jump everywhere
-  bool creases() const { return facets() || backend == "offset-bilinear"; }
+  bool chords() const { return backend == "chords"; }     ///< they jump from chord to chord across
+  bool creases() const { return facets() || chords() || backend == "offset-bilinear"; }
 };
 
 struct Subject {

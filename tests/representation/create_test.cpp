@@ -34,11 +34,12 @@ void expect_refused(const SurfaceSpec& spec, const char* words) {
 }
 
 constexpr const char* kAll =
-    "available: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic, offset-bilinear";
+    "available: analytic, spline, nurbs, thb, thb-quadratic, mesh, mesh-flat, offset, offset-quadratic, "
+    "offset-bilinear, chords, prismatic";
 
 TEST(CreateSurface, ListsWhatThereIs) {
-  EXPECT_THAT(backend_names(), ElementsAre("analytic", "spline", "nurbs", "mesh", "mesh-flat", "offset",
-                                           "offset-quadratic", "offset-bilinear"));
+  EXPECT_THAT(backend_names(), ElementsAre("analytic", "spline", "nurbs", "thb", "thb-quadratic", "mesh", "mesh-flat",
+                                           "offset", "offset-quadratic", "offset-bilinear", "chords", "prismatic"));
   EXPECT_THAT(standard_profile_names(), ::testing::IsSupersetOf({"60E1", "54E1", "UIC60", "S1002", "1:40", "EPS"}));
 }
 

@@ -68,6 +68,25 @@ void RevolvedSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> poin
   });
 }
 
+void RevolvedSurface::do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double theta = uv[i].x(), y = uv[i].y();
+    out[i] = {};
+    if (!std::isfinite(theta) || !(y >= body_.curve.y_min() && y <= body_.curve.y_max())) continue;
+    const Jet curve = body_.curve.jet(y, body_.curve.find(y, 0));
+    const DepthJet d = body_.flats.jet(theta, y);
+    const double r = body_.nominal_radius + curve.h - d.d, r_y = curve.dh - d.d_y;
+    const Vec3 e(std::sin(theta), 0.0, std::cos(theta)), along(e.z(), 0.0, -e.x()), axle = Vec3::UnitY();
+    out[i] = {r * e + y * axle,
+              r * along - d.d_theta * e,
+              r_y * e + axle,
+              (-d.d_theta_theta - r) * e - 2.0 * d.d_theta * along,
+              r_y * along - d.d_theta_y * e,
+              (curve.ddh - d.d_y_y) * e,
+              1.0};
+  }
+}
+
 void RevolvedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   WheelRay ray(body_, X_SP.rotation.col(2));
   WheelHit hit;

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "treadmark/backends/analytic/wheels/wheel_ray.hpp"
-#include "treadmark/core/surface.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::analytic {
 
 /// A profile z(y) revolved about the axle, with flats taken off: a wheel. u = theta [rad], v = y [m].
 /// Only the half of the wheel that faces the plane's +z is seen.
-class RevolvedSurface final : public Surface {
+class RevolvedSurface final : public Surface, public Parametric {
  public:
   RevolvedSurface(GraphCurve curve, double nominal_radius, const std::vector<WheelFlat>& flats)
       : body_(std::move(curve), nominal_radius, flats) {}
@@ -34,6 +34,7 @@ class RevolvedSurface final : public Surface {
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
   WheelBody body_;

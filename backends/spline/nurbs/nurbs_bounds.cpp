@@ -100,8 +100,8 @@ NurbsHull::Slab NurbsHull::slab_around(const std::vector<Slab>& parts) {
   return slab;
 }
 
-NurbsHull::Level NurbsHull::level_of(const std::vector<Slab>& slabs, int nu, int nv) {
-  Level level{(nu + kFanOut - 1) / kFanOut, (nv + kFanOut - 1) / kFanOut, {}};
+NurbsHull::Level NurbsHull::level_of(const std::vector<Slab>& slabs, int nu, int nv) const {
+  Level level{(nu + fan_u_ - 1) / fan_u_, (nv + fan_v_ - 1) / fan_v_, {}};
   level.blocks.resize(static_cast<std::size_t>(level.blocks_u) * static_cast<std::size_t>(level.blocks_v));
   for (Block& b : level.blocks) {
     for (auto* list : {&b.c_x, &b.c_y, &b.c_z}) list->fill(0.0f);
@@ -109,9 +109,9 @@ NurbsHull::Level NurbsHull::level_of(const std::vector<Slab>& slabs, int nu, int
   }
   for (int iu = 0; iu < nu; ++iu)
     for (int iv = 0; iv < nv; ++iv) {
-      Block& b = level.blocks[static_cast<std::size_t>(iu / kFanOut) * static_cast<std::size_t>(level.blocks_v) +
-                              static_cast<std::size_t>(iv / kFanOut)];
-      const auto k = static_cast<std::size_t>(iu % kFanOut * kFanOut + iv % kFanOut);
+      Block& b = level.blocks[static_cast<std::size_t>(iu / fan_u_) * static_cast<std::size_t>(level.blocks_v) +
+                              static_cast<std::size_t>(iv / fan_v_)];
+      const auto k = static_cast<std::size_t>(iu % fan_u_ * fan_v_ + iv % fan_v_);
       const Slab& s = slabs[static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv)];
       b.slabs[k] = s;
       b.c_x[k] = s.centre.x(), b.c_y[k] = s.centre.y(), b.c_z[k] = s.centre.z();
@@ -120,37 +120,52 @@ NurbsHull::Level NurbsHull::level_of(const std::vector<Slab>& slabs, int nu, int
   return level;
 }
 
-NurbsHull::NurbsHull(const NurbsNet& net) {
-  // Lengths of patches along the middle of the other direction; turned directions are cut where they bend most.
-  const int mid_u = net.patches_u() / 2, mid_v = net.patches_v() / 2;
-  const auto length = [](const Vec3& a, const Vec3& b) { return (b - a).norm(); };
-  std::vector<double> along_u, along_v;
-  for (int i = 0; i < net.patches_u(); ++i) {
-    const BezierPatch p = net.patch(i, mid_v);
-    along_u.push_back(length(p.point(0, 0), p.point(3, 0)));
-  }
-  for (int j = 0; j < net.patches_v(); ++j) {
-    const BezierPatch p = net.patch(mid_u, j);
-    along_v.push_back(length(p.point(0, 0), p.point(0, 3)));
-  }
+NurbsHull::NurbsHull(const NurbsNet& net) : fan_u_(net.fan_out_u()), fan_v_(net.fan_out_v()) {
   constexpr double kSmallest = 1e-3, kLargestU = 8e-3, kLargestV = 2e-3;  // [m]
-  const std::vector<Cell> cells_u = cells_of(along_u, kSmallest, kLargestU),
-                          cells_v = cells_of(along_v, kSmallest, kLargestV);
-  int nu = static_cast<int>(cells_u.size()), nv = static_cast<int>(cells_v.size());
+  const auto length = [](const Vec3& a, const Vec3& b) { return (b - a).norm(); };
+  int nu = 0, nv = 1;
   std::vector<Slab> slabs;
   std::vector<Vec3> points;
-  for (const Cell& cu : cells_u) {
-    check_cancelled();
-    for (const Cell& cv : cells_v) {
-      points.clear();
-      for (int iu = cu.first; iu < cu.last; ++iu)
-        for (int iv = cv.first; iv < cv.last; ++iv) {
-          BezierPatch patch = net.patch(iu, iv);
-          if (cu.to - cu.from < 1.0 || cv.to - cv.from < 1.0) patch = patch.part(cu.from, cu.to, cv.from, cv.to);
-          for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < 4; ++j) points.push_back(patch.point(i, j));
-        }
-      slabs.push_back(slab_of(points));
+  const auto add = [&](const Cell& cu, const Cell& cv) {
+    points.clear();
+    for (int iu = cu.first; iu < cu.last; ++iu)
+      for (int iv = cv.first; iv < cv.last; ++iv) {
+        BezierPatch patch = net.patch(iu, iv);
+        if (cu.to - cu.from < 1.0 || cv.to - cv.from < 1.0) patch = patch.part(cu.from, cu.to, cv.from, cv.to);
+        for (int i = 0; i < 4; ++i)
+          for (int j = 0; j < 4; ++j) points.push_back(patch.point(i, j));
+      }
+    slabs.push_back(slab_of(points));
+  };
+  if (net.is_list()) {
+    for (int i = 0; i < net.patches_u(); ++i, check_cancelled()) {
+      const BezierPatch p = net.patch(i, 0);
+      const auto along = [&](int k) { return length(p.point(0, k), p.point(3, k)); };
+      const auto across = [&](int k) { return length(p.point(k, 0), p.point(k, 3)); };
+      const auto cells_u = cells_of({std::max(along(0), along(3))}, kSmallest, kLargestU),
+                 cells_v = cells_of({std::max(across(0), across(3))}, kSmallest, kLargestV);
+      for (const Cell& cu : cells_u)
+        for (const Cell& cv : cells_v) add({i, i + 1, cu.from, cu.to}, cv);
+    }
+    nu = static_cast<int>(slabs.size());
+  } else {
+    // Lengths of patches along the middle of the other direction; turned directions are cut where they bend most.
+    const int mid_u = net.patches_u() / 2, mid_v = net.patches_v() / 2;
+    std::vector<double> along_u, along_v;
+    for (int i = 0; i < net.patches_u(); ++i) {
+      const BezierPatch p = net.patch(i, mid_v);
+      along_u.push_back(length(p.point(0, 0), p.point(3, 0)));
+    }
+    for (int j = 0; j < net.patches_v(); ++j) {
+      const BezierPatch p = net.patch(mid_u, j);
+      along_v.push_back(length(p.point(0, 0), p.point(0, 3)));
+    }
+    const std::vector<Cell> cells_u = cells_of(along_u, kSmallest, kLargestU),
+                            cells_v = cells_of(along_v, kSmallest, kLargestV);
+    nu = static_cast<int>(cells_u.size()), nv = static_cast<int>(cells_v.size());
+    for (const Cell& cu : cells_u) {
+      check_cancelled();
+      for (const Cell& cv : cells_v) add(cu, cv);
     }
   }
   for (;;) {
@@ -255,8 +270,8 @@ void NurbsHull::descend(std::size_t at, int block_u, int block_v, Search& s) con
     if (((part - slab.centre.cast<double>()).cwiseAbs() - reach - slab.half.cast<double>()).maxCoeff() > s.slack)
       continue;
     if (at > 0 && thickness > s.fine)
-      descend(at - 1, kFanOut * block_u + static_cast<int>(k) / kFanOut,
-              kFanOut * block_v + static_cast<int>(k) % kFanOut, s);
+      descend(at - 1, fan_u_ * block_u + static_cast<int>(k) / fan_v_, fan_v_ * block_v + static_cast<int>(k) % fan_v_,
+              s);
     else
       s.z.include(z);
   }

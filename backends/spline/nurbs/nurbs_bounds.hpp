@@ -12,7 +12,7 @@
 namespace treadmark::spline {
 
 /// A surface as a pyramid of slabs: cells of a millimetre or some lie between two parallel planes a few micrometres
-/// apart, groups of 4 x 4 of them between two planes, and so on. A slab cut off at a rectangle bounds heights over it.
+/// apart, groups of 16 of them between two planes, and so on. A slab cut off at a rectangle bounds heights over it.
 class NurbsHull {
  public:
   explicit NurbsHull(const NurbsNet& net);
@@ -22,7 +22,7 @@ class NurbsHull {
   std::size_t memory_bytes() const;
 
  private:
-  static constexpr int kFanOut = 4, kChildren = kFanOut * kFanOut;
+  static constexpr int kChildren = 16;
 
   /// Box centre +- half that holds a part of the surface, and normal . (p - centre) within offset +- thickness. Rounded
   /// outwards.
@@ -43,10 +43,11 @@ class NurbsHull {
 
   static Slab slab_of(const std::vector<Vec3>& points);
   static Slab slab_around(const std::vector<Slab>& parts);
-  static Level level_of(const std::vector<Slab>& slabs, int nu, int nv);
+  Level level_of(const std::vector<Slab>& slabs, int nu, int nv) const;
   void descend(std::size_t level, int iu, int iv, Search& search) const;
 
   std::vector<Level> levels_;  ///< finest first
+  int fan_u_, fan_v_;          ///< children of a block in each direction
   double extent_ = 0.0;        ///< of the whole surface from the origin
 };
 

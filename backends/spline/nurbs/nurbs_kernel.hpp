@@ -172,8 +172,8 @@ struct PatchHits {
   VMask hit, unsettled;
 };
 
-// See NurbsLeaf::solve.
-template <bool rational>
+// See NurbsLeaf::solve. Without slopes the height comes from where the last step leads.
+template <bool rational, bool slopes>
 TREADMARK_LANES PatchHits solve(const PatchPowers& p, V x, V y, double limit) {
   constexpr int kSteps = 6;
   const V dx = x - p.middle[0], dy = y - p.middle[1];
@@ -199,7 +199,8 @@ TREADMARK_LANES PatchHits solve(const PatchPowers& p, V x, V y, double limit) {
   VMask settled{};
   V end_s = s, end_t = t;
   for (int step = 0; step < kSteps; ++step) {
-    Jet jx = jet(p.x, s, t), jy = jet(p.y, s, t), jz = jet(p.z, s, t);
+    Jet jx = jet(p.x, s, t), jy = jet(p.y, s, t), jz{};
+    if constexpr (slopes) jz = jet(p.z, s, t);
     if constexpr (rational) {
       const Jet jw = jet(p.w, s, t);
       const V w = 1.0 / jw.value;
@@ -211,16 +212,19 @@ TREADMARK_LANES PatchHits solve(const PatchPowers& p, V x, V y, double limit) {
       }
     }
     const V inverse = 1.0 / (jx.by_s * jy.by_t - jx.by_t * jy.by_s), miss_x = x - jx.value, miss_y = y - jy.value;
-    h.dzdx = (jz.by_s * jy.by_t - jz.by_t * jy.by_s) * inverse;
-    h.dzdy = (jz.by_t * jx.by_s - jz.by_s * jx.by_t) * inverse;
-    h.z = jz.value + h.dzdx * miss_x + h.dzdy * miss_y;
+    if constexpr (slopes) {
+      h.dzdx = (jz.by_s * jy.by_t - jz.by_t * jy.by_s) * inverse;
+      h.dzdy = (jz.by_t * jx.by_s - jz.by_s * jx.by_t) * inverse;
+      h.z = jz.value + h.dzdx * miss_x + h.dzdy * miss_y;
+    }
     end_s = s + (jy.by_t * miss_x - jx.by_t * miss_y) * inverse;
     end_t = t + (jx.by_s * miss_y - jy.by_s * miss_x) * inverse;
     const V residual = greatest(absolute(miss_x), absolute(miss_y));
-    settled = residual * (1.0 + h.dzdx * h.dzdx + h.dzdy * h.dzdy) <= limit;
+    settled = slopes ? residual * (1.0 + h.dzdx * h.dzdx + h.dzdy * h.dzdy) <= limit : residual <= limit;
     if ((bits(settled) & wanted) == wanted) break;
     s = clamped(end_s), t = clamped(end_t);
   }
+  if constexpr (!slopes) h.z = value(p.z, end_s, end_t);
   h.unsettled = may_meet & ~settled;
   h.hit = may_meet & settled & (absolute(end_s) <= nurbs_limits::kBorder) & (absolute(end_t) <= nurbs_limits::kBorder);
   return h;
@@ -240,17 +244,26 @@ TREADMARK_LANES void put(double* field, const long* at, VMask where, V x) {
   for (int lane = 0; lane < 4; ++lane) field[at[lane]] = after[lane];
 }
 
-template <bool rational>
-bool hit_points(const ViewArrays& view, const PatchPowers& patch, const TileArrays& tile, Waiting& points) {
+/// Residual at which the last step leaves next to nothing. Slopes of a regular patch differ from that in its middle by
+/// less than a factor of some.
+template <bool slopes>
+double residual_limit(const PatchPowers& p, bool exact) {
+  if constexpr (slopes) return exact ? nurbs_limits::kExact : nurbs_limits::kNear;
+  const double dzdx = p.z[4] * p.a[0] + p.z[1] * p.a[2], dzdy = p.z[4] * p.a[1] + p.z[1] * p.a[3];
+  return nurbs_limits::kNear / (1.0 + 4.0 * (dzdx * dzdx + dzdy * dzdy));
+}
+
+template <bool rational, bool slopes>
+bool hit_points(const ViewArrays& view, const PatchPowers& patch, const TileArrays& tile, Waiting& points,
+                double limit) {
   if (points.count == 0) return true;
   // whole groups, the last point again and again
   for (int k = points.count, last = k - 1; k % 4 != 0; ++k)
     points.x[k] = points.x[last], points.y[k] = points.y[last], points.at[k] = points.at[last];
-  const double limit = tile.dzdx != nullptr ? nurbs_limits::kExact : nurbs_limits::kNear;
   VMask unsettled{};
   for (int k = 0; k < points.count; k += 4) {
     const V x = load(points.x + k), y = load(points.y + k);
-    const PatchHits h = solve<rational>(patch, x, y, limit);
+    const PatchHits h = solve<rational, slopes>(patch, x, y, limit);
     VMask good = h.hit;
     if (view.half) good &= h.z >= view.lowest[0] + (view.lowest[1] * x + view.lowest[2] * y);
     unsettled |= h.unsettled;
@@ -258,7 +271,7 @@ bool hit_points(const ViewArrays& view, const PatchPowers& patch, const TileArra
     const V before = {tile.z[at[0]], tile.z[at[1]], tile.z[at[2]], tile.z[at[3]]};
     good &= ~(view.side * h.z <= view.side * before);  // where there was none, too
     put(tile.z, at, good, h.z);
-    if (tile.dzdx == nullptr) continue;
+    if (!slopes || tile.dzdx == nullptr) continue;
     put(tile.dzdx, at, good, h.dzdx);
     put(tile.dzdy, at, good, h.dzdy);
   }
@@ -274,17 +287,55 @@ TREADMARK_LANES void indices(double low, double high, double first_point, double
   last = to < 0.0 ? -1 : to < count ? static_cast<int>(to) : count - 1;
 }
 
-template <bool rational>
+/// The part of a row at dy from the middle where the linear guess may meet the patch.
+struct RowPart {
+  double low, high;
+  void meet(double slope, double from, double to) {
+    if ((slope < 0.0 ? -slope : slope) < 1e-6) return;  // [1/m] it hardly changes along the row
+    const double a = from / slope, b = to / slope, least = a < b ? a : b, greatest = a < b ? b : a;
+    low = least > low ? least : low;
+    high = greatest < high ? greatest : high;
+  }
+};
+RowPart row_part(const PatchPowers& patch, double dy) {
+  RowPart part{patch.range[0] - patch.middle[0], patch.range[1] - patch.middle[0]};
+  part.meet(patch.a[0], patch.reach[0] - patch.a[1] * dy, patch.reach[1] - patch.a[1] * dy);
+  part.meet(patch.a[2], patch.reach[2] - patch.a[3] * dy, patch.reach[3] - patch.a[3] * dy);
+  return part;
+}
+
+template <bool rational, bool slopes>
 bool hit_patch(const ViewArrays& view, const PatchPowers& patch, const TileArrays& tile) {
   int i0, i1, j0, j1;
   indices(patch.range[0], patch.range[1], tile.x0 + tile.ix0 * tile.dx, tile.dx, tile.nx, i0, i1);
   indices(patch.range[2], patch.range[3], tile.y0 + tile.iy0 * tile.dy, tile.dy, tile.ny, j0, j1);
   if (i1 < i0) return true;
   bool settled = true;
+  const double limit = residual_limit<slopes>(patch, tile.dzdx != nullptr);
   Waiting points;
+  constexpr int kWide = 8;  // rows of fewer points are not worth looking at one by one
+  const bool wide = i1 - i0 >= kWide;
   for (int j = j0; j <= j1; ++j) {
     const V y = all(tile.y0 + (tile.iy0 + j) * tile.dy);
-    for (int i = i0; i <= i1; i += 4) {
+    if (wide) {
+      // a long patch that lies askew meets a part of each row only
+      const RowPart part = row_part(patch, y[0] - patch.middle[1]);
+      indices(patch.middle[0] + part.low, patch.middle[0] + part.high, tile.x0 + tile.ix0 * tile.dx, tile.dx, tile.nx,
+              i0, i1);
+    }
+    int i = i0;
+    if (wide && !slopes && !rational)
+      for (; i + 3 <= i1; i += 4) {
+        const int k = tile.ix0 + i;
+        double* const z = tile.z + i + j * tile.stride;
+        const V x = tile.x0 + V{double(k), double(k + 1), double(k + 2), double(k + 3)} * tile.dx, before = load(z);
+        const PatchHits h = solve<false, false>(patch, x, y, limit);
+        VMask good = h.hit & ~(view.side * h.z <= view.side * before);
+        if (view.half) good &= h.z >= view.lowest[0] + (view.lowest[1] * x + view.lowest[2] * y);
+        store(z, good ? h.z : before);
+        settled &= bits(h.unsettled) == 0;
+      }
+    for (; i <= i1; i += 4) {
       const int k = tile.ix0 + i;
       const long at = i + j * tile.stride;
       store(points.x + points.count, tile.x0 + V{double(k), double(k + 1), double(k + 2), double(k + 3)} * tile.dx);
@@ -292,15 +343,19 @@ bool hit_patch(const ViewArrays& view, const PatchPowers& patch, const TileArray
       for (int lane = 0; lane < 4; ++lane) points.at[points.count + lane] = at + lane;
       points.count += i1 - i < 3 ? i1 - i + 1 : 4;
       if (points.count <= kPointRoom - 4) continue;
-      settled &= hit_points<rational>(view, patch, tile, points);
+      settled &= hit_points<rational, slopes>(view, patch, tile, points, limit);
       points.count = 0;
     }
   }
-  return hit_points<rational>(view, patch, tile, points) && settled;
+  return hit_points<rational, slopes>(view, patch, tile, points, limit) && settled;
+}
+
+bool hit_polynomial(const ViewArrays& view, const PatchPowers& patch, const TileArrays& tile) {
+  return tile.dzdx != nullptr ? hit_patch<false, true>(view, patch, tile) : hit_patch<false, false>(view, patch, tile);
 }
 
 bool hit(const ViewArrays& view, const PatchPowers& patch, const TileArrays& tile) {
-  return patch.rational ? hit_patch<true>(view, patch, tile) : hit_patch<false>(view, patch, tile);
+  return patch.rational ? hit_patch<true, true>(view, patch, tile) : hit_polynomial(view, patch, tile);
 }
 
 void hit_corners(const ViewArrays& view, const PatchCorners* patches, int count, const TileArrays& tile, char* left) {
@@ -324,7 +379,7 @@ void hit_corners(const ViewArrays& view, const PatchCorners* patches, int count,
       left[k + lane] = 0;
       if ((hidden >> lane) & 1) continue;
       store(powers[lane].range, ranges[lane]);
-      left[k + lane] = !((regular >> lane) & 1) || !hit_patch<false>(view, powers[lane], tile);
+      left[k + lane] = !((regular >> lane) & 1) || !hit_polynomial(view, powers[lane], tile);
     }
   }
 }

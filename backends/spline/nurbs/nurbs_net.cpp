@@ -51,6 +51,11 @@ NurbsNet::NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, s
   build_boxes();
 }
 
+NurbsNet::NurbsNet(std::vector<Cell> cells, std::vector<Corner> corners)
+    : cells_(std::move(cells)), corners_(std::move(corners)) {
+  build_boxes();
+}
+
 void NurbsNet::build_boxes() {
   const auto box = [](const Corners& c) {
     constexpr double kUp = 3e-7;  // more than the rounding to single precision of both
@@ -71,12 +76,13 @@ void NurbsNet::build_boxes() {
   levels_.push_back(std::move(first));
   while (levels_.back().boxes.size() > 1) {
     const Level& below = levels_.back();
-    Level above{(below.nu + kFanOut - 1) / kFanOut, (below.nv + kFanOut - 1) / kFanOut, {}};
+    const int fan_u = fan_out_u(), fan_v = fan_out_v();
+    Level above{(below.nu + fan_u - 1) / fan_u, (below.nv + fan_v - 1) / fan_v, {}};
     for (int iu = 0; iu < above.nu; ++iu)
       for (int iv = 0; iv < above.nv; ++iv) {
         Corners corners;
-        for (int ku = kFanOut * iu; ku < std::min(kFanOut * (iu + 1), below.nu); ++ku)
-          for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv) {
+        for (int ku = fan_u * iu; ku < std::min(fan_u * (iu + 1), below.nu); ++ku)
+          for (int kv = fan_v * iv; kv < std::min(fan_v * (iv + 1), below.nv); ++kv) {
             corners.include(below.at(ku, kv).centre() - below.at(ku, kv).half());
             corners.include(below.at(ku, kv).centre() + below.at(ku, kv).half());
           }
@@ -88,7 +94,7 @@ void NurbsNet::build_boxes() {
 
 std::size_t NurbsNet::memory_bytes() const {
   std::size_t bytes = points_.capacity() * sizeof(Quad) + corners_.capacity() * sizeof(Corner) +
-                      (u_.capacity() + v_.capacity()) * sizeof(double);
+                      (u_.capacity() + v_.capacity()) * sizeof(double) + cells_.capacity() * sizeof(Cell);
   for (const Level& level : levels_) bytes += level.boxes.capacity() * sizeof(Box);
   return bytes;
 }
@@ -117,6 +123,11 @@ BezierPatch NurbsNet::patch(int iu, int iv, const Pose& X) const {
 PatchCorners NurbsNet::corners(int iu, int iv) const {
   static_assert(sizeof(Corner) == 12 * sizeof(double));
   const auto u = static_cast<std::size_t>(iu), v = static_cast<std::size_t>(iv);
+  if (is_list()) {
+    const Cell& c = cells_[u];
+    const auto listed = [&](int i, int j) { return corners_[c.corner[i][j]].p.data(); };
+    return {{{listed(0, 0), listed(0, 1)}, {listed(1, 0), listed(1, 1)}}, c.u1 - c.u0, c.v1 - c.v0};
+  }
   const std::size_t row = v_.size(), next = (u + 1) * row < corners_.size() ? u + 1 : 0;
   const auto at = [&](std::size_t i, std::size_t j) { return corners_[i * row + j].p.data(); };
   return {{{at(u, v), at(u, v + 1)}, {at(next, v), at(next, v + 1)}}, u_[u + 1] - u_[u], v_[v + 1] - v_[v]};
@@ -128,11 +139,23 @@ Box3 NurbsNet::bounds() const {
 }
 
 NurbsNet::Place NurbsNet::find(double u, double v) const {
-  const int iu = find_span(u_, u, 0, patches_u() - 1), iv = find_span(v_, v, 0, patches_v() - 1);
+  int iu = 0, iv = 0;
+  if (is_list()) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < patches_u() && nearest > 0.0; ++i) {
+      const Range r = range(i, 0);
+      const double beside = std::max({r.u0 - u, u - r.u1, 0.0}) + std::max({r.v0 - v, v - r.v1, 0.0});
+      if (beside < nearest) nearest = beside, iu = i;
+    }
+  } else {
+    iu = find_span(u_, u, 0, patches_u() - 1);
+    iv = find_span(v_, v, 0, patches_v() - 1);
+  }
+  const Range r = range(iu, iv);
   const auto local = [](double x, double low, double high) {
     return std::clamp((x - low) / (high - low), 0.0, 1.0) - 0.5;
   };
-  return {iu, iv, local(u, u_break(iu), u_break(iu + 1)), local(v, v_break(iv), v_break(iv + 1))};
+  return {iu, iv, local(u, r.u0, r.u1), local(v, r.v0, r.v1)};
 }
 
 }  // namespace treadmark::spline

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "treadmark/backends/spline/interval.hpp"
@@ -12,10 +13,10 @@
 
 namespace treadmark::spline {
 
-/// A tensor-product NURBS surface as its bicubic Bezier patches. A rational one is a grid of control points, of which
-/// neighbouring patches share those on their border; a polynomial one is kept by positions and derivatives at the
-/// corners of patches. Boxes of control points form a pyramid above the patches. Immutable, so safe to use from any
-/// number of threads.
+/// A spline surface as its bicubic Bezier patches. A rational one is a grid of control points, of which neighbouring
+/// patches share those on their border; a polynomial one is kept by positions and derivatives at the corners of
+/// patches, which form a grid or a list. Boxes of control points form a pyramid above the patches. Immutable, so safe
+/// to use from any number of threads.
 class NurbsNet {
  public:
   /// Derivatives by the parameters.
@@ -29,10 +30,29 @@ class NurbsNet {
   /// corners: index = iv + (patches in v + 1) iu; for u_breaks that go once round, the last row may be left out.
   NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Corner> corners);
 
-  int patches_u() const { return static_cast<int>(u_.size()) - 1; }
-  int patches_v() const { return static_cast<int>(v_.size()) - 1; }
-  double u_break(int i) const { return u_[static_cast<std::size_t>(i)]; }
-  double v_break(int i) const { return v_[static_cast<std::size_t>(i)]; }
+  /// A part of the parameters, and where the corners of its patch stand in a list: [i along u][j along v].
+  struct Cell {
+    double u0, u1, v0, v1;
+    std::uint32_t corner[2][2];
+  };
+  /// Neighbours in the list should be neighbours on the surface. Patches have the indices (place in the list, 0).
+  NurbsNet(std::vector<Cell> cells, std::vector<Corner> corners);
+
+  bool is_list() const { return !cells_.empty(); }
+  int patches_u() const { return static_cast<int>(is_list() ? cells_.size() : u_.size() - 1); }
+  int patches_v() const { return is_list() ? 1 : static_cast<int>(v_.size()) - 1; }
+  /// Parameters at the borders of a patch.
+  struct Range {
+    double u0, u1, v0, v1;
+  };
+  Range range(int iu, int iv) const {
+    const auto u = static_cast<std::size_t>(iu), v = static_cast<std::size_t>(iv);
+    if (is_list()) return {cells_[u].u0, cells_[u].u1, cells_[u].v0, cells_[u].v1};
+    return {u_[u], u_[u + 1], v_[v], v_[v + 1]};
+  }
+  /// How many neighbours in each direction a pyramid above the patches takes together.
+  int fan_out_u() const { return is_list() ? 16 : 4; }
+  int fan_out_v() const { return is_list() ? 1 : 4; }
   std::size_t memory_bytes() const;
 
   /// Surface frame.
@@ -45,7 +65,7 @@ class NurbsNet {
   /// The corners of a patch of such a net.
   PatchCorners corners(int iu, int iv) const;
 
-  /// Patch and local parameters for (u, v), clamped to the surface.
+  /// Patch and local parameters for (u, v), clamped to the surface. Of a list it takes time proportional to its length.
   struct Place {
     int iu, iv;
     double s, t;  ///< -1/2 .. 1/2
@@ -72,8 +92,6 @@ class NurbsNet {
       return boxes[static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv)];
     }
   };
-  static constexpr int kFanOut = 4;  // in each direction
-
   template <class Wanted, class Use>
   void descend(std::size_t level, int iu, int iv, const Wanted& wanted, const Use& use) const {
     const Box& box = levels_[level].at(iu, iv);
@@ -81,15 +99,17 @@ class NurbsNet {
     if (!wanted(centre, half)) return;
     if (level == 0) return use(iu, iv, centre, half);
     const Level& below = levels_[level - 1];
-    for (int ku = kFanOut * iu; ku < std::min(kFanOut * (iu + 1), below.nu); ++ku)
-      for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv)
+    const int fan_u = fan_out_u(), fan_v = fan_out_v();
+    for (int ku = fan_u * iu; ku < std::min(fan_u * (iu + 1), below.nu); ++ku)
+      for (int kv = fan_v * iv; kv < std::min(fan_v * (iv + 1), below.nv); ++kv)
         descend(level - 1, ku, kv, wanted, use);
   }
 
   void build_boxes();
 
-  std::vector<double> u_, v_;
-  std::vector<Quad> points_;  // one of the two is empty
+  std::vector<double> u_, v_;  // of a grid
+  std::vector<Cell> cells_;    // of a list
+  std::vector<Quad> points_;   // one of the two is empty
   std::vector<Corner> corners_;
   std::vector<Level> levels_;
 };

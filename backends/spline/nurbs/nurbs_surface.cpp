@@ -56,8 +56,8 @@ SurfaceDerivatives NurbsSurface::derivatives_at(const NurbsNet::Place& place) co
   const PowerPatch::Jet at = patch.jet(place.s, place.t);
   const PowerPatch::Bend bend = patch.bend(place.s, place.t);
   // By the parameters themselves.
-  const double per_u = 1.0 / (net_.u_break(place.iu + 1) - net_.u_break(place.iu));
-  const double per_v = 1.0 / (net_.v_break(place.iv + 1) - net_.v_break(place.iv));
+  const NurbsNet::Range range = net_.range(place.iu, place.iv);
+  const double per_u = 1.0 / (range.u1 - range.u0), per_v = 1.0 / (range.v1 - range.v0);
   const auto position = [](const Quad& q) { return Vec3(q.x(), q.y(), q.z()); };
   const double w = at.value.w(), w_u = at.by_s.w() * per_u, w_v = at.by_t.w() * per_v;
   SurfaceDerivatives d;
@@ -140,8 +140,8 @@ void NurbsSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, s
     SurfaceDerivatives d = derivatives_at({hit.iu, hit.iv, hit.s, hit.t});
     const bool wheel = body_ == Body::wheel;
     at.u = wheel ? wrap_angle(std::atan2(d.p.x(), d.p.z())) : d.p.x();
-    const double low = net_.v_break(hit.iv), high = net_.v_break(hit.iv + 1);
-    at.v = low + (hit.t + 0.5) * (high - low);
+    const NurbsNet::Range range = net_.range(hit.iu, hit.iv);
+    at.v = range.v0 + (hit.t + 0.5) * (range.v1 - range.v0);
     // Forward x towards greater y points out of a wheel, into a rail.
     if (wheel) d.pv = -d.pv, d.puv = -d.puv;
     set_geometry(d, at);
@@ -226,7 +226,9 @@ void require_points(bool good, const char* message, const char* advice = "") {
   if (!good) throw Error(ErrorKind::input_data, message, {}, advice);
 }
 
-void check(const sampling::PointGrid& grid) {
+}  // namespace
+
+void check_points(const sampling::PointGrid& grid) {
   require_points(grid.u.size() >= 4 && grid.y.size() >= 4, "a surface through points needs at least 4 x 4 of them");
   require_points(grid.h.size() == grid.u.size() * grid.y.size(),
                  "a point grid has another number of heights than of points");
@@ -248,21 +250,24 @@ void check(const sampling::PointGrid& grid) {
   }
 }
 
-}  // namespace
+std::vector<double> chord_lengths(const sampling::PointGrid& grid) {
+  const std::size_t nu = grid.u.size(), nv = grid.y.size();
+  std::vector<double> v(nv, 0.0);
+  for (std::size_t j = 0; j + 1 < nv; ++j) {
+    double chords = 0.0;
+    for (std::size_t i = 0; i < nu; ++i) chords += (grid.point(i, j + 1) - grid.point(i, j)).norm();
+    v[j + 1] = v[j] + chords / static_cast<double>(nu);
+  }
+  return v;
+}
 
 NurbsNet fit_point_grid(const sampling::PointGrid& grid) {
-  check(grid);
+  check_points(grid);
   const std::size_t nu = grid.u.size(), nv = grid.y.size();
   std::vector<NurbsNet::Corner> corners(nu * nv);
   for (std::size_t i = 0; i < nu; ++i)
     for (std::size_t j = 0; j < nv; ++j) corners[grid.index(i, j)].p = grid.point(i, j);
-  std::vector<double> u = grid.u, v(nv, 0.0);
-  for (std::size_t j = 0; j + 1 < nv; ++j) {
-    double chords = 0.0;
-    for (std::size_t i = 0; i < nu; ++i)
-      chords += (corners[grid.index(i, j + 1)].p - corners[grid.index(i, j)].p).norm();
-    v[j + 1] = v[j] + chords / static_cast<double>(nu);
-  }
+  std::vector<double> u = grid.u, v = chord_lengths(grid);
 
   SplineSlopes along_u(u, grid.closed ? 2.0 * std::numbers::pi : 0.0), along_v(v, 0.0);
   using Corner = NurbsNet::Corner;

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <string_view>
+#include <vector>
+
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_bounds.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_net.hpp"
@@ -18,14 +21,15 @@ namespace treadmark::spline {
 /// is hit. A plane that sees the surface edge-on meets nothing.
 class NurbsSurface final : public Surface {
  public:
-  NurbsSurface(NurbsNet net, Body body) : net_(std::move(net)), hull_(net_), body_(body) {}
+  NurbsSurface(NurbsNet net, Body body, std::string_view backend = "nurbs")
+      : net_(std::move(net)), hull_(net_), body_(body), backend_(backend) {}
 
   const NurbsNet& net() const { return net_; }
   /// Position and derivatives by the surface's own parameters, clamped to its borders.
   SurfaceDerivatives derivatives(double u, double v) const;
   Vec3 point(double u, double v) const { return derivatives(u, v).p; }
 
-  std::string_view backend() const override { return "nurbs"; }
+  std::string_view backend() const override { return backend_; }
   Facing facing() const override { return body_ == Body::rail ? Facing::up : Facing::down; }
   Box3 bounds() const override { return net_.bounds(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + net_.memory_bytes() + hull_.memory_bytes(); }
@@ -41,12 +45,18 @@ class NurbsSurface final : public Surface {
   NurbsNet net_;
   NurbsHull hull_;
   Body body_;
+  std::string_view backend_;  ///< of a literal
 };
+
+/// Errors: Error(input_data) for what no spline can go through or near: gaps, fewer than 4 x 4 points, stations or
+/// nodes that do not increase, radii that are not positive.
+void check_points(const sampling::PointGrid& grid);
+/// The mean chord length up to each lateral node along the stations [m].
+std::vector<double> chord_lengths(const sampling::PointGrid& grid);
 
 /// The cubic tensor B-spline through all points, twice continuously differentiable: in u with knots at the stations
 /// (periodic if closed, else not-a-knot ends), in v with knots at the mean chord length along the stations [m] (de Boor
-/// 1978). Errors: Error(input_data) for gaps, fewer than 4 x 4 points, stations or nodes that do not increase, radii
-/// that are not positive.
+/// 1978). Errors: those of check_points.
 NurbsNet fit_point_grid(const sampling::PointGrid& grid);
 
 /// A chain as rational arcs (Piegl and Tiller 1997), swept from x_min to x_max or revolved all round. v is the arc

@@ -233,7 +233,11 @@ std::vector<double> line_coefficients(std::span<const double> positions, std::sp
 
 SliceNet fit_slices(const SliceSet& slices) {
   check(slices);
-  const SampledSlices sampled = sample_slices(slices);
+  return fit_slices(slices, sample_slices(slices));
+}
+
+SliceNet fit_slices(const SliceSet& slices, const SampledSlices& sampled) {
+  check(slices);
   const auto across = fit_across(sampled);
   const Arrangement all = arrange(slices);
   const SpanPlan plan = plan_spans(slices, all);

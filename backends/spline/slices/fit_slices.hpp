@@ -40,4 +40,8 @@ struct SampledSlices {
 /// See fit_slices.
 SampledSlices sample_slices(const SliceSet& slices);
 
+/// The net through points that are sampled already, one row a slice; of slices only what lies along counts. Errors:
+/// those of fit_slices.
+SliceNet fit_slices(const SliceSet& slices, const SampledSlices& sampled);
+
 }  // namespace treadmark::spline

@@ -285,6 +285,20 @@ void SliceSurface<Geometry>::do_heights_at(const Pose& X_SP, std::span<const Vec
 }
 
 template <class Geometry>
+void SliceSurface<Geometry>::do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double u = uv[i].x(), v = uv[i].y();
+    out[i] = {};
+    if (!std::isfinite(u) || !(v >= 1.0 && v <= net_.positions())) continue;
+    const SliceNet::Place place = net_.find(u);
+    const int cell = std::clamp(static_cast<int>(v) - 1, 0, net_.cells() - 1);
+    const double f = v - (cell + 1);
+    const SurfaceJet jet = jet_of(geometry_.derivatives(u, net_.at(place, cell, f), net_.second_at(place, cell, f)));
+    if (jet.p.allFinite()) out[i] = jet;
+  }
+}
+
+template <class Geometry>
 void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> points_P,
                                        std::span<SurfacePoint> out) const {
   for_hits(net_, hulls_, geometry_, X_SP, points_P,

@@ -5,7 +5,7 @@
 #include "treadmark/backends/spline/slices/slice_geometry.hpp"
 #include "treadmark/backends/spline/slices/slice_hulls.hpp"
 #include "treadmark/backends/spline/slices/slice_net.hpp"
-#include "treadmark/core/surface.hpp"
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark::spline {
 
@@ -14,7 +14,7 @@ namespace treadmark::spline {
 /// Misses: where parts are missing (also in a cell with one such end, and up to one cell before x = +-r of a wheel); a
 /// plane whose normal runs along a rail. Only the half of a wheel turned towards the plane is hit.
 template <class Geometry>
-class SliceSurface final : public Surface {
+class SliceSurface final : public Surface, public Parametric {
  public:
   /// Wheel: w of the net is the height over nominal_radius. Errors: Error(configuration) unless its radius is positive.
   SliceSurface(SliceNet net, double nominal_radius);
@@ -32,6 +32,7 @@ class SliceSurface final : public Surface {
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
   void do_grid_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const override;
 

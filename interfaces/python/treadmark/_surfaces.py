@@ -30,13 +30,49 @@ def numbers(values: Any, name: str, *shape: int) -> Array:
 
 
 class Located(NamedTuple):
-    """Points of a surface: found (bool), position (n, 3) [m], unit normal out of the material (n, 3), principal curvatures [1/m]."""
+    """Points of a surface: found (bool), position (n, 3) [m], unit normal out of the material (n, 3), principal curvatures [1/m], and
+    the parameters: u is x of a rail [m] or the angle of a wheel [rad], v the representation's own."""
 
     found: npt.NDArray[np.bool_]
     position: Array
     normal: Array
     curvature_1: Array
     curvature_2: Array
+    u: Array
+    v: Array
+
+
+class Evaluated(NamedTuple):
+    """A surface at parameters (u, v): position (n, 3) [m], first and second derivatives by them, unit normal out of the material,
+    principal curvatures [1/m] (positive: convex) and their unit directions; NaN where nothing is. exact: derivatives are those of the
+    representation itself, else central differences."""
+
+    position: Array
+    by_u: Array
+    by_v: Array
+    by_uu: Array
+    by_uv: Array
+    by_vv: Array
+    normal: Array
+    curvature_1: Array
+    curvature_2: Array
+    direction_1: Array
+    direction_2: Array
+    exact: bool
+
+
+class Line(NamedTuple):
+    """A line on a surface: arc length (n,) [m], parameters, position (n, 3) [m], normal, principal curvatures and the curvature of the
+    normal section along the line [1/m]."""
+
+    s: Array
+    u: Array
+    v: Array
+    position: Array
+    normal: Array
+    curvature_1: Array
+    curvature_2: Array
+    curvature_along: Array
 
 
 class Surface:
@@ -170,6 +206,19 @@ class Surface:
         x = numbers(x, "x", -1)
         status, *rest = self._surface.locate(x, numbers(y, "y", len(x)))
         return Located(status != 1, *rest)
+
+    def evaluate(self, u: Any, v: Any) -> Evaluated:
+        """Positions, derivatives and curvatures at parameters as locate gives them, shapes (n,)."""
+        u = numbers(u, "u", -1)
+        return Evaluated(*self._surface.evaluate(u, numbers(v, "v", len(u))))
+
+    def section_line(self, u: float, step: float = 1e-3, y: tuple[float, float] | None = None) -> Line:
+        """The line across at u, with growing y, from end to end or between two y [m]; step: arc length between points [m]."""
+        return Line(*self._surface.trace(True, float(u), y, float(step)))
+
+    def line_along(self, y: float, u: tuple[float, float], step: float = 1e-3) -> Line:
+        """The line of constant v along a rail or round a wheel, from the point at y [m] on, between two u ([m] or [rad])."""
+        return Line(*self._surface.trace(False, float(y), (float(u[0]), float(u[1])), float(step)))
 
     def triangles(self, resolution: float = 0.0) -> tuple[Array, npt.NDArray[np.uint32]]:
         """Triangles over the surface, sampled at a resolution [m]: vertices (n, 3) [m] and faces (m, 3)."""

@@ -286,6 +286,7 @@ class InputWriter {
     Defects::each(s.defects, [&](const char* key, Body, const auto& all) {
       refuse_if(!all.empty(), fmt::format("a defect ({})", key), advice);
     });
+    refuse_if(!s.offsets.file.empty(), fmt::format("a table of deviations ({}.offsets)", body), advice);
     const auto* file = std::get_if<GeometryFile>(&s.geometry);
     refuse_if(file == nullptr, fmt::format("the shape of the {} by formula ({}.shape)", body, body), advice);
     std::string extension = file->file.extension().string();

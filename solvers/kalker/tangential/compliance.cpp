@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdlib>
 #include <functional>
 #include <numbers>
 
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
+#include "treadmark/solvers/kalker/tangential/spectrum_kernel.hpp"
 
 namespace treadmark::kalker {
 
@@ -19,25 +21,9 @@ namespace {
 
 std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
 
-/// (x, y) -> block (x, y) at each place k, handed on by put(to, k, real, imaginary).
-template <class Put>
-void multiply_by_blocks(std::span<const ComplianceBlock> blocks, std::complex<double>* x, std::complex<double>* y,
-                        const Put& put) {
-  double* __restrict to_x = reinterpret_cast<double*>(x);
-  double* __restrict to_y = reinterpret_cast<double*>(y);
-  for (std::size_t k = 0; k < blocks.size(); ++k, to_x += 2, to_y += 2) {
-    const ComplianceBlock& b = blocks[k];
-    const double x_real = b.xx * to_x[0] + b.xy * to_y[0], x_imaginary = b.xx * to_x[1] + b.xy * to_y[1];
-    const double y_real = b.xy * to_x[0] + b.yy * to_y[0], y_imaginary = b.xy * to_x[1] + b.yy * to_y[1];
-    put(to_x, k, x_real, x_imaginary);
-    put(to_y, k, y_real, y_imaginary);
-  }
-}
-
-void put_plainly(double* to, std::size_t, double real, double imaginary) {
-  to[0] = real;
-  to[1] = imaginary;
-}
+double* numbers(std::complex<double>* z) { return reinterpret_cast<double*>(z); }
+const double* numbers(const std::complex<double>* z) { return reinterpret_cast<const double*>(z); }
+static_assert(sizeof(ComplianceBlock) == 3 * sizeof(double) && offsetof(ComplianceBlock, yy) == 2 * sizeof(double));
 
 }  // namespace
 
@@ -117,37 +103,29 @@ void Compliance::apply(Transport transport, std::span<const double> px, std::spa
   if (rows) return apply_turned(*rows, transport, px, py, ux, uy);
   const RealFft2d& fft = transform_.fft();
   const auto length = static_cast<std::size_t>(fft.line_length());
-  const double sign = transport == Transport::forward ? 1.0 : -1.0;
-  const auto turned = [](double* to, double real, double imaginary, double c, double s) {
-    to[0] = real * c - imaginary * s;
-    to[1] = real * s + imaginary * c;
-  };
+  const SpectrumKernel& kernel = spectrum_kernel();
   const auto multiply_line = [&](int line, std::complex<double>* const* values) {
     const std::size_t begin = static_cast<std::size_t>(line) * length;
-    // Numbers pass by once: what is done to them last comes with it.
-    const auto multiply = [&](const auto& put) {
-      std::complex<double>*x = values[0], *y = values[1];
-      if (symmetric()) return multiply_by_blocks({symbol_.data() + begin, length}, x, y, put);
+    std::complex<double>*x = values[0], *y = values[1];
+    // one factor for a column, one for each number of a row
+    const std::complex<double>* steps = transport == Transport::forward ? step_.data() : step_back_.data();
+    const bool same = fft.lines_are_columns();
+    if (!symmetric()) {
       for (std::size_t k = 0; k < length; ++k) {
         const std::complex<double> ux_k = spectra_[0][begin + k] * x[k] + spectra_[1][begin + k] * y[k];
         const std::complex<double> uy_k = spectra_[2][begin + k] * x[k] + spectra_[3][begin + k] * y[k];
-        put(reinterpret_cast<double*>(x + k), k, ux_k.real(), ux_k.imag());
-        put(reinterpret_cast<double*>(y + k), k, uy_k.real(), uy_k.imag());
+        const std::complex<double> step =
+            transport == Transport::none ? 1.0 : steps[same ? static_cast<std::size_t>(line) : k];
+        x[k] = ux_k * step;
+        y[k] = uy_k * step;
       }
-    };
-    if (transport == Transport::none) return multiply(put_plainly);
-    // one factor for a column, one for each number of a row
-    if (fft.lines_are_columns()) {
-      const std::complex<double> step = step_[static_cast<std::size_t>(line)];
-      multiply([&](double* to, std::size_t, double real, double imaginary) {
-        turned(to, real, imaginary, step.real(), sign * step.imag());
-      });
-    } else {
-      const std::complex<double>* steps = transport == Transport::forward ? step_.data() : step_back_.data();
-      multiply([&, steps](double* to, std::size_t k, double real, double imaginary) {
-        turned(to, real, imaginary, steps[k].real(), steps[k].imag());
-      });
+      return;
     }
+    const double* blocks = &symbol_[begin].xx;
+    if (transport == Transport::none) return kernel.plain(length, blocks, numbers(x), numbers(y));
+    if (!same) return kernel.turned_each(length, blocks, numbers(x), numbers(y), numbers(steps));
+    const std::complex<double> step = steps[static_cast<std::size_t>(line)];
+    kernel.turned(length, blocks, numbers(x), numbers(y), step.real(), step.imag());
   };
   const std::array load{rows_of(px, key_.nx, fft.nx()), rows_of(py, key_.nx, fft.nx())};
   const std::array store{rows_to(ux, key_.nx, fft.nx()), rows_to(uy, key_.nx, fft.nx())};
@@ -229,8 +207,8 @@ void InverseCompliance::apply(std::span<const double> ux, std::span<const double
                               std::span<double> py) {
   const auto length = static_cast<std::size_t>(fft_.line_length());
   const auto multiply_line = [&](int line, std::complex<double>* const* values) {
-    multiply_by_blocks({symbol_.data() + static_cast<std::size_t>(line) * length, length}, values[0], values[1],
-                       put_plainly);
+    spectrum_kernel().plain(length, &symbol_[static_cast<std::size_t>(line) * length].xx, numbers(values[0]),
+                            numbers(values[1]));
   };
   const std::array load{rows_of(ux, nx_, fft_.nx()), rows_of(uy, nx_, fft_.nx())};
   const std::array store{rows_to(px, nx_, fft_.nx()), rows_to(py, nx_, fft_.nx())};

@@ -129,9 +129,11 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
   const std::size_t n = problem.bound.size();
   NewtonResult result;
   const double r = 1.0 / problem.matrix->diagonal();
-  limit_to_bound(state.traction, problem.bound);
-  state.update(problem);
-  ++result.products;
+  if (!settings.updated) {
+    limit_to_bound(state.traction, problem.bound);
+    state.update(problem);
+    ++result.products;
+  }
   Field2 rhs(2 * n), known(2 * n), step(2 * n);
   double relative = kLoosestInner;
   const double tractions = rms(state.traction) + r * rms(problem.rigid_slip);

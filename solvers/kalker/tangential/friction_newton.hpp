@@ -10,7 +10,8 @@ namespace treadmark::kalker {
 struct NewtonSettings {
   double eps = 1e-5;  ///< accuracy of tractions relative to their rms
   int max_steps = 40;
-  int max_inner = 60;  ///< GMRES iterations a step
+  int max_inner = 60;    ///< GMRES iterations a step
+  bool updated = false;  ///< the state is within its bound and up to date
 };
 
 struct NewtonResult {

@@ -22,17 +22,19 @@ constexpr double kSweepAccuracy = 0.1;
 }  // namespace
 
 FrictionSolveResult FrictionSolve::run(const FrictionProblem& problem, FrictionState& state, double eps,
-                                       int max_iterations) {
+                                       int max_iterations, bool updated) {
   FrictionSolveResult result;
   std::optional<FrictionSweeps> sweeps;
   NewtonSettings settings;
   settings.eps = eps;
+  settings.updated = updated;
   settings.max_steps = std::min(settings.max_steps, max_iterations);
   int count = kFirstSweeps;
   double before = std::numeric_limits<double>::infinity();  // violation before the last sweeps
   bool settled = false;                                     // they ended by themselves
   for (int round = 0; round < kMostRounds; ++round) {
     const NewtonResult newton = newton_.solve(problem, state, settings);
+    settings.updated = false;
     result.steps += newton.steps;
     result.converged = newton.converged;
     if (newton.converged || result.sweeps >= max_iterations || !std::isfinite(state.violation)) break;

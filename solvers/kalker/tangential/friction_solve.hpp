@@ -15,8 +15,9 @@ struct FrictionSolveResult {
 /// Newton's method, and Gauss-Seidel sweeps to get on where it makes no progress.
 class FrictionSolve {
  public:
-  /// max_iterations: Newton steps at a time, and sweeps in total, before giving up.
-  FrictionSolveResult run(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations);
+  /// max_iterations: Newton steps at a time, and sweeps in total, before giving up. updated: as in NewtonSettings.
+  FrictionSolveResult run(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations,
+                          bool updated = false);
   /// Sweeps alone, for comparison.
   FrictionSolveResult run_sweeps(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations);
 

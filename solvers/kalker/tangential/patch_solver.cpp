@@ -86,11 +86,11 @@ void PatchSolver::start_from(Field2 traction, std::vector<double> slip_speed) {
   started_ = true;
 }
 
-bool PatchSolver::solve_at_fixed_friction(double eps) {
+bool PatchSolver::solve_at_fixed_friction(double eps, bool updated) {
   const bool sweeps = input_.settings.method == SolverSettings::Method::sweeps;
   const FrictionSolveResult result =
       sweeps ? friction_solve_.run_sweeps(problem_, state_, eps, input_.settings.max_iterations)
-             : friction_solve_.run(problem_, state_, eps, input_.settings.max_iterations);
+             : friction_solve_.run(problem_, state_, eps, input_.settings.max_iterations, updated);
   steps_ += result.steps;
   sweeps_ += result.sweeps;
   return result.converged;
@@ -130,12 +130,13 @@ bool PatchSolver::solve(const Creepage& creepage, double eps) {
     state_.update(problem_);
     started_ = state_.violation <= kUsefulStart * rms(problem_.bound);
   }
+  const bool updated = started_;
   if (!started_) state_.traction = nested_start(patch_, key_, problem_.bound, problem_.rigid_slip, cache_);
   started_ = true;
   creepage_ = creepage;
   predicted_ = {};
   friction_unsettled_ = false;
-  if (fixed) return solve_at_fixed_friction(eps);
+  if (fixed) return solve_at_fixed_friction(eps, updated);
 
   // Slip speeds and coefficients of friction by relaxed substitution: shorter steps when changes reverse, longer ones
   // when they go on in the same direction, as where a solution gives way to another one.

@@ -92,7 +92,7 @@ class PatchSolver {
 
  private:
   void set_bound();
-  bool solve_at_fixed_friction(double eps);
+  bool solve_at_fixed_friction(double eps, bool updated = false);
   std::vector<double> new_slip_speed() const;
   std::vector<double> friction_bound() const;
   std::vector<double> slip_distance() const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/backends/create.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
@@ -168,6 +169,7 @@ TEST(Roller, DefectsLieAtArcLengthsFromTheTop) {
   region.u_min = 0.28;
   region.u_max = 0.4;
   for (const std::string_view backend : backend_names()) {
+    if (backend_of(backend).one_place) continue;  // one section has no waves
     SCOPED_TRACE(backend);
     const RepresentedSurface r = represent(natural, {std::string(backend), 0.5e-3, region});
     for (double x = 0.3; x < 0.38; x += 0.0037)  // in the full stretch: deeper by a cos(2 pi (x - x_start)/wavelength)

@@ -258,7 +258,7 @@ TEST(MeshKernels, OfBothProcessorsEvaluatePatchesAlike) {
         for (int which = 0; which < 2; ++which) {
           const PatchKernel& kernel = which == 0 ? generic_kernels().patch : avx2_kernels()->patch;
           std::array<double, 4 * kPatchEntries> patches;
-          fine = fine && smooth.prepare(kernel, mesh, lines, t, triangle.q[0].data(), patches.data());
+          fine = fine && smooth.prepare(kernel, lines, t, triangle.q[0].data(), patches.data());
           if (!fine) break;
           auto& r = results[which];
           kernel.points(patches.data(), lines.side, x.data(), y.data(), 7, r[0].data(), r[1].data(), r[2].data());

@@ -164,9 +164,9 @@ TEST(MeshSurface, SaysWhatItIsAndHolds) {
   EXPECT_EQ(facets->facing(), Facing::down);
   const double triangles = static_cast<double>(mesh.triangles.size());
   EXPECT_GT(static_cast<double>(oracle->memory_bytes()) / triangles, 36.0);
-  EXPECT_GT(facets->memory_bytes(), oracle->memory_bytes() + 40 * mesh.triangles.size());
-  EXPECT_GT(smooth->memory_bytes(), facets->memory_bytes() + 80 * mesh.triangles.size());
-  EXPECT_LT(static_cast<double>(smooth->memory_bytes()) / triangles, 500.0);
+  EXPECT_GT(facets->memory_bytes(), oracle->memory_bytes() + 25 * mesh.triangles.size());
+  EXPECT_GT(smooth->memory_bytes(), facets->memory_bytes() + 40 * mesh.triangles.size());
+  EXPECT_LT(static_cast<double>(smooth->memory_bytes()) / triangles, 250.0);
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ TEST(NurbsExact, InverseOfEvaluation) {
     for (int trial = 0; trial < 300; ++trial) {
       const bool is_wheel = surface == &wheel;
       const double u = is_wheel ? -1.0 + 2.0 * unit(random) : -0.9 + 1.8 * unit(random);
-      const double v = net.v_break(0) + (net.v_break(net.patches_v()) - net.v_break(0)) * unit(random);
+      const double v = net.range(0, 0).v0 + (net.range(0, net.patches_v() - 1).v1 - net.range(0, 0).v0) * unit(random);
       const SurfaceDerivatives at = surface->derivatives(u, v);
       // a plane that faces the point, at an angle
       Vec3 normal = at.pu.cross(at.pv).normalized();

@@ -25,6 +25,22 @@ def test_a_profile_of_ones_own():
     assert dzdx == 0.0 and dzdy == pytest.approx(4e-3 / np.sqrt(0.3**2 - 4e-3**2), rel=1e-5)
 
 
+def test_parameters_and_lines():
+    y = np.linspace(-0.03, 0.03, 241)
+    rail = tm.Surface.profile(y, crown(y), "rail")
+    found = rail.locate([0.2, 0.2], [4e-3, -7e-3])
+    at = rail.evaluate(found.u, found.v)
+    assert at.exact and at.position == pytest.approx(found.position, abs=1e-12) and at.normal == pytest.approx(found.normal, abs=1e-9)
+    assert at.by_u == pytest.approx(np.array([[1.0, 0, 0]] * 2)) and np.linalg.norm(at.by_v, axis=1) == pytest.approx(1.0, abs=1e-3)
+    assert np.abs(at.direction_2[:, 0]) == pytest.approx(1.0)
+    line = rail.section_line(0.2, step=2e-3, y=(-0.01, 0.01))
+    assert line.s[-1] == pytest.approx(2 * 0.3 * np.arcsin(0.01 / 0.3), abs=1e-7) and line.curvature_along == pytest.approx(1 / 0.3, rel=2e-2)
+    along = rail.line_along(5e-3, (0.0, 0.1), step=0.03)
+    assert along.s == pytest.approx([0, 0.03, 0.06, 0.09, 0.1]) and along.position[:, 0] == pytest.approx(along.s)
+    with pytest.raises(tm.InputError, match="no surface"):
+        rail.section_line(0.0, y=(-0.01, 0.2))
+
+
 def test_a_turned_plane():
     y = np.linspace(-0.03, 0.03, 241)
     rail = tm.Surface.profile(y, crown(y), "rail")

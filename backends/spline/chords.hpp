@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "treadmark/backends/sampling/region.hpp"
+#include "treadmark/core/surface.hpp"
+#include "treadmark/model/profile.hpp"
+
+namespace treadmark::spline {
+
+/// The points of a profile joined by straight lines: a rail of constant cross-section, or a round wheel with r =
+/// nominal_radius [m] + z. Normals are constant across each chord and turn at the points. Errors: Error(input_data) for
+/// unusable points, Error(configuration) for a radius that is not positive.
+std::shared_ptr<const Surface> make_chord_surface(const Profile& profile, double nominal_radius);
+
+/// The same for sections that change: strips between neighbouring lateral nodes of the grid, straight across, cubic
+/// splines along. Neighbours share their edge; one of them without the other is a strip that ends. A strip that fewer
+/// than 4 successive stations have is left out there. Errors: Error(input_data) if nothing is left, or for fewer than 4
+/// stations.
+std::vector<std::shared_ptr<const Surface>> make_chord_strips(const sampling::PointGrid& points, double nominal_radius);
+
+}  // namespace treadmark::spline

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/cad/read_cad.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+
+namespace treadmark::io {
+
+bool is_step_file(const std::filesystem::path& file) {
+  const std::string extension = profiles::lower(file.extension().string());
+  return extension == ".step" || extension == ".stp";
+}
+
+bool is_cad_file(const std::filesystem::path& file) {
+  const std::string extension = profiles::lower(file.extension().string());
+  return is_step_file(file) || extension == ".iges" || extension == ".igs";
+}
+
+}  // namespace treadmark::io
