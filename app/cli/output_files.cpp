@@ -99,10 +99,12 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
 
 }  // namespace
 
-std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
+std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result,
+                                             bool bodies) {
   OutputFolder output(folder, OutputFolder::Old::kept);
   auto notes = write_fields(output.path(), [&](const auto& file) { io::write_hdf5(file, result); });
   io::write_vtk(output.path() / "vtk", result);
+  if (bodies) io::write_vtk_bodies(output.path() / "vtk", result);
   write_file(output.path() / "pressure.svg", pictures::pressure_svg(result));
   write_text_tables(output.path(), result);
   io::write_json(output.path() / "result.json", result);

@@ -20,9 +20,11 @@ std::vector<std::filesystem::path> output_folders(const std::filesystem::path& f
 /// Error(configuration) where an output would overwrite an input or another output.
 void require_different(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
-/// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures.
+/// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures;
+/// `bodies`: wheel and rail for ParaView too.
 /// The JSON file comes last: where it stands the folder is complete. Returns notes on files that this build leaves out.
-std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);
+std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result,
+                                             bool bodies = false);
 
 /// Writes everything a comparison has: pressures.svg, errors.svg, costs.svg, fields.h5, table.txt, compare.csv and,
 /// last, compare.json. Returns as above.

@@ -31,6 +31,7 @@ struct RunOptions {
   std::vector<std::string> overrides;  ///< key=value
   std::string report_file;             ///< HTML; empty = none
   bool verbose = false;                ///< all numbers of all cases
+  bool bodies = false;                 ///< wheel and rail of every case for ParaView
 };
 
 void choose_backends(io::CaseFile& file, const RunOptions& options) {
@@ -83,6 +84,8 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
   const std::vector<std::filesystem::path> folders = options.output_folder.empty()
                                                          ? std::vector<std::filesystem::path>{}
                                                          : output_folders(options.output_folder, options.cases);
+  if (options.bodies && folders.empty())
+    throw Error(ErrorKind::configuration, "--vtk needs a folder to write to", {}, "give it with -o FOLDER");
   const ThreadLimit limit(common.threads);
   catch_interrupt();
 
@@ -103,7 +106,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
       for (const io::SurfaceUse& use : result.surfaces)
         if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
     if (!folders.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
-    if (!folders.empty()) print_notes(write_result_folder(folders[k], result), common.quiet);
+    if (!folders.empty()) print_notes(write_result_folder(folders[k], result, options.bodies), common.quiet);
     write_report_file(options.report_file, [&] {
       return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));
     });
@@ -137,6 +140,7 @@ Command add_run(CLI::App& verb) {
   verb.add_option("--json", options->json_file,
                   "Write the result file here; - for standard output instead of the summary")
       ->type_name("FILE");
+  verb.add_flag("--vtk", options->bodies, "Write wheel and rail of every case for ParaView too: FOLDER/vtk/bodies.pvd");
   verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)");
   verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");

@@ -23,6 +23,7 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/results/write_vtk.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::cli {
@@ -33,6 +34,7 @@ struct SimulateOptions {
   std::string output_folder, json_file;              ///< empty = none; JSON "-" = stdout
   std::string backend, wheel_backend, rail_backend;  ///< backend: of both, where they are empty
   bool resume = false;
+  bool vtk = false;          ///< snapshots, wheel and rail for ParaView
   bool modes_only = false;   ///< print eigenfrequencies, do not integrate
   std::string track_folder;  ///< show how the track gives way, do not integrate; empty = none
   std::vector<std::string> overrides;
@@ -73,11 +75,23 @@ void print_summary(const std::string& json_file, const std::string& json, const 
   write_json_file(json_file, [&] { return json; });
 }
 
+/// Contact, wheel and rail at the snapshots over their times [s].
+void write_snapshots_vtk(const std::filesystem::path& folder, const io::SimulationResult& result) {
+  if (result.snapshots.cases.empty()) {
+    std::cerr << "note: --vtk shows the contact at snapshots, and this simulation keeps none (simulation.fields)\n";
+    return;
+  }
+  io::write_vtk(folder, result.snapshots, "snapshots", result.snapshot_times);
+  io::write_vtk_bodies(folder, result.snapshots, "bodies", result.snapshot_times);
+}
+
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
   require_different({options.file}, {options.json_file, options.report_file});
   if (options.resume && options.output_folder.empty())
     throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted simulation", {},
                 "give it with -o FOLDER");
+  if (options.vtk && options.output_folder.empty())
+    throw Error(ErrorKind::configuration, "--vtk needs a folder to write to", {}, "give it with -o FOLDER");
   if (!options.output_folder.empty()) require_part("hdf5", "folders of simulations");
   if (io::is_study_file(options.file))
     throw Error(ErrorKind::configuration, options.file + " is a study of several simulations", {},
@@ -124,6 +138,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       remove_file(folder / "simulation.h5");  // where it stands, the other files are of its making
       remove_file(run.checkpoint_file);
       remove_file(folder / "assessment.json");
+      for (const char* collection : {"snapshots.pvd", "bodies.pvd"}) remove_file(folder / "vtk" / collection);
     }
   }
 
@@ -136,6 +151,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   if (!folder.empty()) {
     if (own) app::write_assessment_folder(folder, std::span(own, 1), {});
     app::write_simulation_folder(folder, result);
+    if (options.vtk) write_snapshots_vtk(folder / "vtk", result);
     std::error_code ignored;
     if (result.status == "complete") std::filesystem::remove(run.checkpoint_file, ignored);
   }
@@ -168,6 +184,8 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
   verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");
   verb.add_flag("--resume", options->resume, "Go on with an interrupted simulation in the output folder");
+  verb.add_flag("--vtk", options->vtk,
+                "Write the contact at the snapshots, wheel and rail for ParaView too, over time: FOLDER/vtk");
   verb.add_flag("--modes", options->modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
   verb.add_option("--receptance", options->track_folder,
                   "Write how the track gives way, track.json, receptance.csv and track.svg, into this folder, and stop")

@@ -71,6 +71,12 @@ struct SceneView {
   int set = 0;
 };
 
+/// Contact of some frames from above in track axes, each over the section of wheel and rail; fixed pages have their own
+/// pictures of both.
+struct TrackView {
+  int set = 0;
+};
+
 /// A quantity over a rectangle.
 struct MapView {
   Axis x, y;  ///< labels and units
@@ -95,7 +101,7 @@ struct PictureView {
 
 struct Figure {
   std::string id, title;
-  std::variant<ChartView, ContactView, SceneView, MapView, PictureView> view;
+  std::variant<ChartView, ContactView, SceneView, TrackView, MapView, PictureView> view;
   std::string note = {};
 };
 

@@ -260,6 +260,9 @@ class Writer {
     } else if (const auto* scene = std::get_if<SceneView>(&figure.view)) {
       out["type"] = "scene";
       out["set"] = scene->set;
+    } else if (const auto* track = std::get_if<TrackView>(&figure.view)) {
+      out["type"] = "track";
+      out["set"] = track->set;
     } else if (const auto* map = std::get_if<MapView>(&figure.view)) {
       add_map(out, *map);
     } else {

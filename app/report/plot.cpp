@@ -33,7 +33,8 @@ void each_figure(const Page& page, Function&& use) {
 }
 
 bool is_chart_like(const Figure& figure) {
-  return !std::holds_alternative<ContactView>(figure.view) && !std::holds_alternative<SceneView>(figure.view);
+  return !std::holds_alternative<ContactView>(figure.view) && !std::holds_alternative<SceneView>(figure.view) &&
+         !std::holds_alternative<TrackView>(figure.view);
 }
 
 std::vector<Frame> chosen(const Page& page, const std::vector<int>& cases) {

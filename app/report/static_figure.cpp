@@ -129,6 +129,7 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page) {
   if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title)};
   if (const auto* scene = std::get_if<SceneView>(&figure.view))
     return {section_svg(set_of(page, scene->set), page.surfaces)};
+  if (std::holds_alternative<TrackView>(figure.view)) return {};
   std::vector<std::string> pictures;
   const std::vector<int>& sets = std::get<ContactView>(figure.view).sets;
   for (const int index : sets) {

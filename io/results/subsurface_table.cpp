@@ -118,6 +118,33 @@ std::string vtk_data_array(const std::string& name, const std::vector<std::uint8
   return data_array("UInt8", name, values, components);
 }
 
+std::string vtk_data_array(const std::string& name, const std::vector<std::int32_t>& values, int components) {
+  return data_array("Int32", name, values, components);
+}
+
+std::string vtk_quadrilaterals(const std::vector<std::int32_t>& corners, std::size_t point_count,
+                               const std::string& point_data, const std::string& points) {
+  std::vector<std::int32_t> ends;
+  ends.reserve(corners.size() / 4);
+  for (std::size_t i = 4; i <= corners.size(); i += 4) ends.push_back(static_cast<std::int32_t>(i));
+  return fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="PolyData" version="1.0" byte_order="{}" header_type="UInt64">
+  <PolyData>
+    <Piece NumberOfPoints="{}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="{}">
+      <PointData>
+{}      </PointData>
+      <Points>
+{}      </Points>
+      <Polys>
+{}{}      </Polys>
+    </Piece>
+  </PolyData>
+</VTKFile>
+)",
+                     vtk_byte_order(), point_count, ends.size(), point_data, points,
+                     vtk_data_array("connectivity", corners, 1), vtk_data_array("offsets", ends, 1));
+}
+
 std::string vtk_structured_grid(const std::string& extent, const std::string& data_element, const std::string& data,
                                 const std::string& points) {
   return fmt::format(R"(<?xml version="1.0"?>

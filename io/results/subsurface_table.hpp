@@ -38,11 +38,16 @@ std::string block_to_vts(const SubsurfaceBlock& block, const Pose& X_TC);
 std::string vtk_data_array(const std::string& name, const std::vector<double>& values, int components);
 std::string vtk_data_array(const std::string& name, const std::vector<float>& values, int components);
 std::string vtk_data_array(const std::string& name, const std::vector<std::uint8_t>& values, int components);
+std::string vtk_data_array(const std::string& name, const std::vector<std::int32_t>& values, int components);
 
 /// A structured grid of one piece; extent reads "0 nx 0 ny 0 nz". data_element is CellData or PointData, data and
 /// points are DataArray elements.
 std::string vtk_structured_grid(const std::string& extent, const std::string& data_element, const std::string& data,
                                 const std::string& points);
+
+/// Quadrilaterals (.vtp): four indices of points each; point_data and points are DataArray elements.
+std::string vtk_quadrilaterals(const std::vector<std::int32_t>& corners, std::size_t point_count,
+                               const std::string& point_data, const std::string& points);
 
 /// A collection (.pvd) of files; entries are DataSet elements, see vtk_entry.
 std::string vtk_collection(const std::string& entries);

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <utility>
 
 #include "treadmark/core/output_file.hpp"
@@ -75,10 +78,16 @@ class VtkFiles {
  public:
   explicit VtkFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  void add(int case_number, int part, const std::string& name, const std::string& text) {
+  void add(double time, int part, const std::string& name, const std::string& text) {
     write_file(folder_ / name, text);
     written.push_back(folder_ / name);
-    entries += vtk_entry(case_number, part, name);
+    entries += vtk_entry(time, part, name);
+  }
+
+  std::vector<std::filesystem::path> finish(const std::string& stem) {
+    written.push_back(folder_ / (stem + ".pvd"));
+    write_file(written.back(), vtk_collection(entries));
+    return std::move(written);
   }
 
   std::vector<std::filesystem::path> written;
@@ -88,13 +97,17 @@ class VtkFiles {
   std::filesystem::path folder_;
 };
 
+double time_of(const RunResult& run, std::size_t k, std::span<const double> times) {
+  return k < times.size() ? times[k] : run.cases[k].number;
+}
+
 /// Parts of a case: its patches, then their blocks of points.
-void write_case(VtkFiles& files, const CaseResult& result, const std::string& stem) {
+void write_case(VtkFiles& files, const CaseResult& result, double time, const std::string& stem) {
   int part = 0, number = 0;
   for (const PatchResult& patch : result.patches) {
     ++number;
     if (patch.fields.grid.size() != 0)
-      files.add(result.number, part, fmt::format("{}_case{:04}_patch{}.vts", stem, result.number, number),
+      files.add(time, part, fmt::format("{}_case{:04}_patch{}.vts", stem, result.number, number),
                 patch_to_vts(patch, result.number, number));
     ++part;
   }
@@ -103,7 +116,7 @@ void write_case(VtkFiles& files, const CaseResult& result, const std::string& st
     check_blocks(patch.subsurface, fmt::format("case {}, patch {}: ", result.number, ++number));
     int block_number = 0;
     for (const SubsurfaceBlock& block : patch.subsurface)
-      files.add(result.number, part++,
+      files.add(time, part++,
                 fmt::format("{}_case{:04}_patch{}_block{}.vts", stem, result.number, number, ++block_number),
                 block_to_vts(block, patch.fields.X_TC));
   }
@@ -112,13 +125,71 @@ void write_case(VtkFiles& files, const CaseResult& result, const std::string& st
 }  // namespace
 
 std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder, const RunResult& run,
-                                             const std::string& stem) {
+                                             const std::string& stem, std::span<const double> times) {
   VtkFiles files(folder);
-  for (const CaseResult& result : run.cases) write_case(files, result, stem);
-  const std::filesystem::path collection = folder / (stem + ".pvd");
-  write_file(collection, vtk_collection(files.entries));
-  files.written.push_back(collection);
-  return files.written;
+  for (std::size_t k = 0; k < run.cases.size(); ++k) write_case(files, run.cases[k], time_of(run, k, times), stem);
+  return files.finish(stem);
+}
+
+std::string surface_to_vtp(const SampledSurface& surface, const Pose& X_TB) {
+  std::vector<float> points, deviation;
+  std::vector<std::int32_t> number(surface.x.size(), -1), corners;
+  points.reserve(3 * surface.x.size());
+  deviation.reserve(surface.deviation.size());
+  std::int32_t count = 0;
+  for (std::size_t k = 0; k < surface.x.size(); ++k) {
+    const Vec3 p_T = X_TB.apply({surface.x[k], surface.y[k], surface.z[k]});
+    if (!p_T.allFinite()) continue;
+    number[k] = count++;
+    for (int i = 0; i < 3; ++i) points.push_back(static_cast<float>(p_T[i]));
+    if (!surface.deviation.empty()) deviation.push_back(static_cast<float>(surface.deviation[k]));
+  }
+  corners.reserve(4 * surface.x.size());
+  for (int iu = 0; iu + 1 < surface.nu + (surface.closed ? 1 : 0); ++iu)
+    for (int iv = 0; iv + 1 < surface.nv; ++iv) {
+      const int next = (iu + 1) % surface.nu;
+      const std::int32_t quad[] = {number[surface.index(iu, iv)], number[surface.index(next, iv)],
+                                   number[surface.index(next, iv + 1)], number[surface.index(iu, iv + 1)]};
+      if (std::ranges::all_of(quad, [](std::int32_t k) { return k >= 0; }))
+        corners.insert(corners.end(), std::begin(quad), std::end(quad));
+    }
+  return vtk_quadrilaterals(corners, static_cast<std::size_t>(count),
+                            deviation.empty() ? "" : vtk_data_array("deviation_m", deviation, 1),
+                            vtk_data_array("points_m", points, 3));
+}
+
+std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path& folder, const RunResult& run,
+                                                    const std::string& stem, std::span<const double> times) {
+  if (run.sampled.empty()) return {};
+  VtkFiles files(folder);
+  struct Stand {
+    Pose pose;
+    std::string file;
+  };
+  std::map<std::string, std::vector<Stand>> stands;  // a rail mostly stands in one place
+  for (std::size_t k = 0; k < run.cases.size(); ++k) {
+    const CaseResult& result = run.cases[k];
+    if (!result.bodies) continue;
+    int part = 0;
+    for (const auto& [name, pose] :
+         {std::pair<const std::string&, const Pose&>{result.rail_surface, result.bodies->X_TS},
+          {result.wheel_surface, result.bodies->X_TA}}) {
+      const int index = surface_index(run.sampled, name);
+      if (index < 0) continue;
+      std::vector<Stand>& known = stands[name];
+      const auto same = std::ranges::find_if(
+          known, [&](const Stand& s) { return s.pose.origin == pose.origin && s.pose.rotation == pose.rotation; });
+      const double time = time_of(run, k, times);
+      if (same != known.end()) {
+        files.entries += vtk_entry(time, part++, same->file);
+        continue;
+      }
+      const std::string file = fmt::format("{}_{}_{:04}.vtp", stem, name, known.size() + 1);
+      files.add(time, part++, file, surface_to_vtp(run.sampled[static_cast<std::size_t>(index)], pose));
+      known.push_back({pose, file});
+    }
+  }
+  return files.finish(stem);
 }
 
 }  // namespace treadmark::io

@@ -32,6 +32,12 @@ Table patch_table(const io::RunResult& run);
 /// Of the patches of a case; NaN without any.
 double largest(const io::CaseResult& result, double io::PatchResult::*member);
 
+/// What a TrackView shows.
+constexpr const char* kTrackNote =
+    "Pressure from above where it acts in the track, over wheel and rail cut through the most loaded patch (line); "
+    "dots: "
+    "contact references. A click chooses the step.";
+
 /// Whether any patch of the run has contact fields.
 bool has_fields(const io::RunResult& run);
 

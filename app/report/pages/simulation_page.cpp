@@ -201,6 +201,8 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document,
     Section contact{"contact", "Contact at the snapshots"};
     contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}},
                                        "The last snapshot taken until the chosen instant."});
+    if (!page.surfaces.empty())
+      contact.blocks.emplace_back(Figure{"positions", "Contact in the track", TrackView{0}, kTrackNote});
     if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
     page.sections.insert(page.sections.begin() + 1, std::move(contact));
   }

@@ -126,6 +126,88 @@ TEST(WriteVtk, TheCollectionNamesEveryPatchFile) {
   EXPECT_EQ(sets[2]->attributes.at("timestep"), "2");
 }
 
+/// A cylinder of 8 stations and 3 points in each, one of which is missing.
+io::SampledSurface cylinder_with_hole() {
+  io::SampledSurface surface;
+  surface.body = "wheel", surface.name = "wheel_1";
+  surface.nu = 8, surface.nv = 3, surface.closed = true;
+  for (int iu = 0; iu < surface.nu; ++iu)
+    for (int iv = 0; iv < surface.nv; ++iv) {
+      const double angle = 2.0 * std::acos(-1.0) * iu / surface.nu;
+      const bool hole = iu == 2 && iv == 0;
+      surface.x.push_back(hole ? NAN : 0.46 * std::sin(angle));
+      surface.y.push_back(hole ? NAN : 0.01 * iv);
+      surface.z.push_back(hole ? NAN : 0.46 * std::cos(angle));
+      surface.deviation.push_back(hole ? NAN : 1e-3 * iv);
+    }
+  return surface;
+}
+
+TEST(WriteVtk, BodiesArePolygonsWhereTheyAreWithoutWhatIsMissing) {
+  const io::SampledSurface surface = cylinder_with_hole();
+  const Pose X_TA{{0.1, 0.75, -0.46}, rotation_x(0.3)};
+  const testing::XmlElement root = testing::read_xml(io::surface_to_vtp(surface, X_TA));
+  EXPECT_EQ(root.attributes.at("type"), "PolyData");
+  const auto points = values<float>(*root.find("DataArray", "Name", "points_m").at(0));
+  const auto deviation = values<float>(*root.find("DataArray", "Name", "deviation_m").at(0));
+  const auto corners = values<std::int32_t>(*root.find("DataArray", "Name", "connectivity").at(0));
+  const auto ends = values<std::int32_t>(*root.find("DataArray", "Name", "offsets").at(0));
+  ASSERT_EQ(points.size(), 3u * 23u);
+  ASSERT_EQ(deviation.size(), 23u);
+  // 8 x 2 cells round the cylinder; two have the missing corner.
+  ASSERT_EQ(ends.size(), 14u);
+  ASSERT_EQ(corners.size(), 56u);
+  EXPECT_EQ(root.find("Piece").at(0)->attributes.at("NumberOfPoints"), "23");
+  EXPECT_EQ(root.find("Piece").at(0)->attributes.at("NumberOfPolys"), "14");
+  for (std::size_t i = 0; i < ends.size(); ++i) EXPECT_EQ(ends[i], 4 * static_cast<std::int32_t>(i + 1));
+  const auto own = [&](std::int32_t k) -> Vec3 {  // in the body's axes
+    const std::size_t at = 3 * static_cast<std::size_t>(k);
+    return X_TA.rotation.transpose() * (Vec3(points[at], points[at + 1], points[at + 2]) - X_TA.origin);
+  };
+  // Every cell has the sides of its own: a chord of the circle and a step along the axle; its points lie on the circle.
+  const double chord = 2.0 * 0.46 * std::sin(std::acos(-1.0) / 8.0);
+  for (std::size_t i = 0; i < corners.size(); i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      ASSERT_GE(corners[i + k], 0);
+      ASSERT_LT(corners[i + k], 23);
+      const Vec3 p = own(corners[i + k]);
+      EXPECT_NEAR(std::hypot(p.x(), p.z()), 0.46, 4 * kSinglePrecision);
+      EXPECT_NEAR(deviation[static_cast<std::size_t>(corners[i + k])], 0.1 * p.y(), 4 * kSinglePrecision);
+      EXPECT_NEAR((own(corners[i + (k + 1) % 4]) - p).norm(), k % 2 == 0 ? chord : 0.01, 8 * kSinglePrecision);
+    }
+  }
+}
+
+TEST(WriteVtk, BodiesThatStayHaveOneFileForAllTimes) {
+  const testing::TemporaryFolder folder;
+  io::RunResult run = testing::sample_run();
+  io::SampledSurface rail = cylinder_with_hole();
+  rail.body = "rail", rail.name = "rail_1";
+  run.sampled = {cylinder_with_hole(), rail};
+  run.cases.resize(2);
+  const std::vector<double> times{0.25, 0.5};
+  for (std::size_t k = 0; k < 2; ++k) {
+    run.cases[k].wheel_surface = "wheel_1", run.cases[k].rail_surface = "rail_1";
+    run.cases[k].bodies = io::CaseResult::Bodies{};
+    run.cases[k].bodies->X_TA.origin.x() = 0.1 * static_cast<double>(k);
+  }
+  const auto written = io::write_vtk_bodies(folder.path(), run, "bodies", times);
+  ASSERT_EQ(written.size(), 4u);
+  const testing::XmlElement root = testing::read_xml(testing::read_text(written.back()));
+  std::vector<std::string> said;
+  for (const testing::XmlElement* set : root.find("DataSet"))
+    said.push_back(set->attributes.at("timestep") + ' ' + set->attributes.at("part") + ' ' +
+                   set->attributes.at("file"));
+  EXPECT_EQ(said, (std::vector<std::string>{"0.25 0 bodies_rail_1_0001.vtp", "0.25 1 bodies_wheel_1_0001.vtp",
+                                            "0.5 0 bodies_rail_1_0001.vtp", "0.5 1 bodies_wheel_1_0002.vtp"}));
+  // Patches have the same times.
+  const auto patches = io::write_vtk(folder.path(), run, "result", times);
+  EXPECT_EQ(testing::read_xml(testing::read_text(patches.back())).find("DataSet").back()->attributes.at("timestep"),
+            "0.5");
+  run.sampled.clear();
+  EXPECT_TRUE(io::write_vtk_bodies(folder.path(), run).empty());
+}
+
 TEST(WriteVtk, PointsBelowTheSurfaceLieInTrackAxes) {
   const testing::TemporaryFolder folder;
   io::RunResult run = testing::sample_run();

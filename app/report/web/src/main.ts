@@ -6,12 +6,15 @@ import type { ReportData, View } from "./data";
 import { mountLicences } from "./licences";
 import { mountMap } from "./map";
 import { mountNavigation } from "./navigation";
+import { mountPaperTables } from "./paper-tables";
 import { mountPicture } from "./picture";
+import { mountPrint } from "./print";
 import { mountScene } from "./scene/index";
 import { Store } from "./store";
 import { mountTables } from "./tables";
 import { mountTheme } from "./theme";
 import { mountTimeline } from "./timeline";
+import { mountTrack } from "./track";
 
 function mountView(figure: HTMLElement, view: View, store: Store): void {
   switch (view.type) {
@@ -21,6 +24,8 @@ function mountView(figure: HTMLElement, view: View, store: Store): void {
       return mountContact(figure, view, store);
     case "scene":
       return mountScene(figure, view, store);
+    case "track":
+      return mountTrack(figure, view, store);
     case "map":
       return mountMap(figure, view, store);
     case "picture":
@@ -50,10 +55,14 @@ function start(): void {
   const data = JSON.parse(element.textContent) as ReportData;
   const store = new Store(data);
   const toolbar = document.getElementById("toolbar");
-  if (toolbar) mountTheme(toolbar, store);
+  if (toolbar) {
+    mountTheme(toolbar, store);
+    mountPrint(toolbar, store);
+  }
   const bar = document.getElementById("timeline");
   if (bar) mountTimeline(bar, store);
   mountTables(store);
+  mountPaperTables();
   mountAll(store);
   mountNavigation();
   const footer = document.querySelector<HTMLElement>("body > footer");

@@ -8,6 +8,7 @@ import type { MapView } from "./data";
 import { addDownloads } from "./download";
 import { formatNumber, labelWithUnit, withUnit } from "./numbers";
 import { decode } from "./packed";
+import { copyOf, onPaper, PAPER_WIDTH } from "./print";
 import { placeReadout } from "./chart/readout";
 import type { Store } from "./store";
 import { el, standaloneSvg, svgToPng, textWidth } from "./svg";
@@ -111,12 +112,16 @@ class MapPlot {
     return decode(this.view.by_step?.[this.store.step] ?? this.view.values, this.store.data.blobs);
   }
 
+  private changeStep(): void {
+    this.values = this.valuesNow();
+    this.picture = "";
+    this.drawnWidth = 0;
+  }
+
   private listen(): void {
     if (this.view.by_step)
       this.store.onStep(() => {
-        this.values = this.valuesNow();
-        this.picture = "";
-        this.drawnWidth = 0;
+        this.changeStep();
         this.draw();
       });
     new ResizeObserver(() => this.draw()).observe(this.frame);
@@ -127,8 +132,18 @@ class MapPlot {
       },
       { rootMargin: "150px" },
     ).observe(this.frame);
-    window.addEventListener("beforeprint", () => this.drawAt(680));
-    window.addEventListener("afterprint", () => this.draw());
+    window.addEventListener("beforeprint", () => this.drawAt(PAPER_WIDTH));
+    const figure = this.frame.closest<HTMLElement>("figure");
+    if (figure && this.view.by_step)
+      onPaper(figure, this.store, (suffix) => {
+        this.changeStep();
+        this.drawAt(PAPER_WIDTH);
+        return [copyOf(this.svg, suffix)];
+      });
+    window.addEventListener("afterprint", () => {
+      this.changeStep();
+      this.draw();
+    });
     this.svg.addEventListener("pointermove", (event) => {
       const box = this.svg.getBoundingClientRect();
       const scale = this.drawnWidth / Math.max(1, box.width);

@@ -40,6 +40,8 @@ class Signal<T> {
 /** What the views share: the data, the current step, the axis of linked charts, the picked element, the theme. */
 export class Store {
   readonly data: ReportData;
+  /** Steps that come on paper; none: what is shown. */
+  paper: number[] = [];
   private currentStep: number;
   private currentAxis = 0;
   private currentPoint: PickedPoint | null = null;
@@ -67,6 +69,17 @@ export class Store {
     if (clamped === this.currentStep) return;
     this.currentStep = clamped;
     this.steps.raise();
+  }
+
+  /** Does something as if at another step; nobody is told. */
+  at<T>(step: number, task: () => T): T {
+    const now = this.currentStep;
+    this.currentStep = step;
+    try {
+      return task();
+    } finally {
+      this.currentStep = now;
+    }
   }
 
   onStep(listener: (step: number) => void): () => void {

@@ -10,6 +10,7 @@ import { pathToFileURL } from "node:url";
 
 import { chromium } from "playwright-core";
 
+import { clipped } from "./clipped.mjs";
 import { Results } from "./results.mjs";
 
 const folder = resolve(process.env.OUT ?? "dist/reports");
@@ -130,6 +131,34 @@ async function photograph(file, name, selector) {
   }
 }
 
+/** Every view of a page drawn at both widths and on A4: no text is cut off. `steps`: what the reader chooses for paper. */
+async function readWhole(file, name, steps = "") {
+  for (const size of [...Object.keys(sizes), "paper"]) {
+    const paper = size === "paper";
+    const tab = await Tab.open(file, { size: paper ? "desktop" : size });
+    const { page } = tab;
+    for (const view of await page.locator("figure.view").all()) {
+      await view.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
+      await page.waitForTimeout(paper ? 0 : 250);
+    }
+    if (paper) {
+      if (steps) {
+        await page.locator(".print-menu summary").click();
+        await page.locator(".print-menu input").fill(steps);
+        assert.equal(await page.locator(".print-note").textContent(), "");
+      }
+      await page.pdf({ path: join(pictures, `${name}.pdf`), format: "A4", preferCSSPageSize: true });
+      // What is printed has gone again; for measuring it is made anew, as wide as A4 between its margins.
+      await page.setViewportSize({ width: Math.floor(((210 - 2 * 14) / 25.4) * 96), height: 1016 });
+      await page.emulateMedia({ media: "print" });
+      await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    }
+    assert.deepEqual(await page.evaluate(clipped, paper), [], `cut off in ${name}, ${size}`);
+    await page.screenshot({ path: join(pictures, `${name}-${size}-whole.png`), fullPage: true });
+    await tab.close();
+  }
+}
+
 test("a wheel flat in 26 positions", async () => {
   const file = results.run();
   assert.ok(statSync(join(folder, file)).size < 8e6);
@@ -167,6 +196,40 @@ test("a wheel flat in 26 positions", async () => {
   }
   await tab.close();
   await photograph(file, "run", "#contact");
+  await readWhole(file, "run", "1, 13-14");
+});
+
+test("paper has the chosen cases, each with its own picture, and the view in space that was never in sight", async () => {
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  await page.locator(".print-menu summary").click();
+  const input = page.locator(".print-menu input");
+  await input.fill("3-99");
+  assert.match(await page.locator(".print-note").textContent(), /“3-99” is not within 1 to 26/);
+  await input.fill("1, 13-14");
+  const pressures = await page.evaluate(() => {
+    window.dispatchEvent(new Event("beforeprint"));
+    const painted = (canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((value) => value > 0);
+    return ["patches-view", "scene"].map((id) =>
+      [...document.querySelectorAll(`#${id} .paper-step`)].map((step) => ({
+        name: step.querySelector(".paper-name").textContent,
+        picture: step.querySelector("canvas").toDataURL(),
+        painted: id === "scene" || painted(step.querySelector("canvas")),
+        text: step.textContent,
+      })),
+    );
+  });
+  const json = read("run/result.json");
+  for (const steps of pressures) {
+    assert.deepEqual(steps.map(({ name }) => Number(/^case (\d+) of 26/.exec(name)[1])), [1, 13, 14]);
+    assert.equal(new Set(steps.map(({ picture }) => picture)).size, 3, "pictures differ");
+    assert.ok(steps.every(({ painted }) => painted));
+  }
+  pressures[0].forEach(({ text }, k) => assert.ok(text.includes(String(Math.round(json.cases[[0, 12, 13][k]].patches[0].pmax_MPa))), text));
+  // Afterwards the page is as it was.
+  await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.locator(".paper-step, .scene-print").count(), 0);
+  await tab.close();
 });
 
 test("the view in space shows wheel, rail and patch and is picked", async () => {
@@ -176,6 +239,7 @@ test("the view in space shows wheel, rail and patch and is picked", async () => 
   await page.waitForFunction(() => document.querySelector("#scene").dataset.ready === "true", undefined, { polling: 200 });
   assert.ok(Number(await page.locator("#scene").getAttribute("data-triangles")) > 2000);
   const canvas = page.locator("#scene canvas").first();
+  await canvas.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
   const box = await canvas.boundingBox();
   // Somewhere near the middle there is the patch.
   let picked = null;
@@ -188,6 +252,44 @@ test("the view in space shows wheel, rail and patch and is picked", async () => 
   assert.ok(Number(picked) > 0, `picked ${picked}`);
   await tab.close();
   await photograph("run.html", "scene", "#scene");
+});
+
+test("contact lies in the track where the result file says, over its section, on the named side", async () => {
+  const json = read("run/result.json");
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  await page.locator("#positions").scrollIntoViewIfNeeded();
+  await page.waitForSelector("#positions .track-panel", { state: "attached" });
+  const panels = await page.locator("#positions .track-panel").evaluateAll((all) =>
+    all.map((panel) => {
+      const ticks = [...panel.querySelectorAll("text")].map((text) => [Number(text.textContent), Number(text.getAttribute("x"))]).filter(([value]) => value > 700);
+      const [[y0, x0], [y1, x1]] = [ticks[0], ticks.at(-1)];
+      const dot = Number(panel.querySelector("circle").getAttribute("cx"));
+      return {
+        head: panel.querySelector("text").textContent,
+        y: y0 + ((dot - x0) / (x1 - x0)) * (y1 - y0),
+        scale: (x1 - x0) / (y1 - y0),
+        sides: [...panel.querySelectorAll("text")].filter(({ textContent }) => / side$/.test(textContent)).map((text) => text.textContent),
+        curves: panel.querySelectorAll("path[stroke-width='1.5']").length,
+        images: panel.querySelectorAll("image").length,
+      };
+    }),
+  );
+  assert.ok(panels.length > 12 && panels.length <= 24);
+  assert.ok(panels.some(({ head }) => head === `case ${1 + json.cases.findIndex((one) => one.patches[0].pmax_MPa === Math.max(...json.cases.map((c) => c.patches[0].pmax_MPa)))}`));
+  for (const { head, y, scale, sides, curves, images } of panels) {
+    const [patch] = json.cases[Number(head.replace("case ", "")) - 1].patches;
+    near(y, patch.reference.y_tr_mm, 0.15 / scale, `y of ${head}`);  // tenths of a pixel
+    assert.deepEqual(sides, ["gauge side", "field side"]);
+    assert.equal(curves, 2);
+    assert.ok(images >= 1);
+  }
+  // It wanders with the flat, and a click chooses the case.
+  assert.ok(Math.max(...panels.map(({ y }) => y)) - Math.min(...panels.map(({ y }) => y)) > 1);
+  await page.locator("#positions .track-hit").nth(2).click();
+  await tab.waitForStep(Number(panels[2].head.replace("case ", "")) - 1);
+  await tab.close();
+  await photograph("run.html", "positions", "#positions");
 });
 
 test("26 positions open and follow the slider without delay", async () => {
@@ -284,6 +386,7 @@ test("a comparison of representations", async () => {
   assert.ok((await tab.page.locator("[data-view='chart'] path.line, [data-view='chart'] .mark").count()) > 0);
   await tab.close();
   await photograph(file, "compare", "[data-view='contact']");
+  await readWhole(file, "compare", "all");
 });
 
 test("a benchmark", async () => {
@@ -295,6 +398,7 @@ test("a benchmark", async () => {
   await tab.page.waitForTimeout(300);
   await tab.close();
   await photograph(file, "bench");
+  await readWhole(file, "bench");
 });
 
 test("the audit of an import", async () => {
@@ -306,6 +410,7 @@ test("the audit of an import", async () => {
   await tab.page.locator("[data-view='map'] svg").first().waitFor();
   await tab.close();
   await photograph(file, "import", "[data-view='map']");
+  await readWhole(file, "import");
 });
 
 test("a simulation in time", async () => {
@@ -321,10 +426,21 @@ test("a simulation in time", async () => {
     return Number([...row.cells].find((cell) => cell.dataset.value).dataset.value);
   });
   near(summary, largest, 1e-9 * largest, "largest force");
+  // ParaView has contact, wheel and rail at the seconds that the history has for the pitch of the snapshots.
+  const times = (name) => [...readFileSync(join(folder, "simulation", "vtk", name), "utf8").matchAll(/timestep="([^"]*)".*file="([^"]*)"/g)];
+  const last = Number(csv.at(-1).split(",")[csv[0].split(",").indexOf("t_s")]);
+  const seconds = [...new Set(times("bodies.pvd").map(([, time]) => Number(time)))];
+  assert.equal(seconds.length, 4);
+  assert.ok(seconds.every((time, k) => time >= 0 && time <= last && (k === 0 || time > seconds[k - 1])), String(seconds));
+  for (const [, time, name] of [...times("bodies.pvd"), ...times("snapshots.pvd")]) {
+    assert.ok(seconds.includes(Number(time)), name);
+    assert.ok(statSync(join(folder, "simulation", "vtk", name)).size > 1000, name);
+  }
   assert.equal(await tab.page.locator(".timeline-slider").getAttribute("max"), String(csv.length - 2));
   await tab.key(".timeline-slider", "End");
   await tab.close();
   await photograph(file, "simulation", "#forces");
+  await readWhole(file, "simulation", "all");
 });
 
 test("a study", async () => {
@@ -338,6 +454,7 @@ test("a study", async () => {
   await tab.waitForStep(4);
   await tab.close();
   await photograph(file, "sweep", "#summaries");
+  await readWhole(file, "sweep");
 });
 
 test("evolutions follow the slider over their generations", async () => {
@@ -380,6 +497,7 @@ test("evolutions follow the slider over their generations", async () => {
     await tab.close();
   }
   await photograph(flat, "evolution", "#wheel-depth");
+  await readWhole(flat, "evolution", "1-2");
 });
 
 test("fixed pictures need no scripts", async () => {

@@ -100,7 +100,7 @@ export class Results {
       ["ds_mm = 0.5", "ds_mm = 1"],
       ["[case]", "[simulation.fields]\npitch_deg = [-4, 0, 4]\n\n[case]"],
     ]);
-    this.treadmark(["simulate", input, "-o", this.path("simulation"), "--report", this.path("simulation.html")]);
+    this.treadmark(["simulate", input, "--vtk", "-o", this.path("simulation"), "--report", this.path("simulation.html")]);
     return "simulation.html";
   }
 

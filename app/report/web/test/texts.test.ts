@@ -7,6 +7,8 @@ import { colourMap, css, lut, toLab } from "../src/colours";
 import { toCsv, toTsv } from "../src/csv";
 import { fileName } from "../src/download";
 import { decimalsFor, fixed, formatNumber } from "../src/numbers";
+import { columnParts } from "../src/paper-tables";
+import { allSteps, MOST_ON_PAPER, parseSteps } from "../src/print";
 import { nextDirection, sortedOrder } from "../src/table-sort";
 import { nextChoice, parseChoice } from "../src/theme";
 import { playRate, stepNamer } from "../src/timeline";
@@ -18,6 +20,27 @@ test("CSV: quotes, commas and line ends are quoted; numbers in full; no value is
 
 test("TSV has no tabs or line ends within cells", () => {
   assert.equal(toTsv([["a\tb", "c\nd", 2.5]]), "a b\tc d\t2.5\n");
+});
+
+test("steps for paper are numbers, ranges or all; what is none of them is said", () => {
+  const all = (): number[] => [0, 3];
+  assert.deepEqual(parseSteps("", 9, all), []);
+  assert.deepEqual(parseSteps(" 8, 1-3;2 ", 9, all), [0, 1, 2, 7]);
+  assert.deepEqual(parseSteps("All", 9, all), [0, 3]);
+  for (const [text, words] of [["0", "1 to 9"], ["3-12", "1 to 9"], ["5-2", "1 to 9"], ["1,,2", "no number"], ["-3", "no number"], ["two", "“two”"]] as const)
+    assert.ok(String(parseSteps(text, 9, all)).includes(words), text);
+  assert.equal(parseSteps("1-999999999", 1e9, all), `at most ${MOST_ON_PAPER} at once`);
+});
+
+test("tables wider than paper go on below themselves, each part led by the first column", () => {
+  assert.deepEqual(columnParts([10, 20, 30, 25, 70, 100, 5], 70), [[0, 1, 2], [0, 3], [0, 4], [0, 5], [0, 6]]);
+  assert.deepEqual(columnParts([10, 20, 30], 70), [[0, 1, 2]]);
+});
+
+test("all steps of a history are those at which there is another frame", () => {
+  const timeline = { label: "instant", names: null, count: 6, frames: [null, 0, 0, 1, null, 1], axes: [] };
+  assert.deepEqual(allSteps(timeline, []), [1, 3]);
+  assert.deepEqual(allSteps({ ...timeline, count: 2, frames: null }, []), [0, 1]);
 });
 
 test("names of files are plain", () => {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { ChartView } from "../data";
+import { copyOf, onPaper, PAPER_WIDTH } from "../print";
 import { el } from "../svg";
 import type { Store } from "../store";
 import { chartCsv } from "./csv";
@@ -130,6 +131,12 @@ export class Chart implements PointerTarget {
         this.change();
       });
     window.addEventListener("beforeprint", () => this.drawForPaper());
+    const figure = this.plotFrame.closest<HTMLElement>("figure");
+    if (figure && this.view.by_step)
+      onPaper(figure, this.store, (suffix) => {
+        this.drawForPaper();
+        return [copyOf(this.root, suffix)];
+      });
     window.addEventListener("afterprint", () => {
       this.width = Math.floor(this.root.clientWidth);
       this.change();
@@ -156,7 +163,7 @@ export class Chart implements PointerTarget {
 
   /** On paper every chart is drawn, as wide as a page. */
   private drawForPaper(): void {
-    this.width = 680;
+    this.width = PAPER_WIDTH;
     this.stale = true;
     this.draw();
   }

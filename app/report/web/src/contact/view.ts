@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { FieldInfo, ContactView } from "../data";
 import { addDownloads } from "../download";
+import { copyOf, onPaper, PAPER_WIDTH } from "../print";
 import type { Store } from "../store";
 import { drawBar, drawLegend, legendRows, type LegendEntry } from "./bars";
 import { ARROW_SPACING, cellsOf, contentOf, panelValue, type Scene } from "./content";
@@ -132,7 +133,22 @@ export class ContactFigure {
     new ResizeObserver(() => {
       if (this.measure()) this.refresh();
     }).observe(this.parts.root);
-    addEventListener("beforeprint", () => this.draw());
+    addEventListener("beforeprint", () => this.drawForPaper());
+    onPaper(this.figure, store, (suffix) => {
+      this.drawForPaper();
+      const { status, picture, sections } = this.parts;
+      const parts = [status, picture, this.readout.numbers.element, sections];
+      return parts.filter((part) => !part.hidden).map((part) => copyOf(part, suffix));
+    });
+    addEventListener("afterprint", () => {
+      this.measure();
+      this.draw();
+    });
+  }
+
+  private drawForPaper(): void {
+    this.widths = [PAPER_WIDTH, PAPER_WIDTH];
+    this.draw();
   }
 
   /** Takes the widths there are, apart from drawing: to ask for them then would have the browser lay out the page twice. */

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { SceneView } from "../data";
 import { addDownloads } from "../download";
+import { onPaper } from "../print";
 import type { Store } from "../store";
 import { Layers } from "./layers";
 import { Stage, graphics } from "./stage";
@@ -36,16 +37,22 @@ function toBlob(canvas: HTMLCanvasElement): Promise<Blob> {
   );
 }
 
+interface Live {
+  stage: Stage;
+  /** The picture of the store's step, in light colours. */
+  printed: () => HTMLCanvasElement;
+  /** Shows the store's step again. */
+  restore: () => void;
+}
+
 /** Fills the frame with the live scene. */
-function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: Store, software: boolean): Stage {
+function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: Store, software: boolean): Live {
   const box = make("div", "scene-stage");
   const canvas = make("canvas", "scene-canvas");
   canvas.tabIndex = 0;
   canvas.setAttribute("role", "img");
   const caption = figure.querySelector("figcaption")?.textContent ?? "";
   canvas.setAttribute("aria-label", `${caption ? `${caption}. ` : ""}Three-dimensional view of wheel, rail and contact. ${help}`);
-  const printed = make("img", "scene-print");
-  printed.alt = caption;
   const output = make("output", "scene-value");
   const hint = make("p", "scene-hint");
   hint.textContent = help;
@@ -65,7 +72,7 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   frame.append(box);
   measure();
   const viewer = new Viewer(figure, stage, layers, output, view, store, fullScreen);
-  frame.replaceChildren(viewer.panel.element, box, output, hint, printed);
+  frame.replaceChildren(viewer.panel.element, box, output, hint);
   measure();
   new ResizeObserver(() => {
     measure();
@@ -75,13 +82,16 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   store.onStep(() => viewer.setStep());
   store.onPoint(() => viewer.pointChanged());
   store.onTheme((theme) => viewer.setTheme(theme));
-  window.addEventListener("beforeprint", () => {
-    viewer.setTheme("light");
-    printed.src = composed(stage, layers).toDataURL("image/png");
-    viewer.setTheme(store.theme);
-  });
   addDownloads(figure, { png: () => toBlob(composed(stage, layers)) }, view.id);
-  return stage;
+  const printed = (): HTMLCanvasElement => {
+    viewer.setTheme("light");
+    viewer.setStep();
+    const picture = composed(stage, layers);
+    picture.className = "scene-print";
+    viewer.setTheme(store.theme);
+    return picture;
+  };
+  return { stage, printed, restore: () => viewer.setStep() };
 }
 
 /** Wheel, rail and contact in space. What needs the graphics is made when the figure first comes in sight. */
@@ -97,12 +107,20 @@ export function mountScene(figure: HTMLElement, view: SceneView, store: Store): 
   }
   const frame = make("div", "scene");
   plot.replaceChildren(frame);
-  let stage: Stage | null = null;
+  let live: Live | null = null;
+  const started = (): Live => (live ??= start(figure, frame, view, store, kind === "software"));
+  // Paper shows it whether it was ever in sight or not.
+  window.addEventListener("beforeprint", () => frame.append(started().printed()));
+  onPaper(figure, store, () => [started().printed()]);
+  window.addEventListener("afterprint", () => {
+    frame.querySelector(".scene-print")?.remove();
+    live?.restore();
+  });
   const watch = new IntersectionObserver(
     (entries) => {
       const visible = entries[entries.length - 1]?.isIntersecting ?? false;
-      if (visible) stage ??= start(figure, frame, view, store, kind === "software");
-      stage?.setVisible(visible);
+      if (visible) started();
+      live?.stage.setVisible(visible);
     },
     { rootMargin: "160px" },
   );
