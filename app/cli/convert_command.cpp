@@ -167,6 +167,7 @@ Command add_convert(CLI::App& verb) {
   verb.add_flag("--derivatives", options->profile.derivatives,
                 "Profile as .csv, .ban or .whl: columns of arc length, inclination and curvature too");
   std::vector<std::string> units;
+  units.reserve(kLengthUnits.size());
   for (const LengthUnit unit : kLengthUnits) units.emplace_back(symbol(unit));
   CLI::Option* table = verb.add_option("--offsets", options->offsets,
                                        "Table of deviations that is added (z of a rail, radius of a wheel): .csv .txt "

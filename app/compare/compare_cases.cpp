@@ -62,8 +62,8 @@ std::vector<Choice> choices(const NaturalSurface& wheel, const NaturalSurface& r
   if (compared.wheel) surfaces.push_back(&wheel);
   if (compared.rail) surfaces.push_back(&rail);
   for (const auto& [name, resolution] : backend_choices(settings.backends, settings.resolutions, surfaces)) {
-    const auto chosen = [&](bool body) { return body ? std::optional(name) : std::nullopt; };
-    all.push_back({name, resolution, chosen(compared.wheel), chosen(compared.rail)});
+    const std::optional<std::string> chosen = name;
+    all.push_back({name, resolution, compared.wheel ? chosen : std::nullopt, compared.rail ? chosen : std::nullopt});
   }
   return all;
 }
@@ -204,7 +204,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
     Progress inner = progress;
     if (progress.report)
       inner.report = [&](std::size_t finished, std::size_t, const std::string& what) {
-        progress.report(done + finished, total, name + ", " + what);
+        progress.report(done + finished, total, fmt::format("{}, {}", name, what));
       };
     try {
       const io::RunResult run = run_cases(with(file, choice), store, inner);

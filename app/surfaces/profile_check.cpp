@@ -105,6 +105,7 @@ std::vector<CheckedProfile> checked_profiles(const io::CaseFile& file, Standards
             uses);
   }
   std::vector<CheckedProfile> out;
+  out.reserve(uses.size());
   for (const ProfileUse& use : uses)
     out.push_back(checked(io::read_sourced_profile(use.file.file, use.body, use.file.options, use.where), use.file.file,
                           use.expected, compare));
