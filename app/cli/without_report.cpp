@@ -34,7 +34,9 @@ Page check_page(const std::vector<CheckedInput>&) { without_report(); }
 Page compare_page(const std::shared_ptr<const io::Comparison>&, std::string) { without_report(); }
 Page bench_page(const BenchReport&, std::string) { without_report(); }
 Page import_page(const io::ImportReport&, std::string, const std::filesystem::path&) { without_report(); }
-Page simulation_page(std::shared_ptr<const io::SimulationResult>, std::string, const AssessedRun*) { without_report(); }
+Page simulation_page(const std::shared_ptr<const io::SimulationResult>&, std::string, const AssessedRun*) {
+  without_report();
+}
 Page assessment_page(std::span<const AssessedRun>, std::span<const std::string>) { without_report(); }
 
 }  // namespace treadmark::app::report

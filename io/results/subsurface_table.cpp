@@ -37,7 +37,7 @@ const std::array<SubsurfaceColumn, 9> kSubsurfaceColumns{{
        for (int row = 0; row < 3; ++row) append(v.stress.row(row), out);
      },
      [](const double* in, SubsurfaceValue& v) {
-       for (int row = 0; row < 3; ++row) v.stress.row(row) = Vec3(in + 3 * row);
+       for (int row = 0; row < 3; ++row) v.stress.row(row) = Vec3(in + std::ptrdiff_t{3} * row);
      }},
     {"hydrostatic", "Pa", "mean of the normal stresses", 1,
      [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.hydrostatic); },

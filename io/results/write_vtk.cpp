@@ -171,9 +171,10 @@ std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path&
     const CaseResult& result = run.cases[k];
     if (!result.bodies) continue;
     int part = 0;
-    for (const auto& [name, pose] :
-         {std::pair<const std::string&, const Pose&>{result.rail_surface, result.bodies->X_TS},
-          {result.wheel_surface, result.bodies->X_TA}}) {
+    for (const auto& body : {std::pair<const std::string&, const Pose&>{result.rail_surface, result.bodies->X_TS},
+                             {result.wheel_surface, result.bodies->X_TA}}) {
+      const std::string& name = body.first;
+      const Pose& pose = body.second;
       const int index = surface_index(run.sampled, name);
       if (index < 0) continue;
       std::vector<Stand>& known = stands[name];

@@ -270,16 +270,11 @@ void iterate(const Balance& balance, const EquilibriumSettings& settings, Equili
   const int most = found.iterations + settings.max_iterations;
   constexpr double kWider = 10.0, kWidest = 100.0;
   double coarseness = 1.0;
-  // Slopes cost as much as tens of evaluations: they serve as long as steps by them leave little.
-  constexpr double kLittle = 0.2;
-  std::optional<Eigen::FullPivLU<Matrix>> slopes;
   for (; found.residual > settings.tolerance && found.iterations < most; ++found.iterations) {
-    const bool kept = slopes.has_value();
-    if (!kept) slopes.emplace(balance.jacobian(found.state, coarseness));
-    const Vector step = slopes->solve(r);
-    const double before = found.residual, shortest = kept ? 0.5 : 1e-3;
+    const Vector step = balance.jacobian(found.state, coarseness).fullPivLu().solve(r);
+    constexpr double kShortest = 1e-3;
     bool better = false;
-    for (double share = 1.0; share > shortest && !better; share *= 0.5) {
+    for (double share = 1.0; share > kShortest && !better; share *= 0.5) {
       const SystemState trial = balance.moved(found.state, share * step);
       Vector r_trial;
       std::vector<ContactReaction> reactions;
@@ -292,9 +287,8 @@ void iterate(const Balance& balance, const EquilibriumSettings& settings, Equili
       found.reactions = std::move(reactions);
       r = r_trial;
     }
-    if (found.residual > kLittle * before) slopes.reset();
     // Slopes over wider differences pass over jumps of the forces.
-    if (!better && !kept && (coarseness *= kWider) > kWidest) break;
+    if (!better && (coarseness *= kWider) > kWidest) break;
   }
   for (const auto& [wide, share] : {std::pair{20.0, 1.0}, {20.0, 0.4}, {100.0, 0.4}})
     if (found.residual > settings.acceptable) step_over_jumps(balance, wide, share, settings.tolerance, found);

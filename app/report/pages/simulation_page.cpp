@@ -161,7 +161,7 @@ Section tables(const Result& result) {
 
 }  // namespace
 
-Page simulation_page(std::shared_ptr<const Result> result, std::string document, const AssessedRun* assessed) {
+Page simulation_page(const std::shared_ptr<const Result>& result, std::string document, const AssessedRun* assessed) {
   Page page{"simulation", title_of(result->title, result->input_file), ""};
   page.document = std::move(document);
   page.full_data = "simulation.h5";

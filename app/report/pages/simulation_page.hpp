@@ -13,7 +13,7 @@ namespace treadmark::app::report {
 
 /// Report of a simulation in time, complete or not, with its snapshots if it has any. document: JSON text, may be
 /// empty. assessed: what it says against limits, or nullptr.
-Page simulation_page(std::shared_ptr<const io::SimulationResult> result, std::string document,
+Page simulation_page(const std::shared_ptr<const io::SimulationResult>& result, std::string document,
                      const AssessedRun* assessed = nullptr);
 
 }  // namespace treadmark::app::report
