@@ -231,13 +231,15 @@ struct Entry {
 std::vector<Entry> make_entries() {
   std::vector<Entry> all;
   for (const Body body : {Body::wheel, Body::rail})
-    for (const std::string_view name : backend_names())
+    for (const std::string_view name : backend_names()) {
+      if (backend_of(name).one_place) continue;  // elsewhere its heights are those of another shape
       for (const bool tilted : {false, true}) {
         const std::string backend(name);
         all.push_back({std::string("heights/") + (body == Body::rail ? "rail/" : "wheel/") + backend +
                            (tilted ? "/tilted" : "/level"),
                        [=] { return heights(backend, body, tilted); }});
       }
+    }
   for (const std::string backend : kDetectionBackends) {
     if (!has_backend(backend)) continue;
     all.push_back({"search/cold/" + backend, [=] { return search(backend, true); }});
