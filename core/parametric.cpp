@@ -12,14 +12,6 @@
 
 namespace treadmark {
 
-namespace {
-
-constexpr double kStep = 1e-4;       // of differences [m]
-constexpr double kFarthest = 0.5;    // y of surfaces without lateral ends [m]
-constexpr int kScan = 128;           // places across where v is looked for
-constexpr double kTurnNear = 1e-10;  // of v, in its own unit and relative
-
-/// The station's plane: heights over (0, y) are z of a rail, the radius of a wheel.
 Pose station_plane(Facing facing, double u) {
   Pose X;
   if (facing == Facing::up) {
@@ -31,6 +23,13 @@ Pose station_plane(Facing facing, double u) {
   X.rotation.col(2) = Vec3(s, 0.0, c);
   return X;
 }
+
+namespace {
+
+constexpr double kStep = 1e-4;       // of differences [m]
+constexpr double kFarthest = 0.5;    // y of surfaces without lateral ends [m]
+constexpr int kScan = 128;           // places across where v is looked for
+constexpr double kTurnNear = 1e-10;  // of v, in its own unit and relative
 
 /// Points of one section by the parameter v that locate() tells.
 class Section {
@@ -51,7 +50,7 @@ class Section {
       return p.status != LocateStatus::outside && std::fabs(off(p)) <= kTurnNear * (1.0 + std::fabs(v));
     };
     if (!std::isnan(near))
-      if (const auto found = secant(v, near)) return found;
+      if (auto found = secant(v, near)) return found;
     const SurfacePoint direct = at_y(v);  // where v is y itself
     if (close(direct)) return direct;
     const Box3 box = surface_.bounds();
@@ -66,7 +65,7 @@ class Section {
       if (there(p) && !there(before) && i > 0) from = rim(y, y_before);
       if (!there(p) && there(before)) to = rim(y_before, y);
       if (there(from) && there(to) && off(from) * off(to) <= 0.0)
-        if (const auto found = bisect(v, from, to)) return found;
+        if (auto found = bisect(v, from, to)) return found;
       before = p, y_before = y;
     }
     return std::nullopt;
@@ -118,7 +117,7 @@ class Section {
     constexpr int kMost = 60;
     for (int i = 0; i < kMost; ++i) {
       const double y = 0.5 * (a.position_S.y() + b.position_S.y());
-      if (const auto found = secant(v, y)) return found;
+      if (auto found = secant(v, y)) return found;
       const SurfacePoint p = at_y(y);
       if (p.status == LocateStatus::outside || std::isnan(p.v)) return std::nullopt;
       ((p.v - v) * (a.v - v) <= 0.0 ? b : a) = p;
@@ -146,12 +145,12 @@ using Stencil = std::array<std::array<Vec3, 3>, 3>;
 
 /// Nine points about (u, v), the middle one shifted by so many steps; false where the surface ends among them.
 bool fill(const Surface& surface, const Vec2& uv, const Vec2& step, int shift_u, int shift_v, double y, Stencil& at) {
-  for (int i = -1; i <= 1; ++i) {
-    const Section section(surface, uv.x() + (shift_u + i) * step.x());
-    for (int j = -1; j <= 1; ++j) {
-      const auto found = section.at_v(uv.y() + (shift_v + j) * step.y(), y);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Section section(surface, uv.x() + (shift_u + static_cast<int>(i) - 1) * step.x());
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto found = section.at_v(uv.y() + (shift_v + static_cast<int>(j) - 1) * step.y(), y);
       if (!found) return false;
-      at[static_cast<std::size_t>(i + 1)][static_cast<std::size_t>(j + 1)] = found->position_S;
+      at[i][j] = found->position_S;
     }
   }
   return true;

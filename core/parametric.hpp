@@ -34,6 +34,10 @@ class Parametric {
   virtual bool exact_derivatives() const { return true; }
 };
 
+/// Pose of the plane at station u in the surface's frame whose heights over (x, y) are z of a rail over (x - u, y), or
+/// the radius of a wheel or roller over y at the angle u (x along the circumference). u: as in Parametric.
+Pose station_plane(Facing facing, double u);
+
 /// Position and derivatives at parameters as SurfacePoint has them. Of a surface that is not Parametric v is found
 /// again along the section at u as Surface::locate tells it, and derivatives are central differences over about 0.1 mm:
 /// good to 1e-4 1/m of curvature where the surface is smooth. Errors: Error(configuration) if the sizes differ.

@@ -2,23 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/model/natural_view.hpp"
 
-#include <cmath>
 #include <vector>
+
+#include "treadmark/core/parametric.hpp"
 
 namespace treadmark {
 
-Pose natural_plane(Body body, double u) {
-  Pose X;
-  if (body == Body::rail) {
-    X.origin.x() = u;
-    return X;
-  }
-  const double s = std::sin(u), c = std::cos(u);
-  X.rotation.col(0) = Vec3(c, 0.0, -s);
-  X.rotation.col(1) = Vec3::UnitY();
-  X.rotation.col(2) = Vec3(s, 0.0, c);
-  return X;
-}
+Pose natural_plane(Body body, double u) { return station_plane(body == Body::rail ? Facing::up : Facing::down, u); }
 
 void section_heights(const Surface& surface, Body body, double u, std::span<const double> y, const HeightsOut& out) {
   std::vector<Vec2> points(y.size());

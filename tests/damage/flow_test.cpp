@@ -9,6 +9,7 @@
 #include <functional>
 #include <numbers>
 
+#include "treadmark/tests/damage/cells.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::damage {
@@ -25,16 +26,6 @@ FlowLaw ratchetting(int layers, double step) {
   law.strain_per_cycle = kPerCycle;
   for (int k = 1; k <= layers; ++k) law.depths.push_back(k * step);
   return law;
-}
-
-SurfaceCells flow_cells(Body body, int nu, double dy, int ny) {
-  SurfaceCells cells;
-  cells.body = body;
-  cells.nu = nu;
-  cells.du = body == Body::wheel ? kFlowTurn / nu : nu == 1 ? 1.0 : 1e-3;
-  cells.y0 = -0.5 * dy * (ny - 1), cells.dy = dy, cells.ny = ny;
-  cells.radius.assign(static_cast<std::size_t>(ny), body == Body::wheel ? kWheel : 1.0);
-  return cells;
 }
 
 SurfaceRecord empty(const SurfaceCells& cells, const FlowLaw& law) {
@@ -67,7 +58,7 @@ TEST(MaterialFlow, EvenStressesCarryTheVolumeOfTheClosedForm) {
   const double h = kDeep * (1.0 - kYield / kStress);
   const double expected = kPerCycle * (kStress / kYield - 1.0) * h * h / 6.0 * kPassages;
   for (const Body body : {Body::wheel, Body::rail}) {
-    const SurfaceCells cells = flow_cells(body, 1, 0.5e-3, 81);
+    const SurfaceCells cells = cells_of(body, kWheel, 1, 0.5e-3, 81);
     const FlowLaw law = ratchetting(80, 0.05e-3);
     const SurfaceRecord fresh = empty(cells, law);
     SurfaceRecord record = fresh;
@@ -94,7 +85,7 @@ TEST(MaterialFlow, EvenStressesCarryTheVolumeOfTheClosedForm) {
 }
 
 TEST(MaterialFlow, NothingMovesBelowTheYieldNorWhereBothDirectionsAreAlike) {
-  const SurfaceCells cells = flow_cells(Body::wheel, 1440, 0.5e-3, 41);
+  const SurfaceCells cells = cells_of(Body::wheel, kWheel, 1440, 0.5e-3, 41);
   const FlowLaw law = ratchetting(4, 1e-3);
   const SurfaceRecord fresh = empty(cells, law);
   for (const double size : {0.999 * kYield, 2.0 * kYield}) {
@@ -121,7 +112,8 @@ TEST(MaterialFlow, NothingMovesBelowTheYieldNorWhereBothDirectionsAreAlike) {
 
 /// A wheel that is the same all round: what goes along comes from behind, and strains are those of one passage.
 TEST(MaterialFlow, PlacesOfATurnFlowAsOne) {
-  const SurfaceCells cells = flow_cells(Body::wheel, 1440, 0.5e-3, 41), round = flow_cells(Body::wheel, 1, 0.5e-3, 41);
+  const SurfaceCells cells = cells_of(Body::wheel, kWheel, 1440, 0.5e-3, 41),
+                     round = cells_of(Body::wheel, kWheel, 1, 0.5e-3, 41);
   const FlowLaw law = ratchetting(4, 1e-3);
   const Vec2 stress(500e6, -400e6);
   const auto oblique = [&](double z, int) { return z > 3.5e-3 ? Vec2(0, 0) : Vec2(stress); };
@@ -151,7 +143,7 @@ TEST(MaterialFlow, PlacesOfATurnFlowAsOne) {
 
 /// Where the traction ends, what it carries piles up: a part of a turn loses behind and gains before.
 TEST(MaterialFlow, VolumeGoesAlongTheStress) {
-  const SurfaceCells cells = flow_cells(Body::rail, 200, 0.5e-3, 41);
+  const SurfaceCells cells = cells_of(Body::rail, kWheel, 200, 0.5e-3, 41);
   const FlowLaw law = ratchetting(3, 1e-3);
   const SurfaceRecord fresh = empty(cells, law);
   SurfaceRecord record = fresh;
@@ -171,7 +163,7 @@ TEST(MaterialFlow, VolumeGoesAlongTheStress) {
 
 /// Hardened material yields at more, and at last not at all: k beta sqrt(1 - exp(-alpha g)) is the stress.
 TEST(MaterialFlow, HardeningEndsIt) {
-  const SurfaceCells cells = flow_cells(Body::rail, 1, 1e-3, 21);
+  const SurfaceCells cells = cells_of(Body::rail, kWheel, 1, 1e-3, 21);
   FlowLaw law = ratchetting(2, 1e-3);
   law.hardening_factor = 2.0, law.hardening_rate = 3.0;
   EXPECT_DOUBLE_EQ(law.yield_after(0.0), kYield);
@@ -193,7 +185,7 @@ TEST(MaterialFlow, HardeningEndsIt) {
 }
 
 TEST(MaterialFlow, RefusesToFlowBelowItsDepths) {
-  const SurfaceCells cells = flow_cells(Body::rail, 1, 1e-3, 21);
+  const SurfaceCells cells = cells_of(Body::rail, kWheel, 1, 1e-3, 21);
   const FlowLaw law = ratchetting(2, 1e-3);
   SurfaceRecord record = empty(cells, law);
   MaterialFlow flow(cells, law, record);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/tests/damage/cells.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::damage {
@@ -48,17 +49,6 @@ PassedPatch pin(Body body, int nx, int ny, double element, double u, double y) {
   return patch;
 }
 
-/// Rows of a cylinder or a plane, without a surface below them.
-SurfaceCells cells_of(Body body, int nu, double dy, int ny) {
-  SurfaceCells cells;
-  cells.body = body;
-  cells.nu = nu;
-  cells.du = body == Body::wheel ? kTurn / nu : nu == 1 ? 1.0 : 1e-3;
-  cells.y0 = -0.5 * dy * (ny - 1), cells.dy = dy, cells.ny = ny;
-  cells.radius.assign(static_cast<std::size_t>(ny), body == Body::wheel ? kRadius : 1.0);
-  return cells;
-}
-
 /// Archard 1953: a point over which a flat pin of some length slides k p / H deep for every metre of sliding, which is
 /// the slip times the length of the pin at every passage.
 TEST(AddPatch, FlatPinWearsByTheClosedForm) {
@@ -66,7 +56,7 @@ TEST(AddPatch, FlatPinWearsByTheClosedForm) {
   constexpr double kElement = 0.5e-3, kPassages = 5000.0;
   const double expected = kCoefficient * kPressure * kSlip * kLong * kElement / kHardness * kPassages;
   for (const Body body : {Body::wheel, Body::rail}) {
-    const SurfaceCells cells = cells_of(body, 1, 0.7e-3, 101);
+    const SurfaceCells cells = cells_of(body, kRadius, 1, 0.7e-3, 101);
     SurfaceRecord record(1);
     const double way = kPassages * (body == Body::wheel ? kTurn * kRadius : 1.0);
     add_patch(record, cells, archard(), pin(body, kLong, kWide, kElement, 0.0, 0.0), {}, way / kVelocity, kPassages);
@@ -84,7 +74,7 @@ TEST(AddPatch, FlatPinWearsByTheClosedForm) {
 TEST(AddPatch, RemovesVolumeByWorkAndKeepsSums) {
   const double per_work = 1.3e-14, seconds = 7.0;
   for (const int nu : {1, 2890}) {
-    const SurfaceCells cells = cells_of(Body::wheel, nu, 0.31e-3, 97);
+    const SurfaceCells cells = cells_of(Body::wheel, kRadius, nu, 0.31e-3, 97);
     const PassedPatch patch = pin(Body::wheel, 13, 17, 0.7e-3, 3.1, 1.23e-3);
     SurfaceRecord record(nu);
     add_patch(record, cells, by_energy(per_work), patch, {3.1, 2.9, 3.35}, seconds, 1.0);
@@ -96,7 +86,8 @@ TEST(AddPatch, RemovesVolumeByWorkAndKeepsSums) {
 
 /// Stretches of any lengths that make up a turn, with the same patch in each: as one patch all round.
 TEST(AddPatch, StretchesOfATurnMakeEvenWear) {
-  const SurfaceCells cells = cells_of(Body::wheel, 1440, 0.5e-3, 61), round = cells_of(Body::wheel, 1, 0.5e-3, 61);
+  const SurfaceCells cells = cells_of(Body::wheel, kRadius, 1440, 0.5e-3, 61),
+                     round = cells_of(Body::wheel, kRadius, 1, 0.5e-3, 61);
   const double edges[] = {-0.2, -0.003, 0.0007, 0.11, 0.5, 3.0, kTurn - 0.2};
   const double seconds = 1.0;  // of the whole turn
   SurfaceRecord record(cells.nu), expected(1);
@@ -115,7 +106,7 @@ TEST(AddPatch, StretchesOfATurnMakeEvenWear) {
 }
 
 TEST(AddPatch, MirroredPatchesMakeMirroredWear) {
-  const SurfaceCells cells = cells_of(Body::rail, 1, 0.5e-3, 81);
+  const SurfaceCells cells = cells_of(Body::rail, kRadius, 1, 0.5e-3, 81);
   SurfaceRecord right(1), left(1);
   add_patch(right, cells, archard(), pin(Body::rail, 5, 8, 0.6e-3, 0.0, 3.3e-3), {}, 1.0, 1.0);
   add_patch(left, cells, archard(), pin(Body::rail, 5, 8, 0.6e-3, 0.0, -3.3e-3), {}, 1.0, 1.0);
@@ -124,7 +115,7 @@ TEST(AddPatch, MirroredPatchesMakeMirroredWear) {
 }
 
 TEST(AddPatch, RefusesContactBesideTheSurface) {
-  const SurfaceCells cells = cells_of(Body::rail, 1, 0.5e-3, 21);
+  const SurfaceCells cells = cells_of(Body::rail, kRadius, 1, 0.5e-3, 21);
   SurfaceRecord record(1);
   EXPECT_THAT(testing::error_of([&] {
                 add_patch(record, cells, archard(), pin(Body::rail, 5, 8, 0.6e-3, 0.0, 30e-3), {}, 1.0, 1.0);
@@ -134,7 +125,7 @@ TEST(AddPatch, RefusesContactBesideTheSurface) {
 
 TEST(Smooth, KeepsSumsAndLeavesEvenValuesAlone) {
   for (const int nu : {1, 200}) {
-    const SurfaceCells cells = cells_of(Body::wheel, nu, 0.5e-3, 80);
+    const SurfaceCells cells = cells_of(Body::wheel, kRadius, nu, 0.5e-3, 80);
     CellSheet peak(nu), even(nu);
     peak.ref(nu / 3, 20) = 1.0;
     for (int j = 0; j < cells.ny; ++j)
@@ -152,7 +143,7 @@ TEST(Smooth, KeepsSumsAndLeavesEvenValuesAlone) {
 }
 
 TEST(DepthOf, IsThatOfARing) {
-  const SurfaceCells cells = cells_of(Body::wheel, 1, 0.5e-3, 5);
+  const SurfaceCells cells = cells_of(Body::wheel, kRadius, 1, 0.5e-3, 5);
   const double depth = 4e-3, outer = kRadius, inner = kRadius - depth;
   const double volume = std::numbers::pi * (outer * outer - inner * inner) * cells.dy;
   EXPECT_NEAR(depth_of(cells, volume, 2), depth, 1e-15);

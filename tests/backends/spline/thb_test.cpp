@@ -131,20 +131,27 @@ TEST_P(ThbBasis, FunctionsAreLinearlyIndependent) {
   EXPECT_GT(values.minCoeff() / values.maxCoeff(), 1e-7) << n;
 }
 
+std::vector<Vec3> some_coefficients(const ThbSpace& space, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::vector<Vec3> coefficients;
+  coefficients.reserve(space.functions());
+  for (std::size_t i = 0; i < space.functions(); ++i)
+    coefficients.emplace_back(unit(random), unit(random), unit(random));
+  return coefficients;
+}
+
 TEST_P(ThbBasis, DividingKeepsTheSurface) {
   ThbSpace space = space_of(GetParam().degree, GetParam().closed, 4);
   divide_some(space, 4, 3);
   std::mt19937 random(4);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::vector<Vec3> coefficients;
-  for (std::size_t i = 0; i < space.functions(); ++i)
-    coefficients.emplace_back(unit(random), unit(random), unit(random));
+  const std::vector<Vec3> coefficients = some_coefficients(space, random);
   ThbSpace finer = space;
   divide_some(finer, 6, 5);
   ASSERT_GT(finer.functions(), space.functions());
   const ThbSpline before{space, coefficients}, after{finer, space.refined(coefficients, finer)};
   const NurbsSurface patches(extracted(after), Body::rail, "thb");
   const auto &u = space.u(0).breaks(), &v = space.v(0).breaks();
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int k = 0; k < 400; ++k) {
     const double at_u = u.front() + (u.back() - u.front()) * 0.5 * (1.0 + unit(random)),
                  at_v = v.front() + (v.back() - v.front()) * 0.5 * (1.0 + unit(random));
@@ -159,10 +166,7 @@ TEST_P(ThbBasis, TheSurfaceIsAsSmoothAsItsDegreeAllowsWhereLevelsMeet) {
   ThbSpace space = space_of(degree, GetParam().closed, 4);
   divide_some(space, 9, 6);
   std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  std::vector<Vec3> coefficients;
-  for (std::size_t i = 0; i < space.functions(); ++i)
-    coefficients.emplace_back(unit(random), unit(random), unit(random));
+  const std::vector<Vec3> coefficients = some_coefficients(space, random);
   const ThbSpline spline{space, coefficients};
   constexpr double kStep = 1e-7, kSlopes = 100.0;  // step over a border, greatest slope of these surfaces
   for (const ThbCell& cell : space.cells()) {
