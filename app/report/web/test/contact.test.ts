@@ -253,4 +253,5 @@ test("numbers as readers see them", () => {
   assert.deepEqual(numberName("xi"), { label: "ξ", unit: "", factor: 1 });
   assert.deepEqual(numberName("fn_N"), { label: "Fₙ", unit: "kN", factor: 1e-3 });
   assert.equal(numberName("angle_rad").unit, "°");
+  assert.deepEqual(numberName("rail_curvature_1_per_m"), { label: "rail curvature 1", unit: "1/m", factor: 1 });
 });

@@ -54,10 +54,10 @@ const shownAs: Record<string, { unit: string; factor: number }> = {
 
 /** "pmax_MPa" as symbol and unit, and by what its value is multiplied for that unit. */
 export function numberName(key: string): { label: string; unit: string; factor: number } {
-  const match = /^(.+?)_(k?N|Nmm|Nm|mm2|mm_s|rad_mm|mm|um|MPa|GPa|Pa|J|W|rad_s|mrad|rad|deg|C|percent|s|kB|MB)$/.exec(key);
+  const match = /^(.+?)_(k?N|Nmm|Nm|mm2|mm_s|rad_mm|per_m|mm|um|MPa|GPa|Pa|J|W|rad_s|mrad|rad|deg|C|percent|s|kB|MB)$/.exec(key);
   const name = match?.[1] ?? key;
   const unit =
-    { mm2: "mm²", um: "µm", mm_s: "mm/s", rad_s: "rad/s", rad_mm: "rad/mm", deg: "°", C: "°C", percent: "%", Nmm: "N·mm" }[
+    { mm2: "mm²", um: "µm", mm_s: "mm/s", rad_s: "rad/s", rad_mm: "rad/mm", per_m: "1/m", deg: "°", C: "°C", percent: "%", Nmm: "N·mm" }[
       match?.[2] ?? ""
     ] ??
     match?.[2] ??
