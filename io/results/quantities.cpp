@@ -76,8 +76,9 @@ constexpr Access<WholeOf<Outer>> within() {
   using T = WholeOf<Outer>;
   return {[](const T& t) { return (*(t.*Outer)).*Inner; },
           [](T& t, double v) {
-            if (!(t.*Outer)) (t.*Outer).emplace();
-            (*(t.*Outer)).*Inner = v;
+            auto& outer = t.*Outer;
+            if (!outer) outer = typename std::remove_cvref_t<decltype(outer)>::value_type{};
+            (*outer).*Inner = v;
           },
           [](const T& t) { return (t.*Outer).has_value(); }};
 }
