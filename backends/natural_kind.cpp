@@ -79,6 +79,27 @@ SliceSet NaturalKind::to_slices(const NaturalSurface& natural, const Representat
   return slices;
 }
 
+std::vector<SplineSurface> NaturalKind::to_splines(const NaturalSurface& natural, const Representation& wanted,
+                                                   Sampled* sampled) const {
+  const auto* given = std::get_if<SplineSurface>(&natural.spec.shape);
+  const Region& r = wanted.region;
+  const bool all_of_it =
+      !std::isfinite(r.u_min) && !std::isfinite(r.u_max) && !std::isfinite(r.y_min) && !std::isfinite(r.y_max);
+  if (given != nullptr && natural.spec.defects.empty() && all_of_it && !(wanted.resolution > 0.0) &&
+      is_natural(natural, wanted)) {
+    if (sampled != nullptr) *sampled = {0.0, wanted.region, natural.note};
+    return {*given};
+  }
+  const Backend& backend = backend_of(wanted.backend.empty() ? "nurbs" : wanted.backend);
+  if (!backend.tell_splines)
+    throw Error(ErrorKind::configuration, fmt::format("the backend '{}' has no splines to write", backend.name), {},
+                "nurbs, thb and thb-quadratic have");
+  Resampling resampling(natural, wanted);
+  std::vector<SplineSurface> out{backend.tell_splines(resampling)};
+  if (sampled != nullptr) *sampled = resampling.sampled();
+  return out;
+}
+
 void NaturalKind::write_offsets(const std::filesystem::path& file, const NaturalSurface& natural,
                                 const Representation& wanted, Sampled* sampled, const SurfaceSpec* base,
                                 const std::string& notes) const {
