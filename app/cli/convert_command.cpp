@@ -25,6 +25,7 @@
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::cli {
@@ -88,6 +89,9 @@ int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
 }
 
 int convert_command(const ConvertOptions& options, const CommonOptions& common) {
+  if (!options.backend.empty() && !io::is_spline_file(options.output))
+    throw Error(ErrorKind::configuration, "--backend belongs to files of splines", {options.output},
+                "leave it out, or write .xml");
   if (const std::string kind = lower_extension(options.output); kind == ".inp" || kind == ".toml")
     return convert_cases(options, common);
   if (options.at) throw Error(ErrorKind::configuration, "an instant is written as .toml or .inp", {options.output});

@@ -76,9 +76,6 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
                 "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets, .step for "
                 "CAD, .xml for "
                 "splines");
-  if (!splines && !settings.backend.empty())
-    throw Error(ErrorKind::configuration, "a backend is chosen for files of splines only", {output.string()},
-                "leave out --backend, or write .xml");
   Converted out;
   out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
   out.body = out.source.spec.body;

@@ -277,7 +277,6 @@ GivenSpline::QuadPiece GivenSpline::piece(const Tensor& spline, int is, int it) 
 }
 
 GivenSpline::Layout GivenSpline::layout(Body body) const {
-  constexpr int kSteps = 8;  // of an interval: each turns by less than half a circle
   const bool wheel = body == Body::wheel;
   struct Walk {
     double along = 0.0, length = 0.0, radius = 0.0;  // x [m] or angle [rad]; [m]
@@ -290,6 +289,8 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
   };
   const auto walk = [&](int direction) {
     const std::vector<double>& k = breaks(direction);
+    // few intervals may turn by half a circle each
+    const int steps = std::clamp(static_cast<int>(256 / k.size()), 2, 8);
     const double other = middle(1 - direction);
     const auto at = [&](double x) { return direction == 0 ? point(x, other) : point(other, x); };
     Walk out;
@@ -297,8 +298,8 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
     out.first = wheel ? std::atan2(before.x(), before.z()) : before.x();
     std::size_t count = 0;
     for (std::size_t i = 0; i + 1 < k.size(); ++i)
-      for (int step = 1; step <= kSteps; ++step, ++count) {
-        const Vec3 p = at(step == kSteps ? k[i + 1] : k[i] + (k[i + 1] - k[i]) * step / kSteps);
+      for (int step = 1; step <= steps; ++step, ++count) {
+        const Vec3 p = at(step == steps ? k[i + 1] : k[i] + (k[i + 1] - k[i]) * step / steps);
         out.along += wheel ? std::remainder(std::atan2(p.x(), p.z()) - std::atan2(before.x(), before.z()),
                                             2.0 * std::numbers::pi)
                            : p.x() - before.x();

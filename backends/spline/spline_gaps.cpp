@@ -140,6 +140,8 @@ std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const
     const auto of = [](double x) { return static_cast<std::int64_t>(std::floor(std::clamp(x / kNear, -1e15, 1e15))); };
     return std::array<std::int64_t, 3>{of(p.x()), of(p.y()), of(p.z())};
   };
+  constexpr std::size_t kMostPairs = 8;  // of a side; two meet where a surface ends
+  std::size_t compared = 0;
   for (std::size_t b = 0; b < sides.size(); ++b) {
     check_cancelled();
     const auto at = cell(0.5 * (sides[b].first() + sides[b].last()));
@@ -153,6 +155,9 @@ std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const
             constexpr double kNarrow = 20.0 * kNear;
             if (a / 4 == b / 4 && extent[a / 4] < kNarrow) continue;
             if (looked_at.count(std::minmax(a, b)) > 0 || !ends_meet(sides[a], sides[b])) continue;
+            if (++compared > kMostPairs * sides.size())
+              throw Error(ErrorKind::input_data, fmt::format("too many sides lie on {}", sides[a].name()),
+                          surfaces[a / 4].where, "is the same surface given several times?");
             const double gap = apart(sides[a], sides[b]);
             if (gap < kNear) say(a, b, gap);
           }

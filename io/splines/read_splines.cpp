@@ -86,7 +86,7 @@ class Reader {
   SplineFile read() {
     const XmlElement& root = tree_.root();
     if (root.name != "xml")
-      fail(root, fmt::format("the root is <{}>, but that of G+Smo's files is <xml>", profiles::printable(root.name)),
+      fail(root, fmt::format("the root is {}, but that of G+Smo's files is <xml>", profiles::printable(root.name)),
            "G+Smo's XML is read, nothing else");
     find_geometries();
     const XmlElement* patches = nullptr;
@@ -213,10 +213,12 @@ class Reader {
       ++count;
       geometries_.push_back(&e);
       const std::string* id = e.attribute("id");
-      names_[&e] =
-          id != nullptr ? "Geometry " + profiles::printable(*id) : fmt::format("Geometry {} without id", count);
-      if (id == nullptr) continue;
+      if (id == nullptr) {
+        names_[&e] = fmt::format("Geometry {} without id", count);
+        continue;
+      }
       const int number = whole(e, *id, "id");
+      names_[&e] = fmt::format("Geometry {}", number);
       if (!by_id_.emplace(number, &e).second)
         fail(e, fmt::format("there is another Geometry of id {}", number), "give each its own");
     }
@@ -343,11 +345,12 @@ class Reader {
     const std::size_t n = out.knots.size();
     if (n < 2 * p + 2) fail(e, fmt::format("{} knots are too few for degree {}: {} at least", n, p, 2 * p + 2));
     if (n > kMostPoints) fail(e, fmt::format("there are more than {} knots", kMostPoints));
+    for (std::size_t i = 1; i < n; ++i)
+      if (out.knots[i] < out.knots[i - 1])
+        fail_at(e, place_of(e, i), fmt::format("knot {} is less than the one before", i + 1));
     if (!(out.knots[p] < out.knots[n - 1 - p])) fail(e, "the knots leave no interval");
     std::size_t repeated = 1;
     for (std::size_t i = 1; i < n; ++i) {
-      if (out.knots[i] < out.knots[i - 1])
-        fail_at(e, place_of(e, i), fmt::format("knot {} is less than the one before", i + 1));
       repeated = out.knots[i] == out.knots[i - 1] ? repeated + 1 : 1;
       const bool inside = out.knots[i] > out.knots[p] && out.knots[i] < out.knots[n - 1 - p];
       if (repeated > (inside ? p : p + 1))

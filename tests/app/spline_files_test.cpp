@@ -191,9 +191,6 @@ TEST(SplineFiles, AHierarchyStaysOneAndTakesDefects) {
   settings.backend = "mesh";
   EXPECT_THAT(what_of([&] { convert_surface(input.folder() / "rail.xml", input.folder() / "out.xml", settings); }),
               HasSubstr("has no splines to write"));
-  settings.backend = "nurbs";
-  EXPECT_THAT(what_of([&] { convert_surface(input.folder() / "rail.xml", input.folder() / "out.ply", settings); }),
-              HasSubstr("for files of splines only"));
 }
 
 }  // namespace
