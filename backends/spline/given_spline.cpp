@@ -439,7 +439,23 @@ NurbsNet GivenSpline::hierarchical_net(const ThbSpline& spline, const Layout& la
   });
 }
 
-void GivenSpline::require_regular(const NurbsNet& net) const {
+void GivenSpline::require_sound(const NurbsNet& net) const {
+  // bounds keep cells of some mm: their number follows the size, whatever the file says
+  constexpr double kMostArea = 20.0;  // [m2] 130 m of a rail
+  double area = 0.0, along = 0.0, across = 0.0;
+  for (int iu = 0; iu < net.patches_u(); ++iu, check_cancelled())
+    for (int iv = 0; iv < net.patches_v(); ++iv) {
+      const BezierPatch p = net.patch(iu, iv);
+      const Vec3 a = p.point(0, 0), b = p.point(3, 0), c = p.point(0, 3), d = p.point(3, 3);
+      const double u = std::max((b - a).norm(), (d - c).norm()), v = std::max((c - a).norm(), (d - b).norm());
+      area += u * v;
+      if (iv == net.patches_v() / 2) along += u;
+      if (iu == net.patches_u() / 2) across += v;
+    }
+  if (!net.is_list()) area = std::max(area, along * across);
+  if (!(area < kMostArea))
+    refuse(fmt::format("it covers {:.3g} m2, more than {:g}", area, kMostArea),
+           "is scale_to_mm right, and no coefficient astray?");
   const auto normals_agree = [&](const PowerPatch& patch, int steps, double least, Vec3& worst) {
     std::vector<Vec3> normals;
     normals.reserve(static_cast<std::size_t>((steps + 1) * (steps + 1)));
@@ -477,7 +493,7 @@ NurbsNet GivenSpline::net(Body body) const {
   const Layout l = layout(body);
   NurbsNet out =
       hierarchical() ? hierarchical_net(std::get<ThbSpline>(spline_), l) : tensor_net(std::get<Tensor>(spline_), l);
-  require_regular(out);
+  require_sound(out);
   return out;
 }
 

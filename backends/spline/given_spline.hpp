@@ -34,7 +34,8 @@ class GivenSpline {
 
   /// The same surface as bicubic patches with u along a rail or with the angle of a wheel, v the mean length across
   /// [m], and both such that the surface faces the other body. Errors: Error(input_data) for a surface that runs
-  /// neither along nor across, is seen edge-on, folds back on itself, has no normal, or goes round more than once.
+  /// neither along nor across, is seen edge-on, folds back on itself, has no normal, goes round more than once,
+  /// or is larger than 20 m2.
   NurbsNet net(Body body) const;
 
  private:
@@ -56,7 +57,7 @@ class GivenSpline {
   QuadPiece piece(const Tensor& spline, int is, int it) const;
   NurbsNet tensor_net(const Tensor& spline, const Layout& layout) const;
   NurbsNet hierarchical_net(const ThbSpline& spline, const Layout& layout) const;
-  void require_regular(const NurbsNet& net) const;
+  void require_sound(const NurbsNet& net) const;
   [[noreturn]] void refuse(const std::string& what, const std::string& advice = {}) const;
 
   std::string name_;

@@ -412,6 +412,10 @@ TEST(GivenSpline, WhatCannotBeASurfaceIsNamed) {
                 for (Vec3& p : s.points) p = Vec3(0.001 * p.x(), p.y(), p.x());
               }),
               HasSubstr("along the track"));
+  EXPECT_THAT(changed([](auto& s) {
+                for (Vec3& p : s.points) p *= 50.0;
+              }),
+              HasSubstr("covers"));
   // hierarchies
   const TwoLevels two(3);
   SplineSurface hierarchy = two.surface();
