@@ -187,6 +187,7 @@ SplineSurface told_spline(const ThbSpline& spline) {
   out.hierarchical = true;
   int levels = 1;
   for (const ThbCell& cell : space.cells()) levels = std::max(levels, cell.level + 1);
+  out.levels.reserve(static_cast<std::size_t>(levels));
   for (int l = 0; l < levels; ++l)
     out.levels.push_back(
         {SplineKnots{space.u(l).degree(), space.u(l).knots()}, SplineKnots{space.v(l).degree(), space.v(l).knots()}});

@@ -95,6 +95,7 @@ class Reader {
       if (patches != nullptr) fail(e, "there is more than one MultiPatch", "keep that of the wheel or rail");
       patches = &e;
     }
+    out_.surfaces.reserve(geometries_.size());
     if (patches != nullptr)
       read_patches(*patches);
     else

@@ -74,7 +74,9 @@ TEST(SplineRoundTrip, HeightsAreTheSameWithinANanometre) {
       const auto again = spline::make_given_surface(read.surfaces[0], body);
       EXPECT_EQ(again->backend(), own->backend());
       EXPECT_LT(greatest_difference_seen(*own, *again, 0.0), kNanometre);
-      if (closed) EXPECT_LT(greatest_difference_seen(*own, *again, std::numbers::pi), kNanometre);  // at the seam
+      if (closed) {
+        EXPECT_LT(greatest_difference_seen(*own, *again, std::numbers::pi), kNanometre) << "at the seam";
+      }
     }
 }
 
