@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -53,6 +54,22 @@ bool smooth(const KnotLine& line) {
   for (std::size_t i = p + 1; i + p + 1 < k.size(); ++i)
     if (k[i] > k[p] && k[i] < k[k.size() - 1 - p] && k[i] == k[i + p - 1]) return false;
   return true;
+}
+
+// Where the chords of a section cross, seen along x and at the same x.
+std::optional<Vec2> crossing_of(const std::vector<Vec3>& section) {
+  constexpr double kSameX = 1e-3;  // [m]
+  const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const Vec3 u = section[b] - section[a], v = section[c] - section[a];
+    return u.y() * v.z() - u.z() * v.y();
+  };
+  for (std::size_t k = 0; k + 1 < section.size(); ++k)
+    for (std::size_t m = k + 2; m + 1 < section.size(); ++m) {
+      if (std::abs(section[k].x() - section[m].x()) > kSameX) continue;
+      if (side(k, k + 1, m) * side(k, k + 1, m + 1) < 0.0 && side(m, m + 1, k) * side(m, m + 1, k + 1) < 0.0)
+        return Vec2(section[k].y(), section[k].z());
+    }
+  return std::nullopt;
 }
 
 template <class Point>
@@ -360,6 +377,20 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
   constexpr double kEdgeOn = 1e-3;
   if (!(std::abs(seen) > kEdgeOn * all)) refuse("it is seen edge-on from the contact side, or not at all", axes);
   out.back_v = (out.back_u ? -seen : seen) < 0.0;
+  // sections by chords
+  constexpr std::size_t kSections = 24;
+  for (std::size_t i = 0; i < at_u.size(); i += (at_u.size() - 1) / kSections + 1) {
+    std::vector<Vec3> section;
+    section.reserve(at_v.size());
+    for (const double v_at : at_v) {
+      const Vec3 p = on(at_u[i], v_at);
+      section.push_back(wheel ? Vec3(0.0, p.y(), std::hypot(p.x(), p.z())) : p);
+    }
+    if (const auto crossing = crossing_of(section))
+      refuse(fmt::format("a section crosses itself near y = {:.6g}, {} = {:.6g} mm", 1e3 * crossing->x(),
+                         wheel ? "radius" : "z", 1e3 * crossing->y()),
+             "are its coefficients in the right order?");
+  }
   return out;
 }
 
@@ -458,7 +489,7 @@ void GivenSpline::require_sound(const NurbsNet& net) const {
            "is scale_to_mm right, and no coefficient astray?");
   const auto normals_agree = [&](const PowerPatch& patch, int steps, double least, Vec3& worst) {
     std::vector<Vec3> normals;
-    normals.reserve(static_cast<std::size_t>((steps + 1) * (steps + 1)));
+    normals.reserve(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(steps + 1));
     for (int i = 0; i <= steps; ++i)
       for (int j = 0; j <= steps; ++j) {
         const PowerPatch::Jet at =

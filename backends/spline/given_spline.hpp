@@ -34,7 +34,7 @@ class GivenSpline {
 
   /// The same surface as bicubic patches with u along a rail or with the angle of a wheel, v the mean length across
   /// [m], and both such that the surface faces the other body. Errors: Error(input_data) for a surface that runs
-  /// neither along nor across, is seen edge-on, folds back on itself, has no normal, goes round more than once,
+  /// neither along nor across, is seen edge-on, folds back or crosses itself, has no normal, goes round more than once,
   /// or is larger than 20 m2.
   NurbsNet net(Body body) const;
 

@@ -412,6 +412,13 @@ TEST(GivenSpline, WhatCannotBeASurfaceIsNamed) {
                 for (Vec3& p : s.points) p = Vec3(0.001 * p.x(), p.y(), p.x());
               }),
               HasSubstr("along the track"));
+  // a loop across, smooth and regular
+  SplineSurface loop;
+  loop.name = "Geometry 3";
+  loop.levels.push_back({knots(1, {}), knots(3, {})});
+  for (const Vec2& yz : {Vec2(-0.04, 0.0), Vec2(0.12, -0.06), Vec2(-0.12, -0.06), Vec2(0.04, 0.0)})
+    for (const double x : {-0.2, 0.2}) loop.points.emplace_back(x, yz.x(), yz.y());
+  EXPECT_THAT(refusal(loop), HasSubstr("Geometry 3: a section crosses itself near y ="));
   EXPECT_THAT(changed([](auto& s) {
                 for (Vec3& p : s.points) p *= 50.0;
               }),
