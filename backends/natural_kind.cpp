@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/natural_kind.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -59,6 +60,12 @@ SurfaceDifference NaturalKind::fit_error(const NaturalSurface& natural, const Re
   if (natural.spec.body == Body::rail && !std::isfinite(natural.surface->bounds().max.x())) {
     if (!std::isfinite(settings.region.u_min)) settings.region.u_min = -kDefaultHalfLength;
     if (!std::isfinite(settings.region.u_max)) settings.region.u_max = kDefaultHalfLength;
+  }
+  // of a part of a wheel, by its box
+  if (const Box3 box = natural.surface->bounds(); natural.spec.body == Body::wheel && box.min.z() > 0.0) {
+    const auto angle = [&](double x, bool outer) { return std::atan2(x, outer ? box.min.z() : box.max.z()); };
+    settings.region.u_min = std::max(settings.region.u_min, angle(box.min.x(), box.min.x() < 0.0));
+    settings.region.u_max = std::min(settings.region.u_max, angle(box.max.x(), box.max.x() > 0.0));
   }
   return sampling::difference(*natural.surface, *represented.surface, natural.spec.body, natural.spec.nominal_radius,
                               settings);

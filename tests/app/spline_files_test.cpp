@@ -138,7 +138,7 @@ TEST(SplineFiles, AWheelAsGismoWritesIt) {
               ::testing::Not(HasSubstr("bad_")));
   io::SurfaceSource source;
   source.geometry = io::GeometryFile{input.folder() / "shell.xml", {}};
-  EXPECT_THAT(what_of([&] { read_surface(source, Body::wheel, 0.92); }), HasSubstr("the nominal radius is 920 mm"));
+  EXPECT_THAT(what_of([&] { read_surface(source, Body::wheel, 2.0); }), HasSubstr("the nominal radius is 2000 mm"));
   std::get<io::GeometryFile>(source.geometry).options.mirror_y = 1;
   EXPECT_THAT(what_of([&] { read_surface(source, Body::wheel, 0.46); }), HasSubstr("only scale_to_mm"));
 }
