@@ -346,46 +346,53 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
   out.u_to = out.u_from + std::abs(u.along);
   out.v_to = v.length;
   // the area seen from the contact side, positive where u x v points there
-  constexpr int kAreaSteps = 2;
   double seen = 0.0, all = 0.0;
-  const auto grid = [&](int direction) {
+  const auto places = [&](int direction, int steps) {
     const std::vector<double>& k = breaks(direction);
     constexpr std::size_t kMostIntervals = 200;
     std::vector<double> at;
     const std::size_t stride = (k.size() - 2) / kMostIntervals + 1;
-    at.reserve(kAreaSteps * k.size() + 1);
+    at.reserve(static_cast<std::size_t>(steps) * k.size() + 1);
     for (std::size_t i = 0; i + 1 < k.size(); i += stride) {
       const double to = k[std::min(i + stride, k.size() - 1)];
-      for (int step = 0; step < kAreaSteps; ++step) at.push_back(k[i] + (to - k[i]) * step / kAreaSteps);
+      for (int step = 0; step < steps; ++step) at.push_back(k[i] + (to - k[i]) * step / steps);
     }
     at.push_back(k.back());
     return at;
   };
-  const std::vector<double> at_u = grid(out.swapped ? 1 : 0), at_v = grid(out.swapped ? 0 : 1);
-  const auto on = [&](double a, double b) { return out.swapped ? point(b, a) : point(a, b); };
-  for (std::size_t i = 0; i + 1 < at_u.size(); ++i)
+  const auto row_at = [&](double at_u, const std::vector<double>& at_v) {
+    std::vector<Vec3> row;
+    row.reserve(at_v.size());
+    for (const double at : at_v) row.push_back(out.swapped ? point(at, at_u) : point(at_u, at));
+    return row;
+  };
+  const int of_u = out.swapped ? 1 : 0, of_v = 1 - of_u;
+  const std::vector<double> at_u = places(of_u, 2), at_v = places(of_v, 2);
+  std::vector<Vec3> row = row_at(at_u.front(), at_v);
+  for (std::size_t i = 1; i < at_u.size(); ++i) {
+    std::vector<Vec3> next = row_at(at_u[i], at_v);
     for (std::size_t j = 0; j + 1 < at_v.size(); ++j) {
-      const Vec3 a = on(at_u[i], at_v[j]), b = on(at_u[i + 1], at_v[j]), c = on(at_u[i], at_v[j + 1]),
-                 d = on(at_u[i + 1], at_v[j + 1]);
-      const Vec3 area = 0.5 * (d - a).cross(c - b);
-      const Vec3 middle_of = 0.25 * (a + b + c + d);
+      const Vec3 area = 0.5 * (next[j + 1] - row[j]).cross(row[j + 1] - next[j]);
+      const Vec3 middle_of = 0.25 * (row[j] + row[j + 1] + next[j] + next[j + 1]);
       const Vec3 outwards =
           wheel ? Vec3(Vec3(middle_of.x(), 0.0, middle_of.z()).stableNormalized()) : Vec3(Vec3::UnitZ());
       seen += area.dot(outwards);
       all += area.norm();
     }
+    row = std::move(next);
+  }
   constexpr double kEdgeOn = 1e-3;
   if (!(std::abs(seen) > kEdgeOn * all)) refuse("it is seen edge-on from the contact side, or not at all", axes);
   out.back_v = (out.back_u ? -seen : seen) < 0.0;
   // sections by chords
   constexpr std::size_t kSections = 24;
+  const std::vector<double> along_section =
+      places(of_v, std::clamp(static_cast<int>(256 / breaks(of_v).size()), 2, 64));
   for (std::size_t i = 0; i < at_u.size(); i += (at_u.size() - 1) / kSections + 1) {
-    std::vector<Vec3> section;
-    section.reserve(at_v.size());
-    for (const double v_at : at_v) {
-      const Vec3 p = on(at_u[i], v_at);
-      section.push_back(wheel ? Vec3(0.0, p.y(), std::hypot(p.x(), p.z())) : p);
-    }
+    check_cancelled();
+    std::vector<Vec3> section = row_at(at_u[i], along_section);
+    for (Vec3& p : section)
+      if (wheel) p = Vec3(0.0, p.y(), std::hypot(p.x(), p.z()));
     if (const auto crossing = crossing_of(section))
       refuse(fmt::format("a section crosses itself near y = {:.6g}, {} = {:.6g} mm", 1e3 * crossing->x(),
                          wheel ? "radius" : "z", 1e3 * crossing->y()),
