@@ -129,7 +129,7 @@ Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string docum
   if (has_fields(*run)) contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}}});
   if (has_fields(*run) && !run->sampled.empty())
     contact.blocks.emplace_back(Figure{"positions", "Contact in the track", TrackView{0}, kTrackNote});
-  if (!run->sampled.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
+  if (!run->sampled.empty()) append(contact.blocks, body_figures("Wheel and rail"));
   if (run->cases.size() > 1) contact.blocks.emplace_back(Figure{"forces", "Forces and pressures", case_chart(*run)});
   if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
   page.sections.push_back({"cases", "Cases", {case_table(*run), patch_table(*run)}});

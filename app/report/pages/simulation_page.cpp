@@ -201,9 +201,10 @@ Page simulation_page(const std::shared_ptr<const Result>& result, std::string do
     Section contact{"contact", "Contact at the snapshots"};
     contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}},
                                        "The last snapshot taken until the chosen instant."});
-    if (!page.surfaces.empty())
+    if (!page.surfaces.empty()) {
       contact.blocks.emplace_back(Figure{"positions", "Contact in the track", TrackView{0}, kTrackNote});
-    if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
+      append(contact.blocks, body_figures("Wheel and rail"));
+    }
     page.sections.insert(page.sections.begin() + 1, std::move(contact));
   }
   if (assessed)

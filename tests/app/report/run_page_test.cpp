@@ -94,6 +94,24 @@ TEST(RunPage, StepsAreNamedByWhatVaries) {
   EXPECT_EQ(one.timeline->axes.front().label, "case");
 }
 
+TEST(RunPage, TheWorstCaseIsShownFirstAndTheOriginComesLast) {
+  auto run = sample(3);
+  run->cases[1].patches[0].pmax = 9e9;
+  run->input_sha256 = std::string(64, 'a');
+  const Page page = run_page(run, "");
+  EXPECT_EQ(page.timeline->start, 1u);
+  EXPECT_EQ(page.sections.back().id, "origin");
+  const std::string html = to_html(page, {false});
+  EXPECT_GT(html.find(run->input_sha256), html.find("table-patches"));
+  EXPECT_THAT(html, HasSubstr("as in the input"));
+  EXPECT_FALSE(has_figure(page, "section"));  // these have no surfaces
+  for (const char* body : {"wheel", "rail"}) {
+    io::SampledSurface& surface = run->sampled.emplace_back();
+    surface.body = surface.name = body;
+  }
+  for (const char* figure : {"section", "scene"}) EXPECT_TRUE(has_figure(run_page(run, ""), figure)) << figure;
+}
+
 TEST(RunPage, WhatWentWrongComesFirst) {
   auto run = sample(4);
   run->complete = false;

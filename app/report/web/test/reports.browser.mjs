@@ -292,6 +292,48 @@ test("contact lies in the track where the result file says, over its section, on
   await photograph("run.html", "positions", "#positions");
 });
 
+test("wheel and rail are cut at the contact of the chosen case", async () => {
+  const json = read("run/result.json");
+  const pressures = json.cases.map((one) => one.patches[0].pmax_MPa);
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  const shown = () =>
+    page.locator("#section svg.section-view").evaluate((svg) => {
+      const texts = [...svg.querySelectorAll("text")];
+      const ticks = texts.map((text) => [Number(text.textContent), Number(text.getAttribute("x"))]).filter(([value]) => value > 600);
+      const [[y0, x0], [y1, x1]] = [ticks[0], ticks.at(-1)];
+      const scale = (x1 - x0) / (y1 - y0);
+      const xs = [...svg.querySelector(".section-width").getAttribute("d").matchAll(/[ML](\S+) /g)].map((match) => Number(match[1]));
+      return {
+        scale,
+        y: y0 + (Number(svg.querySelector("circle").getAttribute("cx")) - x0) / scale,
+        width: Math.abs(xs[1] - xs[0]) / scale,
+        words: texts.map((text) => text.textContent),
+        bodies: svg.querySelectorAll("path[stroke-width='2']").length,
+      };
+    });
+  await page.locator("#section").scrollIntoViewIfNeeded();
+  // The worst case comes first.
+  const worst = pressures.indexOf(Math.max(...pressures));
+  assert.equal(await tab.step(), worst);
+  for (const [key, k] of [["", worst], ["Home", 0], ["End", 25]]) {
+    if (key) await tab.key(".timeline-slider", key);
+    await page.waitForFunction((n) => document.querySelector("#section svg").textContent.includes(`case ${n}, `), k + 1);
+    const { scale, y, width, words, bodies } = await shown();
+    const [patch] = json.cases[k].patches;
+    near(y, patch.reference.y_tr_mm, 0.15 / scale, `y of case ${k + 1}`);
+    assert.ok(width > 3 && width < 40, `${width} mm wide`);
+    assert.ok(words.includes(`${Number((patch.fn_N / 1e3).toPrecision(4))} kN`), words.join("; "));
+    for (const word of ["wheel", "rail", "gauge side", "field side"]) assert.ok(words.includes(word), word);
+    assert.equal(bodies, 2);
+  }
+  const [csv] = await Promise.all([page.waitForEvent("download"), page.locator("#section .downloads button", { hasText: "CSV" }).click()]);
+  const rows = readFileSync(await csv.path(), "utf8").trim().split("\n").map((line) => line.split(",").slice(-4));
+  for (const body of ["rail", "wheel"]) assert.ok(rows.filter(([what]) => what.includes(body)).length > 50, body);
+  await tab.close();
+  await photograph("run.html", "section", "#section");
+});
+
 test("26 positions open and follow the slider without delay", async () => {
   const tab = await Tab.open("run.html");
   const opened = await tab.page.evaluate(() => {
