@@ -12,7 +12,7 @@ import { tick, titled } from "./contact/text";
 import type { Frame, Patch, TrackView } from "./data";
 import { addDownloads } from "./download";
 import { decode } from "./packed";
-import { PAPER_WIDTH } from "./print";
+import { copyOf, PAPER_WIDTH } from "./print";
 import { cutOf, drawBody, sideNames, type Section } from "./section";
 import type { Store } from "./store";
 import { svgToPng } from "./svg";
@@ -59,6 +59,7 @@ const GAP = 14;
 const HEAD = 36;
 const FOOT = 40;
 const LEAST_WIDTH = 165;
+const LEAST_ON_PAPER = 135;
 const MOST_WIDTH = 300;
 /** Beyond the patches, across [mm]. */
 const AROUND = 6;
@@ -74,8 +75,11 @@ class TrackFigure {
   private window: Box = { x0: 0, x1: 1, y0: 0, y1: 1 };
   private range: Range = { low: 0, high: 1 };
   private drawnWidth = 0;
+  private columns = 1;
+  private rowHeight = 0;
 
   constructor(
+    figure: HTMLElement,
     frame: HTMLElement,
     private readonly view: TrackView,
     private readonly store: Store,
@@ -90,8 +94,20 @@ class TrackFigure {
       const width = Math.floor(frame.clientWidth);
       if (width > 0 && width !== this.drawnWidth) this.draw(width);
     }).observe(frame);
-    window.addEventListener("beforeprint", () => this.draw(PAPER_WIDTH));
-    window.addEventListener("afterprint", () => this.draw(Math.floor(frame.clientWidth)));
+    const list = document.createElement("div");
+    list.className = "paper-steps";
+    window.addEventListener("beforeprint", () => {
+      this.draw(PAPER_WIDTH, true);
+      list.replaceChildren(...this.rows());
+      frame.after(list);
+      figure.classList.add("on-paper");
+    });
+    window.addEventListener("afterprint", () => {
+      list.remove();
+      list.replaceChildren();
+      figure.classList.remove("on-paper");
+      this.draw(Math.floor(frame.clientWidth));
+    });
     store.onStep(() => this.mark());
   }
 
@@ -151,11 +167,12 @@ class TrackFigure {
     return canvas.toDataURL("image/png");
   }
 
-  private draw(width: number): void {
+  private draw(width: number, paper = false): void {
     this.drawnWidth = width;
+    this.outlines.clear();
     const { window, drawing, panels } = this;
     const room = width - LEFT - 8;
-    const columns = Math.max(1, Math.min(panels.length, Math.floor((room + GAP) / (LEAST_WIDTH + GAP))));
+    const columns = Math.max(1, Math.min(panels.length, Math.floor((room + GAP) / ((paper ? LEAST_ON_PAPER : LEAST_WIDTH) + GAP))));
     const w = Math.min(MOST_WIDTH, (room - GAP * (columns - 1)) / columns);
     const scale = Math.min(w / (window.y1 - window.y0), (ABOVE_SHARE * w) / (window.x1 - window.x0));
     const above = scale * (window.x1 - window.x0);
@@ -165,7 +182,7 @@ class TrackFigure {
     const height = Math.ceil(rows * rowHeight + 64);
     for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` })) drawing.setAttribute(name, String(value));
     drawing.replaceChildren();
-    this.outlines.clear();
+    Object.assign(this, { columns, rowHeight });
     panels.forEach((panel, k) => {
       const x = LEFT + (k % columns) * (w + GAP);
       const y = Math.floor(k / columns) * rowHeight + HEAD;
@@ -176,6 +193,20 @@ class TrackFigure {
     const content = { range: this.range, colour: colourMap("sequential"), lines: [], title: titled(field?.label ?? "pressure", field?.unit ?? "MPa"), beyond: false };
     drawBar(drawing, `${this.view.id}-bar`, bar, content);
     this.mark();
+  }
+
+  /** Each row of panels as a picture of its own, between which paper may end; the last one with the scale of colours. */
+  private rows(): SVGSVGElement[] {
+    const count = Math.ceil(this.panels.length / this.columns);
+    return Array.from({ length: count }, (_, row) => {
+      const copy = copyOf(this.drawing, `row-${row}`) as SVGSVGElement;
+      copy.querySelectorAll(".track-panel").forEach((panel, k) => Math.floor(k / this.columns) === row || panel.remove());
+      const top = row * this.rowHeight;
+      const height = row + 1 < count ? this.rowHeight : Number(copy.getAttribute("height")) - top;
+      copy.setAttribute("height", height.toFixed(1));
+      copy.setAttribute("viewBox", `0 ${top.toFixed(1)} ${this.drawnWidth} ${height.toFixed(1)}`);
+      return copy;
+    });
   }
 
   private drawPanel(panel: Panel, k: number, at: { x: number; y: number; w: number; above: number; below: number; scale: number }, first: boolean): void {
@@ -287,6 +318,6 @@ class TrackFigure {
 export function mountTrack(figure: HTMLElement, view: TrackView, store: Store): void {
   const plot = figure.querySelector<HTMLElement>(".plot");
   if (!plot) return;
-  const track = new TrackFigure(plot, view, store);
+  const track = new TrackFigure(figure, plot, view, store);
   addDownloads(figure, { svg: () => track.text(), png: () => svgToPng(track.text()), csv: () => track.csv() }, view.id);
 }

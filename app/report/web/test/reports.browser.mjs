@@ -153,6 +153,15 @@ async function readWhole(file, name, steps = "") {
       await page.emulateMedia({ media: "print" });
       await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
     }
+    if (paper) {
+      // What paper may not break through is no higher than a page.
+      const high = await page.evaluate(() =>
+        [...document.querySelectorAll("figure.view:not(.on-paper, [data-view='contact']), figure.view svg, .paper-step, .contact-side")]
+          .filter((one) => one.getBoundingClientRect().height > ((297 - 2 * 14) / 25.4) * 96)
+          .map((one) => `${one.closest("figure").id} ${one.className.baseVal ?? one.className}`),
+      );
+      assert.deepEqual(high, [], `higher than a page in ${name}`);
+    }
     assert.deepEqual(await page.evaluate(clipped, paper), [], `cut off in ${name}, ${size}`);
     await page.screenshot({ path: join(pictures, `${name}-${size}-whole.png`), fullPage: true });
     await tab.close();
