@@ -28,6 +28,8 @@ void add_banners(const io::RunResult& run, Section& overview) {
       if (c.status == status && ++count <= 12) numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", c.number);
     return std::pair(count, count > 12 ? numbers + " ..." : numbers);
   };
+  for (const std::string& doubt : run.doubts)
+    overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Doubtful profile:", doubt});
   if (const auto [count, numbers] = list(Status::failed); count > 0) {
     std::string first;
     for (const io::CaseResult& c : run.cases)
