@@ -61,8 +61,13 @@ Cards cards_of(const Result& result) {
 
 Table named_table(const char* id, const char* caption, const std::vector<io::NamedValue>& values) {
   Table table{id, caption, {{"quantity"}, {"meaning"}, {"value"}, {"unit"}}};
-  for (const io::NamedValue& one : values)
-    table.rows.push_back({{one.name, one.description, Number{one.value, 6}, one.unit}});
+  for (const io::NamedValue& one : values) {
+    const ShownUnit unit = shown_unit(one.name);
+    table.rows.push_back({{shown_name(one.name), one.description, Number{unit.factor * one.value, 6},
+                           !unit.name.empty() ? unit.name
+                           : one.unit == "1"  ? ""
+                                              : one.unit}});
+  }
   return table;
 }
 
