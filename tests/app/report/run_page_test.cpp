@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "treadmark/app/report/field_catalogue.hpp"
 #include "treadmark/app/report/frame_packer.hpp"
 #include "treadmark/app/report/plot.hpp"
 #include "treadmark/app/report/write_page.hpp"
@@ -130,6 +131,12 @@ TEST(RunPage, WhatWentWrongComesFirst) {
   EXPECT_THAT(banners, HasSubstr("note: 1 case without contact: 4"));
   EXPECT_TRUE(std::holds_alternative<Banner>(page.sections.front().blocks.front()));
   EXPECT_THAT(to_html(page), HasSubstr("the rail &lt;ends&gt; here"));
+}
+
+TEST(RunPage, FieldsOfOneSignHaveNoScaleAboutZero) {
+  for (const char* name : {"pressure", "traction", "gap", "slip"})
+    if (const FieldInfo* field = find_field(name)) EXPECT_EQ(field->kind, FieldInfo::Kind::sequential) << name;
+  EXPECT_EQ(find_field("traction_x")->kind, FieldInfo::Kind::diverging);
 }
 
 TEST(RunPage, NothingFinishedIsAPageToo) {

@@ -3,7 +3,8 @@
 // Opens reports of all kinds, made by the program from real results, in a browser and uses them as a reader would.
 // usage: node --test test/reports.browser.mjs, with TREADMARK (program), TREADMARK_EXAMPLES and OUT (folders) and CHROMIUM in the environment
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { mkdirSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -103,6 +104,17 @@ class Tab {
       [step, heading],
     );
   }
+}
+
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+/** What axe finds serious in a page as it is. */
+async function barriers(page) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  return violations
+    .filter(({ impact }) => ["serious", "critical"].includes(impact))
+    .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(" ")).slice(0, 3).join("; ")}`);
 }
 
 /** Pictures of the page at both widths in both themes; nothing sticks out at the side. */
@@ -559,4 +571,39 @@ test("fixed pictures need no scripts", async () => {
   assert.ok((await tab.page.locator("figure.view img.picture").count()) >= 3);
   assert.equal(await tab.page.locator("#table-cases tbody tr").count(), 26);
   await tab.close();
+});
+
+test("nothing stands in the way of readers who use other means, in both themes", async () => {
+  for (const file of ["run.html", "compare.html", "simulation.html", "sweep.html", join("import", "report.html")])
+    for (const theme of ["light", "dark"]) {
+      const tab = await Tab.open(file, { theme, size: theme === "dark" ? "phone" : "desktop" });
+      const { page } = tab;
+      for (const view of await page.locator("figure.view").all()) await view.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
+      const menu = page.locator(".print-menu summary");
+      if (await menu.count()) {
+        await menu.click();
+        await page.locator(".print-menu input").fill("0");  // with its complaint
+      }
+      await page.waitForTimeout(300);
+      assert.deepEqual(await barriers(page), [], `${file}, ${theme}`);
+      await tab.close();
+    }
+});
+
+test("every page stays below 8 MB; how fast they open is told", async () => {
+  const files = [...readdirSync(folder).filter((name) => name.endsWith(".html")), join("import", "report.html")];
+  assert.ok(files.length >= 9, files.join(", "));
+  const told = [];
+  for (const file of files) {
+    const { size } = statSync(join(folder, file));
+    assert.ok(size < 8e6, `${file} has ${size} bytes`);
+    const tab = await Tab.open(file);
+    const opened = await tab.page.evaluate(() => {
+      const [entry] = performance.getEntriesByType("navigation");
+      return entry.loadEventEnd - entry.startTime;
+    });
+    told.push(`${file} ${(size / 1e6).toFixed(2)} MB, ${opened.toFixed(0)} ms`);
+    await tab.context.close();
+  }
+  console.log(told.join("\n"));  // times decide no test: machines are busy
 });
