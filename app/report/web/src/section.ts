@@ -234,6 +234,12 @@ class SectionFigure {
     return standalone(this.drawing);
   }
 
+  /** Drawn anew, at the step that the store has. */
+  textNow(): string {
+    this.draw(this.drawnWidth);
+    return this.text();
+  }
+
   csv(): string {
     const cut = this.shown;
     const lines = ["step,what,x_mm,y_mm,z_mm"];
@@ -253,5 +259,10 @@ export function mountSection(figure: HTMLElement, view: SectionView, store: Stor
   const plot = figure.querySelector<HTMLElement>(".plot");
   if (!plot) return;
   const section = new SectionFigure(figure, plot, view, store);
-  addDownloads(figure, { svg: () => section.text(), png: () => svgToPng(section.text()), csv: () => section.csv() }, view.id, () => section.name());
+  addDownloads(figure, {
+    svg: () => section.text(),
+    png: () => svgToPng(section.text()),
+    csv: () => section.csv(),
+    series: { store, draw: () => section.textNow() },
+  }, view.id, () => section.name());
 }

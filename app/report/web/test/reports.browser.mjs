@@ -9,6 +9,7 @@ import { join, resolve } from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
 
+import { unzipSync } from "fflate";
 import { chromium } from "playwright-core";
 
 import { clipped } from "./clipped.mjs";
@@ -353,6 +354,24 @@ test("wheel and rail are cut at the contact of the chosen case", async () => {
   for (const body of ["rail", "wheel"]) assert.ok(rows.filter(([what]) => what.includes(body)).length > 50, body);
   await tab.close();
   await photograph("run.html", "section", "#section");
+});
+
+test("a picture of every case is saved in one file, all of one size, for films", async () => {
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  for (const [id, place] of [["section", "#section .downloads"], ["patches-view", "#patches-view .contact-left .downloads"]]) {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    const before = await page.locator(`#${id} svg`).first().innerHTML();
+    const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`${place} button`, { hasText: "PNG of every case" }).click()]);
+    assert.match(file.suggestedFilename(), /\.zip$/);
+    const pictures = Object.entries(unzipSync(readFileSync(await file.path())));
+    assert.deepEqual(pictures.map(([name]) => name), Array.from({ length: 26 }, (_, k) => `${String(k + 1).padStart(4, "0")}.png`));
+    // Width and height stand in the head of a PNG.
+    assert.equal(new Set(pictures.map(([, bytes]) => String(bytes.slice(16, 24)))).size, 1, "sizes differ");
+    assert.ok(new Set(pictures.map(([, bytes]) => Buffer.from(bytes).toString("base64"))).size > 12);
+    await page.waitForFunction(([name, text]) => document.querySelector(`#${name} svg`).innerHTML.length === text.length, [id, before]);
+  }
+  await tab.close();
 });
 
 test("26 positions open and follow the slider without delay", async () => {

@@ -445,7 +445,18 @@ export class ContactFigure {
     };
     addDownloads(
       this.parts.left,
-      { svg: () => this.pictureText(), png: () => pngOf(this.pictureText(), ...size(this.parts.drawing)), csv },
+      {
+        svg: () => this.pictureText(),
+        png: () => pngOf(this.pictureText(), ...size(this.parts.drawing)),
+        csv,
+        series: {
+          store: this.store,
+          draw: () => {
+            this.draw();
+            return this.pictureText();
+          },
+        },
+      },
       this.view.id,
       shown,
     );
