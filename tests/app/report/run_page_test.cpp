@@ -134,8 +134,10 @@ TEST(RunPage, WhatWentWrongComesFirst) {
 }
 
 TEST(RunPage, FieldsOfOneSignHaveNoScaleAboutZero) {
-  for (const char* name : {"pressure", "traction", "gap", "slip"})
-    if (const FieldInfo* field = find_field(name)) EXPECT_EQ(field->kind, FieldInfo::Kind::sequential) << name;
+  for (const char* name : {"pressure", "traction", "gap", "slip"}) {
+    ASSERT_NE(find_field(name), nullptr) << name;
+    EXPECT_EQ(find_field(name)->kind, FieldInfo::Kind::sequential) << name;
+  }
   EXPECT_EQ(find_field("traction_x")->kind, FieldInfo::Kind::diverging);
 }
 

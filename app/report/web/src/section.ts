@@ -92,7 +92,7 @@ export function drawBody(parent: SVGElement, curve: readonly [number, number][],
 }
 
 const LEFT = 52;
-const TOP = 26;
+const TOP = 40;
 const RIGHT = 10;
 const FOOT = 44;
 /** Beyond the curves [mm]. */
@@ -200,9 +200,10 @@ class SectionFigure {
     const { drawing } = this;
     const text = (words: string, attributes: Record<string, string | number>): void =>
       void (svg("text", { fill: "var(--muted)", ...attributes }, drawing).textContent = words);
-    const title = `${frame.name}: cut at x = ${brief(cut.x)} mm${cut.marks.length > 0 ? "" : ", no contact"}`;
-    text(title, { x: LEFT, y: 15, fill: "var(--text)", "font-weight": 600 });
-    drawing.setAttribute("aria-label", `Section of wheel and rail. ${title}`);
+    const plane = `cut at x = ${brief(cut.x)} mm${cut.marks.length > 0 ? "" : ", no contact"}`;
+    text(frame.name, { x: LEFT, y: 15, fill: "var(--text)", "font-weight": 600 });
+    text(plane, { x: LEFT, y: 31 });
+    drawing.setAttribute("aria-label", `Section of wheel and rail, ${frame.name}, ${plane}`);
     text("wheel", { x: LEFT + 8, y: TOP + 16, fill: "var(--series-2)", "font-weight": 600 });
     text("rail", { x: LEFT + w / 2, y: TOP + h - 8, fill: "var(--series-1)", "font-weight": 600, "text-anchor": "middle" });
     sideNames((y0 + y1) / 2)?.forEach((name, side) =>
