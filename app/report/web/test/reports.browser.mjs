@@ -169,7 +169,7 @@ async function readWhole(file, name, steps = "") {
     if (paper) {
       // What paper may not break through is no higher than a page.
       const high = await page.evaluate(() =>
-        [...document.querySelectorAll("figure.view:not(.on-paper, [data-view='contact']), figure.view svg, figure:not([data-view='contact']) .paper-step, .contact-side, .contact-values")]
+        [...document.querySelectorAll("figure.view:not(.on-paper, .long, [data-view='contact']), figure.view svg, figure:not([data-view='contact']) .paper-step, .contact-side, .contact-values")]
           .filter((one) => one.getBoundingClientRect().height > ((297 - 2 * 14) / 25.4) * 96)
           .map((one) => `${one.closest("figure").id} ${one.className.baseVal ?? one.className}`),
       );

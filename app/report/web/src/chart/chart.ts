@@ -7,7 +7,7 @@ import type { Store } from "../store";
 import { chartCsv } from "./csv";
 import { PanelHead } from "./head";
 import type { Layout } from "./layout";
-import { chartSvg, drawXLabel, layOut } from "./layout";
+import { chartSvg, drawXLabel, fit, layOut } from "./layout";
 import type { Plot } from "./model";
 import { extentsOfAllSteps, isMonotone, plotOf, seriesKey, wholeX } from "./model";
 import type { Hit } from "./nearest";
@@ -172,6 +172,10 @@ export class Chart implements PointerTarget {
     this.root.style.width = `${PAPER_WIDTH}px`;
     this.most = PAPER_HEIGHT - AROUND_ON_PAPER - this.parts.reduce((sum, { head }) => sum + head.element.offsetHeight, 0);
     this.root.style.width = "";
+    // Paper ends between panels where there are too many.
+    const long = !fit(this.parts.length, this.most);
+    this.plotFrame.closest("figure")?.classList.toggle("long", long);
+    if (long) this.most = Number.MAX_VALUE;
     this.stale = true;
     this.draw();
   }

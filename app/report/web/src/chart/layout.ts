@@ -21,6 +21,11 @@ const AXIS = 48;
 /** Least height of a plot [px]. */
 const LEAST_HEIGHT = 60;
 
+/** Whether so many panels fit into a height. */
+export function fit(count: number, most: number): boolean {
+  return (most - AXIS) / count - PANEL_GAP >= LEAST_HEIGHT;
+}
+
 /** Sizes and scales of the panels in a picture of some width; `most`: height that all of them together may have. */
 export function layOut(plot: Plot, width: number, x: Domain, window: Domain | null, fixedY: (Domain | null)[], most = Infinity): Layout[] {
   const count = plot.panels.length;
