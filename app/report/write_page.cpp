@@ -82,7 +82,7 @@ std::string html(const Table& table) {
 }
 
 std::string html(const Listing& listing) {
-  return "<pre class=\"listing\">" + [&] {
+  return "<pre class=\"listing\" tabindex=\"0\">" + [&] {
     std::string out;
     std::size_t begin = 0;
     while (begin <= listing.text.size()) {  // escaping makes blanks of line ends
