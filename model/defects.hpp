@@ -82,8 +82,8 @@ struct GaugeCornerCollapse {
   friend bool operator==(const GaugeCornerCollapse&, const GaugeCornerCollapse&) = default;
 };
 
-/// A spall of a rail: a chip broken out of the running band, a pit with a flat floor: depth w(x) w(y), where w is 1 inside, 0
-/// outside and rises over the width of the edge by 1/2 (1 - cos).
+/// A spall of a rail: a chip broken out of the running band, a pit with a flat floor: depth w(x) w(y), where w is 1
+/// inside, 0 outside and rises over the width of the edge by 1/2 (1 - cos).
 struct Spall {
   double length = 0.0, width = 0.0, depth = 0.0;  ///< over the rims; all > 0
   double edge = 0.0;                              ///< width of the edge, > 0, at most half of length and width

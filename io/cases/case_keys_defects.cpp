@@ -161,19 +161,21 @@ Keys<Pit> pit_keys(const char* length_doc) {
 
 DefectKeys<Spall> keys_of(const std::vector<Spall>&) {
   Keys<Spall> keys = pit_keys<Spall>("length over the rims");
-  append(keys, {with_default(
-                    element_number<Spall>("x_center_mm", kAnyNumber, "middle along the rail", &Spall::x_center), "0"),
-                with_default(element_number<Spall>("y_center_mm", kAnyNumber, "middle in rail profile coordinates",
-                                                   &Spall::y_center),
-                             "0")});
+  append(
+      keys,
+      {with_default(element_number<Spall>("x_center_mm", kAnyNumber, "middle along the rail", &Spall::x_center), "0"),
+       with_default(
+           element_number<Spall>("y_center_mm", kAnyNumber, "middle in rail profile coordinates", &Spall::y_center),
+           "0")});
   return {"spalls: chips broken out of the running band, pits with a flat floor", std::move(keys)};
 }
 
 DefectKeys<WheelSpall> keys_of(const std::vector<WheelSpall>&) {
   Keys<WheelSpall> keys = pit_keys<WheelSpall>("length over the rims, along the circumference");
-  append(keys, element_angle<WheelSpall>("theta_center", "angle of the middle on the wheel", &WheelSpall::theta_center));
-  append(keys, {with_default(element_number<WheelSpall>("y_center_mm", kAnyNumber, "middle in wheel profile coordinates",
-                                                        &WheelSpall::y_center),
+  append(keys,
+         element_angle<WheelSpall>("theta_center", "angle of the middle on the wheel", &WheelSpall::theta_center));
+  append(keys, {with_default(element_number<WheelSpall>("y_center_mm", kAnyNumber,
+                                                        "middle in wheel profile coordinates", &WheelSpall::y_center),
                              "0")});
   return {"spalls: chips broken out of the tread, pits with a flat floor", std::move(keys)};
 }

@@ -117,7 +117,8 @@ inline std::vector<NamedDefects> offset_defects() {
     return -0.6e-3 * window(R * turn(t + 3.12), 0.025) * window(y - 0.003, 0.02);
   };
   all.push_back({"wheel_spall", Body::wheel, {.wheel_spalls = {chip}}, chip_offset, -3.25, -3.0, -0.03, 0.035});
-  all.push_back({"wheel_spall_a_turn_later", Body::wheel, {.wheel_spalls = {chip}}, chip_offset, 3.0, 3.3, -0.03, 0.035});
+  all.push_back(
+      {"wheel_spall_a_turn_later", Body::wheel, {.wheel_spalls = {chip}}, chip_offset, 3.0, 3.3, -0.03, 0.035});
   all.push_back({"squat_on_corrugation",
                  Body::rail,
                  {.squats = {squat}, .corrugations = {waves}},
