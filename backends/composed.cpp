@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -17,6 +16,7 @@
 #include "treadmark/backends/natural_kind.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 
 namespace treadmark {
 namespace {
@@ -123,7 +123,7 @@ class RingKind final : public NaturalKind {
       return sampled;
     }
     RepresentedSurface out;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = used_seconds();
     out.resampled = true;
     out.resolution = step;
     out.surface = slice_ring(assembly::ring_slices(*sampled_formula(ring.spec, step), ring.spec.roller_radius));
@@ -131,7 +131,7 @@ class RingKind final : public NaturalKind {
     out.region = wanted.region;
     out.region.u_min = std::max(out.region.u_min, box.min.x());
     out.region.u_max = std::min(out.region.u_max, box.max.x());
-    out.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    out.build_seconds = used_seconds() - start;
     return out;
   }
 
