@@ -5,9 +5,8 @@
 
 usage: representations.py [PROGRAM] [--keep FOLDER]     default build/release/app/treadmark
 
-Each shape is compared twice: on all cores for the wall-clock time of the whole, and on one thread, where times of building and searching are
-processor time, so that other work on the machine hardly counts. Nothing is written when a comparison is not complete. --keep FOLDER: comparisons
-that the folder has already are used, the others are left there.
+Compares on one thread, where times of building and searching are processor time, so that other work on the machine hardly counts. Nothing is
+written when a comparison is not complete. --keep FOLDER: comparisons that the folder has already are used, the others are left there.
 """
 import argparse
 import datetime
@@ -16,11 +15,11 @@ import os
 import pathlib
 import platform
 import re
+import resource
 import shutil
 import subprocess
 import sys
 import tempfile
-import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/representations.md"
@@ -43,18 +42,18 @@ COLUMNS = [
 ]
 
 
-def compare(program, shape, threads, folder):
-    """compare.json of one shape, and the seconds it took; what the folder has is not computed again."""
+def compare(program, shape, folder):
+    """compare.json of one shape, and the processor time it took [s]; what the folder has is not computed again."""
     told = folder / "seconds.txt"
     if not told.exists():
         shutil.rmtree(folder, ignore_errors=True)
-        arguments = [program, "compare", ROOT / "examples" / f"{shape}.toml", "--resolutions", RESOLUTIONS_MM, "-o", folder, "--quiet"]
-        start = time.perf_counter()
-        done = subprocess.run([*arguments, *threads], stdout=subprocess.DEVNULL)
-        seconds = time.perf_counter() - start
-        if done.returncode not in (0, 2):  # 2: a case of a coarse surface did not converge, which the row tells
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run([program, "compare", ROOT / "examples" / f"{shape}.toml", "--resolutions", RESOLUTIONS_MM, "--threads", "1", "-o", folder,
+                               "--quiet"], stdout=subprocess.DEVNULL)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if done.returncode not in (0, 4):  # 4: a case of a coarse surface did not converge, which the row tells
             sys.exit(f"compare of {shape} failed, status {done.returncode}")
-        told.write_text(f"{seconds:.1f}\n")
+        told.write_text(f"{after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime:.1f}\n")
     result = json.loads((folder / "compare.json").read_text())
     if not result["complete"]:
         sys.exit(f"compare of {shape} is not complete")
@@ -125,17 +124,16 @@ def main():
     try:
         parts, pictures, total = [], [], 0.0
         for shape, title, body in SHAPES:
-            _, seconds = compare(options.program, shape, [], folder / f"{shape}-all")
-            result, _ = compare(options.program, shape, ["--threads", "1"], folder / f"{shape}-one")
+            result, seconds = compare(options.program, shape, folder / shape)
             total += seconds
             lines, remarks = table(result, body)
             picture = f"representations-{shape}.svg"
-            pictures.append((folder / f"{shape}-one" / "errors.svg", ROOT / "docs" / picture))
+            pictures.append((folder / shape / "errors.svg", ROOT / "docs" / picture))
             parts.append("\n".join([f"### {title.capitalize()}", "", f"`treadmark compare examples/{shape}.toml`, the {body} in all representations:", "",
                                     *lines, "", *remarks, *([""] if remarks else []), f"![Errors over resolution, {title}]({picture})"]))
         date = datetime.date.today().isoformat()
-        head = (f"Made by `scripts/representations.py` on {date} ({machine()}). All four comparisons with all representations at {RESOLUTIONS_MM.replace(',', ', ')} mm\n"
-                f"took {total:.0f} s of wall clock on this machine, on all its cores. Times in the tables are processor time on one thread.")
+        head = (f"Made by `scripts/representations.py` on {date} ({machine()}). Times are processor time on one thread; the four comparisons took {total:.0f} s of\n"
+                "it together.")
         text = PAGE.read_text()
         text = replaced(text, "representations on four shapes", head + "\n\n" + "\n\n".join(parts))
         PAGE.write_text(text)
