@@ -25,7 +25,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/representations.md"
 SHAPES = [("wheel-flat", "wheel flat", "wheel"), ("squat", "squat", "rail"), ("corrugation", "corrugation", "rail"), ("crossing", "crossing", "rail")]
 RESOLUTIONS_MM = "1,0.5,0.25"
-#         head, digits after scaling, value of a row and its body
+# head, and the value that a row of the case or its body has
 COLUMNS = [
     ("height max [µm]", lambda row, body: body["height_max_um"]),
     ("rms [µm]", lambda row, body: body["height_rms_um"]),
@@ -35,7 +35,7 @@ COLUMNS = [
     ("rms [1/m]", lambda row, body: body["curvature_rms_per_m"]),
     ("pmax [%]", lambda row, body: row["pmax_error_percent"]),
     ("force [%]", lambda row, body: row["force_error_percent"]),
-    ("position [mm]", lambda row, body: row["position_error_mm"]),
+    ("position [µm]", lambda row, body: 1e3 * row["position_error_mm"]),
     ("memory [MB]", lambda row, body: body["memory_bytes"] / 1e6),
     ("build [s]", lambda row, body: body["build_s"]),
     ("search [ms]", lambda row, body: 1e3 * row["search_s"]),

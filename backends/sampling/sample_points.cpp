@@ -19,6 +19,8 @@ constexpr std::size_t kRadiusStations = 33;  // in which the lateral nodes are l
 constexpr double kMovedAside = 1.5;          // arc of all sections together over that of the longest one
 constexpr double kCloser = 0.9;  // nodes that follow a section lie askew from station to station, which costs accuracy
 
+constexpr double kArcSpacing = 0.5e-3;  // [m] steps for which arc length is known to some millionths already
+
 std::vector<double> spread(const std::vector<double>& all) {
   if (all.size() <= kRadiusStations) return all;
   std::vector<double> some;
@@ -157,7 +159,7 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
       const double u = grid.u[i] + (kind == 1 ? grid.stagger : 0.0);
       std::vector<double> nodes = common[kind], h(nodes.size());
       if (follow) {
-        const LateralArc own = lateral_arc(surface, body, {&u, 1}, spacing_y, y_min, y_max);
+        const LateralArc own = lateral_arc(surface, body, {&u, 1}, std::max(spacing_y, kArcSpacing), y_min, y_max);
         if (own.has_room()) {
           const std::vector<double> all = own.nodes(steps);
           for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = all[kinds * k + kind];
