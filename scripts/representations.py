@@ -25,7 +25,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/representations.md"
 SHAPES = [("wheel-flat", "wheel flat", "wheel"), ("squat", "squat", "rail"), ("corrugation", "corrugation", "rail"), ("crossing", "crossing", "rail")]
 RESOLUTIONS_MM = "1,0.5,0.25"
-# head, and the value that a row of the case or its body has
+# Head, and the value that a row of a case or its body has.
 COLUMNS = [
     ("height max [µm]", lambda row, body: body["height_max_um"]),
     ("rms [µm]", lambda row, body: body["height_rms_um"]),

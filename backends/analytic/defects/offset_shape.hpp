@@ -131,6 +131,7 @@ class WoundShape final : public OffsetShape {
     const double length = r.x_max - r.x_min, first = near_center(r.x_min);
     if (!(length < kTurn)) return shape_->range({center_ - 0.5 * kTurn, center_ + 0.5 * kTurn, r.y_min, r.y_max});
     const displacement::OffsetRange here = shape_->range({first, first + length, r.y_min, r.y_max});
+    if (first + length <= center_ + 0.5 * kTurn) return here;
     const displacement::OffsetRange next = shape_->range({first - kTurn, first + length - kTurn, r.y_min, r.y_max});
     return {std::min(here.low, next.low), std::max(here.high, next.high), std::max(here.max_d_u, next.max_d_u),
             std::max(here.max_d_y, next.max_d_y)};
