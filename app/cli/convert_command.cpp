@@ -143,8 +143,8 @@ Command add_convert(CLI::App& verb) {
           "a name of 'treadmark list profiles', a case file, or with --at the simulation.h5 of a simulation")
       ->required();
   verb.add_option("OUT,-o,--output", options->output,
-                  ".ply .stl .obj .off, .slcs .slcw, .vdb, .step, .xml, or a profile: .prr .prw .ban .whl .csv; of a "
-                  "case file also .inp (CONTACT) or .toml: its cases")
+                  ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .step, .xml, or a profile: .prr .prw "
+                  ".ban .whl .csv; of a case file also .inp (CONTACT) or .toml: its cases")
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
