@@ -18,7 +18,7 @@ bool is_spline_file(const std::filesystem::path& file);
 
 /// The surfaces of a file of splines.
 struct SplineFile {
-  std::vector<SplineSurface> surfaces;
+  std::vector<SplineSurface> surfaces;      ///< in the order of the MultiPatch, or of the file
   std::vector<SplineInterface> interfaces;  ///< sides that the file says meet
 };
 
