@@ -36,22 +36,22 @@ struct Extent {
 /// Box of the middle 98 % of the points in each axis.
 Extent extent_of(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
   const std::size_t stride = std::max<std::size_t>(1, points.size() / 200'000);
-  Extent out{Vec3::Zero(), 0.0};
-  Vec3 half = Vec3::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
+  Vec3 centre = Vec3::Zero(), half = Vec3::Zero();
+  parallel_for(3, [&](std::size_t k) {
+    const auto axis = static_cast<Eigen::Index>(k);
     std::vector<double> values;
+    values.reserve(points.size() / stride + 1);
     for (std::size_t i = 0; i < points.size(); i += stride)
       if (keep.empty() || keep[i] != 0) values.push_back(points[i][axis]);
-    if (values.empty()) return out;
+    if (values.empty()) return;
     const std::size_t low = values.size() / 100, high = values.size() - 1 - low;
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(low), values.end());
     const double least = values[low];
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(high), values.end());
-    out.centre[axis] = 0.5 * (least + values[high]);
+    centre[axis] = 0.5 * (least + values[high]);
     half[axis] = 0.5 * (values[high] - least);
-  }
-  out.radius = half.norm();
-  return out;
+  });
+  return {centre, half.norm()};
 }
 
 struct Moments {
