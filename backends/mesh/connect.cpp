@@ -4,14 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <mutex>
 #include <numeric>
+#include <optional>
 
 #include "treadmark/backends/mesh/buckets.hpp"
 #include "treadmark/backends/mesh/prepare.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
 
 namespace treadmark::mesh {
 
@@ -29,41 +33,78 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
   return v;
 }
 
+/// Edges of all triangles by their lower vertex.
+Buckets<Side> sides_of(const PreparedMesh& mesh) {
+  return {mesh.vertices.size(), [&](const auto& put) {
+            for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+              for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
+                put(std::min(a, b), Side{std::max(a, b), 3 * t + k});
+              }
+          }};
+}
+
+/// Makes neighbours of the triangles at edges of two of them. edge(lower vertex, sides) is called for all edges, those
+/// of a vertex by one thread, and says whether to go on with it.
+template <class Edge>
+void join(PreparedMesh& mesh, const Edge& edge) {
+  const Buckets<Side> sides = sides_of(mesh);
+  mesh.neighbours.assign(mesh.triangles.size(), {kNone, kNone, kNone});
+  constexpr std::size_t kTask = 4096;
+  parallel_blocks(sides.size(), kTask, [&](std::size_t from, std::size_t to) {
+    CheckPoint check;
+    for (std::size_t lower = from; lower < to; ++lower) {
+      const std::span<const Side> own = sides[lower];
+      for (std::size_t i = 0; i < own.size();) {
+        check.pass();
+        std::size_t end = i + 1;
+        while (end < own.size() && own[end].higher == own[i].higher) ++end;
+        if (!edge(lower, own.subspan(i, end - i))) return;
+        if (end - i == 2) {
+          const std::uint32_t one = own[i].corner, other = own[i + 1].corner;
+          mesh.neighbours[one / 3][one % 3] = other / 3;
+          mesh.neighbours[other / 3][other % 3] = one / 3;
+        }
+        i = end;
+      }
+    }
+  });
+}
+
 }  // namespace
 
-void connect(PreparedMesh& mesh) {
-  const Buckets<Side> sides(mesh.vertices.size(), [&](const auto& put) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
-        put(std::min(a, b), Side{std::max(a, b), 3 * t + k});
-      }
+bool connect_simply(PreparedMesh& mesh) {
+  std::atomic<bool> simple = true;
+  const auto opposite = [&](const Side& side) { return mesh.triangles[side.corner / 3][side.corner % 3]; };
+  join(mesh, [&](std::size_t, std::span<const Side> sides) {
+    if (sides.size() > 2 || (sides.size() == 2 && opposite(sides[0]) == opposite(sides[1]))) simple = false;
+    return simple.load(std::memory_order_relaxed);
   });
-  mesh.neighbours.assign(mesh.triangles.size(), {kNone, kNone, kNone});
-  CheckPoint check;
-  for (std::uint32_t lower = 0; lower < sides.size(); ++lower) {
-    const std::span<const Side> own = sides[lower];
-    for (std::size_t i = 0; i < own.size();) {
-      check.pass();
-      std::size_t end = i + 1;
-      while (end < own.size() && own[end].higher == own[i].higher) ++end;
-      if (end - i > 2) {
-        const Vec3 a = mesh.vertices[lower] + mesh.centre, b = mesh.vertices[own[i].higher] + mesh.centre;
-        throw Error(
-            ErrorKind::input_data,
-            fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
-                        "{:.6g}) m",
-                        mesh.name, end - i, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
-            {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
-      }
-      if (end - i == 2) {
-        const std::uint32_t one = own[i].corner, other = own[i + 1].corner;
-        mesh.neighbours[one / 3][one % 3] = other / 3;
-        mesh.neighbours[other / 3][other % 3] = one / 3;
-      }
-      i = end;
-    }
-  }
+  return simple;
+}
+
+void connect(PreparedMesh& mesh) {
+  struct Crowded {
+    std::size_t lower;
+    std::uint32_t higher;
+    std::size_t triangles;
+  };
+  std::optional<Crowded> first;  // the same one whatever thread comes first
+  std::mutex mutex;
+  join(mesh, [&](std::size_t lower, std::span<const Side> sides) {
+    if (sides.size() <= 2) return true;
+    const std::scoped_lock lock(mutex);
+    if (!first || lower < first->lower) first = Crowded{lower, sides.front().higher, sides.size()};
+    return false;
+  });
+  if (!first) return;
+  const Vec3 a = mesh.vertices[first->lower] + mesh.centre, b = mesh.vertices[first->higher] + mesh.centre;
+  throw Error(
+      ErrorKind::input_data,
+      fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
+                  "{:.6g}) m",
+                  mesh.name, first->triangles, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
+      {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
 }
 
 std::size_t count_boundary_loops(const PreparedMesh& mesh) {
@@ -103,7 +144,7 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
   const double per_cell = 1.0 / (16.0 * tolerance);
   std::size_t size = 16;
   while (size < 2 * points.size()) size *= 2;
-  std::vector<std::uint32_t> first(size, kNone), next(points.size(), kNone), same(points.size());
+  std::vector<std::uint32_t> same(points.size());
   const Vec3 origin = points.empty() ? Vec3(Vec3::Zero()) : points.front();
   constexpr double kFar = 4e18;  // cells beyond are one; distances are compared anyway
   const auto cell_of = [&](const Vec3& p, double shift) {
@@ -113,11 +154,21 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
           std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - origin[k] + shift) * per_cell))));
     return cell;
   };
-  CheckPoint check;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    check.pass();
+  // all points by the slot of their cell, each slot ascending
+  constexpr std::size_t kTask = 1 << 14;
+  std::vector<std::uint32_t> slot(points.size()), begin(size + 1, 0), inside(points.size());
+  parallel_blocks(points.size(), kTask, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i)
+      slot[i] = static_cast<std::uint32_t>(hash(cell_of(points[i], 0.0)) & (size - 1));
+  });
+  for (const std::uint32_t s : slot) ++begin[s];
+  std::uint32_t sum = 0;
+  for (std::uint32_t& b : begin) sum = b += sum;  // the ends, from which they are filled downwards
+  for (std::size_t i = points.size(); i-- > 0;) inside[--begin[slot[i]]] = static_cast<std::uint32_t>(i);
+  /// Of those before point i within the tolerance and wanted the first one; i if there is none.
+  const auto first_near = [&](std::uint32_t i, const auto& wanted) {
     const Vec3& p = points[i];
-    same[i] = i;
+    std::uint32_t found = i;
     const Cell low = cell_of(p, -tolerance), high = cell_of(p, tolerance);
     for (int corner = 0; corner < 8; ++corner) {
       Cell cell = low;
@@ -128,13 +179,22 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
           cell[k] = high[k];
         }
       if (repeated) continue;
-      for (std::uint32_t j = first[hash(cell) & (size - 1)]; j != kNone; j = next[j])
-        if ((points[j] - p).squaredNorm() <= tolerance * tolerance) same[i] = std::min(same[i], j);
+      const std::size_t at = hash(cell) & (size - 1);
+      for (std::uint32_t k = begin[at]; k < begin[at + 1] && inside[k] < found; ++k)
+        if (wanted(inside[k]) && (points[inside[k]] - p).squaredNorm() <= tolerance * tolerance) found = inside[k];
     }
-    if (same[i] != i) continue;
-    const std::size_t slot = hash(cell_of(p, 0.0)) & (size - 1);
-    next[i] = first[slot];
-    first[slot] = i;
+    return found;
+  };
+  parallel_blocks(points.size(), kTask, [&](std::size_t from, std::size_t to) {
+    for (auto i = static_cast<std::uint32_t>(from); i < to; ++i)
+      same[i] = first_near(i, [](std::uint32_t) { return true; });
+  });
+  // few have others before them: to those of them that stand for themselves
+  CheckPoint check;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    check.pass();
+    if (same[i] != i && same[same[i]] != same[i])
+      same[i] = first_near(i, [&](std::uint32_t j) { return same[j] == j; });
   }
   return same;
 }
