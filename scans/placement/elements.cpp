@@ -61,8 +61,14 @@ struct Moments {
 };
 
 SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, const Extent& extent) {
+  constexpr std::size_t kBlock = 256;  // voxels
+  const auto for_all = [&](const auto& body) {
+    parallel_blocks(voxels.count(), kBlock, [&](std::size_t from, std::size_t to) {
+      for (std::size_t v = from; v < to; ++v) body(v);
+    });
+  };
   std::vector<Moments> moments(voxels.count());
-  parallel_for(voxels.count(), [&](std::size_t v) {
+  for_all([&](std::size_t v) {
     Moments& m = moments[v];
     for (const std::uint32_t i : voxels.points_of(v)) {
       const Vec3 p = points[i] - extent.centre;
@@ -77,7 +83,7 @@ SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, 
   out.radius = extent.radius;
   std::vector<Vec3> normal(voxels.count());
   std::vector<float> weight(voxels.count(), 0.0f);
-  parallel_for(voxels.count(), [&](std::size_t v) {
+  for_all([&](std::size_t v) {
     Moments around;
     voxels.neighbours(v, [&](std::size_t other) {
       around.count += moments[other].count;
