@@ -29,18 +29,23 @@ std::optional<Sectors> one_a_vertex(const PreparedMesh& mesh, const Smooth& smoo
   Sectors out;
   out.begin.assign(mesh.vertices.size() + 1, 0);
   std::uint32_t named = 0;
-  for (const Corners& c : mesh.triangles)
+  CheckPoint check;
+  for (const Corners& c : mesh.triangles) {
+    check.pass();
     for (const std::uint32_t v : c) {
       if (v > named) return std::nullopt;
       named = std::max(named, v + 1);
       ++out.begin[v + 1];
     }
+  }
   if (named != mesh.vertices.size()) return std::nullopt;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) out.begin[v + 1] += out.begin[v];
   out.triangles.resize(3 * mesh.triangles.size());
   std::vector<std::uint32_t> next(out.begin.begin(), out.begin.end() - 1);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    check.pass();
     for (const std::uint32_t v : mesh.triangles[t]) out.triangles[next[v]++] = t;
+  }
   out.vertex.resize(mesh.vertices.size());
   std::iota(out.vertex.begin(), out.vertex.end(), 0u);
 
