@@ -27,6 +27,13 @@
 namespace treadmark::io {
 
 // Writer and reader share this file because it alone knows the HDF5 library.
+
+/// Part of a dataset that is stored as a whole: where it begins, and its bytes with zeros beyond the ends.
+struct Hdf5Chunk {
+  std::vector<hsize_t> offset;
+  std::vector<unsigned char> bytes;
+};
+
 namespace {
 
 constexpr int kDeflateLevel = 4;
@@ -136,22 +143,16 @@ std::vector<unsigned char> shuffled(const std::vector<unsigned char>& bytes, std
   return out;
 }
 
-/// Part of a dataset that is stored as a whole: where it begins, and its bytes with zeros beyond the ends.
-struct Chunk {
-  std::vector<hsize_t> offset;
-  std::vector<unsigned char> bytes;
-};
-
 /// A dataset cut into chunks, in the order of the library.
-std::vector<Chunk> cut(const std::vector<hsize_t>& size, const std::vector<hsize_t>& chunk, const unsigned char* data,
-                       std::size_t width) {
+std::vector<Hdf5Chunk> cut(const std::vector<hsize_t>& size, const std::vector<hsize_t>& chunk,
+                           const unsigned char* data, std::size_t width) {
   const std::size_t rank = size.size();
   std::vector<std::size_t> step(rank, width), step_in_chunk(rank, width);  // bytes from one index to the next
   for (std::size_t k = rank; --k > 0;) {
     step[k - 1] = step[k] * size[k];
     step_in_chunk[k - 1] = step_in_chunk[k] * chunk[k];
   }
-  std::vector<Chunk> out;
+  std::vector<Hdf5Chunk> out;
   std::vector<hsize_t> offset(rank, 0);
   const auto copy = [&](const auto& self, std::size_t k, const unsigned char* from, unsigned char* to) -> void {
     const std::size_t count = std::min(chunk[k], size[k] - offset[k]);
@@ -163,7 +164,7 @@ std::vector<Chunk> cut(const std::vector<hsize_t>& size, const std::vector<hsize
       self(self, k + 1, from + i * step[k] + offset[k + 1] * step[k + 1], to + i * step_in_chunk[k]);
   };
   for (bool more = true; more;) {
-    Chunk& one = out.emplace_back(Chunk{offset, std::vector<unsigned char>(step_in_chunk[0] * chunk[0], 0)});
+    Hdf5Chunk& one = out.emplace_back(Hdf5Chunk{offset, std::vector<unsigned char>(step_in_chunk[0] * chunk[0], 0)});
     copy(copy, 0, data + offset[0] * step[0], one.bytes.data());
     more = false;
     for (std::size_t k = rank; k-- > 0 && !more;) {
@@ -184,21 +185,21 @@ struct Hdf5Pending {
     Hdf5Id id;
     std::string name;
     std::size_t width;
-    std::vector<Chunk> chunks;
+    std::vector<Hdf5Chunk> chunks;
   };
   std::vector<Dataset> datasets;
   std::size_t bytes = 0;
 
   void add(Dataset dataset) {
-    for (const Chunk& chunk : dataset.chunks) bytes += chunk.bytes.size();
+    for (const Hdf5Chunk& chunk : dataset.chunks) bytes += chunk.bytes.size();
     datasets.push_back(std::move(dataset));
     if (bytes >= kMostPending || datasets.size() >= kMostDatasets) write();
   }
 
   void write() {
-    std::vector<std::pair<const Dataset*, Chunk*>> all;
+    std::vector<std::pair<const Dataset*, Hdf5Chunk*>> all;
     for (Dataset& dataset : datasets)
-      for (Chunk& chunk : dataset.chunks) all.emplace_back(&dataset, &chunk);
+      for (Hdf5Chunk& chunk : dataset.chunks) all.emplace_back(&dataset, &chunk);
     {
       const CancellationScope whole(&never_cancelled());
       parallel_for(all.size(), [&](std::size_t k) {
