@@ -8,17 +8,7 @@ namespace {
 
 thread_local const CancellationToken* cancellation_that_holds = nullptr;
 
-class NeverCancelled final : public CancellationToken {
- public:
-  bool requested() const noexcept override { return false; }
-};
-
 }  // namespace
-
-const CancellationToken& never_cancelled() noexcept {
-  static const NeverCancelled token;
-  return token;
-}
 
 const char* Cancelled::what() const noexcept { return "the work was interrupted"; }
 

@@ -24,9 +24,6 @@ class CancellationToken {
   virtual bool requested() const noexcept = 0;
 };
 
-/// A token that never asks for an end: of what writes down results, also those of work that was interrupted.
-const CancellationToken& never_cancelled() noexcept;
-
 /// While it lives, work of the thread that made it can be cancelled, and what that work does in parallel_for on any
 /// thread. Of several scopes the innermost one holds. Must end on the thread that made it.
 class CancellationScope {

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 
@@ -29,12 +28,5 @@ int thread_count();
 /// results, so that the outcome does not depend on the number of threads. The first exception of a body is rethrown.
 /// Before each call is a check point (core/cancellation.hpp), for what holds where the loop was begun.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
-
-/// The same for blocks of successive numbers: body(begin, end) for each of `block` numbers, the last one of what is
-/// left.
-template <class Body>
-void parallel_blocks(std::size_t count, std::size_t block, const Body& body) {
-  parallel_for((count + block - 1) / block, [&](std::size_t k) { body(k * block, std::min(count, (k + 1) * block)); });
-}
 
 }  // namespace treadmark

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark {
 

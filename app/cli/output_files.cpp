@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
@@ -80,7 +80,7 @@ std::vector<std::string> write_fields(const std::filesystem::path& folder, Write
 
 /// What goes into files of its own, at most one of them by HDF5; nothing interrupts it.
 void write_side_by_side(const std::vector<std::function<void()>>& parts) {
-  const CancellationScope whole(&never_cancelled());
+  const NeverCancelled whole;
   parallel_for(parts.size(), [&](std::size_t k) { parts[k](); });
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/check_point.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 

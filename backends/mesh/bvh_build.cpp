@@ -8,6 +8,7 @@
 #include "treadmark/backends/mesh/bvh.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 

@@ -15,7 +15,7 @@
 #include "treadmark/backends/mesh/prepare.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 

@@ -12,7 +12,7 @@
 #include "treadmark/backends/mesh/buckets.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 

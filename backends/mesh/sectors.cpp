@@ -11,7 +11,7 @@
 
 #include "treadmark/backends/mesh/vertex_fit.hpp"
 #include "treadmark/core/check_point.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 

@@ -8,7 +8,7 @@
 
 #include "treadmark/backends/mesh/blend.hpp"
 #include "treadmark/backends/mesh/kernels.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 

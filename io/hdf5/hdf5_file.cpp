@@ -17,8 +17,8 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
@@ -201,7 +201,7 @@ struct Hdf5Pending {
     for (Dataset& dataset : datasets)
       for (Hdf5Chunk& chunk : dataset.chunks) all.emplace_back(&dataset, &chunk);
     {
-      const CancellationScope whole(&never_cancelled());
+      const NeverCancelled whole;
       parallel_for(all.size(), [&](std::size_t k) {
         const auto& [dataset, chunk] = all[k];
         const std::vector<unsigned char> plain = shuffled(chunk->bytes, dataset->width);

@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/results/field_table.hpp"
@@ -139,7 +139,7 @@ void write_case(VtkFiles& files, const CaseResult& result, double time, const st
 std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder, const RunResult& run,
                                              const std::string& stem, std::span<const double> times) {
   std::vector<VtkFiles> of_case(run.cases.size(), VtkFiles(folder));
-  const CancellationScope whole(&never_cancelled());
+  const NeverCancelled whole;
   parallel_for(run.cases.size(),
                [&](std::size_t k) { write_case(of_case[k], run.cases[k], time_of(run, k, times), stem); });
   VtkFiles files(folder);
@@ -210,7 +210,7 @@ std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path&
   std::vector<const Stand*> all;
   for (const auto& [name, known] : stands)
     for (const Stand& stand : known) all.push_back(&stand);
-  const CancellationScope whole(&never_cancelled());
+  const NeverCancelled whole;
   parallel_for(all.size(), [&](std::size_t k) {
     write_file(folder / all[k]->file,
                surface_to_vtp(run.sampled[static_cast<std::size_t>(all[k]->surface)], all[k]->pose));

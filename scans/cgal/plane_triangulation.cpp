@@ -13,6 +13,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/scans/cgal/plane_points.hpp"
 
 namespace treadmark::scans {

@@ -8,6 +8,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/scans/fit/level_fit.hpp"
 #include "treadmark/scans/fit/significance.hpp"

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/scans/placement/voxels.hpp"
 
 namespace treadmark::scans {

@@ -12,7 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::scans {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::scans {
 namespace {

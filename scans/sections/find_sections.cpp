@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/parallel_sort.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 

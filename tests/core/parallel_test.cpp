@@ -16,6 +16,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/parallel_sort.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/core/random.hpp"
