@@ -31,12 +31,12 @@ bool runs(const Corners& triangle, std::uint32_t a, std::uint32_t b) {
       {}, "it contains a one-sided band (Moebius): cut it open or repair it in a mesh program");
 }
 
-constexpr std::size_t kTask = 1 << 14;  ///< triangles that one thread looks at
+constexpr std::size_t kOriented = 1 << 14;  ///< triangles that one thread looks at
 
 /// Whether all neighbours run along their common edges in opposite directions.
 bool agree(const PreparedMesh& mesh) {
   std::atomic<bool> all = true;
-  parallel_blocks(mesh.triangles.size(), kTask, [&](std::size_t from, std::size_t to) {
+  parallel_blocks(mesh.triangles.size(), kOriented, [&](std::size_t from, std::size_t to) {
     for (std::size_t t = from; t < to && all.load(std::memory_order_relaxed); ++t)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t n = mesh.neighbours[t][k];
@@ -55,15 +55,15 @@ double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uin
     double sum = 0.0, size = 0.0;
     bool closed = true;
   };
-  std::vector<Share> shares((part.size() + kTask - 1) / kTask);
-  parallel_blocks(part.size(), kTask, [&](std::size_t from, std::size_t to) {
+  std::vector<Share> shares((part.size() + kOriented - 1) / kOriented);
+  parallel_blocks(part.size(), kOriented, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i)
       for (const std::uint32_t n : mesh.neighbours[part[i]])
-        shares[from / kTask].closed = shares[from / kTask].closed && n != kNone;
+        shares[from / kOriented].closed = shares[from / kOriented].closed && n != kNone;
   });
   const bool closed = std::ranges::all_of(shares, &Share::closed);
   const Vec3 base = mesh.vertices[mesh.triangles[part.front()][0]];
-  parallel_blocks(part.size(), kTask, [&](std::size_t from, std::size_t to) {
+  parallel_blocks(part.size(), kOriented, [&](std::size_t from, std::size_t to) {
     Share own;
     for (std::size_t i = from; i < to; ++i) {
       const std::uint32_t t = part[i];
@@ -83,7 +83,7 @@ double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uin
       own.sum += share;
       own.size += std::fabs(share);
     }
-    shares[from / kTask] = own;
+    shares[from / kOriented] = own;
   });
   double sum = 0.0, size = 0.0;
   for (const Share& share : shares) sum += share.sum, size += share.size;

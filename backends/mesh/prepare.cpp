@@ -29,16 +29,16 @@ constexpr double kWidestRail = 2.0, kSmallestRail = 1e-3;       ///< [m] section
   throw Error(ErrorKind::input_data, fmt::format("the mesh '{}' {}", mesh.name, what), {}, advice);
 }
 
-constexpr std::size_t kTask = 1 << 14;  ///< vertices or triangles that one thread looks at
+constexpr std::size_t kChecked = 1 << 14;  ///< vertices or triangles that one thread looks at
 
 /// The first number below count for which bad holds; count if there is none.
 template <class Bad>
 std::size_t first_of(std::size_t count, const Bad& bad) {
-  std::vector<std::size_t> found((count + kTask - 1) / kTask, count);
-  parallel_blocks(count, kTask, [&](std::size_t from, std::size_t to) {
+  std::vector<std::size_t> found((count + kChecked - 1) / kChecked, count);
+  parallel_blocks(count, kChecked, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i)
       if (bad(i)) {
-        found[from / kTask] = i;
+        found[from / kChecked] = i;
         return;
       }
   });
@@ -77,15 +77,15 @@ struct Extent {
 };
 
 Extent extent_of(const TriangleMesh& mesh) {
-  std::vector<Extent> parts((mesh.triangles.size() + kTask - 1) / kTask);
-  parallel_blocks(mesh.triangles.size(), kTask, [&](std::size_t from, std::size_t to) {
+  std::vector<Extent> parts((mesh.triangles.size() + kChecked - 1) / kChecked);
+  parallel_blocks(mesh.triangles.size(), kChecked, [&](std::size_t from, std::size_t to) {
     Extent own;
     for (std::size_t t = from; t < to; ++t)
       for (const std::uint32_t v : mesh.triangles[t]) {
         const Vec3& p = mesh.vertices[v];
         own.widen({p, p, p.x() * p.x() + p.z() * p.z()});
       }
-    parts[from / kTask] = own;
+    parts[from / kChecked] = own;
   });
   Extent all;
   for (const Extent& part : parts) all.widen(part);
@@ -170,7 +170,7 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
 
   result.triangles.resize(mesh.triangles.size());
   std::vector<char> flat(mesh.triangles.size());
-  parallel_blocks(mesh.triangles.size(), kTask, [&](std::size_t from, std::size_t to) {
+  parallel_blocks(mesh.triangles.size(), kChecked, [&](std::size_t from, std::size_t to) {
     for (std::size_t t = from; t < to; ++t) {
       const auto& corners = mesh.triangles[t];
       const Corners& c = result.triangles[t] = {same[corners[0]], same[corners[1]], same[corners[2]]};
@@ -200,7 +200,7 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
     result.high = result.high.cwiseMax(local);
   }
   result.vertices.shrink_to_fit();
-  parallel_blocks(result.triangles.size(), kTask, [&](std::size_t from, std::size_t to) {
+  parallel_blocks(result.triangles.size(), kChecked, [&](std::size_t from, std::size_t to) {
     for (std::size_t t = from; t < to; ++t)
       for (std::uint32_t& v : result.triangles[t]) v = renumbered[v];
   });

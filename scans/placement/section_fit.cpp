@@ -179,8 +179,8 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
       d.reserve(near[k].size());
       for (const Near& n : near[k]) d.push_back(n.d);
       if (d.empty()) return;
-      level[k] = median_of(d);
-      for (double& value : d) value = std::fabs(value - level[k]);
+      const double middle = level[k] = median_of(d);
+      for (double& value : d) value = std::fabs(value - middle);
       scale[k] = kMad * median_of(d);
     });
     std::vector<double> scales;
@@ -196,8 +196,8 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
       return sum;
     };
     struct Sums {
-      Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-      Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
+      std::array<double, 16> matrix{};
+      std::array<double, 4> rhs{};
     };
     std::vector<Sums> sums(intervals);
     constexpr int kReweights = 6;
@@ -210,18 +210,23 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
           const double r = (n.d - (again == 0 ? level[cell] : value_at(cell, b))) / width;
           if (!(std::fabs(r) < 1.0)) continue;
           const double w = (1.0 - r * r) * (1.0 - r * r);
-          const Eigen::Map<const Eigen::Vector4d> basis(b.data());
-          own.rhs += w * n.d * basis;
-          own.matrix += w * basis * basis.transpose();
+          for (std::size_t i = 0; i < 4; ++i) {
+            own.rhs[i] += w * b[i] * n.d;
+            for (std::size_t k = 0; k < 4; ++k) own.matrix[4 * i + k] += w * b[i] * b[k];
+          }
         }
         sums[cell] = own;
       });
       Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
       Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size);
       for (std::size_t cell = 0; cell < intervals; ++cell) {
-        const auto first = static_cast<Eigen::Index>(cell);
-        rhs.segment<4>(first) += sums[cell].rhs;
-        matrix.block<4, 4>(first, first) += sums[cell].matrix;
+        // not segment<4>: GCC 12 loses sums of segments that overlap (-O3)
+        for (std::size_t i = 0; i < 4; ++i) {
+          const auto row = static_cast<Eigen::Index>(cell + i);
+          rhs[row] += sums[cell].rhs[i];
+          for (std::size_t k = 0; k < 4; ++k)
+            matrix(row, static_cast<Eigen::Index>(cell + k)) += sums[cell].matrix[4 * i + k];
+        }
       }
       // second differences bridge strips without points
       const double stiffness = 1e-4 * matrix.trace() / static_cast<double>(size);

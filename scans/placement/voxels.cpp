@@ -17,28 +17,28 @@ constexpr std::uint64_t kNone = ~std::uint64_t{0};
 
 using Entry = std::pair<std::uint64_t, std::uint32_t>;  // number of a cube, index of a point
 
-constexpr std::size_t kBlock = 1 << 15;  // points of a task
+constexpr std::size_t kSorted = 1 << 15;  // points of a task
 
 /// Sorts pairs below a bound by key, then index: least significant digits first, 11 bits at a time (Knuth 1998, 5.2.5),
 /// in blocks that know where the values of those before them go.
 void sort_by_key(std::vector<Entry>& entries, std::uint64_t bound) {
   constexpr int kBits = 11;
   constexpr std::size_t kDigits = std::size_t{1} << kBits;
-  const std::size_t blocks = (entries.size() + kBlock - 1) / kBlock;
+  const std::size_t blocks = (entries.size() + kSorted - 1) / kSorted;
   std::vector<Entry> other(entries.size());
   std::vector<std::array<std::uint32_t, kDigits>> start(blocks);
   for (int shift = 0; shift < 64 && bound >> shift > 0; shift += kBits) {
     const auto digit = [&](const Entry& entry) { return (entry.first >> shift) & (kDigits - 1); };
-    parallel_blocks(entries.size(), kBlock, [&](std::size_t from, std::size_t to) {
-      auto& count = start[from / kBlock];
+    parallel_blocks(entries.size(), kSorted, [&](std::size_t from, std::size_t to) {
+      auto& count = start[from / kSorted];
       count.fill(0);
       for (std::size_t i = from; i < to; ++i) ++count[digit(entries[i])];
     });
     std::uint32_t sum = 0;
     for (std::size_t value = 0; value < kDigits; ++value)
       for (auto& place : start) sum += std::exchange(place[value], sum);
-    parallel_blocks(entries.size(), kBlock, [&](std::size_t from, std::size_t to) {
-      auto& place = start[from / kBlock];
+    parallel_blocks(entries.size(), kSorted, [&](std::size_t from, std::size_t to) {
+      auto& place = start[from / kSorted];
       for (std::size_t i = from; i < to; ++i) other[place[digit(entries[i])]++] = entries[i];
     });
     entries.swap(other);
@@ -68,8 +68,8 @@ std::array<std::uint64_t, 3> split(std::uint64_t key) {
 Voxels::Voxels(std::span<const Vec3> points, const Vec3& origin, double size, std::span<const std::uint8_t> keep)
     : size_(size) {
   std::vector<Entry> entries(points.size());
-  std::vector<Cells> of_block((points.size() + kBlock - 1) / kBlock);
-  parallel_blocks(points.size(), kBlock, [&](std::size_t from, std::size_t to) {
+  std::vector<Cells> of_block((points.size() + kSorted - 1) / kSorted);
+  parallel_blocks(points.size(), kSorted, [&](std::size_t from, std::size_t to) {
     Cells seen;
     for (std::size_t i = from; i < to; ++i) {
       std::uint64_t key = 0;
@@ -81,7 +81,7 @@ Voxels::Voxels(std::span<const Vec3> points, const Vec3& origin, double size, st
       entries[i] = {key, static_cast<std::uint32_t>(i)};
       if (key != kNone) seen.widen(split(key));
     }
-    of_block[from / kBlock] = seen;
+    of_block[from / kSorted] = seen;
   });
   std::erase_if(entries, [](const Entry& entry) { return entry.first == kNone; });
   Cells all;
@@ -91,7 +91,7 @@ Voxels::Voxels(std::span<const Vec3> points, const Vec3& origin, double size, st
   std::array<std::uint64_t, 3> width{1, 1, 1};
   if (!entries.empty())
     for (std::size_t k = 0; k < 3; ++k) width[k] = all.most[k] - all.least[k] + 1;
-  parallel_blocks(entries.size(), kBlock, [&](std::size_t from, std::size_t to) {
+  parallel_blocks(entries.size(), kSorted, [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
       const auto [x, y, z] = split(entries[i].first);
       entries[i].first = ((z - all.least[2]) * width[1] + (y - all.least[1])) * width[0] + (x - all.least[0]);
