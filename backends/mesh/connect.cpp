@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/parallel_sort.hpp"
 
 namespace treadmark::mesh {
 
@@ -136,40 +138,24 @@ std::size_t hash(const Cell& cell) {
   return static_cast<std::size_t>(h);
 }
 
-}  // namespace
+/// Cells far larger than the tolerance, so that a point seldom lies near the border of its cell.
+class MergeCells {
+ public:
+  MergeCells(const std::vector<Vec3>& points, double tolerance)
+      : points_(points), tolerance_(tolerance), per_cell_(1.0 / (16.0 * tolerance)) {}
 
-std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double tolerance) {
-  // cells far larger than the tolerance, so that a point seldom lies near the border of its cell
-  tolerance = std::max(tolerance, 1e-300);
-  const double per_cell = 1.0 / (16.0 * tolerance);
-  std::size_t size = 16;
-  while (size < 2 * points.size()) size *= 2;
-  std::vector<std::uint32_t> same(points.size());
-  const Vec3 origin = points.empty() ? Vec3(Vec3::Zero()) : points.front();
-  constexpr double kFar = 4e18;  // cells beyond are one; distances are compared anyway
-  const auto cell_of = [&](const Vec3& p, double shift) {
-    Cell cell;
-    for (int k = 0; k < 3; ++k)
-      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(
-          std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - origin[k] + shift) * per_cell))));
-    return cell;
-  };
-  // all points by the slot of their cell, each slot ascending
-  constexpr std::size_t kTask = 1 << 14;
-  std::vector<std::uint32_t> slot(points.size()), begin(size + 1, 0), inside(points.size());
-  parallel_blocks(points.size(), kTask, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i)
-      slot[i] = static_cast<std::uint32_t>(hash(cell_of(points[i], 0.0)) & (size - 1));
-  });
-  for (const std::uint32_t s : slot) ++begin[s];
-  std::uint32_t sum = 0;
-  for (std::uint32_t& b : begin) sum = b += sum;  // the ends, from which they are filled downwards
-  for (std::size_t i = points.size(); i-- > 0;) inside[--begin[slot[i]]] = static_cast<std::uint32_t>(i);
-  /// Of those before point i within the tolerance and wanted the first one; i if there is none.
-  const auto first_near = [&](std::uint32_t i, const auto& wanted) {
-    const Vec3& p = points[i];
-    std::uint32_t found = i;
-    const Cell low = cell_of(p, -tolerance), high = cell_of(p, tolerance);
+  bool close(std::uint32_t i, std::uint32_t j) const {
+    return (points_[i] - points_[j]).squaredNorm() <= tolerance_ * tolerance_;
+  }
+
+  bool equal(std::uint32_t i, std::uint32_t j) const { return points_[i] == points_[j]; }
+
+  std::size_t hash_of(std::uint32_t i) const { return hash(cell_of(points_[i], 0.0)); }
+
+  /// Calls visit(hash) for the cells, eight at most, in which points close to this one may lie.
+  template <class Visit>
+  void around(std::uint32_t i, const Visit& visit) const {
+    const Cell low = cell_of(points_[i], -tolerance_), high = cell_of(points_[i], tolerance_);
     for (int corner = 0; corner < 8; ++corner) {
       Cell cell = low;
       bool repeated = false;
@@ -178,23 +164,88 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
           repeated = repeated || high[k] == low[k];
           cell[k] = high[k];
         }
-      if (repeated) continue;
-      const std::size_t at = hash(cell) & (size - 1);
-      for (std::uint32_t k = begin[at]; k < begin[at + 1] && inside[k] < found; ++k)
-        if (wanted(inside[k]) && (points[inside[k]] - p).squaredNorm() <= tolerance * tolerance) found = inside[k];
+      if (!repeated) visit(hash(cell));
     }
-    return found;
-  };
-  parallel_blocks(points.size(), kTask, [&](std::size_t from, std::size_t to) {
+  }
+
+ private:
+  Cell cell_of(const Vec3& p, double shift) const {
+    constexpr double kFar = 4e18;  // cells beyond are one; distances are compared anyway
+    Cell cell;
+    for (int k = 0; k < 3; ++k)
+      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(
+          std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - points_.front()[k] + shift) * per_cell_))));
+    return cell;
+  }
+
+  const std::vector<Vec3>& points_;
+  double tolerance_, per_cell_;
+};
+
+/// Ascending, the points that have others close to them. They are sorted by their cells, which meets memory in order
+/// where a table of all points would miss the caches at every step.
+std::vector<std::uint32_t> not_alone(const MergeCells& cells, std::size_t count) {
+  constexpr std::size_t kTask = 1 << 14;
+  std::vector<std::vector<std::uint64_t>> parts((count + kTask - 1) / kTask);
+  parallel_blocks(count, kTask, [&](std::size_t from, std::size_t to) {
+    std::vector<std::uint64_t>& own = parts[from / kTask];
+    own.reserve(2 * kTask);
     for (auto i = static_cast<std::uint32_t>(from); i < to; ++i)
-      same[i] = first_near(i, [](std::uint32_t) { return true; });
+      cells.around(i, [&](std::size_t hash) { own.push_back(static_cast<std::uint64_t>(hash) << 32 | i); });
   });
-  // few have others before them: to those of them that stand for themselves
+  std::vector<std::uint64_t> places;  // hash of a cell, point
+  for (std::vector<std::uint64_t>& part : parts) {
+    places.insert(places.end(), part.begin(), part.end());
+    part = {};
+  }
+  parallel_sort(places, std::less<>());
+  const auto point = [&](std::size_t k) { return static_cast<std::uint32_t>(places[k]); };
+  const auto same_cell = [&](std::size_t k, std::size_t l) { return places[k] >> 32 == places[l] >> 32; };
+  std::vector<char> found(count, 0);
+  const auto mark = [&](std::uint32_t i) { std::atomic_ref(found[i]).store(1, std::memory_order_relaxed); };
+  parallel_blocks(places.size(), kTask, [&](std::size_t from, std::size_t to) {
+    CheckPoint check;
+    for (std::size_t first = from; first < to; ++first) {
+      if (first > 0 && same_cell(first - 1, first)) continue;
+      for (std::size_t k = first + 1; k < places.size() && same_cell(first, k); ++k)
+        for (std::size_t before = first; before < k; ++before) {
+          check.pass();
+          if (!cells.close(point(k), point(before))) continue;
+          mark(point(k));
+          mark(point(before));
+          if (cells.equal(point(k), point(before)))
+            break;  // what is close to one is close to the other, and marked there
+        }
+    }
+  });
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (found[i] != 0) out.push_back(i);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double tolerance) {
+  const MergeCells cells(points, std::max(tolerance, 1e-300));
+  std::vector<std::uint32_t> same(points.size());
+  std::iota(same.begin(), same.end(), 0u);
+  const std::vector<std::uint32_t> candidates = not_alone(cells, points.size());
+  if (candidates.empty()) return same;
+  std::size_t size = 16;
+  while (size < 2 * candidates.size()) size *= 2;
+  std::vector<std::uint32_t> first(size, kNone), next(points.size(), kNone);
   CheckPoint check;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
+  for (const std::uint32_t i : candidates) {
     check.pass();
-    if (same[i] != i && same[same[i]] != same[i])
-      same[i] = first_near(i, [&](std::uint32_t j) { return same[j] == j; });
+    cells.around(i, [&](std::size_t hash) {
+      for (std::uint32_t j = first[hash & (size - 1)]; j != kNone; j = next[j])
+        if (cells.close(i, j)) same[i] = std::min(same[i], j);
+    });
+    if (same[i] != i) continue;
+    const std::size_t slot = cells.hash_of(i) & (size - 1);
+    next[i] = first[slot];
+    first[slot] = i;
   }
   return same;
 }
