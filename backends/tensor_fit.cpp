@@ -47,7 +47,7 @@ class Fit {
                     "write triangles, or limit the range");
   }
 
-  Off off(const sampling::PointGrid& grid, const Surface& spline, bool along_too) const {
+  Off off(const sampling::PointGrid& grid, const Surface& spline, bool along_too, double tolerance) const {
     const std::size_t nu = grid.u.size(), ny = grid.y.size(), intervals = nu - (grid.closed ? 0 : 1);
     std::vector<double> between;
     between.reserve(3 * ny);
@@ -72,6 +72,9 @@ class Fit {
       for (std::size_t k = 0; k < row.size(); ++k) out.across[k / 3] = std::max(out.across[k / 3], row[k]);
     for (const auto* list : {&out.along, &out.across, &both})
       for (const double d : *list) out.most = std::max(out.most, d);
+    // what is left where both directions are good by themselves
+    const auto good = [tolerance](double d) { return d <= tolerance; };
+    if (std::ranges::all_of(out.along, good) && std::ranges::all_of(out.across, good)) out.along = both;
     return out;
   }
 
@@ -92,15 +95,16 @@ class Fit {
   Body body_;
 };
 
-/// Middles of what lies off and is not yet short.
+/// With the middles of intervals that lie off and are not yet short; length(i): of interval i [m].
+template <class Length>
 std::vector<double> parted(const std::vector<double>& at, double end, const std::vector<double>& off, double tolerance,
-                           double shortest) {
+                           const Length& length) {
   std::vector<double> out;
   out.reserve(2 * at.size());
   for (std::size_t i = 0; i < at.size(); ++i) {
     out.push_back(at[i]);
     const double next = i + 1 < at.size() ? at[i + 1] : end;
-    if (i < off.size() && off[i] > tolerance && next - at[i] > 2.0 * shortest) out.push_back(0.5 * (at[i] + next));
+    if (i < off.size() && off[i] > tolerance && length(i) > 2.0 * kFinest) out.push_back(0.5 * (at[i] + next));
   }
   return out;
 }
@@ -139,18 +143,23 @@ TensorFit to_tensor_spline(const NaturalSurface& natural, const Representation& 
   out.one_section = natural.constant_profile();
   sampling::PointGrid grid = coarse_grid(r, out.one_section);
   const Fit fit(r.surface(), spec.body);
-  const double finest_u = spec.body == Body::wheel ? kFinest / spec.nominal_radius : kFinest;
+  const double per_u = spec.body == Body::wheel ? spec.nominal_radius : 1.0;
   for (int pass = 0;; ++pass) {
     fit.fill(grid);
     const auto spline = spline::fit_tensor_spline(grid);
-    const Off off = fit.off(grid, *spline.surface, !out.one_section);
+    const Off off = fit.off(grid, *spline.surface, !out.one_section, tolerance);
     out.spline = spline.spline;
     out.deviation = off.most;
     if (off.most <= tolerance || pass == kMostPasses) break;
     sampling::PointGrid next = grid;
     const double end = grid.closed ? grid.u.front() + 2.0 * kPi : grid.u.back();
-    next.u = parted(grid.u, end, off.along, tolerance, finest_u);
-    next.y = parted(grid.y, grid.y.back(), off.across, tolerance, kFinest);
+    next.u = parted(grid.u, end, off.along, tolerance,
+                    [&](std::size_t i) { return per_u * ((i + 1 < grid.u.size() ? grid.u[i + 1] : end) - grid.u[i]); });
+    // where the section is steep y alone says little
+    next.y = parted(grid.y, grid.y.back(), off.across, tolerance, [&](std::size_t k) {
+      const std::size_t middle = grid.u.size() / 2;
+      return (grid.point(middle, k + 1) - grid.point(middle, k)).norm();
+    });
     const bool same = next.u.size() == grid.u.size() && next.y.size() == grid.y.size();
     if (same || static_cast<double>(next.u.size()) * static_cast<double>(next.y.size()) > kMostFitPoints) break;
     grid = std::move(next);

@@ -517,6 +517,12 @@ CadSurface cad::running_surface(const CadShape& shape, Body body, double nominal
     throw Error(ErrorKind::input_data, "there is no surface of any length", {file.string()},
                 "x forward, y to the right, z down; the axle of a wheel is the y axis: is the part placed so?");
   const RunningSurface::Section section = surface.section(start);
+  constexpr double kLeast = 0.8, kMost = 1.25;  // of the nominal radius
+  if (body == Body::wheel && !(section.top > kLeast * nominal_radius && section.top < kMost * nominal_radius))
+    throw Error(ErrorKind::input_data,
+                fmt::format("its greatest radius about the y axis is {:.6g} mm, the nominal radius {:.6g} mm",
+                            1e3 * section.top, 1e3 * nominal_radius),
+                {file.string()}, "the axle of a wheel is the y axis: is the part placed so, and its unit right?");
   CadSurface out;
   out.note = fmt::format("{} faces in {}. ", shape.faces(), shape.unit());
   const std::string name = file.filename().string();

@@ -61,7 +61,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -349,12 +348,13 @@ class FaceTriangles {
   bool divide(double side, std::size_t most) {
     constexpr int kRounds = 24;
     for (int round = 0; round < kRounds; ++round) {
-      std::map<std::pair<int, int>, int> middles;
+      std::unordered_map<std::uint64_t, int> middles;
+      middles.reserve(triangles_.size());
       std::vector<std::array<int, 3>> next;
       next.reserve(triangles_.size() * 2);
       const auto middle = [&](int a, int b) {
         if (points_[static_cast<std::size_t>(a)].Distance(points_[static_cast<std::size_t>(b)]) <= side) return -1;
-        const auto [at, fresh] = middles.try_emplace(std::minmax(a, b), -1);
+        const auto [at, fresh] = middles.try_emplace(side_of(a, b), -1);
         if (fresh) at->second = halve(a, b);
         return at->second;
       };
@@ -399,13 +399,17 @@ class FaceTriangles {
     double from, to;  // of the lesser and the greater node
   };
 
+  /// The same for both directions.
+  static std::uint64_t side_of(int a, int b) {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint64_t>(std::max(a, b));
+  }
   void note_border(int a, int b, OnBorder on) {
     if (a > b) std::swap(a, b), std::swap(on.from, on.to);
-    on_border_.insert_or_assign({a, b}, on);
+    on_border_.insert_or_assign(side_of(a, b), on);
   }
   int halve(int a, int b) {
     const int fresh = static_cast<int>(points_.size());
-    const auto found = on_border_.find(std::minmax(a, b));
+    const auto found = on_border_.find(side_of(a, b));
     if (found != on_border_.end()) {
       const OnBorder on = found->second;
       const double t = 0.5 * (on.from + on.to);
@@ -445,7 +449,7 @@ class FaceTriangles {
   std::vector<gp_Pnt2d> uv_;
   std::vector<std::array<int, 3>> triangles_;
   std::vector<Border> borders_;
-  std::map<std::pair<int, int>, OnBorder> on_border_;
+  std::unordered_map<std::uint64_t, OnBorder> on_border_;
 };
 
 /// Corners that neighbours share become one.

@@ -112,7 +112,8 @@ TEST_F(Cad, RefusesWhatIsNoFileOfItsKind) {
   EXPECT_THAT(refusal(sample("rail.step").substr(0, 2500)), HasSubstr("no STEP file"));
   EXPECT_THAT(error_of([&] { read_cad(folder_.path() / "none.step", Body::rail, 0.0); }), HasSubstr("cannot open"));
   // as a wheel the cylinder's axis lies across
-  EXPECT_NE(refusal(sample("rail.step"), "rail.step", Body::wheel), "");
+  EXPECT_THAT(refusal(sample("rail.step"), "rail.step", Body::wheel),
+              HasSubstr("its greatest radius about the y axis is 100.199 mm, the nominal radius 460 mm"));
 }
 
 double paraboloid(double x, double y, double b) { return b * y * y + 0.02 * (x - 0.05) * (x - 0.05); }
@@ -175,7 +176,7 @@ TEST_F(Cad, WritesAndReadsTheVeryCoefficients) {
   check(back);
   ASSERT_EQ(back.knots_u, given.knots_u);
   ASSERT_EQ(back.knots_v, given.knots_v);
-  for (std::size_t k = 0; k < given.poles.size(); ++k) EXPECT_LT((back.poles[k] - given.poles[k]).norm(), 1e-15);
+  for (std::size_t k = 0; k < given.poles.size(); ++k) EXPECT_LT((back.poles[k] - given.poles[k]).norm(), 1e-14);
   for (double x = 0.0; x <= 0.06; x += 0.003)
     for (double y = -0.03; y <= 0.03; y += 0.002)
       EXPECT_LT(
@@ -351,8 +352,8 @@ TEST_F(Cad, ManyFacesAreOneRunningSurface) {
   const CadSurface s = read(with_faces(text, faces));
   ASSERT_TRUE(std::holds_alternative<Profile>(s.shape)) << s.note;
   EXPECT_THAT(s.note, HasSubstr("2000 faces"));
-  // the sagitta of a strip
-  expect_crown(std::get<Profile>(s.shape), kRadius * 0.5 * 1e-3 * 1e-3);
+  // the sagitta of a strip, seen askew
+  expect_crown(std::get<Profile>(s.shape), kRadius * 0.5 * 1e-3 * 1e-3 / std::cos(0.4));
 }
 
 TEST_F(Cad, RefusesMoreFacesThanItCounts) {
@@ -365,7 +366,7 @@ TEST_F(Cad, RefusesMoreFacesThanItCounts) {
 
 TEST_F(Cad, RefusesWhatIsLargerThanAnyRail) {
   EXPECT_THAT(refusal(replaced(sample("rail.step"), "SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT(.KILO.,.METRE.)")),
-              AllOf(HasSubstr("m long"), HasSubstr("is its unit right?")));
+              HasSubstr("the part is 2e+05 m long"));
 }
 
 /// Texts with their bytes, numbers, entities or ends changed.
