@@ -35,7 +35,7 @@ constexpr double kDeviation = 1e-7;  // that makes slices closer [m]
 constexpr double kFarApart = 60e-3;  // a surface that begins again so far aside is another one [m]
 constexpr double kLongest = 200.0, kWidest = 10.0;  // of a body [m]
 constexpr std::size_t kMostSlices = 20'000;
-constexpr double kSide = 0.5e-3, kFlat = 1e-6;  // of triangles: longest side, deviation [m]
+constexpr double kSide = 0.5e-3, kFlat = 20e-6;  // of triangles: longest side; deviation before they are divided [m]
 
 /// Slices of one width are not all of the surface.
 struct SidesMove {

@@ -344,30 +344,32 @@ class FaceTriangles {
     }
   }
 
-  /// Errors: false for more triangles than asked for.
-  bool divide(double side, std::size_t most) {
-    constexpr int kRounds = 24;
-    for (int round = 0; round < kRounds; ++round) {
+  /// Halves the longest sides, which makes thin triangles stouter (Rivara 1984), until none is too long. Every side
+  /// that is, and no other, is halved at last, so that neighbours agree. False: more triangles than asked for.
+  bool divide(double longest, std::size_t most) {
+    const auto length = [&](int a, int b) {
+      return points_[static_cast<std::size_t>(a)].SquareDistance(points_[static_cast<std::size_t>(b)]);
+    };
+    for (;;) {
       std::unordered_map<std::uint64_t, int> middles;
-      middles.reserve(triangles_.size());
-      std::vector<std::array<int, 3>> next;
-      next.reserve(triangles_.size() * 2);
-      const auto middle = [&](int a, int b) {
-        if (points_[static_cast<std::size_t>(a)].Distance(points_[static_cast<std::size_t>(b)]) <= side) return -1;
-        const auto [at, fresh] = middles.try_emplace(side_of(a, b), -1);
-        if (fresh) at->second = halve(a, b);
-        return at->second;
-      };
       for (const auto& t : triangles_) {
-        const std::array<int, 3> m{middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])};
-        part(t, m, next);
+        const std::array<double, 3> sides{length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])};
+        const auto k = static_cast<std::size_t>(std::ranges::max_element(sides) - sides.begin());
+        if (sides[k] <= longest * longest) continue;
+        const int a = t[k], b = t[(k + 1) % 3];
+        if (const auto [at, fresh] = middles.try_emplace(side_of(a, b), -1); fresh) at->second = halve(a, b);
       }
-      const bool same = next.size() == triangles_.size();
+      if (middles.empty()) return true;
+      std::vector<std::array<int, 3>> next;
+      next.reserve(triangles_.size() + 2 * middles.size());
+      const auto middle = [&](int a, int b) {
+        const auto at = middles.find(side_of(a, b));
+        return at == middles.end() ? -1 : at->second;
+      };
+      for (const auto& t : triangles_) part(t, {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])}, next);
       triangles_ = std::move(next);
       if (triangles_.size() > most) return false;
-      if (same) return true;
     }
-    return true;
   }
 
   /// Adds them; deviation: see CadTriangles.
