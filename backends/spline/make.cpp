@@ -42,7 +42,7 @@ FittedSpline fit_tensor_spline(const sampling::PointGrid& points) {
 }
 
 std::shared_ptr<const Surface> make_nurbs_surface(const TensorSpline& spline, std::string& note) {
-  double deviation = 1e-9;
+  double deviation = 1e-8;
   NurbsNet net = net_of(spline, deviation);
   if (deviation > 0.0)
     note +=

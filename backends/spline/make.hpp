@@ -40,7 +40,7 @@ struct FittedSpline {
 };
 FittedSpline fit_tensor_spline(const sampling::PointGrid& points);
 
-/// A B-spline surface that is given: exactly up to degree 3, above it within 1 nm, which the note tells. Errors: those
+/// A B-spline surface that is given: exactly up to degree 3, above it within 10 nm, which the note tells. Errors: those
 /// of net_of.
 std::shared_ptr<const Surface> make_nurbs_surface(const TensorSpline& spline, std::string& note);
 
