@@ -132,7 +132,8 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
 Command add_convert(CLI::App& verb) {
   auto options = std::make_shared<ConvertOptions>();
   verb.add_option("IN", options->input,
-                  "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), offsets (.vdb), a case file, "
+                  "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), offsets (.vdb), a name of "
+                  "'treadmark list profiles', a case file, "
                   "or with --at the "
                   "simulation.h5 of a simulation")
       ->required();

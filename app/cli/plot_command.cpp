@@ -24,7 +24,7 @@ int plot_command(const PlotOptions& options, const CommonOptions&) {
   const app::report::Page page = app::report::read_report(options.folder);
   if (options.what.empty()) {
     for (const auto& [name, meaning] : app::report::plots_of(page))
-      std::cout << fmt::format("{:<22} {}\n", name, meaning);
+      std::cout << fmt::format("{:<32} {}\n", name, meaning);
     return kOk;
   }
   if (options.output_file.empty())

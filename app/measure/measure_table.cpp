@@ -10,7 +10,9 @@
 namespace treadmark::app {
 namespace {
 
-std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3f}", value + 0.0); }
+std::string shown(double value) {
+  return std::isnan(value) ? "-" : fmt::format("{:.3f}", std::round(1e3 * value) / 1e3 + 0.0);  // no "-0.000"
+}
 
 /// What follows a key's last "_".
 std::string unit_shown(std::string_view key) {

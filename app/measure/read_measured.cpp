@@ -39,10 +39,7 @@ Profile library_points(const std::string& name, Body body) {
 }
 
 /// A section that was read is where it is: no scatter is looked for in exact shapes.
-bool is_library_name(const std::string& name) {
-  std::error_code ignored;
-  return !fs::exists(name, ignored) && library_body(name).has_value();
-}
+bool is_library_name(const std::string& name) { return library_body_of(name).has_value(); }
 
 ReadMeasured read_points(const std::string& name, const MeasureRequest& request) {
   io::ProfileOptions options;

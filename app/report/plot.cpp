@@ -37,6 +37,20 @@ bool is_chart_like(const Figure& figure) {
          !std::holds_alternative<TrackView>(figure.view);
 }
 
+/// Whether a figure shows another picture at another step.
+bool has_steps(const Figure& figure) {
+  const auto* map = std::get_if<MapView>(&figure.view);
+  const auto* chart = std::get_if<ChartView>(&figure.view);
+  return (map != nullptr && !map->by_step.empty()) || (chart != nullptr && !chart->by_step.empty());
+}
+
+/// The step of a page's only set that shows this case.
+std::size_t step_of(const Page& page, int number) {
+  const std::vector<Frame>& frames = page.sets.front().frames;
+  const auto found = std::ranges::find(frames, number, [](const Frame& frame) { return frame.result->number; });
+  return static_cast<std::size_t>(found - frames.begin());
+}
+
 std::vector<Frame> chosen(const Page& page, const std::vector<int>& cases) {
   std::vector<Frame> frames;
   std::string known;
@@ -76,14 +90,18 @@ std::string plot(const Page& page, const std::string& what, const std::vector<in
       throw Error(ErrorKind::configuration, "a section is that of one case", {}, "give one number after --case");
     if (!cases.empty()) return section_svg({"", {}, chosen(page, cases)}, page.surfaces);
   }
+  const Figure* figure = nullptr;
+  each_figure(page, [&](const Figure& one) {
+    if (figure == nullptr && is_chart_like(one) && html_id(one.id) == what) figure = &one;
+  });
+  if (figure != nullptr && has_steps(*figure) && cases.size() == 1 && page.kind == "run") {
+    chosen(page, cases);  // refuses what is not there
+    return static_figure(*figure, page, step_of(page, cases.front())).front();
+  }
   if (!cases.empty())
     throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
   if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SceneView{0}}, page).front();
-  std::string svg;
-  each_figure(page, [&](const Figure& figure) {
-    if (svg.empty() && is_chart_like(figure) && html_id(figure.id) == what) svg = static_figure(figure, page).front();
-  });
-  if (!svg.empty()) return svg;
+  if (figure != nullptr) return static_figure(*figure, page).front();
   std::string known;
   for (const auto& [name, meaning] : plots_of(page)) known += (known.empty() ? "" : ", ") + name;
   throw Error(ErrorKind::configuration, fmt::format("these results have no plot \"{}\"", what), {},

@@ -82,12 +82,12 @@ std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurfac
   return section_svg(std::move(picture));
 }
 
-std::string map_svg(const MapView& map, const std::string& title) {
+std::string map_svg(const MapView& map, const std::string& title, std::size_t step) {
   pictures::ChartSheet sheet;
   sheet.title = title;
   sheet.right = 100.0, sheet.height = 260.0;
   if (map.nx < 1 || map.ny < 1) return draw_sheet(sheet);
-  const std::vector<double>& shown = map.by_step.empty() ? map.values : map.by_step.back();
+  const std::vector<double>& shown = map.by_step.empty() ? map.values : map.by_step.at(step);
   const std::vector<float> values(shown.begin(), shown.end());
   float low = INFINITY, high = -INFINITY;
   for (const float value : values)

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "treadmark/app/report/field_catalogue.hpp"
 #include "treadmark/core/error.hpp"
@@ -123,10 +124,11 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
   return draw_sheet(sheet);
 }
 
-std::vector<std::string> static_figure(const Figure& figure, const Page& page) {
+std::vector<std::string> static_figure(const Figure& figure, const Page& page, std::optional<std::size_t> step) {
   if (const auto* picture = std::get_if<PictureView>(&figure.view)) return {picture->svg};
-  if (const auto* chart = std::get_if<ChartView>(&figure.view)) return {chart_svg(*chart, page, figure.title)};
-  if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title)};
+  const std::size_t shown = step.value_or(page.timeline ? page.timeline->start : 0);
+  if (const auto* chart = std::get_if<ChartView>(&figure.view)) return {chart_svg(*chart, page, figure.title, shown)};
+  if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title, shown)};
   if (const auto* scene = std::get_if<SceneView>(&figure.view))
     return {section_svg(set_of(page, scene->set), page.surfaces)};
   if (std::holds_alternative<TrackView>(figure.view)) return {};

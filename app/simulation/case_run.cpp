@@ -38,7 +38,7 @@ std::vector<CaseColumn> case_columns() {
           {{"pmax_Pa", "Pa", "largest contact pressure"}, [](C c) { return most(c, &io::PatchResult::pmax); }},
           {{"approach_m", "m", "largest approach of a patch"}, [](C c) { return most(c, &io::PatchResult::approach); }},
           {{"friction_W", "W", "power dissipated by friction"},
-           [](C c) { return -sum(c, &io::PatchResult::frictional_power); }},
+           [](C c) { return 0.0 - sum(c, &io::PatchResult::frictional_power); }},
           {{"patches", "1", "contact patches"}, [](C c) { return static_cast<double>(c.patches.size()); }}};
 }
 

@@ -8,6 +8,7 @@
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/backends/resampling.hpp"
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
@@ -15,14 +16,18 @@
 namespace treadmark::app {
 namespace {
 
+constexpr double kAnyRadius = 0.46;  // [m]
+constexpr double kStep = 0.25e-3;    // [m] between points of arcs, as where formulas become splines
+
 Profile input_profile(const std::filesystem::path& input, const std::filesystem::path& output,
                       const ConvertSettings& settings) {
   const auto refuse = [&](const char* what, const char* advice) {
     throw Error(ErrorKind::configuration, what, {input.string()}, advice);
   };
-  if (settings.range_x || settings.range_theta || settings.resolution > 0.0)
-    refuse("ranges and resolutions belong to surfaces, a profile is written", "leave them out");
-  if (is_profile_file(input)) {
+  if (settings.range_x || settings.range_theta)
+    refuse("ranges belong to surfaces, a profile is written", "leave them out");
+  if (is_profile_file(input) && !library_body_of(input)) {
+    if (settings.resolution > 0.0) refuse("the points of a profile stay as they are", "leave out --resolution");
     if (!settings.overrides.empty()) refuse("--set changes keys of case files, this is none", "leave it out");
     std::optional<Body> body = settings.body ? settings.body : io::profile_body(input);
     if (!body) body = io::profile_body(output);
@@ -32,12 +37,17 @@ Profile input_profile(const std::filesystem::path& input, const std::filesystem:
     return io::read_profile(input, *body, options, {});
   }
   const std::optional<Body> body = settings.body ? settings.body : io::profile_body(output);
-  const NaturalSurface natural =
-      named_surface(input, {body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
+  // A section is the same at any radius; library names of wheels have none.
+  const double radius = settings.nominal_radius > 0.0 ? settings.nominal_radius
+                        : library_body_of(input)      ? kAnyRadius
+                                                      : 0.0;
+  const NaturalSurface natural = named_surface(input, {body, radius, settings.scale_to_mm, settings.overrides});
+  if (!natural.constant_profile())
+    refuse("the section is not the same everywhere, and one profile is written", "write triangles, slices or offsets");
   const auto* profile = std::get_if<Profile>(&natural.spec.shape);
-  if (profile == nullptr || !natural.constant_profile())
-    refuse("a profile can be written of a profile only", "write triangles, slices or offsets");
-  return *profile;
+  if (profile != nullptr && settings.resolution == 0.0) return *profile;
+  const Representation wanted{"", settings.resolution > 0.0 ? settings.resolution : kStep, {}};
+  return Resampling(natural, wanted).section();
 }
 
 }  // namespace

@@ -2,11 +2,17 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/surfaces/named_surface.hpp"
 
+#include <fmt/format.h>
+
+#include <system_error>
+
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -25,6 +31,12 @@ Body body_of(const std::filesystem::path& input, const std::optional<Body>& aske
 }
 
 }  // namespace
+
+std::optional<Body> library_body_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) return std::nullopt;
+  return library_body(file.string());
+}
 
 NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said) {
   const std::string extension = extension_of(file);
@@ -58,13 +70,22 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
                   "leave out --body");
     return natural;
   }
-  const Body body = body_of(file, said.body);
+  const std::optional<Body> library = library_body_of(file);
+  if (library && said.body && *said.body != *library)
+    throw Error(ErrorKind::configuration, fmt::format("{} is a {}", file.string(), body_name(*library)), {},
+                "leave out --body");
+  if (library && said.scale_to_mm != 1.0) refuse("--scale belongs to profiles, slices and triangles");
+  const Body body = library ? *library : body_of(file, said.body);
   if (body == Body::wheel && !(radius > 0.0))
     throw Error(ErrorKind::configuration, "a wheel needs its nominal radius", {file.string()},
                 "say --nominal-radius in mm");
-  io::GeometryFile geometry{file, {}};
-  geometry.options.scale = said.scale_to_mm;
-  source.geometry = geometry;
+  if (library) {
+    source.geometry = StandardProfile{file.string()};
+  } else {
+    io::GeometryFile geometry{file, {}};
+    geometry.options.scale = said.scale_to_mm;
+    source.geometry = geometry;
+  }
   source.where = {file.string(), 0, 0};
   return read_surface(source, body, body == Body::wheel ? radius : 0.0);
 }

@@ -21,7 +21,12 @@ struct NamedSurface {
   std::vector<std::string> overrides;  ///< of a case
 };
 
-/// Reads any geometry: profile, slices, triangles, offsets, or the wheel or rail of the first case of a case file.
+/// The body of a name of the profile library; nothing for files that are there, and for other names. Errors: those of
+/// library_body.
+std::optional<Body> library_body_of(const std::filesystem::path& file);
+
+/// Reads any geometry: profile, slices, triangles, offsets, a name of the profile library, or the wheel or rail of the
+/// first case of a case file.
 /// Errors: those of readers and backends; Error(configuration) if the body is not known or something said does not fit
 /// the file.
 NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said);

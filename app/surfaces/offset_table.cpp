@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -48,6 +50,20 @@ double at_border(const OffsetMap& map, bool closed) {
   return most;
 }
 
+/// The first node from which the deviations rise or fall by more than the way to a neighbour [m]; the surface would
+/// hide itself from tilted views. along: of a step in u.
+std::optional<std::pair<int, int>> too_steep(const OffsetMap& map, double along) {
+  const Grid2& g = map.grid;
+  const auto offset = [&](int iu, int iy) { return static_cast<double>(map.offset[g.index(iu, iy)]); };
+  for (int iu = 0; iu < g.nx; ++iu)
+    for (int iy = 0; iy < g.ny; ++iy) {
+      const bool across = iy > 0 && std::fabs(offset(iu, iy) - offset(iu, iy - 1)) > g.dy;
+      const bool lengthwise = iu > 0 && std::fabs(offset(iu, iy) - offset(iu - 1, iy)) > along;
+      if (across || lengthwise) return std::pair{iu, iy};
+    }
+  return std::nullopt;
+}
+
 }  // namespace
 
 OffsetMap read_offset_table(const io::OffsetsInput& table, NaturalSurface& surface) {
@@ -72,6 +88,14 @@ OffsetMap read_offset_table(const io::OffsetsInput& table, NaturalSurface& surfa
                      fmt::format("a deviation beside the {}, which has no surface at {}, y = {:.6g} mm",
                                  body_name(body), place, 1e3 * map.grid.y(*bad)),
                      "end the table where the surface ends, or write 0 there; are its units and signs right?"};
+    io::read_deviation_map(table.file, how);
+  }
+  if (const auto node = too_steep(map, body == Body::wheel ? map.grid.dx * how.nominal_radius : map.grid.dx)) {
+    how.objection = {
+        node->first, node->second,
+        fmt::format("a deviation of {:.6g} mm, steeper than 45 degrees from the one before",
+                    1e3 * static_cast<double>(map.offset[map.grid.index(node->first, node->second)])),
+        "are the units right? offsets.unit is that of the positions, offsets.deviation_unit that of the deviations"};
     io::read_deviation_map(table.file, how);
   }
   constexpr double kStep = 1e-6;  // [m] steps below are those of rounded tables

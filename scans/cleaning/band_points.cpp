@@ -120,7 +120,8 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
   const auto on = static_cast<std::size_t>(std::count(what.begin(), what.end(), kOn));
   if (on < kFewestPoints)
     throw Error(ErrorKind::input_data, fmt::format("only {} points lie on the running band", on), {},
-                "is it the right object? a band needs thousands of points");
+                fmt::format("is it the right object{}? a band needs thousands of points",
+                            wheel ? ", and its nominal radius right where one was given" : ""));
   const Ends ends = ends_of(a, what, settings.body, settings.radius);
   out.band.a_min = ends.a_min;
   out.band.a_max = ends.a_max;

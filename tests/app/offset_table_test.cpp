@@ -112,6 +112,9 @@ TEST_F(OffsetTable, IsRefusedAtThePlaceThatIsWrong) {
   EXPECT_THAT(refusal("x,30,40,50\n0,0,0,0\n10,0,0.1,0\n20,0,0,0\n"),
               AllOf(HasSubstr("table.csv:3:6"), HasSubstr("beside the rail"), HasSubstr("y = 40 mm")));
   EXPECT_EQ(refusal("x,30,40,50\n0,0,0,0\n10,0.1,0,0\n20,0,0,0\n"), "") << "nothing is added there";
+  // Micrometres taken for millimetres: nothing that a surface does
+  EXPECT_THAT(refusal(with("20")), HasSubstr("table.csv:3:5: a deviation of 20 mm, steeper than 45 degrees"));
+  EXPECT_THAT(refusal("x,-1,0,1\n0,0,0,0\n1,2,2,2\n2,0,0,0\n"), HasSubstr("table.csv:3:3: a deviation of 2 mm"));
   EXPECT_THAT(refusal("ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -9\n0 0 0\n0 -9 0\n0 0 0\n",
                       "grid.asc"),
               HasSubstr("grid.asc:8:3: a cell without a deviation"));

@@ -5,14 +5,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::testing {
@@ -95,6 +98,38 @@ TEST(ConvertProfile, PointsStayWhereTheyAre) {
   EXPECT_EQ(run_program({"convert", in("wheel.txt"), in("b.csv")}).status, 2);  // a wheel or a rail?
   EXPECT_EQ(run_program({"convert", in("rail.prr"), in("b.whl")}).status, 2);
   EXPECT_FALSE(std::filesystem::exists(in("b.whl")));
+}
+
+TEST(ConvertProfile, OfTheLibraryAndOfCasesByFormula) {
+  const SampleInput input;
+  const auto path = [&](const char* name) { return (input.folder() / name).string(); };
+  input.write("case.toml", standard_case("1.0"));
+  for (const auto& [name, file, body] :
+       {std::tuple{"60E1", "rail.prr", Body::rail}, {"S1002", "wheel.prw", Body::wheel}}) {
+    ASSERT_EQ(run_program({"convert", name, path(file)}).status, 0) << name;
+    const Profile written = io::read_profile(path(file), body, {}, {});
+    ASSERT_EQ(run_program(
+                  {"convert", path("case.toml"), path("of-case.csv"), "--body", body == Body::rail ? "rail" : "wheel"})
+                  .status,
+              0);
+    EXPECT_EQ(io::read_profile(path("of-case.csv"), body, {}, {}).z.size(), written.z.size());
+    // Points of the arcs themselves: none lies farther from the exact outline than its chords of 0.02 mm do.
+    const Profile exact = analytic::sample_profile(StandardProfile{name}, 0.02e-3);
+    ASSERT_GT(written.y.size(), 400U);
+    for (std::size_t i = 0; i < written.y.size(); ++i) {
+      double nearest = 1.0;
+      for (std::size_t k = 0; k + 1 < exact.y.size(); ++k) {
+        const Vec2 a{exact.y[k], exact.z[k]}, d = Vec2{exact.y[k + 1], exact.z[k + 1]} - a,
+                                              p = Vec2{written.y[i], written.z[i]} - a;
+        nearest = std::min(nearest, (p - std::clamp(p.dot(d) / d.squaredNorm(), 0.0, 1.0) * d).norm());
+      }
+      EXPECT_LT(nearest, 2e-8) << name << ' ' << written.y[i];
+    }
+  }
+  EXPECT_THAT(run_program({"convert", "60E1", path("x.prw"), "--body", "wheel"}).err, HasSubstr("60E1 is a rail"));
+  input.write("flat.toml", standard_case("1.0", kWheelWithFlat));
+  EXPECT_THAT(run_program({"convert", path("flat.toml"), path("x.prw")}).err,
+              HasSubstr("the section is not the same everywhere"));
 }
 
 TEST(ConvertProfile, DerivativesAreThoseOfTheCircle) {

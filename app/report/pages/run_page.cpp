@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/case_figures.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
+#include "treadmark/app/report/pages/subsurface_figures.hpp"
 #include "treadmark/core/constants.hpp"
 
 namespace treadmark::app::report {
@@ -132,6 +135,7 @@ Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string docum
   if (!run->sampled.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
   if (run->cases.size() > 1) contact.blocks.emplace_back(Figure{"forces", "Forces and pressures", case_chart(*run)});
   if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
+  if (std::optional<Section> below = subsurface_section(*run)) page.sections.push_back(std::move(*below));
   page.sections.push_back({"cases", "Cases", {case_table(*run), patch_table(*run)}});
   page.sections.push_back(origin_section(
       origin_facts({run->version, run->git, run->input_file, run->input_sha256, run->geometry_sha256, run->settings})));

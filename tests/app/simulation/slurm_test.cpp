@@ -141,5 +141,41 @@ TEST_F(SlurmCluster, ANodeThatDiesInTheMiddleLeavesTheBytesAsTheyAre) {
   EXPECT_THAT(shell(submit).out, HasSubstr("all of which are finished"));
 }
 
+TEST_F(SlurmCluster, AFleetOfScansIsImportedAndMeasured) {
+  for (const char* number : {"1", "2"})
+    ASSERT_EQ(
+        run_program({"scan", TREADMARK_SOURCE_DIR "/examples/wheel-flat.toml", "--body", "wheel", "--points", "40000",
+                     "--noise-mm", "0.01", "--seed", number, "-o", input.path(std::string("wheel ") + number + ".ply")})
+            .status,
+        0);
+  input.write("broken.ply", "ply\nformat ascii 1.0\nend_header\n");
+  // As others write lists: ends of lines of Windows, an empty line, no end of the last line.
+  input.write("scans.txt",
+              input.path("wheel 1.ply") + "\r\n\r\n" + input.path("broken.ply") + "\n" + input.path("wheel 2.ply"));
+  const auto submit = [&](const std::string& body) {
+    return shell("cd / && TASKS=2 PATH=" + fs::path(TREADMARK_PROGRAM).parent_path().string() +
+                 ":$PATH " TREADMARK_SOURCE_DIR "/examples/slurm/import-scans.sh " + body + ' ' +
+                 input.path("scans.txt") + ' ' + input.path("fleet") + " --resolution 2 --nominal-radius 490");
+  };
+  EXPECT_THAT(submit("axle").err, HasSubstr("not of 'axle'"));
+  const ProgramResult submitted = submit("wheel");
+  ASSERT_EQ(submitted.status, 0) << submitted.err;
+  EXPECT_THAT(submitted.out, HasSubstr("3 scans in 2 tasks"));
+  EXPECT_THAT(submit("wheel").err, HasSubstr("still wait or run"));
+  const auto finished = [&] { return shell("squeue -h").out.empty() && fs::exists(input.path("fleet/gather.out")); };
+  ASSERT_TRUE(until(finished)) << shell("squeue; sinfo").out;
+  EXPECT_THAT(input.read("fleet/gather.out"), HasSubstr("not imported: " + input.path("broken.ply")));
+  EXPECT_THAT(input.read("fleet/gather.out"), HasSubstr("2 of 3 scans imported"));
+  EXPECT_THAT(input.read("fleet/broken.log"), HasSubstr("broken.ply"));
+  EXPECT_THAT(input.read("fleet/measures.csv"), HasSubstr("wheel 2.slcw"));
+  ASSERT_EQ(run_program({"import", input.path("wheel 2.ply"), "--body", "wheel", "--resolution", "2",
+                         "--nominal-radius", "490", "-o", input.path("wheel 2.slcw")})
+                .status,
+            0);
+  EXPECT_TRUE(input.read("wheel 2.slcw") == input.read("fleet/wheel 2.slcw"));
+  EXPECT_THAT(submit("wheel").out, HasSubstr("1 scans in 1 tasks")) << "what failed is taken up again";
+  ASSERT_TRUE(until(finished));
+}
+
 }  // namespace
 }  // namespace treadmark::testing

@@ -29,12 +29,13 @@ def test_examples_in_docstrings(module):
     assert doctest.testmod(module).failed == 0
 
 
-def test_the_handbook_runs():
-    text = (pathlib.Path(os.environ["TREADMARK_SOURCE"]) / "docs" / "python.md").read_text()
+@pytest.mark.parametrize("page", ["docs/python.md", "docs/tutorials.md"])
+def test_the_handbook_runs(page):
+    text = (pathlib.Path(os.environ["TREADMARK_SOURCE"]) / page).read_text()
     blocks = text.split("```python\n")[1:]
     names = {}
     for block in blocks:
-        exec(compile(block.split("```")[0], "docs/python.md", "exec"), names)
+        exec(compile(block.split("```")[0], page, "exec"), names)
     assert blocks
 
 
