@@ -85,7 +85,8 @@ Point to_m(const gp_Pnt& p) { return {p.X() / kMillimetres, p.Y() / kMillimetres
 
 class Shape {
  public:
-  Shape(TopoDS_Shape whole, std::string unit) : whole_(std::move(whole)), unit_(std::move(unit)) {
+  Shape(TopoDS_Shape whole, std::string unit, const Handle(XSControl_WorkSession) & read)
+      : whole_(std::move(whole)), unit_(std::move(unit)), read_(read) {
     TopExp::MapShapes(whole_, TopAbs_FACE, faces_);
     Bnd_Box all;
     boxes_.reserve(static_cast<std::size_t>(faces_.Extent()));
@@ -107,8 +108,6 @@ class Shape {
       for (std::size_t k = strip(boxes_[i].CornerMin().Y() - kTolerance); k <= last; ++k) strips_[k].push_back(i);
     }
   }
-  void name_entities(std::vector<std::string> entities) { entities_ = std::move(entities); }
-  const TopTools_IndexedMapOfShape& all() const { return faces_; }
 
   std::string unit() const { return unit_; }
   int faces() const { return faces_.Extent(); }
@@ -196,10 +195,7 @@ class Shape {
   CadSpline spline_of(int face, CadPart part, std::string& why) const;
   CadTriangles triangles_of(const std::vector<std::int64_t>& faces, double deviation, double side) const;
 
-  std::string entity(int face) const {
-    const auto i = static_cast<std::size_t>(face);
-    return i < entities_.size() ? entities_[i] : std::string();
-  }
+  std::string entity(int face) const;
 
  private:
   TopoDS_Shape whole_;
@@ -207,7 +203,7 @@ class Shape {
   TopTools_IndexedMapOfShape faces_;
   std::vector<Bnd_Box> boxes_;
   mutable std::vector<std::unique_ptr<IntCurvesFace_Intersector>> meets_;
-  std::vector<std::string> entities_;
+  Handle(XSControl_WorkSession) read_;
   Point low_{}, high_{};
 
   static constexpr std::size_t kStrips = 256;
@@ -524,22 +520,16 @@ CadTriangles Shape::triangles_of(const std::vector<std::int64_t>& faces, double 
   return out;
 }
 
-std::vector<std::string> entities_of(const Handle(XSControl_WorkSession) & work,
-                                     const TopTools_IndexedMapOfShape& faces) {
-  std::vector<std::string> out;
-  const Handle(XSControl_TransferReader)& reader = work->TransferReader();
-  const Handle(Interface_InterfaceModel)& model = work->Model();
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    std::string name;
-    for (const int mode : {1, 3, 0}) {
-      const Handle(Standard_Transient) entity = reader->EntityFromShapeResult(faces(i), mode);
-      if (entity.IsNull()) continue;
-      name = std::string(model->StringLabel(entity)->ToCString()) + " (" + entity->DynamicType()->Name() + ")";
-      break;
-    }
-    out.push_back(name);
+std::string Shape::entity(int face) const {
+  // looks through all that was read: only where somebody asks
+  if (face < 0 || face >= faces()) return {};
+  const Handle(XSControl_TransferReader)& reader = read_->TransferReader();
+  for (const int mode : {1, 3, 0}) {
+    const Handle(Standard_Transient) entity = reader->EntityFromShapeResult(faces_(face + 1), mode);
+    if (entity.IsNull()) continue;
+    return std::string(read_->Model()->StringLabel(entity)->ToCString()) + " (" + entity->DynamicType()->Name() + ")";
   }
-  return out;
+  return {};
 }
 
 CadFault too_many_faces(int faces) {
@@ -563,9 +553,7 @@ std::unique_ptr<Shape> finished(XSControl_Reader& reader, std::string unit, CadF
     return nullptr;
   }
   if (faces.Extent() > kMostFaces) return fault = too_many_faces(faces.Extent()), nullptr;
-  auto shape = std::make_unique<Shape>(whole, std::move(unit));
-  shape->name_entities(entities_of(reader.WS(), shape->all()));
-  return shape;
+  return std::make_unique<Shape>(whole, std::move(unit), reader.WS());
 }
 
 std::unique_ptr<Shape> read_step(const std::string& file, CadFault& fault) {
