@@ -38,6 +38,11 @@ std::shared_ptr<const Surface> natural_spline(const SurfaceSpec& spec, std::stri
   return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
 }
 
+std::shared_ptr<const Surface> natural_nurbs(const SurfaceSpec& spec, std::string& note) {
+  auto surface = spline::make_nurbs_surface(std::get<TensorSpline>(spec.shape), note);
+  return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
+}
+
 std::shared_ptr<const Surface> as_spline(Resampling& r) {
   const SurfaceSpec& spec = r.spec();
   if (is_formula(spec) && (spec.defects.empty() || flats_only(spec))) {
@@ -110,8 +115,11 @@ std::vector<Backend> spline_backends() {
   Backend spline{"spline", "cubic along the section, tensor B-spline of slices along or round", 4.0, false, as_spline};
   spline.natural_for = is_measured_lines;
   spline.make_natural = natural_spline;
+  Backend nurbs{"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs};
+  nurbs.natural_for = [](const SurfaceSpec& spec) { return std::holds_alternative<TensorSpline>(spec.shape); };
+  nurbs.make_natural = natural_nurbs;
   return {spline,
-          {"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs},
+          nurbs,
           {"thb", "truncated hierarchical B-spline, fine where the shape asks for it", 4.0, false,
            [](Resampling& r) { return as_thb(r, 3); }},
           {"thb-quadratic", "the same of degree 2", 3.0, false, [](Resampling& r) { return as_thb(r, 2); }}};
