@@ -41,6 +41,11 @@ std::shared_ptr<const Surface> natural_spline(const SurfaceSpec& spec, std::stri
   return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
 }
 
+std::shared_ptr<const Surface> natural_nurbs(const SurfaceSpec& spec, std::string& note) {
+  auto surface = spline::make_nurbs_surface(std::get<TensorSpline>(spec.shape), note);
+  return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
+}
+
 std::shared_ptr<const Surface> as_spline(Resampling& r) {
   const SurfaceSpec& spec = r.spec();
   if (is_formula(spec) && (spec.defects.empty() || flats_only(spec))) {
@@ -133,8 +138,12 @@ Backend nurbs_row() {
   row.tell_splines = [](Resampling& r) {
     return as_nurbs(r, [](const auto&... from) { return spline::tell_nurbs(from...); });
   };
-  row.natural_for = [](const SurfaceSpec& spec) { return is_given(spec, false, kAnyDegree); };
-  row.make_natural = natural_given;
+  row.natural_for = [](const SurfaceSpec& spec) {
+    return std::holds_alternative<TensorSpline>(spec.shape) || is_given(spec, false, kAnyDegree);
+  };
+  row.make_natural = [](const SurfaceSpec& spec, std::string& note) {
+    return std::holds_alternative<TensorSpline>(spec.shape) ? natural_nurbs(spec, note) : natural_given(spec, note);
+  };
   return row;
 }
 

@@ -59,15 +59,11 @@ decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body bod
     throw Error(ErrorKind::configuration, "files of CAD have units of their own", where, "leave out scale_to_mm");
   if (body == Body::rail && radius != 0.0)
     throw Error(ErrorKind::configuration, "a file of CAD cannot become a roller", where, "use a profile or slices");
-  io::CadSections sections = io::read_cad(file.file, body, radius, where);
-  note = std::move(sections.note);
-  if (auto* profile = std::get_if<Profile>(&sections.shape)) {
-    profile->smoothing = file.options.smoothing;
-    return std::move(*profile);
-  }
-  SliceSet slices = std::get<SliceSet>(std::move(sections.shape));
-  slices.open_seam = file.open_seam;
-  return slices;
+  io::CadSurface cad = io::read_cad(file.file, body, radius, where);
+  note = std::move(cad.note);
+  if (auto* profile = std::get_if<Profile>(&cad.shape)) profile->smoothing = file.options.smoothing;
+  if (auto* slices = std::get_if<SliceSet>(&cad.shape)) slices->open_seam = file.open_seam;
+  return std::visit([](auto& shape) -> decltype(SurfaceSpec::shape) { return std::move(shape); }, cad.shape);
 }
 
 /// One surface, or a body of several.

@@ -10,6 +10,7 @@
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/backends/spline/given_spline.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
+#include "treadmark/backends/spline/nurbs/tensor_net.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
@@ -66,6 +67,21 @@ std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& poi
 std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius, double x_min,
                                                   double x_max) {
   return std::make_shared<NurbsSurface>(nurbs_of(chain, body, nominal_radius, x_min, x_max), body);
+}
+
+FittedSpline fit_tensor_spline(const sampling::PointGrid& points) {
+  NurbsNet net = fit_point_grid(points);
+  TensorSpline spline = tensor_spline_of(net, points.body);
+  return {std::move(spline), std::make_shared<NurbsSurface>(std::move(net), points.body)};
+}
+
+std::shared_ptr<const Surface> make_nurbs_surface(const TensorSpline& spline, std::string& note) {
+  double deviation = 1e-8;
+  NurbsNet net = net_of(spline, deviation);
+  if (deviation > 0.0)
+    note +=
+        fmt::format("degrees {} x {} by cubics within {:.2g} nm. ", spline.degree_u, spline.degree_v, 1e9 * deviation);
+  return std::make_shared<NurbsSurface>(std::move(net), spline.body);
 }
 
 std::shared_ptr<const Surface> make_thb_surface(std::span<const Vec3> points, Body body, const sampling::Region& region,

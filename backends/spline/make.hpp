@@ -12,6 +12,7 @@
 #include "treadmark/model/slices.hpp"
 #include "treadmark/model/spline_surface.hpp"
 #include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/tensor_spline.hpp"
 
 namespace treadmark::spline {
 
@@ -32,6 +33,17 @@ std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& poi
 /// about the axle by exact circles (wheel). Errors: Error(configuration) for a bad chain, radius or range.
 std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius,
                                                   double x_min = -1.0, double x_max = 1.0);
+
+/// That spline with its coefficients.
+struct FittedSpline {
+  TensorSpline spline;
+  std::shared_ptr<const Surface> surface;
+};
+FittedSpline fit_tensor_spline(const sampling::PointGrid& points);
+
+/// A B-spline surface that is given: exactly up to degree 3, above it within 10 nm, which the note tells. Errors: those
+/// of net_of.
+std::shared_ptr<const Surface> make_nurbs_surface(const TensorSpline& spline, std::string& note);
 
 /// The same points by truncated hierarchical B-splines of degree 2 or 3, backend "thb-quadratic" or "thb"; see fit_thb.
 /// note: how much of what it took, in sentences. Errors: those of fit_thb.
