@@ -14,7 +14,7 @@ namespace treadmark::spline {
 namespace {
 
 constexpr double kSameSurface = 1e-12;  // [m]
-constexpr int kCubic = 3;
+constexpr int kToldDegree = 3;
 
 std::vector<double> borders(const NurbsNet& net, bool of_u) {
   const int n = of_u ? net.patches_u() : net.patches_v();
@@ -26,10 +26,10 @@ std::vector<double> borders(const NurbsNet& net, bool of_u) {
 }
 
 std::vector<double> cubic_knots(const std::vector<double>& breaks, const std::vector<int>& times) {
-  std::vector<double> out(kCubic + 1, breaks.front());
+  std::vector<double> out(kToldDegree + 1, breaks.front());
   for (std::size_t i = 1; i + 1 < breaks.size(); ++i)
     out.insert(out.end(), static_cast<std::size_t>(times[i]), breaks[i]);
-  out.insert(out.end(), kCubic + 1, breaks.back());
+  out.insert(out.end(), kToldDegree + 1, breaks.back());
   return out;
 }
 
@@ -77,8 +77,8 @@ std::vector<Home> homes(const KnotLine& line) {
 SplineSurface of_points(const NurbsNet& net) {
   const std::vector<double> u = borders(net, true), v = borders(net, false);
   SplineSurface out;
-  out.levels.push_back({SplineKnots{kCubic, cubic_knots(u, std::vector<int>(u.size(), kCubic))},
-                        SplineKnots{kCubic, cubic_knots(v, std::vector<int>(v.size(), kCubic))}});
+  out.levels.push_back({SplineKnots{kToldDegree, cubic_knots(u, std::vector<int>(u.size(), kToldDegree))},
+                        SplineKnots{kToldDegree, cubic_knots(v, std::vector<int>(v.size(), kToldDegree))}});
   const std::size_t nu = 3 * (u.size() - 1) + 1, nv = 3 * (v.size() - 1) + 1;
   out.points.resize(nu * nv);
   out.weights.resize(nu * nv);
@@ -98,19 +98,19 @@ SplineSurface of_points(const NurbsNet& net) {
 SplineSurface of_corners(const NurbsNet& net) {
   const std::vector<double> u = borders(net, true), v = borders(net, false);
   SplineSurface out;
-  out.levels.push_back({SplineKnots{kCubic, cubic_knots(u, multiplicities(net, true))},
-                        SplineKnots{kCubic, cubic_knots(v, multiplicities(net, false))}});
-  const KnotLine lu = KnotLine::of_knots(kCubic, out.levels[0][0].knots),
-                 lv = KnotLine::of_knots(kCubic, out.levels[0][1].knots);
+  out.levels.push_back({SplineKnots{kToldDegree, cubic_knots(u, multiplicities(net, true))},
+                        SplineKnots{kToldDegree, cubic_knots(v, multiplicities(net, false))}});
+  const KnotLine lu = KnotLine::of_knots(kToldDegree, out.levels[0][0].knots),
+                 lv = KnotLine::of_knots(kToldDegree, out.levels[0][1].knots);
   const std::vector<Home> home_u = homes(lu), home_v = homes(lv);
   out.points.reserve(home_u.size() * home_v.size());
   for (const Home& hv : home_v) {
     check_cancelled();
     const KnotWeights wv =
-        bernstein_blossom(kCubic, lv.inner_knots(hv.interval, hv.k), lv.from(hv.interval), lv.to(hv.interval));
+        bernstein_blossom(kToldDegree, lv.inner_knots(hv.interval, hv.k), lv.from(hv.interval), lv.to(hv.interval));
     for (const Home& hu : home_u) {
       const KnotWeights wu =
-          bernstein_blossom(kCubic, lu.inner_knots(hu.interval, hu.k), lu.from(hu.interval), lu.to(hu.interval));
+          bernstein_blossom(kToldDegree, lu.inner_knots(hu.interval, hu.k), lu.from(hu.interval), lu.to(hu.interval));
       const BezierPatch patch = net.patch(hu.interval, hv.interval);
       Vec3 sum = Vec3::Zero();
       for (int i = 0; i < 4; ++i)
