@@ -15,6 +15,7 @@
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
 
 namespace treadmark::spline {
 
@@ -98,24 +99,25 @@ class LineFitter {
 std::vector<std::vector<NetPair>> fit_across(const SampledSlices& sampled) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   std::map<std::size_t, LineFitter> fitters;  // knots are uniform, so only the number of points matters
-  std::vector<std::vector<NetPair>> lines;
-  for (const SampledSlice& slice : sampled.slices) {
-    check_cancelled();
-    auto& line = lines.emplace_back(static_cast<std::size_t>(sampled.positions) + 2, NetPair{kNaN, kNaN});
-    const std::size_t n = slice.points.size();
-    if (n == 0) continue;
-    auto found = fitters.find(n);
-    if (found == fitters.end()) {
+  for (const SampledSlice& slice : sampled.slices)
+    if (const std::size_t n = slice.points.size(); n > 0 && !fitters.contains(n)) {
       std::vector<double> positions(n);
       for (std::size_t i = 0; i < n; ++i) positions[i] = static_cast<double>(i);
-      found = fitters.emplace(n, LineFitter(positions, false)).first;
+      fitters.emplace(n, LineFitter(positions, false));
     }
+  std::vector<std::vector<NetPair>> lines(sampled.slices.size());
+  parallel_for(lines.size(), [&](std::size_t k) {
+    const SampledSlice& slice = sampled.slices[k];
+    lines[k].assign(static_cast<std::size_t>(sampled.positions) + 2, NetPair{kNaN, kNaN});
+    const std::size_t n = slice.points.size();
+    if (n == 0) return;
+    const LineFitter& fitter = fitters.at(n);
     std::vector<double> y(n), w(n), cy(n + 2), cw(n + 2);
     for (std::size_t i = 0; i < n; ++i) y[i] = slice.points[i].y, w[i] = slice.points[i].w;
-    found->second.fit(y, cy);
-    found->second.fit(w, cw);
-    for (std::size_t i = 0; i < n + 2; ++i) line[static_cast<std::size_t>(slice.first) + i] = {cy[i], cw[i]};
-  }
+    fitter.fit(y, cy);
+    fitter.fit(w, cw);
+    for (std::size_t i = 0; i < n + 2; ++i) lines[k][static_cast<std::size_t>(slice.first) + i] = {cy[i], cw[i]};
+  });
   return lines;
 }
 

@@ -2,8 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/slices/slice_hulls.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -104,29 +108,39 @@ SliceHulls::SliceHulls(const SliceNet& net)
   finest.rows = (spans_ + kSpansPerGroup - 1) / kSpansPerGroup;
   finest.columns = net.cells();
   twist_.assign(static_cast<std::size_t>(finest.rows) * 7 * stride_, 0.0F);
-  for (int row = 0; row < finest.rows; ++row) {
-    const int first = first_span(row), end = first_span(row + 1);
-    Interval u{net.span_start(first), net.span_end(end - 1)};
-    if (!net.closed() && first == 0) u.low = -kInfinite;
-    if (!net.closed() && end == spans_) u.high = kInfinite;
-    finest.u.push_back(u);
-    for (int cell = 0; cell < net.cells(); ++cell) {
-      Interval y = Interval::none(), w = Interval::none();
-      Twist twist;
-      for (int span = first; span < end; ++span) {
-        widen(twist, net, span, cell);
-        Interval part_y, part_w;
-        if (!net.hull(span, cell, net.span_start(span), net.span_end(span), part_y, part_w)) continue;
-        y.include(part_y);
-        w.include(part_w);
+  const auto rows = static_cast<std::size_t>(finest.rows), columns = static_cast<std::size_t>(finest.columns);
+  finest.u.resize(rows);
+  finest.boxes.resize(rows * columns);
+  std::vector<std::array<Interval, 2>> reached(rows, {Interval::none(), Interval::none()});  // y, w
+  constexpr std::size_t kRows = 8;                                                           // of a task
+  parallel_blocks(rows, kRows, [&](std::size_t from, std::size_t to) {
+    for (std::size_t row = from; row < to; ++row) {
+      const int first = first_span(static_cast<int>(row)), end = first_span(static_cast<int>(row) + 1);
+      Interval& u = finest.u[row] = {net.span_start(first), net.span_end(end - 1)};
+      if (!net.closed() && first == 0) u.low = -kInfinite;
+      if (!net.closed() && end == spans_) u.high = kInfinite;
+      for (std::size_t column = 0; column < columns; ++column) {
+        const auto cell = static_cast<int>(column);
+        Interval y = Interval::none(), w = Interval::none();
+        Twist twist;
+        for (int span = first; span < end; ++span) {
+          widen(twist, net, span, cell);
+          Interval part_y, part_w;
+          if (!net.hull(span, cell, net.span_start(span), net.span_end(span), part_y, part_w)) continue;
+          y.include(part_y);
+          w.include(part_w);
+        }
+        const float bounds[7] = {twist.uuu, twist.uuv, twist.uuvv, twist.uvv, twist.uvvv, twist.vvv, twist.vv};
+        for (std::size_t i = 0; i < 7; ++i) twist_[(row * 7 + i) * stride_ + column] = bounds[i];
+        finest.boxes[row * columns + column] = y.empty() ? HullBox() : HullBox(y, w);
+        reached[row][0].include(y);
+        reached[row][1].include(w);
       }
-      const float bounds[7] = {twist.uuu, twist.uuv, twist.uuvv, twist.uvv, twist.uvvv, twist.vvv, twist.vv};
-      for (std::size_t i = 0; i < 7; ++i)
-        twist_[(static_cast<std::size_t>(row) * 7 + i) * stride_ + static_cast<std::size_t>(cell)] = bounds[i];
-      finest.boxes.push_back(y.empty() ? HullBox() : HullBox(y, w));
-      all_y_.include(y);
-      all_w_.include(w);
     }
+  });
+  for (const auto& [y, w] : reached) {
+    all_y_.include(y);
+    all_w_.include(w);
   }
   levels_.push_back(std::move(finest));
   levels_.push_back(level_above(levels_.back(), 1, 8));
