@@ -2,17 +2,21 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/output_files.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/results/comparison_table.hpp"
@@ -106,18 +110,37 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
     }
 }
 
+/// What ParaView takes for time [deg or mm]: the first of these that grows from case to case.
+std::vector<double> times_of(const io::RunResult& run) {
+  using Case = io::CaseResult;
+  constexpr double kDegrees = 180.0 / kPi;
+  if (run.cases.size() < 2 || !std::ranges::all_of(run.cases, &Case::has_wheelset)) return {};
+  for (const auto& [place, factor] : {std::pair{&Case::pitch, kDegrees},
+                                      {&Case::s, kMilli},
+                                      {&Case::y, kMilli},
+                                      {&Case::yaw, kDegrees},
+                                      {&Case::roll, kDegrees}}) {
+    std::vector<double> times;
+    times.reserve(run.cases.size());
+    for (const Case& c : run.cases) times.push_back(io::twelve_digits(factor * c.*place) + 0.0);
+    if (std::ranges::is_sorted(times, std::less_equal<>())) return times;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result,
                                              bool bodies) {
   OutputFolder output(folder, OutputFolder::Old::kept);
   const std::filesystem::path& made = output.path();
+  const std::vector<double> times = times_of(result);
   std::vector<std::string> notes;
   write_side_by_side({
       [&] { notes = write_fields(made, [&](const auto& file) { io::write_hdf5(file, result); }); },
-      [&] { io::write_vtk(made / "vtk", result); },
+      [&] { io::write_vtk(made / "vtk", result, "result", times); },
       [&] {
-        if (bodies) io::write_vtk_bodies(made / "vtk", result);
+        if (bodies) io::write_vtk_bodies(made / "vtk", result, "bodies", times);
       },
       [&] { write_file(made / "pressure.svg", pictures::pressure_svg(result)); },
       [&] { write_text_tables(made, result); },

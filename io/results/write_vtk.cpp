@@ -169,9 +169,20 @@ std::string surface_to_vtp(const SampledSurface& surface, const Pose& X_TB) {
       if (std::ranges::all_of(quad, [](std::int32_t k) { return k >= 0; }))
         corners.insert(corners.end(), std::begin(quad), std::end(quad));
     }
-  return vtk_quadrilaterals(corners, static_cast<std::size_t>(count),
-                            deviation.empty() ? "" : vtk_data_array("deviation_m", deviation, 1),
-                            vtk_data_array("points_m", points, 3));
+  return vtk_polygons(4, corners, static_cast<std::size_t>(count),
+                      deviation.empty() ? "" : vtk_data_array("deviation_m", deviation, 1),
+                      vtk_data_array("points_m", points, 3));
+}
+
+std::string triangles_to_vtp(const TriangleMesh& mesh) {
+  std::vector<double> points;
+  points.reserve(3 * mesh.vertices.size());
+  for (const Vec3& v : mesh.vertices) points.insert(points.end(), {v.x(), v.y(), v.z()});
+  std::vector<std::int32_t> corners;
+  corners.reserve(3 * mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::int32_t>(corner));
+  return vtk_polygons(3, corners, mesh.vertices.size(), "", vtk_data_array("points_m", points, 3));
 }
 
 std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path& folder, const RunResult& run,

@@ -138,6 +138,14 @@ Box3 NurbsNet::bounds() const {
   return {box.centre() - box.half(), box.centre() + box.half()};
 }
 
+NurbsNet::Range NurbsNet::range() const {
+  if (!is_list()) return {u_.front(), u_.back(), v_.front(), v_.back()};
+  Range all = range(0, 0);
+  for (const Cell& c : cells_)
+    all = {std::min(all.u0, c.u0), std::max(all.u1, c.u1), std::min(all.v0, c.v0), std::max(all.v1, c.v1)};
+  return all;
+}
+
 NurbsNet::Place NurbsNet::find(double u, double v) const {
   int iu = 0, iv = 0;
   if (is_list()) {

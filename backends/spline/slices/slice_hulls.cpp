@@ -27,7 +27,8 @@ void widen(Twist& twist, const SliceNet& net, int span, int cell) {
   const double h = net.span_end(span) - net.span_start(span);
   // Bezier points along u of each line's value, first and second derivative.
   NetPair value[4][4], first[4][3], second[4][2];
-  for (int k = 0; k < 4; ++k) {
+  const int from = net.straight() ? 1 : 0, to = net.straight() ? 3 : 4;
+  for (int k = from; k < to; ++k) {
     const SliceNet::LineCubic line = net.line(span, cell + k);
     const NetPair* p = line.power;
     const NetPair c1 = h * p[1], c2 = (h * h) * p[2], c3 = (h * h * h) * p[3];
@@ -40,7 +41,11 @@ void widen(Twist& twist, const SliceNet& net, int span, int cell) {
     first[k][2] = p[1] + h * (2.0 * p[2] + (3.0 * h) * p[3]);
     second[k][0] = 2.0 * p[2];
     second[k][1] = 2.0 * p[2] + (6.0 * h) * p[3];
+    twist.uuu = greater(twist.uuu, 6.0 * p[3]);
   }
+  for (int k = from; k + 1 < to; ++k)
+    for (int i = 0; i < 2; ++i) twist.uuv = greater(twist.uuv, second[k + 1][i] - second[k][i]);
+  if (net.straight()) return;
   // Differences across the lines are the derivatives in v of uniform B-splines.
   const auto third = [](const auto& l, int i) { return (l[3][i] - l[0][i]) + 3.0 * (l[1][i] - l[2][i]); };
   const auto bend = [](const auto& l, int i, int k) { return (l[k][i] - l[k + 1][i]) + (l[k + 2][i] - l[k + 1][i]); };
@@ -52,11 +57,8 @@ void widen(Twist& twist, const SliceNet& net, int span, int cell) {
     twist.uvvv = greater(twist.uvvv, third(first, i));
     for (const int k : {0, 1}) twist.uvv = greater(twist.uvv, bend(first, i, k));
   }
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < 2; ++i)
     for (const int k : {0, 1}) twist.uuvv = greater(twist.uuvv, bend(second, i, k));
-    for (const int k : {0, 1, 2}) twist.uuv = greater(twist.uuv, second[k + 1][i] - second[k][i]);
-  }
-  for (int k = 0; k < 4; ++k) twist.uuu = greater(twist.uuu, 6.0 * net.line(span, cell + k).power[3]);
 }
 
 // Least float interval about a range.
