@@ -30,7 +30,7 @@ void check(const SurfaceSpec& spec) {
   if (spec.body == Body::wheel && spec.roller_radius != 0.0)
     throw Error(ErrorKind::configuration, "a roller takes the place of a rail, a wheel cannot be one");
   if (spec.roller_radius != 0.0 &&
-      (std::holds_alternative<SplineSurface>(spec.shape) || std::holds_alternative<TensorSpline>(spec.shape)))
+      (std::holds_alternative<TensorSpline>(spec.shape) || std::holds_alternative<SplineSurface>(spec.shape)))
     throw Error(ErrorKind::configuration, "a surface given by its splines cannot become a roller", {},
                 "use a profile, slices or triangles");
   check_body(spec.defects, spec.body);

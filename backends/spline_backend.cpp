@@ -41,11 +41,6 @@ std::shared_ptr<const Surface> natural_spline(const SurfaceSpec& spec, std::stri
   return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
 }
 
-std::shared_ptr<const Surface> natural_nurbs(const SurfaceSpec& spec, std::string& note) {
-  auto surface = spline::make_nurbs_surface(std::get<TensorSpline>(spec.shape), note);
-  return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
-}
-
 std::shared_ptr<const Surface> as_spline(Resampling& r) {
   const SurfaceSpec& spec = r.spec();
   if (is_formula(spec) && (spec.defects.empty() || flats_only(spec))) {
@@ -126,9 +121,11 @@ bool is_given(const SurfaceSpec& spec, bool hierarchical, int most_degree) {
   return degree <= most_degree;
 }
 
-std::shared_ptr<const Surface> natural_given(const SurfaceSpec& spec, std::string&) {
-  return analytic::add_defects(spline::make_given_surface(std::get<SplineSurface>(spec.shape), spec.body), spec.defects,
-                               spec.body, spec.nominal_radius);
+std::shared_ptr<const Surface> natural_given(const SurfaceSpec& spec, std::string& note) {
+  const auto* tensor = std::get_if<TensorSpline>(&spec.shape);
+  auto surface = tensor != nullptr ? spline::make_nurbs_surface(*tensor, note)
+                                   : spline::make_given_surface(std::get<SplineSurface>(spec.shape), spec.body);
+  return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
 }
 
 Backend nurbs_row() {
@@ -141,9 +138,7 @@ Backend nurbs_row() {
   row.natural_for = [](const SurfaceSpec& spec) {
     return std::holds_alternative<TensorSpline>(spec.shape) || is_given(spec, false, kAnyDegree);
   };
-  row.make_natural = [](const SurfaceSpec& spec, std::string& note) {
-    return std::holds_alternative<TensorSpline>(spec.shape) ? natural_nurbs(spec, note) : natural_given(spec, note);
-  };
+  row.make_natural = natural_given;
   return row;
 }
 
