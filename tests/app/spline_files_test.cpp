@@ -193,5 +193,21 @@ TEST(SplineFiles, AHierarchyStaysOneAndTakesDefects) {
               HasSubstr("has no splines to write"));
 }
 
+TEST(SplineFiles, SplinesOfOtherFilesAreNotSampled) {
+  SurfaceSpec spec;
+  TensorSpline plate;
+  plate.degree_u = 1, plate.degree_v = 2;
+  plate.knots_u = {0.0, 0.0, 0.1, 0.1};
+  plate.knots_v = {0.0, 0.0, 0.0, 0.06, 0.06, 0.06};
+  for (const double x : {0.0, 0.1})
+    for (const double y : {-0.03, 0.0, 0.03}) plate.poles.emplace_back(x, y, y * y);
+  spec.shape = plate;
+  const std::vector<SplineSurface> told = to_splines(create_natural(spec), {});
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].levels[0][1].knots, plate.knots_v);
+  ASSERT_EQ(told[0].points.size(), 6u);
+  EXPECT_EQ(told[0].points[1], plate.poles[3]);  // u runs first there
+}
+
 }  // namespace
 }  // namespace treadmark::app
