@@ -228,7 +228,8 @@ TEST_F(Simulate, ContactWheelAndRailAreWrittenForParaViewOverTime) {
   const std::vector<double> history = read_table(input.read("out/history.csv")).column("t_s");
   std::map<double, std::set<std::string>> bodies, patches;
   const auto add = [&](const std::string& name, auto& to) {
-    for (const XmlElement* set : read_xml(input.read("out/vtk/" + name)).find("DataSet")) {
+    const XmlElement root = read_xml(input.read("out/vtk/" + name));
+    for (const XmlElement* set : root.find("DataSet")) {
       to[std::stod(set->attributes.at("timestep"))].insert(set->attributes.at("file"));
       EXPECT_GT(std::filesystem::file_size(out() + "/vtk/" + set->attributes.at("file")), 1000u);
     }
