@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -17,6 +16,8 @@
 #include "treadmark/backends/natural_kind.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/stopwatch.hpp"
 
 namespace treadmark {
 namespace {
@@ -41,6 +42,11 @@ Pose shifted(const Vec3& offset) { return {offset, Mat3::Identity()}; }
 
 std::shared_ptr<const Surface> placed(std::shared_ptr<const Surface> surface, const Vec3& offset) {
   return offset.isZero(0.0) ? surface : assembly::place_surface(std::move(surface), shifted(offset));
+}
+
+[[noreturn]] void refuse_splines() {
+  throw Error(ErrorKind::configuration, "files of splines hold rails and wheels, not rollers", {},
+              "write slices or triangles");
 }
 
 [[noreturn]] void refuse_offsets() {
@@ -87,6 +93,10 @@ class RollerKind final : public NaturalKind {
     return assembly::roller_slices(wheel, radius_);
   }
 
+  std::vector<SplineSurface> to_splines(const NaturalSurface&, const Representation&, Sampled*) const override {
+    refuse_splines();
+  }
+
   void write_offsets(const std::filesystem::path&, const NaturalSurface&, const Representation&, Sampled*,
                      const SurfaceSpec*, const std::string&) const override {
     refuse_offsets();
@@ -123,7 +133,7 @@ class RingKind final : public NaturalKind {
       return sampled;
     }
     RepresentedSurface out;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = used_seconds();
     out.resampled = true;
     out.resolution = step;
     out.surface = slice_ring(assembly::ring_slices(*sampled_formula(ring.spec, step), ring.spec.roller_radius));
@@ -131,7 +141,7 @@ class RingKind final : public NaturalKind {
     out.region = wanted.region;
     out.region.u_min = std::max(out.region.u_min, box.min.x());
     out.region.u_max = std::min(out.region.u_max, box.max.x());
-    out.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    out.build_seconds = used_seconds() - start;
     return out;
   }
 
@@ -141,6 +151,10 @@ class RingKind final : public NaturalKind {
 
   SliceSet to_slices(const NaturalSurface& ring, const Representation& wanted, Sampled* sampled) const override {
     return treadmark::to_slices(as_rail(ring), wanted, sampled);
+  }
+
+  std::vector<SplineSurface> to_splines(const NaturalSurface&, const Representation&, Sampled*) const override {
+    refuse_splines();
   }
 
   void write_offsets(const std::filesystem::path&, const NaturalSurface&, const Representation&, Sampled*,
@@ -165,16 +179,15 @@ class PartsKind final : public NaturalKind {
     RepresentedSurface out;
     out.region = wanted.region;
     std::vector<std::shared_ptr<const Surface>> surfaces;
-    for (const SurfacePart& part : parts_) {
-      const bool rail = whole.spec.body == Body::rail;
-      Representation own{part.backend.empty() ? wanted.backend : part.backend,
-                         part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
-      const double along = rail ? part.offset.x() : 0.0;
-      own.region.u_min -= along;
-      own.region.u_max -= along;
-      own.region.y_min -= part.offset.y();
-      own.region.y_max -= part.offset.y();
-      const RepresentedSurface r = treadmark::represent(*part.natural, own);
+    std::vector<RepresentedSurface> represented(parts_.size());
+    parallel_for(parts_.size(), [&](std::size_t i) {
+      represented[i] = treadmark::represent(*parts_[i].natural, own(parts_[i], wanted));
+    });
+    surfaces.reserve(parts_.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const SurfacePart& part = parts_[i];
+      const RepresentedSurface& r = represented[i];
+      const double along = along_of(part);
       surfaces.push_back(placed(r.surface, part.offset));
       out.note += r.note;
       out.build_seconds += r.build_seconds;
@@ -188,7 +201,38 @@ class PartsKind final : public NaturalKind {
     return out;
   }
 
+  std::vector<SplineSurface> to_splines(const NaturalSurface&, const Representation& wanted,
+                                        Sampled* sampled) const override {
+    std::vector<SplineSurface> out;
+    if (sampled != nullptr) *sampled = {0.0, wanted.region, {}};
+    for (const SurfacePart& part : parts_) {
+      Sampled of_part;
+      for (SplineSurface& splines : treadmark::to_splines(*part.natural, own(part, wanted), &of_part)) {
+        for (Vec3& p : splines.points) p += part.offset;
+        out.push_back(std::move(splines));
+      }
+      if (sampled == nullptr) continue;
+      sampled->resolution = std::max(sampled->resolution, of_part.resolution);
+      sampled->note += of_part.note;
+    }
+    return out;
+  }
+
  private:
+  double along_of(const SurfacePart& part) const {
+    return part.natural->spec.body == Body::rail ? part.offset.x() : 0.0;
+  }
+  /// What is wanted of the whole, of a part.
+  Representation own(const SurfacePart& part, const Representation& wanted) const {
+    Representation out{part.backend.empty() ? wanted.backend : part.backend,
+                       part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
+    out.region.u_min -= along_of(part);
+    out.region.u_max -= along_of(part);
+    out.region.y_min -= part.offset.y();
+    out.region.y_max -= part.offset.y();
+    return out;
+  }
+
   std::vector<SurfacePart> parts_;
 };
 

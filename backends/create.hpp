@@ -86,7 +86,7 @@ struct RepresentedSurface {
   bool resampled = false;      ///< false: the natural surface itself
   double resolution = 0.0;     ///< [m] 0 = as given
   Region region;               ///< where the surface stands for the natural one
-  double build_seconds = 0.0;  ///< wall clock, sampling included [s]
+  double build_seconds = 0.0;  ///< as used_seconds() counts, sampling included
   std::string note;            ///< repairs and limits worth knowing; may be empty
 };
 
@@ -116,6 +116,10 @@ struct Sampled {
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
 /// The same as slices (io/profiles writes them).
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
+/// The same as splines (io/splines writes them), one of each part; wanted.backend: one that has splines, none: those
+/// that are given, else "nurbs". Given splines are not sampled unless a resolution or another backend is asked for.
+std::vector<SplineSurface> to_splines(const NaturalSurface& natural, const Representation& wanted,
+                                      Sampled* sampled = nullptr);
 /// The same as offsets over their base in a .vdb file. base: below the offsets, a constant section of the same body and
 /// radius; null: the section without defects, or the median one. notes: for the head of the file. Errors also:
 /// Error(configuration) for a file that cannot be written.

@@ -12,7 +12,9 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
@@ -80,6 +82,12 @@ std::vector<std::string> write_fields(const std::filesystem::path& folder, Write
   return {left_out_message("hdf5", "fields.h5") + ": " + left_out_advice("hdf5")};
 }
 
+/// What goes into files of its own, at most one of them by HDF5; nothing interrupts it.
+void write_side_by_side(const std::vector<std::function<void()>>& parts) {
+  const NeverCancelled whole;
+  parallel_for(parts.size(), [&](std::size_t k) { parts[k](); });
+}
+
 /// Fields of an earlier run must not pass for those of one without any.
 void remove_unmade(const std::filesystem::path& folder, const std::filesystem::path& made) {
   std::error_code ignored;
@@ -125,13 +133,19 @@ std::vector<double> times_of(const io::RunResult& run) {
 std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result,
                                              bool bodies) {
   OutputFolder output(folder, OutputFolder::Old::kept);
-  auto notes = write_fields(output.path(), [&](const auto& file) { io::write_hdf5(file, result); });
+  const std::filesystem::path& made = output.path();
   const std::vector<double> times = times_of(result);
-  io::write_vtk(output.path() / "vtk", result, "result", times);
-  if (bodies) io::write_vtk_bodies(output.path() / "vtk", result, "bodies", times);
-  write_file(output.path() / "pressure.svg", pictures::pressure_svg(result));
-  write_text_tables(output.path(), result);
-  io::write_json(output.path() / "result.json", result);
+  std::vector<std::string> notes;
+  write_side_by_side({
+      [&] { notes = write_fields(made, [&](const auto& file) { io::write_hdf5(file, result); }); },
+      [&] { io::write_vtk(made / "vtk", result, "result", times); },
+      [&] {
+        if (bodies) io::write_vtk_bodies(made / "vtk", result, "bodies", times);
+      },
+      [&] { write_file(made / "pressure.svg", pictures::pressure_svg(result)); },
+      [&] { write_text_tables(made, result); },
+      [&] { io::write_json(made / "result.json", result); },
+  });
   remove_unmade(folder, output.path());
   output.move_into("result.json");
   return notes;
@@ -140,13 +154,17 @@ std::vector<std::string> write_result_folder(const std::filesystem::path& folder
 std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder,
                                                  const io::Comparison& comparison) {
   OutputFolder output(folder, OutputFolder::Old::kept);
-  write_file(output.path() / "pressures.svg", pictures::pressures_svg(comparison));
-  write_file(output.path() / "errors.svg", pictures::error_svg(comparison));
-  write_file(output.path() / "costs.svg", pictures::cost_svg(comparison));
-  auto notes = write_fields(output.path(), [&](const auto& file) { io::write_comparison_fields(file, comparison); });
-  write_file(output.path() / "table.txt", io::comparison_table(comparison));
-  io::write_csv(output.path() / "compare.csv", comparison);
-  io::write_json(output.path() / "compare.json", comparison);
+  const std::filesystem::path& made = output.path();
+  std::vector<std::string> notes;
+  write_side_by_side({
+      [&] { notes = write_fields(made, [&](const auto& file) { io::write_comparison_fields(file, comparison); }); },
+      [&] { write_file(made / "pressures.svg", pictures::pressures_svg(comparison)); },
+      [&] { write_file(made / "errors.svg", pictures::error_svg(comparison)); },
+      [&] { write_file(made / "costs.svg", pictures::cost_svg(comparison)); },
+      [&] { write_file(made / "table.txt", io::comparison_table(comparison)); },
+      [&] { io::write_csv(made / "compare.csv", comparison); },
+      [&] { io::write_json(made / "compare.json", comparison); },
+  });
   remove_unmade(folder, output.path());
   output.move_into("compare.json");
   return notes;

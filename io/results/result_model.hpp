@@ -208,7 +208,7 @@ struct SurfaceUse {
   std::string body;  ///< "wheel" or "rail"
   std::string backend;
   double resolution = 0.0;       ///< spacing of the samples it was built from [m]; 0 = built from the data as given
-  double build_seconds = 0.0;    ///< wall clock [s]
+  double build_seconds = 0.0;    ///< as used_seconds() counts
   std::size_t memory_bytes = 0;  ///< of the surface
   SurfaceDifference fit;         ///< from what it was sampled from; points = 0: not sampled
   std::string note;

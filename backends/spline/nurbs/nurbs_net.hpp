@@ -50,6 +50,8 @@ class NurbsNet {
     if (is_list()) return {cells_[u].u0, cells_[u].u1, cells_[u].v0, cells_[u].v1};
     return {u_[u], u_[u + 1], v_[v], v_[v + 1]};
   }
+  /// Of the whole surface.
+  Range range() const;
   /// How many neighbours in each direction a pyramid above the patches takes together.
   int fan_out_u() const { return is_list() ? 16 : 4; }
   int fan_out_v() const { return is_list() ? 1 : 4; }
@@ -59,7 +61,7 @@ class NurbsNet {
   BezierPatch patch(int iu, int iv) const;
   /// Frame P: homogeneous coordinates there.
   BezierPatch patch(int iu, int iv, const Pose& X_SP) const;
-  Box3 bounds() const;
+  Box3 bounds() const { return bounds_; }
   /// Polynomial and kept by corners.
   bool by_corners() const { return !corners_.empty(); }
   /// The corners of a patch of such a net.
@@ -112,6 +114,7 @@ class NurbsNet {
   std::vector<Quad> points_;   // one of the two is empty
   std::vector<Corner> corners_;
   std::vector<Level> levels_;
+  Box3 bounds_;  // of all control points, in double precision: the ends of the surface are those of its box
 };
 
 }  // namespace treadmark::spline

@@ -87,8 +87,9 @@ class ThbSpace {
       if (on.level == 0) return;
     }
   }
-  /// A spline of this space over a cell.
-  ThbPiece piece(const ThbCell& cell, const std::vector<Vec3>& coefficients) const;
+  /// A spline of this space over a cell. not_truncated: coefficients are those of the functions as they are, which do
+  /// not sum to 1 (Kraft 1997).
+  ThbPiece piece(const ThbCell& cell, const std::vector<Vec3>& coefficients, bool not_truncated = false) const;
 
   /// The coefficients of a spline that lies in this space, known by its polynomials: piece_of(cell) for cells that are
   /// not divided. A truncated function keeps the coefficient that the level's own spline has (Giannelli, Juettler and
@@ -127,6 +128,7 @@ class ThbSpace {
     Direction along_u, along_v;
     std::vector<bool> divided;
     std::vector<std::uint64_t> active;  // increasing
+    std::vector<std::size_t> row;       // of each function along u: where its own begin there; and the end
     std::size_t first = 0;              // number of the first function
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
