@@ -12,7 +12,7 @@
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/added_offsets.hpp"
-#include "treadmark/backends/resampling.hpp"
+#include "treadmark/backends/tensor_fit.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
@@ -23,43 +23,36 @@
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 
 namespace treadmark::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// One section where there is one, else a grid of points.
-io::CadPoints to_cad(const NaturalSurface& natural, const Representation& wanted, Sampled& sampled) {
+/// One section where there is one, else all of the surface, as close as another program can tell.
+io::CadContent to_cad(const NaturalSurface& natural, const Representation& wanted, Sampled& sampled) {
+  constexpr double kTolerance = 0.05e-6;  // [m]
   if (natural.spec.roller_radius != 0.0)
     throw Error(ErrorKind::configuration, "CAD files hold rails and wheels, not rollers", {}, "convert its profile");
-  Resampling resampling(natural, wanted);
-  io::CadPoints out;
-  out.body = natural.spec.body;
-  if (natural.constant_profile()) {
-    Profile section = resampling.section();
-    const double zero = out.body == Body::wheel ? natural.spec.nominal_radius : 0.0;
-    for (double& z : section.z) z += zero;
-    out.y = std::move(section.y);
-    out.h = std::move(section.z);
-    resampling.limit_rail();
-    const Region& r = resampling.region();
-    const bool part = r.u_max - r.u_min < 2.0 * kPi;
-    out.from = out.body == Body::rail || part ? r.u_min : 0.0;
-    out.to = out.body == Body::rail || part ? r.u_max : 2.0 * kPi;
-  } else {
-    const sampling::PointGrid points = resampling.points(true);
-    out.stations = static_cast<int>(points.u.size() + (points.closed ? 1 : 0));
-    out.grid.reserve(static_cast<std::size_t>(out.stations) * points.y.size());
-    for (std::size_t iu = 0; iu < static_cast<std::size_t>(out.stations); ++iu)
-      for (std::size_t iy = 0; iy < points.y.size(); ++iy) {
-        if (!points.present(iu % points.u.size(), iy))
-          throw Error(ErrorKind::input_data, "a surface with gaps cannot become one face of CAD", {},
-                      "write triangles, or limit the range");
-        out.grid.push_back(points.point(iu % points.u.size(), iy));
-      }
+  TensorFit fit = to_tensor_spline(natural, wanted, kTolerance);
+  sampled = fit.sampled;
+  io::CadContent out;
+  const Body body = natural.spec.body;
+  if (fit.one_section) {
+    const Region& r = fit.sampled.region;
+    const bool part = body == Body::rail || r.u_max - r.u_min < 2.0 * kPi;
+    out.swept = part ? std::pair{r.u_min, r.u_max} : std::pair{0.0, 2.0 * kPi};
   }
-  sampled = resampling.sampled();
+  out.description = fmt::format(
+      "{} as one B-spline face, {}", body == Body::wheel ? "wheel" : "rail",
+      fit.deviation > 0.0
+          ? fmt::format("at most {:.2g} um off what it was made of, as far as was looked", 1e6 * fit.deviation)
+          : "with the coefficients that it was given with");
+  sampled.note += fmt::format("{} x {} coefficients. ", fit.spline.poles_u(), fit.spline.poles_v());
+  if (fit.deviation > kTolerance)
+    sampled.note += fmt::format("more points would be needed to lie within {:g} um. ", 1e6 * kTolerance);
+  out.spline = std::move(fit.spline);
   return out;
 }
 
@@ -70,12 +63,12 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   const std::string extension = io::profiles::lower(output.extension().string());
   const bool view = extension == ".vtp";  // only to be looked at
   const bool triangles = view || io::is_mesh_file(output), slices = io::is_slices_file(output),
-             offsets = is_offset_file(output), cad = io::is_step_file(output);
-  if (!triangles && !slices && !offsets && !cad)
+             offsets = is_offset_file(output), cad = io::is_step_file(output), splines = io::is_spline_file(output);
+  if (!triangles && !slices && !offsets && !cad && !splines)
     throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
                 {output.string()},
                 "use .ply, .stl, .obj, .off or .vtp (ParaView) for triangles, .slcs or .slcw for slices, .vdb for "
-                "offsets, .step for CAD");
+                "offsets, .step for CAD, .xml for splines");
   Converted out;
   out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
   out.body = out.source.spec.body;
@@ -85,12 +78,13 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     table = read_offset_table(settings.offsets, out.source);
     out.source = add_offsets(out.source, *table);
   }
-  Representation wanted{triangles ? "mesh"
-                        : slices  ? "spline"
-                                  : "offset",
+  Representation wanted{splines     ? settings.backend
+                        : triangles ? "mesh"
+                        : slices    ? "spline"
+                                    : "offset",
                         settings.resolution, part_of(out.body, settings.range_x, settings.range_theta)};
   // the same data again need a resolution to be sampled anew
-  if (wanted.resolution == 0.0 && !triangles) wanted.resolution = kDefaultResolution;
+  if (wanted.resolution == 0.0 && !triangles && !cad && !splines) wanted.resolution = kDefaultResolution;
   Sampled sampled;
   // What a pipe, a device or ParaView takes cannot be read again: it gets what a file has.
   std::optional<OutputFolder> own;
@@ -102,6 +96,9 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   if (cad) {
     out.kind = "CAD";
     io::write_cad(place, to_cad(out.source, wanted, sampled));
+  } else if (splines) {
+    out.kind = "splines";
+    io::write_splines(place, to_splines(out.source, wanted, &sampled));
   } else if (triangles) {
     out.kind = "triangles";
     const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);

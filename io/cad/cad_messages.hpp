@@ -4,6 +4,7 @@
 
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstddef>
@@ -20,10 +21,19 @@ namespace treadmark::io::cad {
 
 using Point = std::array<double, 3>;  ///< [m]
 
+inline constexpr int kMostFaces = 100'000;
+
 /// Where a line meets a face.
 struct CadHit {
-  double t = 0.0;         ///< along the line [m]
-  std::int64_t face = 0;  ///< counted from 0
+  double t = 0.0;           ///< along the line [m]
+  std::int64_t face = 0;    ///< counted from 0
+  double u = 0.0, v = 0.0;  ///< parameters of the face
+};
+
+/// A point of an edge of a face.
+struct CadEdgePoint {
+  Point p{};                      ///< [m]
+  std::int64_t round_a_hole = 0;  ///< 1: the edge belongs to an inner border of the face
 };
 
 /// What is wrong with a file; no message: nothing.
@@ -31,32 +41,54 @@ struct CadFault {
   std::string message = {}, advice = {};
 };
 
-/// A surface to be written: a curve through points, extruded along x or turned about y, or a grid of points.
+/// As TensorSpline (model/tensor_spline.hpp).
+struct CadSpline {
+  std::int64_t degree_u = 3, degree_v = 3;
+  std::vector<double> knots_u = {}, knots_v = {}, weights = {};
+  std::vector<Point> poles = {};
+};
+
+/// Part of the parameters of a face.
+struct CadPart {
+  double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
+};
+
+/// Faces as triangles.
+struct CadTriangles {
+  std::string message = {};  ///< why there are none
+  double deviation = 0.0;    ///< of the middle of a triangle from the face, normal to it [m]
+  std::vector<Point> vertices = {};
+  std::vector<std::array<std::int32_t, 3>> triangles = {};
+  std::vector<std::int32_t> faces = {};  ///< of each triangle
+};
+
+/// A surface to be written: the curve of the first poles along u, extruded along x or turned about y, or all of it.
 struct CadSheet {
-  enum class Kind : std::int64_t { extruded, revolved, grid };
-  Kind kind = Kind::grid;
-  std::int64_t rows = 0;        ///< grid: along u; the points stand row by row
+  enum class Kind : std::int64_t { extruded, revolved, surface };
+  Kind kind = Kind::surface;
   double from = 0.0, to = 0.0;  ///< extruded: x [m]; revolved: angle from +z towards +x [rad]
-  std::string name = {};
-  std::vector<Point> points = {};
+  std::string name = {}, description = {};
+  CadSpline spline = {};
 };
 
 /// The questions; each is followed by what it is about, and answered.
 enum class Question : std::int64_t {
-  hits,        ///< origin, unit direction: the hits of the whole line with all faces, in the order of t
-  points_on,   ///< face: some points inside of it
-  edges_of,    ///< face: some points on each of its edges
-  unchanging,  ///< face, whether turned: by its kind the same all round the y axis, or else all along x
-  entity,      ///< face: number and kind of the entity of the file that it was made of
+  hits,          ///< origin, unit direction: the hits of the whole line with all faces, in the order of t
+  points_on,     ///< face: some points inside of it
+  edges_of,      ///< face: some points on each of its edges
+  unchanging,    ///< face, whether turned: by its kind the same all round the y axis, or else all along x
+  entity,        ///< face: number and kind of the entity of the file that it was made of
+  spline_of,     ///< face, part of it that counts: why it is no B-spline there, or the spline
+  triangles_of,  ///< faces, greatest deviation and length of sides [m]: CadTriangles
 };
 
-/// The other end is gone.
+/// The other end is gone, or says what makes no sense.
 struct Broken {};
 
-/// One end of the socket.
+/// What both ends say and hear.
 class Channel {
  public:
-  explicit Channel(int socket) : socket_(socket) {}
+  virtual ~Channel() = default;
 
   template <class T>
   void put(const T& value) {
@@ -77,17 +109,33 @@ class Channel {
   }
   template <class List>
   List take_list() {
-    constexpr std::int64_t kMost = 100'000'000;
+    constexpr std::int64_t kMost = 100'000'000, kAtOnce = 65'536;
     const auto size = take<std::int64_t>();
     if (size < 0 || size > kMost) throw Broken{};
     List list;
-    list.resize(static_cast<std::size_t>(size));
-    take_bytes(list.data(), list.size() * sizeof(list[0]));
+    // no more memory than there is something to fill it
+    for (std::int64_t have = 0; have < size;) {
+      const std::int64_t more = std::min(kAtOnce, size - have);
+      list.resize(static_cast<std::size_t>(have + more));
+      take_bytes(list.data() + have, static_cast<std::size_t>(more) * sizeof(list[0]));
+      have += more;
+    }
     return list;
   }
 
- private:
-  void put_bytes(const void* data, std::size_t size) {
+ protected:
+  virtual void put_bytes(const void* data, std::size_t size) = 0;
+  /// Also Broken where the other end says nothing for too long.
+  virtual void take_bytes(void* data, std::size_t size) = 0;
+};
+
+/// One end of a socket.
+class SocketChannel : public Channel {
+ public:
+  explicit SocketChannel(int socket) : socket_(socket) {}
+
+ protected:
+  void put_bytes(const void* data, std::size_t size) override {
     const char* bytes = static_cast<const char*>(data);
     while (size > 0) {
       const ssize_t n = ::send(socket_, bytes, size, MSG_NOSIGNAL);
@@ -96,8 +144,7 @@ class Channel {
       bytes += n, size -= static_cast<std::size_t>(n);
     }
   }
-  /// Also Broken where the other end says nothing for as long as the socket waits.
-  void take_bytes(void* data, std::size_t size) {
+  void take_bytes(void* data, std::size_t size) override {
     char* bytes = static_cast<char*>(data);
     while (size > 0) {
       const ssize_t n = ::recv(socket_, bytes, size, 0);
@@ -109,5 +156,37 @@ class Channel {
 
   int socket_;
 };
+
+inline void put(Channel& c, const CadFault& fault) {
+  c.put_list(fault.message);
+  c.put_list(fault.advice);
+}
+
+inline CadFault take_fault(Channel& c) {
+  CadFault fault;
+  fault.message = c.take_list<std::string>();
+  fault.advice = c.take_list<std::string>();
+  return fault;
+}
+
+inline void put(Channel& c, const CadSpline& s) {
+  c.put(s.degree_u);
+  c.put(s.degree_v);
+  c.put_list(s.knots_u);
+  c.put_list(s.knots_v);
+  c.put_list(s.weights);
+  c.put_list(s.poles);
+}
+
+inline CadSpline take_spline(Channel& c) {
+  CadSpline s;
+  s.degree_u = c.take<std::int64_t>();
+  s.degree_v = c.take<std::int64_t>();
+  s.knots_u = c.take_list<std::vector<double>>();
+  s.knots_v = c.take_list<std::vector<double>>();
+  s.weights = c.take_list<std::vector<double>>();
+  s.poles = c.take_list<std::vector<Point>>();
+  return s;
+}
 
 }  // namespace treadmark::io::cad

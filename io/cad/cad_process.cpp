@@ -9,6 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <utility>
 
@@ -47,96 +50,132 @@ fs::path program() {
               {}, "install Treadmark again");
 }
 
+/// A run of the program. It ends with this object.
+class ProcessChannel final : public SocketChannel {
+ public:
+  explicit ProcessChannel(const std::string& file) : SocketChannel(-1) {
+    const fs::path name = program();
+    int ends[2] = {-1, -1};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+      throw Error(ErrorKind::configuration, "no socket can be opened for OpenCASCADE", {file},
+                  "are too many files open?");
+    const timeval silence{kLongestSilence, 0};
+    ::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &silence, sizeof silence);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], kSocketThere);
+    std::string path = name.string(), version = TREADMARK_MODULE_VERSION;
+    char* arguments[] = {path.data(), version.data(), nullptr};
+    const int failed = ::posix_spawn(&process_, path.c_str(), &actions, nullptr, arguments, environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    socket_ = ends[0];
+    if (failed == 0) return;
+    ::close(socket_);
+    throw Error(ErrorKind::configuration, fmt::format("cannot start {}", path), {file}, "install Treadmark again");
+  }
+  ProcessChannel(const ProcessChannel&) = delete;
+  ProcessChannel& operator=(const ProcessChannel&) = delete;
+  ~ProcessChannel() override {
+    ::close(socket_);
+    ::kill(process_, SIGKILL);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+
+ private:
+  pid_t process_ = -1;
+};
+
+/// Calls talk(channel); ends the channel where it is broken.
+template <class Talk>
+auto talk_to(std::unique_ptr<Channel>& channel, const std::string& file, Talk talk) {
+  try {
+    if (channel == nullptr) throw Broken{};
+    return talk(*channel);
+  } catch (const Broken&) {
+    channel.reset();
+    throw Error(ErrorKind::input_data, "OpenCASCADE broke down over the CAD file", {file},
+                "is it damaged? export it again, or export triangles (.stl)");
+  }
+}
+
+bool is_finite(const Point& p) {
+  return std::ranges::all_of(p, [](double x) { return std::isfinite(x); });
+}
+
+void require(bool sense) {
+  if (!sense) throw Broken{};
+}
+
+std::vector<Point> take_points(Channel& c) {
+  auto points = c.take_list<std::vector<Point>>();
+  require(std::ranges::all_of(points, is_finite));
+  return points;
+}
+
 }  // namespace
 
-CadProcess::CadProcess(std::string file) : file_(std::move(file)), channel_(-1) {
-  const fs::path name = program();
-  int ends[2] = {-1, -1};
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
-    throw Error(ErrorKind::configuration, "no socket can be opened for OpenCASCADE", {file_},
-                "are too many files open?");
-  const timeval silence{kLongestSilence, 0};
-  ::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &silence, sizeof silence);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_RDWR, 0);
-  posix_spawn_file_actions_adddup2(&actions, ends[1], kSocketThere);
-  std::string path = name.string(), version = TREADMARK_MODULE_VERSION;
-  char* arguments[] = {path.data(), version.data(), nullptr};
-  const int failed = ::posix_spawn(&process_, path.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  ::close(ends[1]);
-  socket_ = ends[0];
-  channel_ = Channel(socket_);
-  if (failed == 0) return;
-  ::close(socket_);
-  throw Error(ErrorKind::configuration, fmt::format("cannot start {}", path), {file_}, "install Treadmark again");
+std::unique_ptr<Channel> start_opencascade(const std::string& file) { return std::make_unique<ProcessChannel>(file); }
+
+template <class Talk>
+auto CadShape::ask(Talk talk) const {
+  return talk_to(channel_, file_, talk);
 }
 
-CadProcess::~CadProcess() {
-  ::close(socket_);
-  if (process_ <= 0) return;
-  ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
-}
-
-void CadProcess::broke_down() {
-  ::kill(process_, SIGKILL);
-  ::waitpid(process_, nullptr, 0);
-  process_ = -1;
-  throw Error(ErrorKind::input_data, "OpenCASCADE broke down over the CAD file", {file_},
-              "is it damaged? export it again, or export triangles (.stl)");
-}
-
-CadShape::CadShape(const fs::path& file, bool iges) : process_(file.string()) {
-  process_.ask([&](Channel& c) {
+CadShape::CadShape(std::unique_ptr<Channel> channel, const fs::path& file, bool iges)
+    : channel_(std::move(channel)), file_(file.string()) {
+  const CadFault fault = ask([&](Channel& c) {
     c.put<std::int64_t>(iges ? 1 : 0);
-    c.put_list(file.string());
-  });
-  const CadFault fault = process_.ask([](Channel& c) {
-    CadFault said;
-    said.message = c.take_list<std::string>();
-    said.advice = c.take_list<std::string>();
-    return said;
+    c.put_list(file_);
+    return take_fault(c);
   });
   if (!fault.message.empty())
-    throw Error(ErrorKind::input_data, "the CAD file " + fault.message, {file.string()}, fault.advice);
-  process_.ask([&](Channel& c) {
+    throw Error(ErrorKind::input_data, "the CAD file " + fault.message, {file_}, fault.advice);
+  ask([&](Channel& c) {
     unit_ = c.take_list<std::string>();
-    faces_ = static_cast<int>(c.take<std::int64_t>());
+    const auto faces = c.take<std::int64_t>();
     low_ = c.take<Point>();
     high_ = c.take<Point>();
+    require(faces > 0 && faces <= kMostFaces && is_finite(low_) && is_finite(high_));
+    for (std::size_t k = 0; k < 3; ++k) require(low_[k] <= high_[k]);
+    faces_ = static_cast<int>(faces);
   });
 }
 
 std::vector<CadHit> CadShape::hits(const Point& origin, const Point& direction) const {
-  return process_.ask([&](Channel& c) {
+  return ask([&](Channel& c) {
     c.put(Question::hits);
     c.put(origin);
     c.put(direction);
-    return c.take_list<std::vector<CadHit>>();
+    auto hits = c.take_list<std::vector<CadHit>>();
+    for (const CadHit& hit : hits) require(hit.face >= 0 && hit.face < faces_ && std::isfinite(hit.t));
+    return hits;
   });
 }
 
 std::vector<Point> CadShape::points_on(std::int64_t face) const {
-  return process_.ask([&](Channel& c) {
+  return ask([&](Channel& c) {
     c.put(Question::points_on);
     c.put(face);
-    return c.take_list<std::vector<Point>>();
+    return take_points(c);
   });
 }
 
-std::vector<Point> CadShape::edges_of(std::int64_t face) const {
-  return process_.ask([&](Channel& c) {
+std::vector<CadEdgePoint> CadShape::edges_of(std::int64_t face) const {
+  return ask([&](Channel& c) {
     c.put(Question::edges_of);
     c.put(face);
-    return c.take_list<std::vector<Point>>();
+    auto points = c.take_list<std::vector<CadEdgePoint>>();
+    for (const CadEdgePoint& point : points) require(is_finite(point.p));
+    return points;
   });
 }
 
 bool CadShape::unchanging(std::int64_t face, bool turned) const {
-  return process_.ask([&](Channel& c) {
+  return ask([&](Channel& c) {
     c.put(Question::unchanging);
     c.put(face);
     c.put<std::int64_t>(turned ? 1 : 0);
@@ -145,29 +184,59 @@ bool CadShape::unchanging(std::int64_t face, bool turned) const {
 }
 
 std::string CadShape::entity(std::int64_t face) const {
-  return process_.ask([&](Channel& c) {
+  return ask([&](Channel& c) {
     c.put(Question::entity);
     c.put(face);
     return c.take_list<std::string>();
   });
 }
 
+CadSpline CadShape::spline_of(std::int64_t face, const CadPart& part, std::string& why) const {
+  return ask([&](Channel& c) {
+    c.put(Question::spline_of);
+    c.put(face);
+    c.put(part);
+    why = c.take_list<std::string>();
+    CadSpline spline;
+    if (why.empty()) spline = take_spline(c);
+    return spline;
+  });
+}
+
+CadTriangles CadShape::triangles_of(const std::vector<std::int64_t>& faces, double deviation, double side) const {
+  return ask([&](Channel& c) {
+    c.put(Question::triangles_of);
+    c.put_list(faces);
+    c.put(deviation);
+    c.put(side);
+    CadTriangles out;
+    out.message = c.take_list<std::string>();
+    out.deviation = c.take<double>();
+    out.vertices = take_points(c);
+    out.triangles = c.take_list<std::vector<std::array<std::int32_t, 3>>>();
+    out.faces = c.take_list<std::vector<std::int32_t>>();
+    require(out.faces.size() == out.triangles.size() && !(out.deviation < 0.0));
+    for (const auto& triangle : out.triangles)
+      for (const std::int32_t corner : triangle)
+        require(corner >= 0 && static_cast<std::size_t>(corner) < out.vertices.size());
+    for (const std::int32_t face : out.faces) require(face >= 0 && face < faces_);
+    return out;
+  });
+}
+
 void write_sheet(const fs::path& file, const CadSheet& sheet) {
-  CadProcess process(file.string());
-  const CadFault fault = process.ask([&](Channel& c) {
+  std::unique_ptr<Channel> channel = start_opencascade(file.string());
+  const CadFault fault = talk_to(channel, file.string(), [&](Channel& c) {
     constexpr std::int64_t kWrite = 2;
     c.put(kWrite);
     c.put_list(file.string());
     c.put(sheet.kind);
-    c.put(sheet.rows);
     c.put(sheet.from);
     c.put(sheet.to);
     c.put_list(sheet.name);
-    c.put_list(sheet.points);
-    CadFault said;
-    said.message = c.take_list<std::string>();
-    said.advice = c.take_list<std::string>();
-    return said;
+    c.put_list(sheet.description);
+    put(c, sheet.spline);
+    return take_fault(c);
   });
   if (!fault.message.empty())
     throw Error(ErrorKind::configuration, "the CAD file " + fault.message, {file.string()}, fault.advice);

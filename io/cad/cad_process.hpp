@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,39 +11,16 @@
 
 namespace treadmark::io::cad {
 
-/// A run of the program that holds OpenCASCADE, treadmark-opencascade. It ends with this object. One thread.
-class CadProcess {
- public:
-  /// file: for messages. Errors: Error(configuration) naming the places where the program was looked for.
-  explicit CadProcess(std::string file);
-  ~CadProcess();
-  CadProcess(const CadProcess&) = delete;
-  CadProcess& operator=(const CadProcess&) = delete;
+/// Starts the program that holds OpenCASCADE, treadmark-opencascade, which ends with the channel. file: for messages.
+/// Errors: Error(configuration) naming the places where the program was looked for.
+std::unique_ptr<Channel> start_opencascade(const std::string& file);
 
-  /// Calls talk(channel). Errors: Error(input_data) where the program breaks down or says nothing for two minutes.
-  template <class Talk>
-  auto ask(Talk talk) {
-    try {
-      return talk(channel_);
-    } catch (const Broken&) {
-      broke_down();
-    }
-  }
-
- private:
-  [[noreturn]] void broke_down();
-
-  std::string file_;
-  int socket_ = -1;
-  int process_ = -1;
-  Channel channel_;
-};
-
-/// The faces of a CAD file, trimmed as it says.
+/// The faces of a CAD file, trimmed as it says. One thread. Errors of all: Error(input_data) where the program at the
+/// other end breaks down, says nothing for two minutes, or what makes no sense.
 class CadShape {
  public:
-  /// Errors: those of CadProcess, and Error(input_data) for what OpenCASCADE finds wrong with the file.
-  CadShape(const std::filesystem::path& file, bool iges);
+  /// Errors: Error(input_data) also for what OpenCASCADE finds wrong with the file.
+  CadShape(std::unique_ptr<Channel> channel, const std::filesystem::path& file, bool iges);
 
   const std::string& unit() const { return unit_; }  ///< of the file, in its words
   int faces() const { return faces_; }
@@ -51,18 +29,24 @@ class CadShape {
   /// See Question.
   std::vector<CadHit> hits(const Point& origin, const Point& direction) const;
   std::vector<Point> points_on(std::int64_t face) const;
-  std::vector<Point> edges_of(std::int64_t face) const;
+  std::vector<CadEdgePoint> edges_of(std::int64_t face) const;
   bool unchanging(std::int64_t face, bool turned) const;
   std::string entity(std::int64_t face) const;
+  /// why: left empty where there is a spline.
+  CadSpline spline_of(std::int64_t face, const CadPart& part, std::string& why) const;
+  CadTriangles triangles_of(const std::vector<std::int64_t>& faces, double deviation, double side) const;
 
  private:
-  mutable CadProcess process_;
-  std::string unit_;
+  template <class Talk>
+  auto ask(Talk talk) const;
+
+  mutable std::unique_ptr<Channel> channel_;
+  std::string file_, unit_;
   int faces_ = 0;
   Point low_{}, high_{};
 };
 
-/// Writes STEP. Errors: those of CadProcess; Error(configuration) for what cannot be written.
+/// Writes STEP. Errors: those of CadShape; Error(configuration) for what cannot be written.
 void write_sheet(const std::filesystem::path& file, const CadSheet& sheet);
 
 }  // namespace treadmark::io::cad

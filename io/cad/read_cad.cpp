@@ -3,10 +3,13 @@
 #include "treadmark/io/cad/read_cad.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <optional>
+#include <set>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -30,6 +33,14 @@ constexpr double kCoarse = 10e-3;    // between slices [m]
 constexpr double kFine = 0.5e-3;     // likewise, where the shape changes most [m]
 constexpr double kDeviation = 1e-7;  // that makes slices closer [m]
 constexpr double kFarApart = 60e-3;  // a surface that begins again so far aside is another one [m]
+constexpr double kLongest = 200.0, kWidest = 10.0;  // of a body [m]
+constexpr std::size_t kMostSlices = 20'000;
+constexpr double kSide = 0.5e-3, kFlat = 20e-6;  // of triangles: longest side; deviation before they are divided [m]
+
+/// Slices of one width are not all of the surface.
+struct SidesMove {
+  Error error;
+};
 
 /// What lines from the contact side see.
 class RunningSurface {
@@ -42,6 +53,7 @@ class RunningSurface {
   struct Seen {
     double h = kNaN;  ///< z of a rail, radius of a wheel [m]
     std::int64_t face = -1;
+    double u = 0.0, v = 0.0;  ///< parameters of the face
     bool is_there() const { return face >= 0; }
   };
 
@@ -52,7 +64,7 @@ class RunningSurface {
     if (hits.empty()) return {};
     const cad::CadHit& outer = wheel_ ? hits.back() : hits.front();
     if (wheel_ && !(outer.t > 0.0)) return {};
-    return {outer.t, outer.face};
+    return {outer.t, outer.face, outer.u, outer.v};
   }
 
   /// Whether a lies outside of b.
@@ -113,7 +125,7 @@ class RunningSurface {
     return out;
   }
 
-  /// NaN at the outermost places, where the sides may move a little. Errors: a hole or an end among the others.
+  /// NaN at the outermost places, where the sides may move a little. Throws SidesMove for an end among the others.
   std::vector<double> heights(double u, const std::vector<double>& y) const {
     constexpr std::size_t kOutermost = 4;
     std::vector<double> h(y.size());
@@ -124,56 +136,99 @@ class RunningSurface {
         continue;
       }
       if (!seen.is_there() || (i > 0 && std::fabs(seen.h - h[i - 1]) > kJump + 20.0 * (y[i] - y[i - 1])))
-        throw Error(ErrorKind::input_data,
-                    fmt::format("at {} the surface has a hole or ends at y = {:.6g} mm, where it goes on elsewhere{}",
-                                place(u), 1e3 * y[i], beside(i > 0 ? at(u, y[i - 1]).face : seen.face)),
-                    {file_}, "close the hole, or give triangles (.stl) if the sides move");
+        throw SidesMove{
+            Error(ErrorKind::input_data,
+                  fmt::format("at {} the surface has a hole or ends at y = {:.6g} mm, where it goes on elsewhere{}",
+                              place(u), 1e3 * y[i], beside(i > 0 ? at(u, y[i - 1]).face : seen.face)),
+                  {file_}, "close the hole, or give triangles (.stl)")};
       h[i] = seen.h;
     }
     return h;
   }
 
-  /// Stations of some points of the faces that are seen where the section lies and are not by their kind the same all
-  /// along. None: it is the section everywhere.
-  std::vector<double> changing_stations(const Section& section) const {
-    std::vector<double> stations;
+  /// What is seen where the section lies.
+  struct Faces {
+    std::vector<double> changing;  ///< stations of some points of faces that are not by their kind the same all along
+    std::set<std::int64_t> seen;
+    cad::CadPart part;  ///< of the parameters, if one face alone is seen
+  };
+  Faces faces(const Section& section) const {
+    Faces out;
     for (int face = 0; face < shape_.faces(); ++face) {
       check_cancelled();
-      if (shape_.unchanging(face, wheel_)) continue;
+      const bool same = shape_.unchanging(face, wheel_);
       for (const cad::Point& p : shape_.points_on(face)) {
         if (p[1] < section.y.front() || p[1] > section.y.back()) continue;
         const auto [u, h] = natural(p);
         if (below_top(h, section.top) > kDeep + kJump) continue;
         const Seen outermost = at(u, p[1]);
-        if (std::fabs(outermost.h - h) <= kSame) stations.push_back(u);
+        if (!(std::fabs(outermost.h - h) <= kSame)) continue;
+        out.seen.insert(face);
+        if (same) break;
+        out.changing.push_back(u);
       }
     }
-    return stations;
+    return out;
   }
 
-  /// Errors: a hole, or an end between the ends: of an edge that is seen, one side has no surface.
+  /// Lines all over it, for faces that were passed by, and the part of parameters that they meet.
+  void look_everywhere(const Section& section, Faces& faces) const {
+    constexpr int kStations = 25;
+    constexpr std::size_t kEach = 4;  // nodes
+    bool any = false;
+    for (int i = 0; i < kStations; ++i) {
+      check_cancelled();
+      const double u = from_ + (to_ - from_) * i / (kStations - 1);
+      for (std::size_t k = 0; k < section.y.size();
+           k += k + 1 == section.y.size() ? 1 : std::min(kEach, section.y.size() - 1 - k)) {
+        const Seen seen = at(u, section.y[k]);
+        if (!seen.is_there()) continue;
+        faces.seen.insert(seen.face);
+        cad::CadPart& part = faces.part;
+        if (!any) part = {seen.u, seen.u, seen.v, seen.v};
+        any = true;
+        part = {std::min(part.u0, seen.u), std::max(part.u1, seen.u), std::min(part.v0, seen.v),
+                std::max(part.v1, seen.v)};
+      }
+    }
+  }
+
+  /// Errors: a hole, or a gap: of an edge that is seen, one side has no surface, but goes on. Throws SidesMove for an
+  /// end between the ends.
   void require_whole(const Section& section) const {
     constexpr double kBeside = 20e-6, kEnds = 50e-6;  // [m]
     const double scale = wheel_ ? std::fabs(section.top) : 1.0;
+    std::optional<SidesMove> moved;
     for (int face = 0; face < shape_.faces(); ++face) {
       check_cancelled();
-      for (const cad::Point& p : shape_.edges_of(face)) {
+      for (const cad::CadEdgePoint& edge : shape_.edges_of(face)) {
+        const cad::Point& p = edge.p;
         const auto [u, h] = natural(p);
         if (p[1] < section.y.front() + kEnds || p[1] > section.y.back() - kEnds) continue;
         if (!closed_ && (scale * (u - from_) < kEnds || scale * (to_ - u) < kEnds)) continue;
         if (below_top(h, section.top) > kDeep) continue;
+        const auto goes_on = [&, u_ = u, h_ = h](const std::pair<double, double>& towards, double far) {
+          const Seen beside = at(u_ + towards.first * far / scale, p[1] + towards.second * far);
+          return beside.is_there() && std::fabs(beside.h - h_) < kJump;
+        };
         int there = 0, gone = 0;
-        for (const auto& [du, dy] : {std::pair{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {
-          const Seen beside = at(u + du * kBeside / scale, p[1] + dy * kBeside);
-          ++(beside.is_there() && std::fabs(beside.h - h) < kJump ? there : gone);
+        bool again = edge.round_a_hole != 0;
+        for (const std::pair<double, double>& towards : {std::pair{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}) {
+          const bool beside = goes_on(towards, kBeside);
+          ++(beside ? there : gone);
+          for (double far = 2.0 * kBeside; !beside && !again && far < kFarApart; far *= 1.5)
+            again = goes_on(towards, far);
         }
         if (there == 0 || gone == 0) continue;  // behind something, or within the surface
-        throw Error(ErrorKind::input_data,
-                    fmt::format("the surface has a hole or ends at {}, y = {:.6g} mm{}", place(u), 1e3 * p[1],
-                                this->beside(face)),
-                    {file_}, "close it in the CAD program: wheels cannot roll over it");
+        const Error error(ErrorKind::input_data,
+                          fmt::format("the surface has a hole or ends at {}, y = {:.6g} mm{}", place(u), 1e3 * p[1],
+                                      this->beside(face)),
+                          {file_}, "close it in the CAD program: wheels cannot roll over it");
+        if (again) throw error;
+        if (!moved) moved = SidesMove{error};
       }
     }
+    if (moved) throw *moved;
   }
 
   /// All of it along the track, or the part round the axle about angle 0; call before the others.
@@ -216,11 +271,14 @@ class RunningSurface {
     return wheel_ ? fmt::format("{:.6g} degrees", u * 180.0 / kPi) : fmt::format("x = {:.6g} mm", 1e3 * u);
   }
 
- private:
   std::pair<double, double> natural(const cad::Point& p) const {
     return wheel_ ? std::pair{std::atan2(p[0], p[2]), std::hypot(p[0], p[2])} : std::pair{p[0], p[2]};
   }
+  Vec3 outwards(const Vec3& p) const {
+    return wheel_ ? Vec3(p.x(), 0.0, p.z()).stableNormalized() : Vec3(0.0, 0.0, -1.0);
+  }
 
+ private:
   bool follows(const std::vector<Seen>& seen, int i, int step, double top) const {
     const Seen &here = seen[static_cast<std::size_t>(i)], &next = seen[static_cast<std::size_t>(i + step)];
     return next.is_there() && std::fabs(next.h - here.h) <= kJump && below_top(next.h, top) <= kDeep;
@@ -297,6 +355,10 @@ SliceSet slices_of(const RunningSurface& surface, Body body, double radius, cons
   std::vector<Slice> all;
   const auto slice = [&](double u) {
     check_cancelled();
+    if (all.size() > kMostSlices)
+      throw Error(ErrorKind::input_data,
+                  fmt::format("the surface changes so much that it needs more than {} slices", kMostSlices), {name},
+                  "give a part of it, or triangles (.stl)");
     return Slice{u, surface.heights(u, y)};
   };
   const int n = std::max(4, static_cast<int>(std::ceil(scale * (to - from) / kCoarse)));
@@ -361,10 +423,142 @@ SliceSet slices_of(const RunningSurface& surface, Body body, double radius, cons
   return out;
 }
 
+/// A face of which at least this part is whole.
+std::optional<TensorSpline> spline_of(const cad::CadShape& shape, std::int64_t face, const cad::CadPart& part,
+                                      Body body, const std::string& name) {
+  std::string why;
+  cad::CadSpline given = shape.spline_of(face, part, why);
+  if (!why.empty()) return std::nullopt;
+  TensorSpline out;
+  out.body = body;
+  out.name = name;
+  constexpr std::int64_t kMost = kHighestDegree;
+  out.degree_u = static_cast<int>(std::clamp<std::int64_t>(given.degree_u, 0, kMost + 1));
+  out.degree_v = static_cast<int>(std::clamp<std::int64_t>(given.degree_v, 0, kMost + 1));
+  out.knots_u = std::move(given.knots_u), out.knots_v = std::move(given.knots_v);
+  out.weights = std::move(given.weights);
+  out.poles.reserve(given.poles.size());
+  for (const cad::Point& p : given.poles) out.poles.emplace_back(p[0], p[1], p[2]);
+  check(out);
+  return along_body(std::move(out));
+}
+
+/// All faces that something can touch, down to where nothing is touched.
+TriangleMesh triangles_of(const cad::CadShape& shape, const RunningSurface& surface,
+                          const RunningSurface::Section& section, const std::string& file, std::string& note) {
+  std::vector<std::int64_t> faces;
+  const auto in_reach = [&](const cad::Point& p) {
+    return surface.below_top(surface.natural(p).second, section.top) <= kDeep;
+  };
+  for (int face = 0; face < shape.faces(); ++face) {
+    check_cancelled();
+    bool reached = std::ranges::any_of(shape.points_on(face), in_reach);
+    if (!reached)
+      for (const cad::CadEdgePoint& edge : shape.edges_of(face)) reached = reached || in_reach(edge.p);
+    if (reached) faces.push_back(face);
+  }
+  constexpr double kCoarsest = 8.0;
+  cad::CadTriangles given;
+  double side = kSide;
+  for (double coarser = 1.0; coarser <= kCoarsest; coarser *= 2.0) {
+    side = kSide * coarser;
+    given = shape.triangles_of(faces, kFlat * coarser * coarser, side);
+    if (given.message.empty()) break;
+  }
+  if (!given.message.empty())
+    throw Error(ErrorKind::input_data, "the CAD file " + given.message, {file}, "export triangles (.stl)");
+  TriangleMesh out;
+  out.name = std::filesystem::path(file).filename().string();
+  constexpr std::uint32_t kNone = 0xffffffff;
+  std::vector<std::uint32_t> becomes(given.vertices.size(), kNone);
+  double outwards = 0.0;
+  out.triangles.reserve(given.triangles.size());
+  for (const auto& t : given.triangles) {
+    std::array<Vec3, 3> corner;
+    bool reached = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const cad::Point& p = given.vertices[static_cast<std::size_t>(t[k])];
+      corner[k] = {p[0], p[1], p[2]};
+      reached = reached || in_reach(p);
+    }
+    if (!reached) continue;
+    outwards += (corner[1] - corner[0]).cross(corner[2] - corner[0]).dot(surface.outwards(corner[0]));
+    auto& kept = out.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& now = becomes[static_cast<std::size_t>(t[k])];
+      if (now == kNone) {
+        now = static_cast<std::uint32_t>(out.vertices.size());
+        out.vertices.push_back(corner[k]);
+      }
+      kept[k] = now;
+    }
+  }
+  if (outwards < 0.0)
+    for (auto& t : out.triangles) std::swap(t[1], t[2]);
+  note += fmt::format("its sides move: {} triangles of {} faces, sides up to {:g} mm, middles within {:.2g} um. ",
+                      out.triangles.size(), faces.size(), 1e3 * side, 1e6 * given.deviation);
+  return out;
+}
+
 }  // namespace
 
-CadSections read_cad(const std::filesystem::path& file, Body body, double nominal_radius,
-                     const SourcePosition& asked_by) {
+CadSurface cad::running_surface(const CadShape& shape, Body body, double nominal_radius,
+                                const std::filesystem::path& file) {
+  const cad::Point low = shape.low(), high = shape.high();
+  if (high[0] - low[0] > kLongest || high[1] - low[1] > kWidest || high[2] - low[2] > kLongest)
+    throw Error(ErrorKind::input_data,
+                fmt::format("the part is {:.4g} m long, {:.4g} m wide and {:.4g} m high", high[0] - low[0],
+                            high[1] - low[1], high[2] - low[2]),
+                {file.string()}, fmt::format("is its unit right? It says {}", shape.unit()));
+  RunningSurface surface(shape, body, file.string());
+  surface.find_ends();
+  const double start = 0.5 * (surface.from() + surface.to());
+  if (!(surface.from() < surface.to()))
+    throw Error(ErrorKind::input_data, "there is no surface of any length", {file.string()},
+                "x forward, y to the right, z down; the axle of a wheel is the y axis: is the part placed so?");
+  const RunningSurface::Section section = surface.section(start);
+  constexpr double kLeast = 0.8, kMost = 1.25;  // of the nominal radius
+  if (body == Body::wheel && !(section.top > kLeast * nominal_radius && section.top < kMost * nominal_radius))
+    throw Error(ErrorKind::input_data,
+                fmt::format("its greatest radius about the y axis is {:.6g} mm, the nominal radius {:.6g} mm",
+                            1e3 * section.top, 1e3 * nominal_radius),
+                {file.string()}, "the axle of a wheel is the y axis: is the part placed so, and its unit right?");
+  CadSurface out;
+  out.note = fmt::format("{} faces in {}. ", shape.faces(), shape.unit());
+  const std::string name = file.filename().string();
+  try {
+    RunningSurface::Faces faces = surface.faces(section);
+    const auto is_spline = [&](const cad::CadPart& part) {
+      auto spline = faces.seen.size() == 1 ? spline_of(shape, *faces.seen.begin(), part, body, name) : std::nullopt;
+      if (!spline) return false;
+      out.note += fmt::format("the B-spline of {}, degrees {} x {}, {} x {} poles. ", shape.entity(*faces.seen.begin()),
+                              spline->degree_u, spline->degree_v, spline->poles_u(), spline->poles_v());
+      out.shape = *std::move(spline);
+      return true;
+    };
+    if (!faces.changing.empty()) {
+      surface.look_everywhere(section, faces);
+      if (is_spline({})) return out;
+    }
+    surface.require_whole(section);
+    if (faces.changing.empty()) {
+      out.shape = profile_of(body, section.y, section.h, nominal_radius, name);
+      out.note += fmt::format("one section of {} points. ", section.y.size());
+      return out;
+    }
+    if (is_spline(faces.part)) return out;
+    SliceSet slices = slices_of(surface, body, nominal_radius, section.y, faces.changing, name);
+    out.note +=
+        fmt::format("{} faces seen; {} slices of {} points. ", faces.seen.size(), slices.u.size(), section.y.size());
+    out.shape = std::move(slices);
+  } catch (const SidesMove&) {
+    out.shape = triangles_of(shape, surface, section, file.string(), out.note);
+  }
+  return out;
+}
+
+CadSurface read_cad(const std::filesystem::path& file, Body body, double nominal_radius,
+                    const SourcePosition& asked_by) {
   constexpr std::uintmax_t kMostBytes = 512'000'000;
   std::error_code failed;
   const std::uintmax_t size = std::filesystem::file_size(file, failed);
@@ -374,45 +568,29 @@ CadSections read_cad(const std::filesystem::path& file, Body body, double nomina
   if (size > kMostBytes)
     throw Error(ErrorKind::input_data, fmt::format("the CAD file has {} bytes, more than {}", size, kMostBytes),
                 {file.string()}, "export the running surface alone");
-  const cad::CadShape shape(file, !is_step_file(file));
-  RunningSurface surface(shape, body, file.string());
-  surface.find_ends();
-  const double start = 0.5 * (surface.from() + surface.to());
-  if (!(surface.from() < surface.to()))
-    throw Error(ErrorKind::input_data, "there is no surface of any length", {file.string()},
-                "x forward, y to the right, z down; the axle of a wheel is the y axis: is the part placed so?");
-  const RunningSurface::Section section = surface.section(start);
-  surface.require_whole(section);
-  CadSections out;
-  out.note = fmt::format("{} faces in {}. ", shape.faces(), shape.unit());
-  const std::string name = file.filename().string();
-  const std::vector<double> changing = surface.changing_stations(section);
-  if (changing.empty()) {
-    out.shape = profile_of(body, section.y, section.h, nominal_radius, name);
-    out.note += fmt::format("one section of {} points. ", section.y.size());
-    return out;
-  }
-  SliceSet slices = slices_of(surface, body, nominal_radius, section.y, changing, name);
-  out.note += fmt::format("{} slices of {} points. ", slices.u.size(), section.y.size());
-  out.shape = std::move(slices);
-  return out;
+  const cad::CadShape shape(cad::start_opencascade(file.string()), file, !is_step_file(file));
+  return cad::running_surface(shape, body, nominal_radius, file);
 }
 
-void write_cad(const std::filesystem::path& file, const CadPoints& points) {
+void write_cad(const std::filesystem::path& file, const CadContent& content) {
   if (!is_step_file(file))
     throw Error(ErrorKind::configuration, "CAD files are written as STEP", {file.string()}, "use .step or .stp");
-  const bool wheel = points.body == Body::wheel;
+  const TensorSpline& given = content.spline;
+  check(given);
+  const bool wheel = given.body == Body::wheel;
   cad::CadSheet sheet;
   sheet.name = wheel ? "wheel" : "rail";
-  sheet.from = points.from, sheet.to = points.to;
-  if (points.grid.empty()) {
+  sheet.description = content.description;
+  cad::CadSpline& spline = sheet.spline;
+  spline.degree_u = given.degree_u, spline.degree_v = given.degree_v;
+  spline.knots_u = given.knots_u, spline.knots_v = given.knots_v, spline.weights = given.weights;
+  spline.poles.reserve(given.poles.size());
+  for (const Vec3& p : given.poles) spline.poles.push_back({p.x(), p.y(), p.z()});
+  if (content.swept) {
     sheet.kind = wheel ? cad::CadSheet::Kind::revolved : cad::CadSheet::Kind::extruded;
-    sheet.points.reserve(points.y.size());
-    for (std::size_t i = 0; i < points.y.size(); ++i) sheet.points.push_back({0.0, points.y[i], points.h[i]});
-  } else {
-    sheet.rows = points.stations;
-    sheet.points.reserve(points.grid.size());
-    for (const Vec3& p : points.grid) sheet.points.push_back({p.x(), p.y(), p.z()});
+    std::tie(sheet.from, sheet.to) = *content.swept;
+    spline.poles.resize(given.poles_v());
+    for (cad::Point& p : spline.poles) p[0] = 0.0;
   }
   // OpenCASCADE writes as it goes: what stands under the name of the file is whole
   OutputFolder own(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);

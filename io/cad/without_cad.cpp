@@ -5,11 +5,11 @@
 
 namespace treadmark::io {
 
-CadSections read_cad(const std::filesystem::path&, Body, double, const SourcePosition& asked_by) {
+CadSurface read_cad(const std::filesystem::path&, Body, double, const SourcePosition& asked_by) {
   throw Error(ErrorKind::configuration, left_out_message("cad", "files of CAD (.step, .iges)"), asked_by,
               left_out_advice("cad"));
 }
 
-void write_cad(const std::filesystem::path&, const CadPoints&) { left_out("cad", "files of CAD (.step)"); }
+void write_cad(const std::filesystem::path&, const CadContent&) { left_out("cad", "files of CAD (.step)"); }
 
 }  // namespace treadmark::io

@@ -11,7 +11,7 @@
 namespace treadmark {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Influence = InfluenceSettings::Kind;
 
 // The number of enumerators. A new one breaks the compilation here (-Wswitch) until it is counted.

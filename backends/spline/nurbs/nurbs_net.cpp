@@ -63,6 +63,7 @@ void NurbsNet::build_boxes() {
     return Box{middle.cast<float>(),
                (half * (1.0 + kUp) + middle.cwiseAbs() * kUp + Vec3::Constant(1e-30)).cast<float>()};
   };
+  Corners all;
   Level first{patches_u(), patches_v(), {}};
   first.boxes.reserve(static_cast<std::size_t>(first.nu) * static_cast<std::size_t>(first.nv));
   for (int iu = 0; iu < first.nu; ++iu, check_cancelled())
@@ -71,8 +72,11 @@ void NurbsNet::build_boxes() {
       Corners corners;
       for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) corners.include(p.point(i, j));
+      all.include(corners.min);
+      all.include(corners.max);
       first.boxes.push_back(box(corners));
     }
+  bounds_ = {all.min, all.max};
   levels_.push_back(std::move(first));
   while (levels_.back().boxes.size() > 1) {
     const Level& below = levels_.back();
@@ -131,11 +135,6 @@ PatchCorners NurbsNet::corners(int iu, int iv) const {
   const std::size_t row = v_.size(), next = (u + 1) * row < corners_.size() ? u + 1 : 0;
   const auto at = [&](std::size_t i, std::size_t j) { return corners_[i * row + j].p.data(); };
   return {{{at(u, v), at(u, v + 1)}, {at(next, v), at(next, v + 1)}}, u_[u + 1] - u_[u], v_[v + 1] - v_[v]};
-}
-
-Box3 NurbsNet::bounds() const {
-  const Box& box = levels_.back().boxes.front();
-  return {box.centre() - box.half(), box.centre() + box.half()};
 }
 
 NurbsNet::Range NurbsNet::range() const {

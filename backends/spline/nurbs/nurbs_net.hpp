@@ -61,7 +61,7 @@ class NurbsNet {
   BezierPatch patch(int iu, int iv) const;
   /// Frame P: homogeneous coordinates there.
   BezierPatch patch(int iu, int iv, const Pose& X_SP) const;
-  Box3 bounds() const;
+  Box3 bounds() const { return bounds_; }
   /// Polynomial and kept by corners.
   bool by_corners() const { return !corners_.empty(); }
   /// The corners of a patch of such a net.
@@ -114,6 +114,7 @@ class NurbsNet {
   std::vector<Quad> points_;   // one of the two is empty
   std::vector<Corner> corners_;
   std::vector<Level> levels_;
+  Box3 bounds_;  // of all control points, in double precision: the ends of the surface are those of its box
 };
 
 }  // namespace treadmark::spline

@@ -5,14 +5,18 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
 #include <BRepTopAdaptor_FClass2d.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <GeomAPI_Interpolate.hxx>
-#include <GeomAPI_PointsToBSplineSurface.hxx>
+#include <Geom2d_Curve.hxx>
+#include <GeomConvert.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <IGESControl_Reader.hxx>
@@ -24,21 +28,29 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_PrinterOStream.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 #include <StepBasic_Product.hxx>
+#include <StepShape_Face.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColStd_Array2OfReal.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
-#include <TColgp_HArray1OfPnt.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopAbs_State.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Wire.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <gp_Ax1.hxx>
@@ -47,9 +59,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_map>
+#include <utility>
 
 #include "treadmark/io/cad/cad_messages.hpp"
 
@@ -58,7 +74,6 @@ namespace {
 
 constexpr double kMillimetres = 1e3;  // in a metre: what OpenCASCADE counts in
 constexpr double kTolerance = 1e-7;   // [mm]
-constexpr int kMostFaces = 100'000;
 
 void be_quiet() {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
@@ -70,7 +85,8 @@ Point to_m(const gp_Pnt& p) { return {p.X() / kMillimetres, p.Y() / kMillimetres
 
 class Shape {
  public:
-  Shape(TopoDS_Shape whole, std::string unit) : whole_(std::move(whole)), unit_(std::move(unit)) {
+  Shape(TopoDS_Shape whole, std::string unit, const Handle(XSControl_WorkSession) & read)
+      : whole_(std::move(whole)), unit_(std::move(unit)), read_(read) {
     TopExp::MapShapes(whole_, TopAbs_FACE, faces_);
     Bnd_Box all;
     boxes_.reserve(static_cast<std::size_t>(faces_.Extent()));
@@ -84,9 +100,14 @@ class Shape {
     if (all.IsVoid()) return;
     gp_Pnt low = all.CornerMin(), high = all.CornerMax();
     low_ = to_m(low), high_ = to_m(high);
+    // lines are square to y
+    strips_.resize(kStrips);
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (boxes_[i].IsVoid()) continue;
+      const std::size_t last = strip(boxes_[i].CornerMax().Y() + kTolerance);
+      for (std::size_t k = strip(boxes_[i].CornerMin().Y() - kTolerance); k <= last; ++k) strips_[k].push_back(i);
+    }
   }
-  void name_entities(std::vector<std::string> entities) { entities_ = std::move(entities); }
-  const TopTools_IndexedMapOfShape& all() const { return faces_; }
 
   std::string unit() const { return unit_; }
   int faces() const { return faces_.Extent(); }
@@ -95,7 +116,8 @@ class Shape {
   std::vector<CadHit> hits(const Point& origin, const Point& direction) const {
     const gp_Lin line(to_mm(origin), gp_Dir(direction[0], direction[1], direction[2]));
     std::vector<CadHit> out;
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    if (strips_.empty()) return out;
+    for (const std::size_t i : strips_[strip(kMillimetres * origin[1])]) {
       if (boxes_[i].IsOut(line)) continue;
       if (!meets_[i])
         meets_[i] =
@@ -103,7 +125,8 @@ class Shape {
       meets_[i]->Perform(line, -1e9, 1e9);
       if (!meets_[i]->IsDone()) continue;
       for (int k = 1; k <= meets_[i]->NbPnt(); ++k)
-        out.push_back({meets_[i]->WParameter(k) / kMillimetres, static_cast<int>(i)});
+        out.push_back({meets_[i]->WParameter(k) / kMillimetres, static_cast<int>(i), meets_[i]->UParameter(k),
+                       meets_[i]->VParameter(k)});
     }
     std::sort(out.begin(), out.end(), [](const CadHit& a, const CadHit& b) { return a.t < b.t; });
     return out;
@@ -123,18 +146,22 @@ class Shape {
       }
     return out;
   }
-  std::vector<Point> edges_of(int face) const {
+  std::vector<CadEdgePoint> edges_of(int face) const {
     constexpr int kEach = 5;
-    std::vector<Point> out;
-    for (TopExp_Explorer edges(faces_(face + 1), TopAbs_EDGE); edges.More(); edges.Next()) {
-      const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
-      // where a surface meets itself, as after a whole turn, nothing ends
-      if (BRep_Tool::Degenerated(edge) || BRep_Tool::IsClosed(edge, TopoDS::Face(faces_(face + 1)))) continue;
-      const BRepAdaptor_Curve curve(edge);
-      for (int i = 0; i < kEach; ++i)
-        out.push_back(to_m(curve.Value(curve.FirstParameter() +
-                                       (curve.LastParameter() - curve.FirstParameter()) * (i + 0.5) / kEach)));
-    }
+    std::vector<CadEdgePoint> out;
+    const TopoDS_Face& f = TopoDS::Face(faces_(face + 1));
+    const TopoDS_Wire outer = BRepTools::OuterWire(f);
+    for (TopExp_Explorer wires(f, TopAbs_WIRE); wires.More(); wires.Next())
+      for (TopExp_Explorer edges(wires.Current(), TopAbs_EDGE); edges.More(); edges.Next()) {
+        const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+        // where a surface meets itself, as after a whole turn, nothing ends
+        if (BRep_Tool::Degenerated(edge) || BRep_Tool::IsClosed(edge, f)) continue;
+        const BRepAdaptor_Curve curve(edge);
+        const double from = curve.FirstParameter(), to = curve.LastParameter();
+        for (int i = 0; i < kEach; ++i)
+          out.push_back(
+              {to_m(curve.Value(from + (to - from) * (i + 0.5) / kEach)), wires.Current().IsSame(outer) ? 0 : 1});
+      }
     return out;
   }
   bool unchanging(int face, bool turned) const {
@@ -164,10 +191,11 @@ class Shape {
         return false;
     }
   }
-  std::string entity(int face) const {
-    const auto i = static_cast<std::size_t>(face);
-    return i < entities_.size() ? entities_[i] : std::string();
-  }
+  /// All of the face where nothing but its ends bounds it, or else the part that counts. Empty, and why: no B-spline.
+  CadSpline spline_of(int face, CadPart part, std::string& why) const;
+  CadTriangles triangles_of(const std::vector<std::int64_t>& faces, double deviation, double side) const;
+
+  std::string entity(int face) const;
 
  private:
   TopoDS_Shape whole_;
@@ -175,29 +203,347 @@ class Shape {
   TopTools_IndexedMapOfShape faces_;
   std::vector<Bnd_Box> boxes_;
   mutable std::vector<std::unique_ptr<IntCurvesFace_Intersector>> meets_;
-  std::vector<std::string> entities_;
+  Handle(XSControl_WorkSession) read_;
   Point low_{}, high_{};
+
+  static constexpr std::size_t kStrips = 256;
+  std::size_t strip(double y) const {
+    const double low = kMillimetres * low_[1], high = kMillimetres * high_[1];
+    const double share = high > low ? (y - low) / (high - low) : 0.0;
+    return static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * (kStrips - 1));
+  }
+  std::vector<std::vector<std::size_t>> strips_;  ///< boxes that reach into each
 };
 
-std::vector<std::string> entities_of(const Handle(XSControl_WorkSession) & work,
-                                     const TopTools_IndexedMapOfShape& faces) {
-  std::vector<std::string> out;
-  const Handle(XSControl_TransferReader)& reader = work->TransferReader();
-  const Handle(Interface_InterfaceModel)& model = work->Model();
-  for (int i = 1; i <= faces.Extent(); ++i) {
-    std::string name;
-    for (const int mode : {1, 3, 0}) {
-      const Handle(Standard_Transient) entity = reader->EntityFromShapeResult(faces(i), mode);
-      if (entity.IsNull()) continue;
-      name = std::string(model->StringLabel(entity)->ToCString()) + " (" + entity->DynamicType()->Name() + ")";
-      break;
+constexpr int kOnEdge = 64;      // points of an edge
+constexpr double kOnEnd = 1e-7;  // of the length of a range of parameters
+
+/// Whether no edge of a face leads through the inside of a part of its parameters, whose middle lies on the face.
+bool is_clear(const TopoDS_Face& face, const CadPart& part) {
+  const double du = kOnEnd * (part.u1 - part.u0), dv = kOnEnd * (part.v1 - part.v0);
+  if (!(du > 0.0 && dv > 0.0)) return false;
+  for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+    double from = 0.0, to = 0.0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, from, to);
+    if (curve.IsNull()) return false;
+    for (int i = 0; i <= kOnEdge; ++i) {
+      const gp_Pnt2d p = curve->Value(from + (to - from) * i / kOnEdge);
+      if (p.X() > part.u0 + du && p.X() < part.u1 - du && p.Y() > part.v0 + dv && p.Y() < part.v1 - dv) return false;
     }
-    out.push_back(name);
   }
+  const BRepTopAdaptor_FClass2d inside(face, 1e-9);
+  return inside.Perform(gp_Pnt2d(0.5 * (part.u0 + part.u1), 0.5 * (part.v0 + part.v1))) == TopAbs_IN;
+}
+
+/// Offset surfaces, and what is made of offset curves, become splines only about.
+bool is_exact_spline(const TopoDS_Face& face) {
+  const BRepAdaptor_Surface s(face, Standard_False);
+  const auto known = [](GeomAbs_CurveType type) { return type != GeomAbs_OffsetCurve && type != GeomAbs_OtherCurve; };
+  switch (s.GetType()) {
+    case GeomAbs_OffsetSurface:
+    case GeomAbs_OtherSurface:
+      return false;
+    case GeomAbs_SurfaceOfRevolution:
+    case GeomAbs_SurfaceOfExtrusion:
+      return known(s.BasisCurve()->GetType());
+    default:
+      return true;
+  }
+}
+
+CadSpline Shape::spline_of(int face, CadPart part, std::string& why) const {
+  const TopoDS_Face& f = TopoDS::Face(faces_(face + 1));
+  CadPart whole;
+  BRepTools::UVBounds(f, whole.u0, whole.u1, whole.v0, whole.v1);
+  if (is_clear(f, whole))
+    part = whole;
+  else if (!is_clear(f, part))
+    return why = "is trimmed where it can be touched", CadSpline{};
+  if (!is_exact_spline(f)) return why = "is no surface that a B-spline can be exactly", CadSpline{};
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(f);
+  double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
+  surface->Bounds(u0, u1, v0, v1);
+  if (!surface->IsUPeriodic()) part.u0 = std::max(part.u0, u0), part.u1 = std::min(part.u1, u1);
+  if (!surface->IsVPeriodic()) part.v0 = std::max(part.v0, v0), part.v1 = std::min(part.v1, v1);
+  const auto near = [](double a, double b, double range) { return std::fabs(a - b) <= kOnEnd * range; };
+  Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(surface);
+  if (!spline.IsNull() && near(part.u0, u0, u1 - u0) && near(part.u1, u1, u1 - u0) && near(part.v0, v0, v1 - v0) &&
+      near(part.v1, v1, v1 - v0))
+    spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
+  else
+    spline = GeomConvert::SurfaceToBSplineSurface(
+        new Geom_RectangularTrimmedSurface(surface, part.u0, part.u1, part.v0, part.v1));
+  if (spline->IsUPeriodic()) spline->SetUNotPeriodic();
+  if (spline->IsVPeriodic()) spline->SetVNotPeriodic();
+  constexpr int kExact = 3;
+  if ((spline->UDegree() > kExact || spline->VDegree() > kExact) && !(spline->IsCNu(1) && spline->IsCNv(1)))
+    return why = "has a degree above 3, and edges", CadSpline{};
+  CadSpline out;
+  out.degree_u = spline->UDegree(), out.degree_v = spline->VDegree();
+  const auto knots = [](const TColStd_Array1OfReal& sequence) {
+    std::vector<double> list;
+    list.reserve(static_cast<std::size_t>(sequence.Length()));
+    for (int i = sequence.Lower(); i <= sequence.Upper(); ++i) list.push_back(sequence(i));
+    return list;
+  };
+  out.knots_u = knots(spline->UKnotSequence()), out.knots_v = knots(spline->VKnotSequence());
+  const bool rational = spline->IsURational() || spline->IsVRational();
+  const auto size = static_cast<std::size_t>(spline->NbUPoles()) * static_cast<std::size_t>(spline->NbVPoles());
+  out.poles.reserve(size);
+  out.weights.reserve(rational ? size : 0);
+  for (int i = 1; i <= spline->NbUPoles(); ++i)
+    for (int j = 1; j <= spline->NbVPoles(); ++j) {
+      out.poles.push_back(to_m(spline->Pole(i, j)));
+      if (rational) out.weights.push_back(spline->Weight(i, j));
+    }
   return out;
 }
 
+/// One face as triangles whose corners lie on it, divided until no side is longer than asked for. Neighbours divide the
+/// edge that they share at the same points of it.
+class FaceTriangles {
+ public:
+  FaceTriangles(const TopoDS_Face& face, const Handle(Poly_Triangulation) & given)
+      : surface_(face), turned_(face.Orientation() == TopAbs_REVERSED) {
+    const auto count = static_cast<std::size_t>(given->NbNodes());
+    points_.reserve(count), uv_.reserve(count);
+    for (int i = 1; i <= given->NbNodes(); ++i) {
+      uv_.push_back(given->UVNode(i));
+      points_.push_back(surface_.Value(uv_.back().X(), uv_.back().Y()));
+    }
+    triangles_.reserve(static_cast<std::size_t>(given->NbTriangles()));
+    for (int i = 1; i <= given->NbTriangles(); ++i) {
+      int a = 0, b = 0, c = 0;
+      given->Triangle(i).Get(a, b, c);
+      triangles_.push_back({a - 1, b - 1, c - 1});
+    }
+    TopLoc_Location place;
+    BRep_Tool::Triangulation(face, place);
+    for (TopExp_Explorer edges(face, TopAbs_EDGE); edges.More(); edges.Next()) {
+      const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+      const Handle(Poly_PolygonOnTriangulation) polygon = BRep_Tool::PolygonOnTriangulation(edge, given, place);
+      if (polygon.IsNull() || polygon->Parameters().IsNull() || BRep_Tool::Degenerated(edge)) continue;
+      double from = 0.0, to = 0.0;
+      const Handle(Geom2d_Curve) on_face = BRep_Tool::CurveOnSurface(edge, face, from, to);
+      if (on_face.IsNull()) continue;
+      borders_.push_back({BRepAdaptor_Curve(edge), on_face});
+      const int index = static_cast<int>(borders_.size()) - 1;
+      const TColStd_Array1OfInteger& nodes = polygon->Nodes();
+      for (int i = nodes.Lower(); i <= nodes.Upper(); ++i) {
+        const double t = polygon->Parameters()->Value(i - nodes.Lower() + polygon->Parameters()->Lower());
+        const auto node = static_cast<std::size_t>(nodes(i) - 1);
+        points_[node] = borders_.back().curve.Value(t);
+        if (i == nodes.Lower()) continue;
+        const double before = polygon->Parameters()->Value(i - 1 - nodes.Lower() + polygon->Parameters()->Lower());
+        note_border(nodes(i - 1) - 1, nodes(i) - 1, {index, before, t});
+      }
+    }
+  }
+
+  /// Halves the longest sides, which makes thin triangles stouter (Rivara 1984), until none is too long. Every side
+  /// that is, and no other, is halved at last, so that neighbours agree. False: more triangles than asked for.
+  bool divide(double longest, std::size_t most) {
+    const auto length = [&](int a, int b) {
+      return points_[static_cast<std::size_t>(a)].SquareDistance(points_[static_cast<std::size_t>(b)]);
+    };
+    for (;;) {
+      std::unordered_map<std::uint64_t, int> middles;
+      for (const auto& t : triangles_) {
+        const std::array<double, 3> sides{length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])};
+        const auto k = static_cast<std::size_t>(std::ranges::max_element(sides) - sides.begin());
+        if (sides[k] <= longest * longest) continue;
+        const int a = t[k], b = t[(k + 1) % 3];
+        if (const auto [at, fresh] = middles.try_emplace(side_of(a, b), -1); fresh) at->second = halve(a, b);
+      }
+      if (middles.empty()) return true;
+      std::vector<std::array<int, 3>> next;
+      next.reserve(triangles_.size() + 2 * middles.size());
+      const auto middle = [&](int a, int b) {
+        const auto at = middles.find(side_of(a, b));
+        return at == middles.end() ? -1 : at->second;
+      };
+      for (const auto& t : triangles_) part(t, {middle(t[0], t[1]), middle(t[1], t[2]), middle(t[2], t[0])}, next);
+      triangles_ = std::move(next);
+      if (triangles_.size() > most) return false;
+    }
+  }
+
+  /// Adds them; deviation: see CadTriangles.
+  void append(int face, std::vector<gp_Pnt>& points, CadTriangles& out) const {
+    const auto first = static_cast<std::int32_t>(points.size());
+    points.insert(points.end(), points_.begin(), points_.end());
+    for (const auto& t : triangles_) {
+      const auto at = [&](int k) { return static_cast<std::size_t>(t[static_cast<std::size_t>(k)]); };
+      const gp_XYZ a = points_[at(0)].XYZ(), b = points_[at(1)].XYZ(), c = points_[at(2)].XYZ();
+      const gp_XYZ normal = (b - a).Crossed(c - a);
+      const double area = normal.Modulus();
+      if (area > 0.0) {
+        const gp_XY uv = (uv_[at(0)].XY() + uv_[at(1)].XY() + uv_[at(2)].XY()) / 3.0;
+        const gp_XYZ off = surface_.Value(uv.X(), uv.Y()).XYZ() - (a + b + c) / 3.0;
+        out.deviation = std::max(out.deviation, std::fabs(off.Dot(normal)) / area / kMillimetres);
+      }
+      out.triangles.push_back({first + t[0], first + t[turned_ ? 2 : 1], first + t[turned_ ? 1 : 2]});
+      out.faces.push_back(face);
+    }
+  }
+
+ private:
+  struct Border {
+    BRepAdaptor_Curve curve;
+    Handle(Geom2d_Curve) on_face;
+  };
+  struct OnBorder {
+    int border;
+    double from, to;  // of the lesser and the greater node
+  };
+
+  /// The same for both directions.
+  static std::uint64_t side_of(int a, int b) {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint64_t>(std::max(a, b));
+  }
+  void note_border(int a, int b, OnBorder on) {
+    if (a > b) std::swap(a, b), std::swap(on.from, on.to);
+    on_border_.insert_or_assign(side_of(a, b), on);
+  }
+  int halve(int a, int b) {
+    const int fresh = static_cast<int>(points_.size());
+    const auto found = on_border_.find(side_of(a, b));
+    if (found != on_border_.end()) {
+      const OnBorder on = found->second;
+      const double t = 0.5 * (on.from + on.to);
+      const Border& border = borders_[static_cast<std::size_t>(on.border)];
+      points_.push_back(border.curve.Value(t));
+      uv_.push_back(border.on_face->Value(t));
+      note_border(std::min(a, b), fresh, {on.border, on.from, t});
+      note_border(std::max(a, b), fresh, {on.border, on.to, t});
+      return fresh;
+    }
+    const gp_XY uv = 0.5 * (uv_[static_cast<std::size_t>(a)].XY() + uv_[static_cast<std::size_t>(b)].XY());
+    uv_.emplace_back(uv);
+    points_.push_back(surface_.Value(uv.X(), uv.Y()));
+    return fresh;
+  }
+  /// A triangle by those of its sides that have a middle.
+  static void part(const std::array<int, 3>& t, const std::array<int, 3>& m, std::vector<std::array<int, 3>>& out) {
+    const int divided = (m[0] >= 0) + (m[1] >= 0) + (m[2] >= 0);
+    if (divided == 0) return out.push_back(t);
+    if (divided == 3) {
+      out.insert(out.end(), {{t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, {m[0], m[1], m[2]}});
+      return;
+    }
+    // turned so that the first side is divided, and the last one is not
+    std::size_t k = 0;
+    while (!(m[k] >= 0 && m[(k + 2) % 3] < 0)) ++k;
+    const int a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3], ab = m[k], bc = m[(k + 1) % 3];
+    if (divided == 1)
+      out.insert(out.end(), {{a, ab, c}, {ab, b, c}});
+    else
+      out.insert(out.end(), {{a, ab, c}, {ab, b, bc}, {ab, bc, c}});
+  }
+
+  BRepAdaptor_Surface surface_;
+  bool turned_;
+  std::vector<gp_Pnt> points_;
+  std::vector<gp_Pnt2d> uv_;
+  std::vector<std::array<int, 3>> triangles_;
+  std::vector<Border> borders_;
+  std::unordered_map<std::uint64_t, OnBorder> on_border_;
+};
+
+/// Corners that neighbours share become one.
+void join_corners(const std::vector<gp_Pnt>& points, CadTriangles& out) {
+  constexpr double kSame = 1e-4;  // [mm]
+  struct Hash {
+    std::size_t operator()(const std::array<std::int64_t, 3>& k) const {
+      return static_cast<std::size_t>(k[0] * 73'856'093 ^ k[1] * 19'349'663 ^ k[2] * 83'492'791);
+    }
+  };
+  std::unordered_map<std::array<std::int64_t, 3>, std::int32_t, Hash> known;
+  std::vector<std::int32_t> become(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const gp_Pnt& p = points[i];
+    std::array<std::int64_t, 3> cell{};
+    for (int k = 0; k < 3; ++k) cell[static_cast<std::size_t>(k)] = std::llround(p.Coord(k + 1) / kSame);
+    std::int32_t found = -1;
+    for (std::int64_t n = 0; n < 27 && found < 0; ++n) {
+      const auto at = known.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
+      if (at == known.end()) continue;
+      const Point& other = out.vertices[static_cast<std::size_t>(at->second)];
+      const gp_Pnt there(kMillimetres * other[0], kMillimetres * other[1], kMillimetres * other[2]);
+      if (there.Distance(p) <= kSame) found = at->second;
+    }
+    if (found < 0) {
+      found = static_cast<std::int32_t>(out.vertices.size());
+      out.vertices.push_back(to_m(p));
+      known.emplace(cell, found);
+    }
+    become[i] = found;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < out.triangles.size(); ++i) {
+    auto t = out.triangles[i];
+    for (auto& corner : t) corner = become[static_cast<std::size_t>(corner)];
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    out.triangles[kept] = t, out.faces[kept] = out.faces[i];
+    ++kept;
+  }
+  out.triangles.resize(kept), out.faces.resize(kept);
+}
+
+CadTriangles Shape::triangles_of(const std::vector<std::int64_t>& faces, double deviation, double side) const {
+  constexpr std::size_t kMostTriangles = 4'000'000;
+  constexpr double kTurn = 0.2;  // [rad] between neighbours
+  TopoDS_Compound together;
+  BRep_Builder builder;
+  builder.MakeCompound(together);
+  for (const std::int64_t face : faces) builder.Add(together, faces_(static_cast<int>(face) + 1));
+  const BRepMesh_IncrementalMesh mesh(together, kMillimetres * deviation, Standard_False, kTurn);
+  CadTriangles out;
+  std::vector<gp_Pnt> points;
+  for (const std::int64_t face : faces) {
+    const TopoDS_Face& f = TopoDS::Face(faces_(static_cast<int>(face) + 1));
+    TopLoc_Location place;
+    const Handle(Poly_Triangulation) given = BRep_Tool::Triangulation(f, place);
+    if (given.IsNull() || !given->HasUVNodes()) {
+      out.message = "cannot be made into triangles (" + entity(static_cast<int>(face)) + ")";
+      return out;
+    }
+    FaceTriangles divided(f, given);
+    if (!divided.divide(kMillimetres * side, kMostTriangles - std::min(kMostTriangles, out.triangles.size()))) {
+      out = {};
+      out.message = "needs more than " + std::to_string(kMostTriangles) + " triangles";
+      return out;
+    }
+    divided.append(static_cast<int>(face), points, out);
+  }
+  join_corners(points, out);
+  return out;
+}
+
+std::string Shape::entity(int face) const {
+  // looks through all that was read: only where somebody asks
+  if (face < 0 || face >= faces()) return {};
+  const Handle(XSControl_TransferReader)& reader = read_->TransferReader();
+  for (const int mode : {1, 3, 0}) {
+    const Handle(Standard_Transient) entity = reader->EntityFromShapeResult(faces_(face + 1), mode);
+    if (entity.IsNull()) continue;
+    return std::string(read_->Model()->StringLabel(entity)->ToCString()) + " (" + entity->DynamicType()->Name() + ")";
+  }
+  return {};
+}
+
+CadFault too_many_faces(int faces) {
+  return {"holds " + std::to_string(faces) + " faces, more than " + std::to_string(kMostFaces),
+          "export the running surface alone, or triangles (.stl)"};
+}
+
 std::unique_ptr<Shape> finished(XSControl_Reader& reader, std::string unit, CadFault& fault) {
+  // before anything is made of them
+  const Handle(Interface_InterfaceModel) model = reader.Model();
+  int said = 0;
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (model->Value(i)->IsKind(STANDARD_TYPE(StepShape_Face))) ++said;
+  if (said > kMostFaces) return fault = too_many_faces(said), nullptr;
   reader.TransferRoots();
   const TopoDS_Shape whole = reader.OneShape();
   TopTools_IndexedMapOfShape faces;
@@ -206,14 +552,8 @@ std::unique_ptr<Shape> finished(XSControl_Reader& reader, std::string unit, CadF
     fault = {"holds no face", "export surfaces or solids, not curves or meshes alone"};
     return nullptr;
   }
-  if (faces.Extent() > kMostFaces) {
-    fault = {"holds " + std::to_string(faces.Extent()) + " faces, more than " + std::to_string(kMostFaces),
-             "export the running surface alone, or triangles (.stl)"};
-    return nullptr;
-  }
-  auto shape = std::make_unique<Shape>(whole, std::move(unit));
-  shape->name_entities(entities_of(reader.WS(), shape->all()));
-  return shape;
+  if (faces.Extent() > kMostFaces) return fault = too_many_faces(faces.Extent()), nullptr;
+  return std::make_unique<Shape>(whole, std::move(unit), reader.WS());
 }
 
 std::unique_ptr<Shape> read_step(const std::string& file, CadFault& fault) {
@@ -269,28 +609,49 @@ std::unique_ptr<Shape> read(const std::string& file, bool iges, CadFault& fault)
   return nullptr;
 }
 
-Handle(Geom_BSplineCurve) curve_through(const std::vector<Point>& points) {
-  Handle(TColgp_HArray1OfPnt) array = new TColgp_HArray1OfPnt(1, static_cast<int>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) array->SetValue(static_cast<int>(i) + 1, to_mm(points[i]));
-  GeomAPI_Interpolate interpolate(array, Standard_False, kTolerance);
-  interpolate.Perform();
-  if (!interpolate.IsDone()) throw Standard_Failure("a curve cannot be laid through the points");
-  return interpolate.Curve();
-}
+/// Knots as OpenCASCADE counts them.
+struct Knots {
+  TColStd_Array1OfReal values;
+  TColStd_Array1OfInteger times;
+
+  explicit Knots(const std::vector<double>& knots) : values(1, different(knots)), times(1, different(knots)) {
+    int n = 0;
+    for (std::size_t i = 0; i < knots.size(); ++i) {
+      if (i == 0 || knots[i] > knots[i - 1]) values(++n) = knots[i], times(n) = 0;
+      ++times(n);
+    }
+  }
+  static int different(const std::vector<double>& knots) {
+    int n = 0;
+    for (std::size_t i = 0; i < knots.size(); ++i) n += i == 0 || knots[i] > knots[i - 1] ? 1 : 0;
+    return n;
+  }
+};
 
 TopoDS_Shape shape_of(const CadSheet& sheet) {
-  if (sheet.kind == CadSheet::Kind::grid) {
-    const int rows = static_cast<int>(sheet.rows), columns = static_cast<int>(sheet.points.size()) / rows;
-    TColgp_Array2OfPnt array(1, rows, 1, columns);
+  const CadSpline& spline = sheet.spline;
+  const Knots across(spline.knots_v);
+  const int columns = static_cast<int>(spline.knots_v.size()) - static_cast<int>(spline.degree_v) - 1;
+  if (sheet.kind == CadSheet::Kind::surface) {
+    const Knots along(spline.knots_u);
+    const int rows = static_cast<int>(spline.knots_u.size()) - static_cast<int>(spline.degree_u) - 1;
+    TColgp_Array2OfPnt poles(1, rows, 1, columns);
+    TColStd_Array2OfReal weights(1, rows, 1, columns);
     for (int i = 0; i < rows; ++i)
-      for (int j = 0; j < columns; ++j)
-        array.SetValue(i + 1, j + 1, to_mm(sheet.points[static_cast<std::size_t>(i * columns + j)]));
-    GeomAPI_PointsToBSplineSurface interpolate;
-    interpolate.Interpolate(array);
-    if (!interpolate.IsDone()) throw Standard_Failure("a surface cannot be laid through the points");
-    return BRepBuilderAPI_MakeFace(interpolate.Surface(), kTolerance).Face();
+      for (int j = 0; j < columns; ++j) {
+        const auto k = static_cast<std::size_t>(i * columns + j);
+        poles(i + 1, j + 1) = to_mm(spline.poles.at(k));
+        weights(i + 1, j + 1) = spline.weights.empty() ? 1.0 : spline.weights.at(k);
+      }
+    const Handle(Geom_BSplineSurface) surface =
+        new Geom_BSplineSurface(poles, weights, along.values, across.values, along.times, across.times,
+                                static_cast<int>(spline.degree_u), static_cast<int>(spline.degree_v));
+    return BRepBuilderAPI_MakeFace(surface, kTolerance).Face();
   }
-  const Handle(Geom_BSplineCurve) curve = curve_through(sheet.points);
+  TColgp_Array1OfPnt poles(1, columns);
+  for (int j = 0; j < columns; ++j) poles(j + 1) = to_mm(spline.poles.at(static_cast<std::size_t>(j)));
+  const Handle(Geom_BSplineCurve) curve =
+      new Geom_BSplineCurve(poles, across.values, across.times, static_cast<int>(spline.degree_v));
   const double first = curve->FirstParameter(), last = curve->LastParameter();
   if (sheet.kind == CadSheet::Kind::extruded) {
     Handle(Geom_SurfaceOfLinearExtrusion) surface = new Geom_SurfaceOfLinearExtrusion(curve, gp_Dir(1.0, 0.0, 0.0));
@@ -315,6 +676,7 @@ CadFault write(const std::string& file, const CadSheet& sheet) {
     header.SetName(new TCollection_HAsciiString(sheet.name.c_str()));
     header.SetTimeStamp(new TCollection_HAsciiString("1970-01-01T00:00:00"));  // the same surface gives the same bytes
     header.SetAuthorValue(1, new TCollection_HAsciiString(""));
+    header.SetDescriptionValue(1, new TCollection_HAsciiString(sheet.description.c_str()));
     header.SetOriginatingSystem(new TCollection_HAsciiString("Treadmark"));
     if (writer.Write(file.c_str()) != IFSelect_RetDone) return {"cannot be written", "is there room in its folder?"};
   } catch (const Standard_Failure& failure) {
@@ -347,16 +709,41 @@ void answer(Channel& channel, const Shape& shape) {
         channel.put<std::int64_t>(shape.unchanging(static_cast<int>(face), turned != 0) ? 1 : 0);
         break;
       }
+      case Question::spline_of: {
+        const auto face = channel.take<std::int64_t>();
+        const auto part = channel.take<CadPart>();
+        std::string why;
+        CadSpline spline;
+        try {
+          spline = shape.spline_of(static_cast<int>(face), part, why);
+        } catch (const Standard_Failure& failure) {
+          why = std::string("cannot become a B-spline: ") + failure.GetMessageString();
+        }
+        channel.put_list(why);
+        if (why.empty()) put(channel, spline);
+        break;
+      }
+      case Question::triangles_of: {
+        const auto faces = channel.take_list<std::vector<std::int64_t>>();
+        const double deviation = channel.take<double>(), side = channel.take<double>();
+        CadTriangles out;
+        try {
+          out = shape.triangles_of(faces, deviation, side);
+        } catch (const Standard_Failure& failure) {
+          out.message = std::string("cannot be made into triangles: ") + failure.GetMessageString();
+        }
+        channel.put_list(out.message);
+        channel.put(out.deviation);
+        channel.put_list(out.vertices);
+        channel.put_list(out.triangles);
+        channel.put_list(out.faces);
+        break;
+      }
       case Question::entity:
         channel.put_list(shape.entity(static_cast<int>(channel.take<std::int64_t>())));
         break;
     }
   }
-}
-
-void put(Channel& channel, const CadFault& fault) {
-  channel.put_list(fault.message);
-  channel.put_list(fault.advice);
 }
 
 /// A file may ask for anything.
@@ -375,11 +762,11 @@ void serve(Channel& channel) {
   if (task == Task::write) {
     CadSheet sheet;
     sheet.kind = channel.take<CadSheet::Kind>();
-    sheet.rows = channel.take<std::int64_t>();
     sheet.from = channel.take<double>();
     sheet.to = channel.take<double>();
     sheet.name = channel.take_list<std::string>();
-    sheet.points = channel.take_list<std::vector<Point>>();
+    sheet.description = channel.take_list<std::string>();
+    sheet.spline = take_spline(channel);
     return put(channel, write(file, sheet));
   }
   CadFault fault;
@@ -396,7 +783,7 @@ int main(int count, char** arguments) {
   if (count != 2 || std::string_view(arguments[1]) != TREADMARK_MODULE_VERSION) return 2;
   treadmark::io::cad::bound_what_it_takes();
   try {
-    treadmark::io::cad::Channel channel(kSocket);
+    treadmark::io::cad::SocketChannel channel(kSocket);
     treadmark::io::cad::serve(channel);
   } catch (...) {  // the other end sees that this one is gone
     return 1;
