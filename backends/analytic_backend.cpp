@@ -31,7 +31,9 @@ bool is_formula(const SurfaceSpec& spec) {
 }
 
 bool flats_only(const SurfaceSpec& spec) {
-  return spec.body == Body::wheel && is_formula(spec) && spec.defects.polygonizations.empty();
+  Defects others = spec.defects;
+  others.flats.clear();
+  return spec.body == Body::wheel && is_formula(spec) && others.empty();
 }
 
 std::optional<Profile> sampled_formula(const SurfaceSpec& spec, double step) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -17,6 +16,8 @@
 #include "treadmark/backends/natural_kind.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/stopwatch.hpp"
 
 namespace treadmark {
 namespace {
@@ -123,7 +124,7 @@ class RingKind final : public NaturalKind {
       return sampled;
     }
     RepresentedSurface out;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = used_seconds();
     out.resampled = true;
     out.resolution = step;
     out.surface = slice_ring(assembly::ring_slices(*sampled_formula(ring.spec, step), ring.spec.roller_radius));
@@ -131,7 +132,7 @@ class RingKind final : public NaturalKind {
     out.region = wanted.region;
     out.region.u_min = std::max(out.region.u_min, box.min.x());
     out.region.u_max = std::min(out.region.u_max, box.max.x());
-    out.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    out.build_seconds = used_seconds() - start;
     return out;
   }
 
@@ -165,8 +166,10 @@ class PartsKind final : public NaturalKind {
     RepresentedSurface out;
     out.region = wanted.region;
     std::vector<std::shared_ptr<const Surface>> surfaces;
-    for (const SurfacePart& part : parts_) {
-      const bool rail = whole.spec.body == Body::rail;
+    const bool rail = whole.spec.body == Body::rail;
+    std::vector<RepresentedSurface> represented(parts_.size());
+    parallel_for(parts_.size(), [&](std::size_t i) {
+      const SurfacePart& part = parts_[i];
       Representation own{part.backend.empty() ? wanted.backend : part.backend,
                          part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
       const double along = rail ? part.offset.x() : 0.0;
@@ -174,7 +177,13 @@ class PartsKind final : public NaturalKind {
       own.region.u_max -= along;
       own.region.y_min -= part.offset.y();
       own.region.y_max -= part.offset.y();
-      const RepresentedSurface r = treadmark::represent(*part.natural, own);
+      represented[i] = treadmark::represent(*part.natural, own);
+    });
+    surfaces.reserve(parts_.size());
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const SurfacePart& part = parts_[i];
+      const RepresentedSurface& r = represented[i];
+      const double along = rail ? part.offset.x() : 0.0;
       surfaces.push_back(placed(r.surface, part.offset));
       out.note += r.note;
       out.build_seconds += r.build_seconds;

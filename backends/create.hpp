@@ -86,7 +86,7 @@ struct RepresentedSurface {
   bool resampled = false;      ///< false: the natural surface itself
   double resolution = 0.0;     ///< [m] 0 = as given
   Region region;               ///< where the surface stands for the natural one
-  double build_seconds = 0.0;  ///< wall clock, sampling included [s]
+  double build_seconds = 0.0;  ///< as used_seconds() counts, sampling included
   std::string note;            ///< repairs and limits worth knowing; may be empty
 };
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/natural_kind.hpp"
 
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "treadmark/backends/sampling/difference.hpp"
 #include "treadmark/backends/undamaged_base.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 
 namespace treadmark {
 namespace {
@@ -27,8 +27,7 @@ bool is_natural(const NaturalSurface& natural, const Representation& wanted) {
 }  // namespace
 
 RepresentedSurface NaturalKind::represent(const NaturalSurface& natural, const Representation& wanted) const {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
+  const double start = used_seconds();
   RepresentedSurface out;
   out.region = wanted.region;
   if (is_natural(natural, wanted)) {
@@ -49,7 +48,7 @@ RepresentedSurface NaturalKind::represent(const NaturalSurface& natural, const R
   out.resolution = sampled.resolution;
   out.region = sampled.region;
   out.note = sampled.note;
-  out.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  out.build_seconds = used_seconds() - start;
   return out;
 }
 

@@ -43,7 +43,7 @@ void Resampling::limit_rail() {
 
 sampling::PointGrid Resampling::points(bool common, bool staggered) {
   limit_rail();
-  sampling::SampleSettings s{resolution_, 0.0, region_, common, staggered};
+  sampling::SampleSettings s{resolution_, 0.0, region_, common, true, staggered};
   // along a prismatic rail nothing changes: longer steps lose nothing
   constexpr double kLongStep = 4.0;
   if (natural_.constant_profile() && spec().body == Body::rail) s.spacing_u = kLongStep * resolution_;
@@ -58,7 +58,7 @@ sampling::PointGrid Resampling::points(bool common, bool staggered) {
 }
 
 Profile Resampling::section() const {
-  sampling::SampleSettings s{resolution_, 1e-3, region_};
+  sampling::SampleSettings s{resolution_, 1e-3, region_, false, false};
   s.region.u_min = 0.0;
   s.region.u_max = spec().body == Body::wheel ? 1e-2 : 3e-3;
   if (spec().body == Body::rail) {
@@ -98,7 +98,7 @@ Profile Resampling::median_section() {
   const double R = spec().nominal_radius, length = region_.u_max - region_.u_min;
   const double whole = wheel ? 2.0 * kPi * R : length;
   const double along = wheel && length < 7.0 ? length * R : std::min(whole, length);
-  sampling::SampleSettings s{resolution_, 0.0, region_};
+  sampling::SampleSettings s{resolution_, 0.0, region_, false, false};
   s.spacing_u = std::max(resolution_, (std::isfinite(along) ? along : whole) / kStations);
   return sampling::median_section(kept(sampling::sample_points(surface(), spec().body, R, s)), R, "median section");
 }

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/backends/assembly/outermost_surface.hpp"
 #include "treadmark/backends/assembly/renamed_surface.hpp"
 #include "treadmark/backends/builtin.hpp"
 #include "treadmark/backends/spline/chords.hpp"
@@ -29,7 +28,7 @@ std::shared_ptr<const Surface> as_chords(Resampling& r) {
   } else if (r.natural().constant_profile()) {
     made = spline::make_chord_surface(r.section(), spec.nominal_radius);
   } else {
-    made = assembly::outermost_of(spline::make_chord_strips(r.points(false), spec.nominal_radius));
+    made = spline::make_chord_surface(r.points(false), spec.nominal_radius);
   }
   return assembly::rename_surface(std::move(made), kChords);
 }

@@ -2,23 +2,23 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <chrono>
-
 namespace treadmark {
 
-/// Adds the time of the computer from its making to its end to a total [s], which must outlive it. Not to be shared
-/// between threads.
+/// Seconds since some moment: where work may use one thread only, processor time of the thread that asks, which other
+/// programs do not lengthen; else time of the day.
+double used_seconds();
+
+/// Adds the seconds from its making to its end to a total [s], which must outlive it. Not to be shared between threads.
 class Stopwatch {
  public:
-  explicit Stopwatch(double& total) : total_(total), start_(Clock::now()) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  explicit Stopwatch(double& total) : total_(total), start_(used_seconds()) {}
+  ~Stopwatch() { total_ += used_seconds() - start_; }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
-  using Clock = std::chrono::steady_clock;
   double& total_;
-  Clock::time_point start_;
+  double start_;
 };
 
 }  // namespace treadmark

@@ -117,12 +117,25 @@ void check(const GaugeCornerCollapse& g, double, const Shape& shape) {
   shape.gentle(0.5 * g.depth * kPi / g.width, "the collapse is too deep for its width");
 }
 
-void check(const Spall& s, double, const Shape& shape) {
-  shape.finite({s.length, s.width, s.depth, s.edge, s.x_center, s.y_center});
+template <class Pit>
+void check_pit(const Pit& s, const Shape& shape) {
+  shape.finite({s.length, s.width, s.depth, s.edge, s.y_center});
   shape.require(s.length > 0.0 && s.width > 0.0 && s.depth > 0.0, "length, width and depth must be positive");
   shape.require(s.edge > 0.0, "the width of the edge must be positive");
   shape.require(2.0 * s.edge <= std::min(s.length, s.width), "the edges are wider than half the spall");
   shape.gentle(0.5 * s.depth * kPi / s.edge, "the edge is too narrow for the depth");
+}
+
+void check(const Spall& s, double, const Shape& shape) {
+  check_pit(s, shape);
+  shape.finite({s.x_center});
+}
+
+void check(const WheelSpall& s, double R, const Shape& shape) {
+  check_pit(s, shape);
+  shape.finite({s.theta_center});
+  shape.require(s.length < 2.0 * kPi * R, "the length must fit on the wheel");
+  shape.require(s.depth < 0.5 * R, "the depth must be less than half the radius");
 }
 
 void check(const FlattenedHead& h, double, const Shape& shape) {

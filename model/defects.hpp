@@ -82,13 +82,21 @@ struct GaugeCornerCollapse {
   friend bool operator==(const GaugeCornerCollapse&, const GaugeCornerCollapse&) = default;
 };
 
-/// A spall: a chip broken out of the running band, a pit with a flat floor: depth w(x) w(y), where w is 1 inside, 0
-/// outside and rises over the width of the edge by 1/2 (1 - cos).
+/// A spall of a rail: a chip broken out of the running band, a pit with a flat floor: depth w(x) w(y), where w is 1
+/// inside, 0 outside and rises over the width of the edge by 1/2 (1 - cos).
 struct Spall {
   double length = 0.0, width = 0.0, depth = 0.0;  ///< over the rims; all > 0
   double edge = 0.0;                              ///< width of the edge, > 0, at most half of length and width
   double x_center = 0.0, y_center = 0.0;          ///< middle
   friend bool operator==(const Spall&, const Spall&) = default;
+};
+
+/// A spall of a wheel's tread: the same, with lengths along the circumference at the nominal radius.
+struct WheelSpall {
+  double length = 0.0, width = 0.0, depth = 0.0;  ///< over the rims, depth along the radius; all > 0
+  double edge = 0.0;                              ///< width of the edge, > 0, at most half of length and width
+  double theta_center = 0.0, y_center = 0.0;      ///< middle: material angle, lateral
+  friend bool operator==(const WheelSpall&, const WheelSpall&) = default;
 };
 
 /// A flattened rail head: over the running band the crown is worn down to a plane across the rail. The plane touches
@@ -127,6 +135,7 @@ struct MillingPath {
 struct Defects {
   std::vector<WheelFlat> flats{};
   std::vector<Polygonization> polygonizations{};
+  std::vector<WheelSpall> wheel_spalls{};
   std::vector<Squat> squats{};
   std::vector<Corrugation> corrugations{};
   std::vector<GaugeCornerCollapse> gauge_corner_collapses{};
@@ -139,6 +148,7 @@ struct Defects {
   static void each(Self&& defects, const Visit& visit) {
     visit("wheel.flats", Body::wheel, defects.flats);
     visit("wheel.polygonizations", Body::wheel, defects.polygonizations);
+    visit("wheel.spalls", Body::wheel, defects.wheel_spalls);
     visit("rail.squats", Body::rail, defects.squats);
     visit("rail.corrugations", Body::rail, defects.corrugations);
     visit("rail.gauge_corner_collapses", Body::rail, defects.gauge_corner_collapses);

@@ -4,12 +4,12 @@
 #include "treadmark/app/bench/bench_scene.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
@@ -20,13 +20,10 @@ namespace {
 
 std::shared_ptr<const NaturalSurface> as_given(io::SurfaceSource source, Body body, double nominal_radius,
                                                double& seconds) {
-  using Clock = std::chrono::steady_clock;
   source.backend.clear();
   source.resolution = 0.0;
-  const auto start = Clock::now();
-  auto natural = std::make_shared<const NaturalSurface>(read_surface(source, body, nominal_radius));
-  seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return natural;
+  const Stopwatch watch(seconds);
+  return std::make_shared<const NaturalSurface>(read_surface(source, body, nominal_radius));
 }
 
 std::shared_ptr<const Surface> without_defects(const NaturalSurface& natural) {

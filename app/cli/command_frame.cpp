@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -91,27 +92,54 @@ void catch_interrupt() {
   std::signal(SIGTERM, on_interrupt);
 }
 
-ProgressLine::ProgressLine(bool quiet)
-    : visible_(!quiet && isatty(STDERR_FILENO) == 1), start_(std::chrono::steady_clock::now()), last_(start_) {}
+ProgressLine::ProgressLine(bool quiet, Units units)
+    : visible_(!quiet && isatty(STDERR_FILENO) == 1),
+      units_(units),
+      start_(std::chrono::steady_clock::now()),
+      last_(start_) {}
 
 ProgressLine::~ProgressLine() {
+  if (clock_.joinable()) {
+    clock_.request_stop();
+    clock_.join();
+  }
   if (drawn_) std::fputs("\r\x1b[K", stderr);
+}
+
+void ProgressLine::draw(const std::string& text) {
+  drawn_ = true;
+  std::fputs(("\r\x1b[K" + text).c_str(), stderr);
+  std::fflush(stderr);
 }
 
 void ProgressLine::update(std::size_t finished, std::size_t total, const std::string& what) {
   using namespace std::chrono_literals;
+  if (!visible_) return;
   const auto now = std::chrono::steady_clock::now();
-  if (!visible_ || (drawn_ && finished < total && now - last_ < 100ms)) return;
+  const auto seconds = [this] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  };
+  if (units_ == Units::different) {
+    const std::lock_guard lock(mutex_);
+    step_ = fmt::format("step {} of {}: {}", std::min(finished + 1, total), total, what);
+    draw(fmt::format("{}, {:.0f} s so far", step_, seconds()));
+    if (!clock_.joinable())
+      clock_ = std::jthread([this, seconds](const std::stop_token& stop) {
+        std::condition_variable_any wake;
+        std::unique_lock hold(mutex_);
+        while (!wake.wait_for(hold, stop, 1s, [] { return false; }) && !stop.stop_requested())
+          draw(fmt::format("{}, {:.0f} s so far", step_, seconds()));
+      });
+    return;
+  }
+  if (drawn_ && finished < total && now - last_ < 100ms) return;
   last_ = now;
-  drawn_ = true;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  std::string line = fmt::format("\r\x1b[K{}/{} ({:.0f} %) {}", finished, total,
+  std::string line = fmt::format("{}/{} ({:.0f} %) {}", finished, total,
                                  100.0 * static_cast<double>(finished) / static_cast<double>(total), what);
   if (finished > 0)
-    line +=
-        fmt::format(", {:.1f} s left", elapsed / static_cast<double>(finished) * static_cast<double>(total - finished));
-  std::fputs(line.c_str(), stderr);
-  std::fflush(stderr);
+    line += fmt::format(", {:.1f} s left",
+                        seconds() / static_cast<double>(finished) * static_cast<double>(total - finished));
+  draw(line);
 }
 
 }  // namespace treadmark::cli

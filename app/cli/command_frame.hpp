@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "treadmark/app/cli/verbs.hpp"
@@ -24,17 +26,27 @@ const std::atomic<bool>& interrupted();
 /// To be called as often as wanted.
 void catch_interrupt();
 
-/// One line on stderr with count and estimated time left, redrawn at most ten times a second. Silent off a terminal.
+/// Whether units of work take about equally long, so that what is left can be told from what is done.
+enum class Units { alike, different };
+
+/// One line on stderr with count and estimated time left, redrawn at most ten times a second; of different units with
+/// the time so far, redrawn every second. Silent off a terminal.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool quiet);
+  ProgressLine(bool quiet, Units units);
   ~ProgressLine();
   void update(std::size_t finished, std::size_t total, const std::string& what);
 
  private:
+  void draw(const std::string& text);
+
   bool visible_;
+  Units units_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point start_, last_;
+  std::mutex mutex_;
+  std::string step_;  ///< of different units
+  std::jthread clock_;
 };
 
 /// What several verbs have in common: options, and the frame round their work.
@@ -65,9 +77,9 @@ CLI::Option* add_values(CLI::App& verb, const char* name, std::vector<Value>& va
 
 /// Does the work with a progress line on a terminal (unless quiet), and stops it at Ctrl-C.
 template <class Work>
-auto with_progress(bool quiet, Work work) {
+auto with_progress(bool quiet, Work work, Units units = Units::alike) {
   catch_interrupt();
-  ProgressLine line(quiet);
+  ProgressLine line(quiet, units);
   Progress progress;
   progress.stop = &interrupted();
   progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {

@@ -139,7 +139,7 @@ Command add_convert(CLI::App& verb) {
       ->required();
   verb.add_option(
           "OUT,-o,--output", options->output,
-          ".ply .stl .obj .off, .slcs .slcw, .vdb, .step, or a profile: .prr .prw .ban .whl .csv; of a case file also "
+          ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .step, or a profile: .prr .prw .ban .whl .csv; of a case file also "
           ".inp (CONTACT) or .toml: its cases")
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")

@@ -48,8 +48,8 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   outputs.push_back(options.json_file);
   require_different(inputs, outputs);
   const ThreadLimit limit(common.threads);
-  const io::ImportReport report =
-      with_progress(common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); });
+  const io::ImportReport report = with_progress(
+      common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); }, Units::different);
   if (!options.report_folder.empty()) {
     pictures::write_import_report(options.report_folder, report);
     for (const auto& [part, file] : {std::pair{"hdf5", "maps.h5"}, std::pair{"report", "report.html"}})

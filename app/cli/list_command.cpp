@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <iostream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -10,6 +12,8 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/model/defects.hpp"
 #include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/flow_law.hpp"
 #include "treadmark/model/remarks.hpp"
@@ -38,10 +42,24 @@ void print_profiles() {
                              p.also.empty() ? p.shape : fmt::format("{}; {}", p.shape, p.also));
 }
 
+/// The tables of case files that damage a surface, with their keys.
+void print_defects() {
+  Defects::each(Defects{}, [](std::string_view path, Body, const auto&) {
+    const auto keys = io::case_keys();
+    const auto list = std::ranges::find_if(keys, [path](const io::CaseKey& key) { return key.info.path == path; });
+    std::string names;
+    for (const io::KeyInfo& key : list->info.elements)
+      names += fmt::format("{}{}{}", names.empty() ? "" : ", ", key.path, key.required ? " (required)" : "");
+    std::cout << fmt::format("{:<29} {}\n{:<29} keys: {}\n", path, list->info.doc, "", names);
+  });
+}
+
 int list_command(const std::string& what) {
   if (what == "backends") {
     for (const auto name : backend_names()) std::cout << name << '\n';
     for (const Backend* backend : left_out_backends()) print_left_out(backend->name, backend->part);
+  } else if (what == "defects") {
+    print_defects();
   } else if (what == "profiles") {
     print_profiles();
   } else if (what == "solvers") {
@@ -65,7 +83,7 @@ int list_command(const std::string& what) {
     for (const FatigueMeasureRow& row : kFatigueMeasures) print_row(row);
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
-                "choose backends, laws, profiles, remarks, solvers or verbs");
+                "choose backends, defects, laws, profiles, remarks, solvers or verbs");
   }
   return kOk;
 }
@@ -74,7 +92,7 @@ int list_command(const std::string& what) {
 
 Command add_list(CLI::App& verb) {
   auto what = std::make_shared<std::string>();
-  verb.add_option("WHAT", *what, "backends, laws, profiles, remarks, solvers or verbs")->required();
+  verb.add_option("WHAT", *what, "backends, defects, laws, profiles, remarks, solvers or verbs")->required();
   return [what](const CommonOptions&) { return list_command(*what); };
 }
 

@@ -2,14 +2,21 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/output_files.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/results/comparison_table.hpp"
@@ -75,6 +82,12 @@ std::vector<std::string> write_fields(const std::filesystem::path& folder, Write
   return {left_out_message("hdf5", "fields.h5") + ": " + left_out_advice("hdf5")};
 }
 
+/// What goes into files of its own, at most one of them by HDF5; nothing interrupts it.
+void write_side_by_side(const std::vector<std::function<void()>>& parts) {
+  const NeverCancelled whole;
+  parallel_for(parts.size(), [&](std::size_t k) { parts[k](); });
+}
+
 /// Fields of an earlier run must not pass for those of one without any.
 void remove_unmade(const std::filesystem::path& folder, const std::filesystem::path& made) {
   std::error_code ignored;
@@ -97,17 +110,42 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
     }
 }
 
+/// What ParaView takes for time [deg or mm]: the first of these that grows from case to case.
+std::vector<double> times_of(const io::RunResult& run) {
+  using Case = io::CaseResult;
+  constexpr double kDegrees = 180.0 / kPi;
+  if (run.cases.size() < 2 || !std::ranges::all_of(run.cases, &Case::has_wheelset)) return {};
+  for (const auto& [place, factor] : {std::pair{&Case::pitch, kDegrees},
+                                      {&Case::s, kMilli},
+                                      {&Case::y, kMilli},
+                                      {&Case::yaw, kDegrees},
+                                      {&Case::roll, kDegrees}}) {
+    std::vector<double> times;
+    times.reserve(run.cases.size());
+    for (const Case& c : run.cases) times.push_back(io::twelve_digits(factor * c.*place) + 0.0);
+    if (std::ranges::is_sorted(times, std::less_equal<>())) return times;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result,
                                              bool bodies) {
   OutputFolder output(folder, OutputFolder::Old::kept);
-  auto notes = write_fields(output.path(), [&](const auto& file) { io::write_hdf5(file, result); });
-  io::write_vtk(output.path() / "vtk", result);
-  if (bodies) io::write_vtk_bodies(output.path() / "vtk", result);
-  write_file(output.path() / "pressure.svg", pictures::pressure_svg(result));
-  write_text_tables(output.path(), result);
-  io::write_json(output.path() / "result.json", result);
+  const std::filesystem::path& made = output.path();
+  const std::vector<double> times = times_of(result);
+  std::vector<std::string> notes;
+  write_side_by_side({
+      [&] { notes = write_fields(made, [&](const auto& file) { io::write_hdf5(file, result); }); },
+      [&] { io::write_vtk(made / "vtk", result, "result", times); },
+      [&] {
+        if (bodies) io::write_vtk_bodies(made / "vtk", result, "bodies", times);
+      },
+      [&] { write_file(made / "pressure.svg", pictures::pressure_svg(result)); },
+      [&] { write_text_tables(made, result); },
+      [&] { io::write_json(made / "result.json", result); },
+  });
   remove_unmade(folder, output.path());
   output.move_into("result.json");
   return notes;
@@ -116,13 +154,17 @@ std::vector<std::string> write_result_folder(const std::filesystem::path& folder
 std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder,
                                                  const io::Comparison& comparison) {
   OutputFolder output(folder, OutputFolder::Old::kept);
-  write_file(output.path() / "pressures.svg", pictures::pressures_svg(comparison));
-  write_file(output.path() / "errors.svg", pictures::error_svg(comparison));
-  write_file(output.path() / "costs.svg", pictures::cost_svg(comparison));
-  auto notes = write_fields(output.path(), [&](const auto& file) { io::write_comparison_fields(file, comparison); });
-  write_file(output.path() / "table.txt", io::comparison_table(comparison));
-  io::write_csv(output.path() / "compare.csv", comparison);
-  io::write_json(output.path() / "compare.json", comparison);
+  const std::filesystem::path& made = output.path();
+  std::vector<std::string> notes;
+  write_side_by_side({
+      [&] { notes = write_fields(made, [&](const auto& file) { io::write_comparison_fields(file, comparison); }); },
+      [&] { write_file(made / "pressures.svg", pictures::pressures_svg(comparison)); },
+      [&] { write_file(made / "errors.svg", pictures::error_svg(comparison)); },
+      [&] { write_file(made / "costs.svg", pictures::cost_svg(comparison)); },
+      [&] { write_file(made / "table.txt", io::comparison_table(comparison)); },
+      [&] { io::write_csv(made / "compare.csv", comparison); },
+      [&] { io::write_json(made / "compare.json", comparison); },
+  });
   remove_unmade(folder, output.path());
   output.move_into("compare.json");
   return notes;

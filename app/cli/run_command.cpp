@@ -99,9 +99,10 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     io::RunResult result =
         with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
     result.settings = settings_of(options);
+    result.doubts = app::profile_doubts(file);
 
     print_notes(file.notes, common.quiet);
-    print_notes(app::profile_doubts(file), common.quiet);
+    print_notes(result.doubts, common.quiet);
     if (!common.quiet)
       for (const io::SurfaceUse& use : result.surfaces)
         if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';

@@ -191,6 +191,8 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   };
   wanted.erase(std::remove_if(wanted.begin() + 1, wanted.end(), is_truth), wanted.end());
 
+  // of combinations each surface comes up again
+  const bool come_up_again = !settings.wheel_backends.empty() || !settings.rail_backends.empty();
   const std::size_t total = wanted.size() * file.cases.size();
   std::size_t done = 0;
   for (const Choice& choice : wanted) {
@@ -232,6 +234,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
       out.candidates.push_back(std::move(failed));
     }
     done += file.cases.size();
+    if (!come_up_again) store.forget_sampled();
   }
   out.title = file.title;
   out.input_file = file.path.string();

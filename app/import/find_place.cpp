@@ -216,7 +216,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   scan.placement = scans::place(scan.points, scan.keep, rough, how);
 
   if (settings.scan.pass_steps && !scan.passes.empty()) {
-    clock.begin("passes");
+    clock.begin_extra("passes");
     const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
     constexpr int kRounds = 2;
     for (int round = 0; round < kRounds; ++round) {

@@ -229,8 +229,10 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   for (const auto& file : request.outputs) check_holes(file, whole);
   const std::vector<std::string> summary = summary_lines(report);
   StagedOutputs staged;
-  for (const auto& file : request.outputs)
+  for (const auto& file : request.outputs) {
+    clock.tell(file.filename().string());
     report.outputs.push_back(write_output(file, staged.place(file), whole, settings, summary));
+  }
   staged.commit();
   clock.end();
   return report;

@@ -16,6 +16,11 @@ class StepClock {
  public:
   StepClock(io::ImportReport& report, const Progress& progress) : report_(report), progress_(progress) {}
 
+  /// A step that only some imports have.
+  void begin_extra(const std::string& name) {
+    ++steps_;
+    begin(name);
+  }
   /// Ends the step before and begins one.
   void begin(const std::string& name) {
     end();
@@ -23,7 +28,11 @@ class StepClock {
       throw Error(ErrorKind::numerical, "the import was stopped before the step '" + name + "'");
     name_ = name;
     start_ = Clock::now();
-    if (progress_.report) progress_.report(report_.steps.size(), kSteps, name);
+    if (progress_.report) progress_.report(report_.steps.size(), steps_, name);
+  }
+  /// Says what the step is at.
+  void tell(const std::string& what) const {
+    if (progress_.report) progress_.report(report_.steps.size(), steps_, name_ + " " + what);
   }
   void end() {
     if (name_.empty()) return;
@@ -33,10 +42,9 @@ class StepClock {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::size_t kSteps = 11;  // of a scan that becomes one surface
-
   io::ImportReport& report_;
   const Progress& progress_;
+  std::size_t steps_ = 8;  ///< that all imports have
   std::string name_;
   Clock::time_point start_;
 };

@@ -15,6 +15,7 @@
 #include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -100,7 +101,10 @@ TriangleMesh band_triangles(const FittedScan& fit, const io::ImportSettings& set
   mesh.name = "scan";
   mesh.triangles = scans::triangulate_plane(nodes, longest, period);
   mesh.vertices.resize(nodes.size());
-  parallel_for(nodes.size(), [&](std::size_t k) { mesh.vertices[k] = fit.fitted.point(nodes[k].x(), nodes[k].y()); });
+  constexpr std::size_t kNodes = 1024;  // of a task
+  parallel_blocks(nodes.size(), kNodes, [&](std::size_t from, std::size_t to) {
+    for (std::size_t k = from; k < to; ++k) mesh.vertices[k] = fit.fitted.point(nodes[k].x(), nodes[k].y());
+  });
   // counter-clockwise in (a, s) looks along +z on a rail: into the material; outwards on a wheel
   if (fit.scan.body == Body::rail)
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);

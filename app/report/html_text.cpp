@@ -38,7 +38,9 @@ std::string shown(const Number& number) {
     return fmt::format("{:.0f}", value);
   if (size >= kLarge || size < kSmall) return fmt::format("{:.{}e}", value, number.digits - 1);
   if (std::fabs(value - std::round(value)) < 1e-12 * size) return fmt::format("{:.0f}", value);
-  return fmt::format("{:.{}f}", value, io::decimals_of(value, number.digits));
+  // Halves are rounded away from zero, as browsers do: tables and charts have one number.
+  constexpr double kJustBeyond = 1.0 + 4e-16;
+  return fmt::format("{:.{}f}", value * kJustBeyond, io::decimals_of(value, number.digits));
 }
 
 std::string html_id(std::string_view words) {

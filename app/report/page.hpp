@@ -66,8 +66,13 @@ struct ContactView {
   std::vector<int> sets;
 };
 
-/// Surfaces and patches in space.
+/// Surfaces and patches in space; fixed pages leave it out.
 struct SceneView {
+  int set = 0;
+};
+
+/// Wheel and rail cut across the track at the contact of a step; on fixed pages of the most loaded one.
+struct SectionView {
   int set = 0;
 };
 
@@ -101,7 +106,7 @@ struct PictureView {
 
 struct Figure {
   std::string id, title;
-  std::variant<ChartView, ContactView, SceneView, TrackView, MapView, PictureView> view;
+  std::variant<ChartView, ContactView, SceneView, SectionView, TrackView, MapView, PictureView> view;
   std::string note = {};
 };
 

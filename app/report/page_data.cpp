@@ -260,6 +260,9 @@ class Writer {
     } else if (const auto* scene = std::get_if<SceneView>(&figure.view)) {
       out["type"] = "scene";
       out["set"] = scene->set;
+    } else if (const auto* section = std::get_if<SectionView>(&figure.view)) {
+      out["type"] = "section";
+      out["set"] = section->set;
     } else if (const auto* track = std::get_if<TrackView>(&figure.view)) {
       out["type"] = "track";
       out["set"] = track->set;

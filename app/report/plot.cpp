@@ -34,7 +34,7 @@ void each_figure(const Page& page, Function&& use) {
 
 bool is_chart_like(const Figure& figure) {
   return !std::holds_alternative<ContactView>(figure.view) && !std::holds_alternative<SceneView>(figure.view) &&
-         !std::holds_alternative<TrackView>(figure.view);
+         !std::holds_alternative<SectionView>(figure.view) && !std::holds_alternative<TrackView>(figure.view);
 }
 
 /// Whether a figure shows another picture at another step.
@@ -100,7 +100,7 @@ std::string plot(const Page& page, const std::string& what, const std::vector<in
   }
   if (!cases.empty())
     throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
-  if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SceneView{0}}, page).front();
+  if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SectionView{0}}, page).front();
   if (figure != nullptr) return static_figure(*figure, page).front();
   std::string known;
   for (const auto& [name, meaning] : plots_of(page)) known += (known.empty() ? "" : ", ") + name;

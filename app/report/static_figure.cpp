@@ -129,9 +129,9 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page, s
   const std::size_t shown = step.value_or(page.timeline ? page.timeline->start : 0);
   if (const auto* chart = std::get_if<ChartView>(&figure.view)) return {chart_svg(*chart, page, figure.title, shown)};
   if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title, shown)};
-  if (const auto* scene = std::get_if<SceneView>(&figure.view))
-    return {section_svg(set_of(page, scene->set), page.surfaces)};
-  if (std::holds_alternative<TrackView>(figure.view)) return {};
+  if (const auto* section = std::get_if<SectionView>(&figure.view))
+    return {section_svg(set_of(page, section->set), page.surfaces)};
+  if (!std::holds_alternative<ContactView>(figure.view)) return {};
   std::vector<std::string> pictures;
   const std::vector<int>& sets = std::get<ContactView>(figure.view).sets;
   for (const int index : sets) {

@@ -82,7 +82,7 @@ std::string html(const Table& table) {
 }
 
 std::string html(const Listing& listing) {
-  return "<pre class=\"listing\">" + [&] {
+  return "<pre class=\"listing\" tabindex=\"0\">" + [&] {
     std::string out;
     std::size_t begin = 0;
     while (begin <= listing.text.size()) {  // escaping makes blanks of line ends
@@ -98,8 +98,9 @@ std::string html(const Paragraph& paragraph) { return fmt::format("<p>{}</p>\n",
 
 const char* view_name(const Figure& figure) {
   return std::visit(Overload{[](const ChartView&) { return "chart"; }, [](const ContactView&) { return "contact"; },
-                             [](const SceneView&) { return "scene"; }, [](const TrackView&) { return "track"; },
-                             [](const MapView&) { return "map"; }, [](const PictureView&) { return "picture"; }},
+                             [](const SceneView&) { return "scene"; }, [](const SectionView&) { return "section"; },
+                             [](const TrackView&) { return "track"; }, [](const MapView&) { return "map"; },
+                             [](const PictureView&) { return "picture"; }},
                     figure.view);
 }
 
@@ -110,7 +111,8 @@ std::string image(const std::string& svg, const std::string& title) {
 }
 
 std::string html(const Figure& figure, const Page& page, bool live) {
-  if (!live && std::holds_alternative<TrackView>(figure.view)) return {};
+  if (!live && (std::holds_alternative<TrackView>(figure.view) || std::holds_alternative<SceneView>(figure.view)))
+    return {};
   std::string plot;
   if (!live || std::holds_alternative<PictureView>(figure.view))
     for (const std::string& svg : static_figure(figure, page)) plot += image(svg, figure.title);

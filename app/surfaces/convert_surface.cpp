@@ -22,6 +22,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/io/results/write_vtk.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -59,12 +60,14 @@ io::CadContent to_cad(const NaturalSurface& natural, const Representation& wante
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
                           const ConvertSettings& settings) {
   const std::string extension = io::profiles::lower(output.extension().string());
-  const bool triangles = io::is_mesh_file(output), slices = io::is_slices_file(output),
+  const bool view = extension == ".vtp";  // only to be looked at
+  const bool triangles = view || io::is_mesh_file(output), slices = io::is_slices_file(output),
              offsets = is_offset_file(output), cad = io::is_step_file(output);
   if (!triangles && !slices && !offsets && !cad)
-    throw Error(
-        ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {output.string()},
-        "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets, .step for CAD");
+    throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
+                {output.string()},
+                "use .ply, .stl, .obj, .off or .vtp (ParaView) for triangles, .slcs or .slcw for slices, .vdb for "
+                "offsets, .step for CAD");
   Converted out;
   out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
   out.body = out.source.spec.body;
@@ -81,18 +84,21 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   // the same data again need a resolution to be sampled anew
   if (wanted.resolution == 0.0 && !triangles && !cad) wanted.resolution = kDefaultResolution;
   Sampled sampled;
-  // What a pipe or a device takes cannot be read again: it gets the bytes of a file.
+  // What a pipe, a device or ParaView takes cannot be read again: it gets what a file has.
   std::optional<OutputFolder> own;
-  if (is_stream(output) && !slices)
+  if ((is_stream(output) && !slices) || view)
     own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
-  const std::filesystem::path place = own ? own->path() / output.filename() : output;
+  std::filesystem::path place = own ? own->path() / output.filename() : output;
+  if (view) place.replace_extension(".ply");
   const auto start = Clock::now();
   if (cad) {
     out.kind = "CAD";
     io::write_cad(place, to_cad(out.source, wanted, sampled));
   } else if (triangles) {
     out.kind = "triangles";
-    io::write_mesh(place, to_triangles(out.source, wanted, &sampled));
+    const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);
+    io::write_mesh(place, mesh);
+    if (view) write_file(output, io::triangles_to_vtp(mesh));
   } else if (slices) {
     out.kind = "slices";
     io::write_slices(output, to_slices(out.source, wanted, &sampled));
@@ -111,7 +117,7 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   const NaturalSurface back = read_surface(again, out.body, out.source.spec.nominal_radius);
   out.written = {back.surface, true, sampled.resolution, sampled.region, seconds, sampled.note + back.note};
   out.fit = fit_error(out.source, out.written);
-  if (own) copy_bytes(place, output);
+  if (own && !view) copy_bytes(place, output);
   return out;
 }
 

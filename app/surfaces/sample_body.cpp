@@ -13,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::app {
@@ -167,12 +168,12 @@ std::vector<double> deviations(const UsedBody& b, const std::vector<double>& u, 
   const std::size_t ny = y.size();
   const std::vector<double> weights = weights_of(u, is_closed(b));
   std::vector<double> mean(ny), out(h.size());
-  std::vector<std::pair<double, double>> column;
-  for (std::size_t k = 0; k < ny; ++k) {
-    column.clear();
+  parallel_for(ny, [&](std::size_t k) {
+    std::vector<std::pair<double, double>> column;
+    column.reserve(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) column.emplace_back(h[i * ny + k], weights[i]);
     mean[k] = weighted_median(column);
-  }
+  });
   double largest = 0.0;
   for (std::size_t k = 0; k < ny; ++k) {
     const std::size_t left = k > 0 && !std::isnan(mean[k - 1]) ? k - 1 : k,
@@ -238,17 +239,21 @@ io::SampledSurface sample_body(const UsedBody& b, const std::vector<double>& con
   out.nv = static_cast<int>(ny);
   out.closed = is_closed(b);
   out.deviation = deviations(b, u, y, h);
-  for (double& d : out.deviation) d = rounded(d, kDeviations);
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    const Pose plane = plane_of(b, u[i]);
-    for (std::size_t k = 0; k < ny; ++k) {
-      const Vec3 p = plane.apply({0.0, y[k], h[i * ny + k]});
-      const bool missing = std::isnan(h[i * ny + k]);
-      out.x.push_back(missing ? h[i * ny + k] : rounded(p.x(), kPlaces));
-      out.y.push_back(missing ? h[i * ny + k] : rounded(p.y(), kPlaces));
-      out.z.push_back(missing ? h[i * ny + k] : rounded(p.z(), kPlaces));
+  for (auto* list : {&out.x, &out.y, &out.z}) list->resize(h.size());
+  constexpr std::size_t kStations = 16;  // of a task
+  parallel_blocks(u.size(), kStations, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      const Pose plane = plane_of(b, u[i]);
+      for (std::size_t k = i * ny; k < (i + 1) * ny; ++k) {
+        const Vec3 p = plane.apply({0.0, y[k - i * ny], h[k]});
+        const bool missing = std::isnan(h[k]);
+        out.x[k] = missing ? h[k] : rounded(p.x(), kPlaces);
+        out.y[k] = missing ? h[k] : rounded(p.y(), kPlaces);
+        out.z[k] = missing ? h[k] : rounded(p.z(), kPlaces);
+        if (!out.deviation.empty()) out.deviation[k] = rounded(out.deviation[k], kDeviations);
+      }
     }
-  }
+  });
   out.u = std::move(u);
   return out;
 }

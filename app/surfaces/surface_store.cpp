@@ -123,6 +123,11 @@ const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body bod
   return *entry->surface;
 }
 
+void SurfaceStore::forget_sampled() {
+  used_.clear();
+  std::erase_if(stored_, [](const auto& entry) { return entry->surface->represented.resampled; });
+}
+
 std::vector<io::SurfaceUse> SurfaceStore::uses() {
   std::vector<io::SurfaceUse> uses;
   for (Stored* entry : used_) {

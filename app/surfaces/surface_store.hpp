@@ -43,6 +43,8 @@ class SurfaceStore {
   /// surfaces.
   std::vector<io::SurfaceUse> uses();
   void begin_run() { used_.clear(); }
+  /// Gives back the memory of surfaces that were sampled; what get() handed out of them is gone.
+  void forget_sampled();
 
   /// (file, SHA-256) of every geometry file read so far.
   const std::vector<std::pair<std::string, std::string>>& hashes() const { return hashes_; }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/check_point.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 
@@ -32,13 +33,15 @@ class Buckets {
       check.pass();
       values_[--begin_[number]] = value;
     });
-    for (std::size_t k = 0; k < numbers; ++k) {
-      check.pass();
-      std::sort(values_.begin() + begin_[k], values_.begin() + begin_[k + 1], [&](const Value& a, const Value& b) {
-        check.pass();
-        return a < b;
-      });
-    }
+    constexpr std::size_t kTask = 4096;
+    parallel_blocks(numbers, kTask, [&](std::size_t from, std::size_t to) {
+      CheckPoint own;
+      for (std::size_t k = from; k < to; ++k)
+        std::sort(values_.begin() + begin_[k], values_.begin() + begin_[k + 1], [&](const Value& a, const Value& b) {
+          own.pass();
+          return a < b;
+        });
+    });
   }
 
   std::size_t size() const { return begin_.size() - 1; }

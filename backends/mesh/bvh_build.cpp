@@ -8,6 +8,7 @@
 #include "treadmark/backends/mesh/bvh.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 
@@ -16,6 +17,7 @@ namespace {
 constexpr std::uint32_t kLeaf = 4;          ///< triangles in a leaf
 constexpr float kOutwards = 1e-6f;          ///< of a normal: more than its rounding to float
 constexpr std::uint32_t kTask = 16 * 1024;  ///< triangles of a subtree that one thread builds
+constexpr std::size_t kBlock = 1 << 14;     ///< triangles, vertices or nodes that one thread does alike
 
 /// Leaves are full but for the last one, so that the size of a subtree follows from its number of triangles.
 std::uint32_t leaf_count(std::uint32_t triangles) { return (triangles + kLeaf - 1) / kLeaf; }
@@ -25,23 +27,33 @@ std::uint32_t node_count(std::uint32_t triangles) { return 2 * leaf_count(triang
 /// Triangle i becomes what order[i] was; vertices are numbered as triangles name them first.
 void reorder(PreparedMesh& mesh, const std::vector<Bvh::Middle>& order) {
   const std::size_t n = order.size();
-  std::vector<std::uint32_t> place(n), vertex(mesh.vertices.size(), kNone);
-  for (std::size_t i = 0; i < n; ++i) place[order[i].triangle] = static_cast<std::uint32_t>(i);
-  std::vector<Corners> triangles(n), neighbours(n);
-  std::vector<Vec3> vertices;
-  vertices.reserve(mesh.vertices.size());
+  std::vector<std::uint32_t> place(n), vertex(mesh.vertices.size(), kNone), from;
+  parallel_blocks(n, kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) place[order[i].triangle] = static_cast<std::uint32_t>(i);
+  });
+  from.reserve(mesh.vertices.size());
   CheckPoint check;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      check.pass();
-      const std::uint32_t v = mesh.triangles[order[i].triangle][k], across = mesh.neighbours[order[i].triangle][k];
+  for (std::size_t i = 0; i < n; ++i) {
+    check.pass();
+    for (const std::uint32_t v : mesh.triangles[order[i].triangle])
       if (vertex[v] == kNone) {
-        vertex[v] = static_cast<std::uint32_t>(vertices.size());
-        vertices.push_back(mesh.vertices[v]);
+        vertex[v] = static_cast<std::uint32_t>(from.size());
+        from.push_back(v);
       }
-      triangles[i][k] = vertex[v];
-      neighbours[i][k] = across == kNone ? kNone : place[across];
-    }
+  }
+  std::vector<Corners> triangles(n), neighbours(n);
+  std::vector<Vec3> vertices(from.size());
+  parallel_blocks(n, kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t across = mesh.neighbours[order[i].triangle][k];
+        triangles[i][k] = vertex[mesh.triangles[order[i].triangle][k]];
+        neighbours[i][k] = across == kNone ? kNone : place[across];
+      }
+  });
+  parallel_blocks(from.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) vertices[v] = mesh.vertices[from[v]];
+  });
   mesh.triangles = std::move(triangles);
   mesh.neighbours = std::move(neighbours);
   mesh.vertices = std::move(vertices);
@@ -53,11 +65,13 @@ Bvh::Bvh(PreparedMesh& mesh) : mesh_(mesh) {
   const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
   nodes_.resize(node_count(n));
   std::vector<Middle> middles(n);
-  for (std::uint32_t t = 0; t < n; ++t)
-    middles[t] = {(mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
-                   mesh.vertices[mesh.triangles[t][2]]) /
-                      3.0,
-                  t};
+  parallel_blocks(n, kBlock, [&](std::size_t from, std::size_t to) {
+    for (std::size_t t = from; t < to; ++t)
+      middles[t] = {(mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
+                     mesh.vertices[mesh.triangles[t][2]]) /
+                        3.0,
+                    static_cast<std::uint32_t>(t)};
+  });
 
   // the upper levels first, then their subtrees side by side, then the boxes of the upper levels from below
   nodes_[0].begin = 0;
@@ -181,29 +195,33 @@ void Bvh::close(std::uint32_t number) {
 
 void Bvh::add_surface(const std::function<About(std::uint32_t)>& about) {
   about_.resize(mesh_.triangles.size());
+  const auto widen = [](Node& node, std::size_t k, float low, float high) {
+    node.normal_low[k] = std::min(node.normal_low[k], low);
+    node.normal_high[k] = std::max(node.normal_high[k], high);
+  };
+  parallel_blocks(nodes_.size(), kBlock, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      Node& node = nodes_[i];
+      if (node.right != 0) continue;
+      for (std::uint32_t t = node.begin; t < node.begin + node.count; ++t) {
+        const About surface = about(t);
+        about_[t][0] = std::nextafter(static_cast<float>(surface.distance), std::numeric_limits<float>::infinity());
+        node.margin = std::max(node.margin, about_[t][0]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const float component = about_[t][k + 1] = static_cast<float>(surface.normal[static_cast<int>(k)]);
+          widen(node, k, component - kOutwards, component + kOutwards);
+        }
+      }
+    }
+  });
   CheckPoint check;
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // children come behind
     check.pass();
     Node& node = nodes_[i];
-    const auto widen = [&](std::size_t k, float low, float high) {
-      node.normal_low[k] = std::min(node.normal_low[k], low);
-      node.normal_high[k] = std::max(node.normal_high[k], high);
-    };
-    if (node.right != 0) {
-      for (const Node* child : {&nodes_[i + 1], &nodes_[node.right]}) {
-        node.margin = std::max(node.margin, child->margin);
-        for (std::size_t k = 0; k < 3; ++k) widen(k, child->normal_low[k], child->normal_high[k]);
-      }
-      continue;
-    }
-    for (std::uint32_t t = node.begin; t < node.begin + node.count; ++t) {
-      const About surface = about(t);
-      about_[t][0] = std::nextafter(static_cast<float>(surface.distance), std::numeric_limits<float>::infinity());
-      node.margin = std::max(node.margin, about_[t][0]);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const float component = about_[t][k + 1] = static_cast<float>(surface.normal[static_cast<int>(k)]);
-        widen(k, component - kOutwards, component + kOutwards);
-      }
+    if (node.right == 0) continue;
+    for (const Node* child : {&nodes_[i + 1], &nodes_[node.right]}) {
+      node.margin = std::max(node.margin, child->margin);
+      for (std::size_t k = 0; k < 3; ++k) widen(node, k, child->normal_low[k], child->normal_high[k]);
     }
   }
 }

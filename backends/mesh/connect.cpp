@@ -4,14 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <mutex>
 #include <numeric>
+#include <optional>
 
 #include "treadmark/backends/mesh/buckets.hpp"
 #include "treadmark/backends/mesh/prepare.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/parallel_sort.hpp"
 
 namespace treadmark::mesh {
 
@@ -29,41 +35,78 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
   return v;
 }
 
+/// Edges of all triangles by their lower vertex.
+Buckets<Side> sides_of(const PreparedMesh& mesh) {
+  return {mesh.vertices.size(), [&](const auto& put) {
+            for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+              for (std::uint32_t k = 0; k < 3; ++k) {
+                const std::uint32_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
+                put(std::min(a, b), Side{std::max(a, b), 3 * t + k});
+              }
+          }};
+}
+
+/// Makes neighbours of the triangles at edges of two of them. edge(lower vertex, sides) is called for all edges, those
+/// of a vertex by one thread, and says whether to go on with it.
+template <class Edge>
+void join(PreparedMesh& mesh, const Edge& edge) {
+  const Buckets<Side> sides = sides_of(mesh);
+  mesh.neighbours.assign(mesh.triangles.size(), {kNone, kNone, kNone});
+  constexpr std::size_t kTask = 4096;
+  parallel_blocks(sides.size(), kTask, [&](std::size_t from, std::size_t to) {
+    CheckPoint check;
+    for (std::size_t lower = from; lower < to; ++lower) {
+      const std::span<const Side> own = sides[lower];
+      for (std::size_t i = 0; i < own.size();) {
+        check.pass();
+        std::size_t end = i + 1;
+        while (end < own.size() && own[end].higher == own[i].higher) ++end;
+        if (!edge(lower, own.subspan(i, end - i))) return;
+        if (end - i == 2) {
+          const std::uint32_t one = own[i].corner, other = own[i + 1].corner;
+          mesh.neighbours[one / 3][one % 3] = other / 3;
+          mesh.neighbours[other / 3][other % 3] = one / 3;
+        }
+        i = end;
+      }
+    }
+  });
+}
+
 }  // namespace
 
-void connect(PreparedMesh& mesh) {
-  const Buckets<Side> sides(mesh.vertices.size(), [&](const auto& put) {
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
-        put(std::min(a, b), Side{std::max(a, b), 3 * t + k});
-      }
+bool connect_simply(PreparedMesh& mesh) {
+  std::atomic<bool> simple = true;
+  const auto opposite = [&](const Side& side) { return mesh.triangles[side.corner / 3][side.corner % 3]; };
+  join(mesh, [&](std::size_t, std::span<const Side> sides) {
+    if (sides.size() > 2 || (sides.size() == 2 && opposite(sides[0]) == opposite(sides[1]))) simple = false;
+    return simple.load(std::memory_order_relaxed);
   });
-  mesh.neighbours.assign(mesh.triangles.size(), {kNone, kNone, kNone});
-  CheckPoint check;
-  for (std::uint32_t lower = 0; lower < sides.size(); ++lower) {
-    const std::span<const Side> own = sides[lower];
-    for (std::size_t i = 0; i < own.size();) {
-      check.pass();
-      std::size_t end = i + 1;
-      while (end < own.size() && own[end].higher == own[i].higher) ++end;
-      if (end - i > 2) {
-        const Vec3 a = mesh.vertices[lower] + mesh.centre, b = mesh.vertices[own[i].higher] + mesh.centre;
-        throw Error(
-            ErrorKind::input_data,
-            fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
-                        "{:.6g}) m",
-                        mesh.name, end - i, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
-            {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
-      }
-      if (end - i == 2) {
-        const std::uint32_t one = own[i].corner, other = own[i + 1].corner;
-        mesh.neighbours[one / 3][one % 3] = other / 3;
-        mesh.neighbours[other / 3][other % 3] = one / 3;
-      }
-      i = end;
-    }
-  }
+  return simple;
+}
+
+void connect(PreparedMesh& mesh) {
+  struct Crowded {
+    std::size_t lower;
+    std::uint32_t higher;
+    std::size_t triangles;
+  };
+  std::optional<Crowded> first;  // the same one whatever thread comes first
+  std::mutex mutex;
+  join(mesh, [&](std::size_t lower, std::span<const Side> sides) {
+    if (sides.size() <= 2) return true;
+    const std::scoped_lock lock(mutex);
+    if (!first || lower < first->lower) first = Crowded{lower, sides.front().higher, sides.size()};
+    return false;
+  });
+  if (!first) return;
+  const Vec3 a = mesh.vertices[first->lower] + mesh.centre, b = mesh.vertices[first->higher] + mesh.centre;
+  throw Error(
+      ErrorKind::input_data,
+      fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
+                  "{:.6g}) m",
+                  mesh.name, first->triangles, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
+      {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
 }
 
 std::size_t count_boundary_loops(const PreparedMesh& mesh) {
@@ -95,30 +138,24 @@ std::size_t hash(const Cell& cell) {
   return static_cast<std::size_t>(h);
 }
 
-}  // namespace
+/// Cells far larger than the tolerance, so that a point seldom lies near the border of its cell.
+class MergeCells {
+ public:
+  MergeCells(const std::vector<Vec3>& points, double tolerance)
+      : points_(points), tolerance_(tolerance), per_cell_(1.0 / (16.0 * tolerance)) {}
 
-std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double tolerance) {
-  // cells far larger than the tolerance, so that a point seldom lies near the border of its cell
-  tolerance = std::max(tolerance, 1e-300);
-  const double per_cell = 1.0 / (16.0 * tolerance);
-  std::size_t size = 16;
-  while (size < 2 * points.size()) size *= 2;
-  std::vector<std::uint32_t> first(size, kNone), next(points.size(), kNone), same(points.size());
-  const Vec3 origin = points.empty() ? Vec3(Vec3::Zero()) : points.front();
-  constexpr double kFar = 4e18;  // cells beyond are one; distances are compared anyway
-  const auto cell_of = [&](const Vec3& p, double shift) {
-    Cell cell;
-    for (int k = 0; k < 3; ++k)
-      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(
-          std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - origin[k] + shift) * per_cell))));
-    return cell;
-  };
-  CheckPoint check;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    check.pass();
-    const Vec3& p = points[i];
-    same[i] = i;
-    const Cell low = cell_of(p, -tolerance), high = cell_of(p, tolerance);
+  bool close(std::uint32_t i, std::uint32_t j) const {
+    return (points_[i] - points_[j]).squaredNorm() <= tolerance_ * tolerance_;
+  }
+
+  bool equal(std::uint32_t i, std::uint32_t j) const { return points_[i] == points_[j]; }
+
+  std::size_t hash_of(std::uint32_t i) const { return hash(cell_of(points_[i], 0.0)); }
+
+  /// Calls visit(hash) for the cells, eight at most, in which points close to this one may lie.
+  template <class Visit>
+  void around(std::uint32_t i, const Visit& visit) const {
+    const Cell low = cell_of(points_[i], -tolerance_), high = cell_of(points_[i], tolerance_);
     for (int corner = 0; corner < 8; ++corner) {
       Cell cell = low;
       bool repeated = false;
@@ -127,12 +164,86 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
           repeated = repeated || high[k] == low[k];
           cell[k] = high[k];
         }
-      if (repeated) continue;
-      for (std::uint32_t j = first[hash(cell) & (size - 1)]; j != kNone; j = next[j])
-        if ((points[j] - p).squaredNorm() <= tolerance * tolerance) same[i] = std::min(same[i], j);
+      if (!repeated) visit(hash(cell));
     }
+  }
+
+ private:
+  Cell cell_of(const Vec3& p, double shift) const {
+    constexpr double kFar = 4e18;  // cells beyond are one; distances are compared anyway
+    Cell cell;
+    for (int k = 0; k < 3; ++k)
+      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(
+          std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - points_.front()[k] + shift) * per_cell_))));
+    return cell;
+  }
+
+  const std::vector<Vec3>& points_;
+  double tolerance_, per_cell_;
+};
+
+/// Ascending, the points that have others close to them. They are sorted by their cells, which meets memory in order
+/// where a table of all points would miss the caches at every step.
+std::vector<std::uint32_t> not_alone(const MergeCells& cells, std::size_t count) {
+  constexpr std::size_t kTask = 1 << 14;
+  std::vector<std::vector<std::uint64_t>> parts((count + kTask - 1) / kTask);
+  parallel_blocks(count, kTask, [&](std::size_t from, std::size_t to) {
+    std::vector<std::uint64_t>& own = parts[from / kTask];
+    own.reserve(2 * kTask);
+    for (auto i = static_cast<std::uint32_t>(from); i < to; ++i)
+      cells.around(i, [&](std::size_t hash) { own.push_back(static_cast<std::uint64_t>(hash) << 32 | i); });
+  });
+  std::vector<std::uint64_t> places;  // hash of a cell, point
+  for (std::vector<std::uint64_t>& part : parts) {
+    places.insert(places.end(), part.begin(), part.end());
+    part = {};
+  }
+  parallel_sort(places, std::less<>());
+  const auto point = [&](std::size_t k) { return static_cast<std::uint32_t>(places[k]); };
+  const auto same_cell = [&](std::size_t k, std::size_t l) { return places[k] >> 32 == places[l] >> 32; };
+  std::vector<char> found(count, 0);
+  const auto mark = [&](std::uint32_t i) { std::atomic_ref(found[i]).store(1, std::memory_order_relaxed); };
+  parallel_blocks(places.size(), kTask, [&](std::size_t from, std::size_t to) {
+    CheckPoint check;
+    for (std::size_t first = from; first < to; ++first) {
+      if (first > 0 && same_cell(first - 1, first)) continue;
+      for (std::size_t k = first + 1; k < places.size() && same_cell(first, k); ++k)
+        for (std::size_t before = first; before < k; ++before) {
+          check.pass();
+          if (!cells.close(point(k), point(before))) continue;
+          mark(point(k));
+          mark(point(before));
+          if (cells.equal(point(k), point(before)))
+            break;  // what is close to one is close to the other, and marked there
+        }
+    }
+  });
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t i = 0; i < count; ++i)
+    if (found[i] != 0) out.push_back(i);
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double tolerance) {
+  const MergeCells cells(points, std::max(tolerance, 1e-300));
+  std::vector<std::uint32_t> same(points.size());
+  std::iota(same.begin(), same.end(), 0u);
+  const std::vector<std::uint32_t> candidates = not_alone(cells, points.size());
+  if (candidates.empty()) return same;
+  std::size_t size = 16;
+  while (size < 2 * candidates.size()) size *= 2;
+  std::vector<std::uint32_t> first(size, kNone), next(points.size(), kNone);
+  CheckPoint check;
+  for (const std::uint32_t i : candidates) {
+    check.pass();
+    cells.around(i, [&](std::size_t hash) {
+      for (std::uint32_t j = first[hash & (size - 1)]; j != kNone; j = next[j])
+        if (cells.close(i, j)) same[i] = std::min(same[i], j);
+    });
     if (same[i] != i) continue;
-    const std::size_t slot = hash(cell_of(p, 0.0)) & (size - 1);
+    const std::size_t slot = cells.hash_of(i) & (size - 1);
     next[i] = first[slot];
     first[slot] = i;
   }

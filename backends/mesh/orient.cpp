@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "treadmark/backends/mesh/prepare.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 
@@ -28,32 +31,62 @@ bool runs(const Corners& triangle, std::uint32_t a, std::uint32_t b) {
       {}, "it contains a one-sided band (Moebius): cut it open or repair it in a mesh program");
 }
 
+constexpr std::size_t kOriented = 1 << 14;  ///< triangles that one thread looks at
+
+/// Whether all neighbours run along their common edges in opposite directions.
+bool agree(const PreparedMesh& mesh) {
+  std::atomic<bool> all = true;
+  parallel_blocks(mesh.triangles.size(), kOriented, [&](std::size_t from, std::size_t to) {
+    for (std::size_t t = from; t < to && all.load(std::memory_order_relaxed); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t n = mesh.neighbours[t][k];
+        if (n == kNone || n < t) continue;
+        if (runs(mesh.triangles[n], mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3])) all = false;
+      }
+  });
+  return all;
+}
+
 /// > 0: the part faces outwards as it stands, < 0: inwards, 0: cannot be told.
 double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uint32_t>& part,
                  const std::vector<char>& flip) {
   constexpr double kUndecided = 1e-9;  // share of the whole
-  double sum = 0.0, size = 0.0;
-  bool closed = true;
-  for (const std::uint32_t t : part)
-    for (const std::uint32_t n : mesh.neighbours[t]) closed = closed && n != kNone;
+  struct Share {
+    double sum = 0.0, size = 0.0;
+    bool closed = true;
+  };
+  std::vector<Share> shares((part.size() + kOriented - 1) / kOriented);
+  parallel_blocks(part.size(), kOriented, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i)
+      for (const std::uint32_t n : mesh.neighbours[part[i]])
+        shares[from / kOriented].closed = shares[from / kOriented].closed && n != kNone;
+  });
+  const bool closed = std::ranges::all_of(shares, &Share::closed);
   const Vec3 base = mesh.vertices[mesh.triangles[part.front()][0]];
-  for (const std::uint32_t t : part) {
-    const Vec3 area = doubled_area(mesh, t) * (flip[t] ? -1.0 : 1.0);
-    const Vec3 middle = (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
-                         mesh.vertices[mesh.triangles[t][2]]) /
-                        3.0;
-    Vec3 outwards(0.0, 0.0, -1.0);
-    if (closed) {
-      outwards = middle - base;
-    } else if (body == Body::wheel) {
-      outwards = middle + mesh.centre;
-      outwards.y() = 0.0;
-      outwards.normalize();
+  parallel_blocks(part.size(), kOriented, [&](std::size_t from, std::size_t to) {
+    Share own;
+    for (std::size_t i = from; i < to; ++i) {
+      const std::uint32_t t = part[i];
+      const Vec3 area = doubled_area(mesh, t) * (flip[t] ? -1.0 : 1.0);
+      const Vec3 middle = (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
+                           mesh.vertices[mesh.triangles[t][2]]) /
+                          3.0;
+      Vec3 outwards(0.0, 0.0, -1.0);
+      if (closed) {
+        outwards = middle - base;
+      } else if (body == Body::wheel) {
+        outwards = middle + mesh.centre;
+        outwards.y() = 0.0;
+        outwards.normalize();
+      }
+      const double share = area.dot(outwards);
+      own.sum += share;
+      own.size += std::fabs(share);
     }
-    const double share = area.dot(outwards);
-    sum += share;
-    size += std::fabs(share);
-  }
+    shares[from / kOriented] = own;
+  });
+  double sum = 0.0, size = 0.0;
+  for (const Share& share : shares) sum += share.sum, size += share.size;
   return std::fabs(sum) > kUndecided * size ? sum : 0.0;
 }
 
@@ -61,8 +94,10 @@ double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uin
 
 void orient(PreparedMesh& mesh, Body body, MeshRepair& repair) {
   std::vector<char> seen(mesh.triangles.size(), 0), flip(mesh.triangles.size(), 0);
+  const bool in_order = agree(mesh);
   bool all_inside_out = true;
   std::vector<std::uint32_t> part;
+  part.reserve(mesh.triangles.size());
   CheckPoint check;
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (seen[seed]) continue;
@@ -75,7 +110,8 @@ void orient(PreparedMesh& mesh, Body body, MeshRepair& repair) {
         const std::uint32_t n = mesh.neighbours[t][k];
         if (n == kNone) continue;
         // neighbours agree when they run along the common edge in opposite directions
-        const bool clash = runs(mesh.triangles[n], mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3]);
+        const bool clash =
+            !in_order && runs(mesh.triangles[n], mesh.triangles[t][(k + 1) % 3], mesh.triangles[t][(k + 2) % 3]);
         const char wanted = static_cast<char>(flip[t] ^ static_cast<char>(clash));
         if (!seen[n]) {
           seen[n] = 1;

@@ -12,6 +12,7 @@
 #include "treadmark/backends/mesh/buckets.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 
@@ -28,34 +29,78 @@ constexpr double kWidestRail = 2.0, kSmallestRail = 1e-3;       ///< [m] section
   throw Error(ErrorKind::input_data, fmt::format("the mesh '{}' {}", mesh.name, what), {}, advice);
 }
 
+constexpr std::size_t kChecked = 1 << 14;  ///< vertices or triangles that one thread looks at
+
+/// The first number below count for which bad holds; count if there is none.
+template <class Bad>
+std::size_t first_of(std::size_t count, const Bad& bad) {
+  std::vector<std::size_t> found((count + kChecked - 1) / kChecked, count);
+  parallel_blocks(count, kChecked, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i)
+      if (bad(i)) {
+        found[from / kChecked] = i;
+        return;
+      }
+  });
+  return found.empty() ? count : *std::ranges::min_element(found);
+}
+
 void check_input(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) refuse(mesh, "has no triangles", "is it a point cloud? make triangles of it first");
   if (mesh.vertices.size() >= kNone || mesh.triangles.size() >= kNone / 3)
     refuse(mesh, "is too large for 32-bit indices", "thin it out or cut it into pieces");
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-    if (!mesh.vertices[i].allFinite())
-      refuse(mesh, fmt::format("has a coordinate that is not finite at vertex {} (counted from 0)", i),
-             "remove or repair the vertex");
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (const std::uint32_t v : mesh.triangles[t])
-      if (v >= mesh.vertices.size())
-        refuse(mesh,
-               fmt::format("names vertex {} in triangle {} (counted from 0), but has {} vertices only", v, t,
-                           mesh.vertices.size()),
-               "is the file complete?");
+  if (const std::size_t i =
+          first_of(mesh.vertices.size(), [&](std::size_t v) { return !mesh.vertices[v].allFinite(); });
+      i < mesh.vertices.size())
+    refuse(mesh, fmt::format("has a coordinate that is not finite at vertex {} (counted from 0)", i),
+           "remove or repair the vertex");
+  const auto is_outside = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
+  if (const std::size_t t = first_of(mesh.triangles.size(),
+                                     [&](std::size_t i) { return std::ranges::any_of(mesh.triangles[i], is_outside); });
+      t < mesh.triangles.size())
+    refuse(mesh,
+           fmt::format("names vertex {} in triangle {} (counted from 0), but has {} vertices only",
+                       *std::ranges::find_if(mesh.triangles[t], is_outside), t, mesh.vertices.size()),
+           "is the file complete?");
+}
+
+/// What the corners of all triangles reach.
+struct Extent {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  double radius2 = 0.0;  ///< squared distance from the axis of a wheel
+
+  void widen(const Extent& other) {
+    low = low.cwiseMin(other.low);
+    high = high.cwiseMax(other.high);
+    radius2 = std::max(radius2, other.radius2);
+  }
+};
+
+Extent extent_of(const TriangleMesh& mesh) {
+  std::vector<Extent> parts((mesh.triangles.size() + kChecked - 1) / kChecked);
+  parallel_blocks(mesh.triangles.size(), kChecked, [&](std::size_t from, std::size_t to) {
+    Extent own;
+    for (std::size_t t = from; t < to; ++t)
+      for (const std::uint32_t v : mesh.triangles[t]) {
+        const Vec3& p = mesh.vertices[v];
+        own.widen({p, p, p.x() * p.x() + p.z() * p.z()});
+      }
+    parts[from / kChecked] = own;
+  });
+  Extent all;
+  for (const Extent& part : parts) all.widen(part);
+  return all;
 }
 
 /// Coordinates in mm or in inches taken for metres show in the size of wheels and rail sections.
-void check_units(const TriangleMesh& mesh, Body body, const Vec3& extent) {
+void check_units(const TriangleMesh& mesh, Body body, const Extent& found) {
+  const Vec3 extent = found.high - found.low;
   const auto advise = [](bool large) {
     return std::string(large ? "is the factor from the units of the file to mm right? (scale_to_mm, --scale)"
                              : "is the file in metres? then the factor to mm is 1000 (scale_to_mm, --scale)");
   };
   if (body == Body::wheel) {
-    double radius = 0.0;
-    for (const auto& corners : mesh.triangles)
-      for (const std::uint32_t v : corners)
-        radius = std::max(radius, std::hypot(mesh.vertices[v].x(), mesh.vertices[v].z()));
+    const double radius = std::sqrt(found.radius2);
     if (radius > kLargestRadius || radius < kSmallestRadius)
       refuse(mesh,
              fmt::format("reaches {:.4g} m from the axle, which no wheel does (between {:g} and {:g} m)", radius,
@@ -77,7 +122,18 @@ bool without_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return !(ab.cross(ac).norm() > kFlat * longest);
 }
 
-/// Marks all but the first of triangles with the same corners in any order.
+/// Removes the triangles that are marked, and tells how many.
+std::size_t drop(std::vector<Corners>& triangles, const std::vector<char>& marked) {
+  const std::size_t before = triangles.size();
+  if (std::ranges::find(marked, 1) == marked.end()) return 0;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < before; ++t)
+    if (!marked[t]) triangles[kept++] = triangles[t];
+  triangles.resize(kept);
+  return before - kept;
+}
+
+/// Removes all but the first of triangles with the same corners in any order.
 std::size_t drop_duplicates(std::vector<Corners>& triangles, std::size_t vertices) {
   using Rest = std::array<std::uint32_t, 3>;  // the two higher corners and the triangle, in the bucket of the lowest
   const Buckets<Rest> same(vertices, [&](const auto& put) {
@@ -87,19 +143,13 @@ std::size_t drop_duplicates(std::vector<Corners>& triangles, std::size_t vertice
       put(sorted[0], Rest{sorted[1], sorted[2], t});
     }
   });
-  std::vector<char> drop(triangles.size(), 0);
-  std::size_t count = 0;
+  std::vector<char> repeated(triangles.size(), 0);
   for (std::size_t v = 0; v < same.size(); ++v) {
     const std::span<const Rest> own = same[v];
     for (std::size_t i = 1; i < own.size(); ++i)
-      if (own[i][0] == own[i - 1][0] && own[i][1] == own[i - 1][1]) drop[own[i][2]] = 1, ++count;
+      if (own[i][0] == own[i - 1][0] && own[i][1] == own[i - 1][1]) repeated[own[i][2]] = 1;
   }
-  if (count == 0) return 0;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (!drop[t]) triangles[kept++] = triangles[t];
-  triangles.resize(kept);
-  return count;
+  return drop(triangles, repeated);
 }
 
 }  // namespace
@@ -110,52 +160,55 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
   PreparedMesh result;
   result.name = mesh.name;
 
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const auto& corners : mesh.triangles)
-    for (const std::uint32_t v : corners) low = low.cwiseMin(mesh.vertices[v]), high = high.cwiseMax(mesh.vertices[v]);
-  check_units(mesh, body, high - low);
-  result.centre = 0.5 * (low + high);
+  const Extent extent = extent_of(mesh);
+  check_units(mesh, body, extent);
+  result.centre = 0.5 * (extent.low + extent.high);
 
   const std::vector<std::uint32_t> same =
-      merge_close(mesh.vertices, std::max(kMergeDistance, kMergeShare * (high - low).norm()));
+      merge_close(mesh.vertices, std::max(kMergeDistance, kMergeShare * (extent.high - extent.low).norm()));
   for (std::size_t v = 0; v < same.size(); ++v) repair.merged_vertices += same[v] != v;
 
-  result.triangles.reserve(mesh.triangles.size());
-  CheckPoint check;
-  for (const auto& corners : mesh.triangles) {
-    check.pass();
-    const Corners c{same[corners[0]], same[corners[1]], same[corners[2]]};
-    const bool flat = c[0] == c[1] || c[1] == c[2] || c[2] == c[0] ||
-                      without_area(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
-    if (flat)
-      ++repair.degenerate;
-    else
-      result.triangles.push_back(c);
-  }
+  result.triangles.resize(mesh.triangles.size());
+  std::vector<char> flat(mesh.triangles.size());
+  parallel_blocks(mesh.triangles.size(), kChecked, [&](std::size_t from, std::size_t to) {
+    for (std::size_t t = from; t < to; ++t) {
+      const auto& corners = mesh.triangles[t];
+      const Corners& c = result.triangles[t] = {same[corners[0]], same[corners[1]], same[corners[2]]};
+      flat[t] = c[0] == c[1] || c[1] == c[2] || c[2] == c[0] ||
+                without_area(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
+    }
+  });
+  repair.degenerate = drop(result.triangles, flat);
   if (result.triangles.empty()) refuse(mesh, "has only triangles without area", "check the file and the scale");
-  repair.duplicates = drop_duplicates(result.triangles, mesh.vertices.size());
 
   // keep the vertices that are used, in their order
   std::vector<std::uint32_t> renumbered(mesh.vertices.size(), kNone);
   for (const Corners& c : result.triangles)
     for (const std::uint32_t v : c) renumbered[v] = 0;
   check_cancelled();
+  result.vertices.reserve(mesh.vertices.size());
+  result.low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  result.high = -result.low;
   for (std::size_t v = 0; v < renumbered.size(); ++v) {
     if (renumbered[v] == kNone) {
       repair.unused_vertices += same[v] == v;
       continue;
     }
     renumbered[v] = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.emplace_back(mesh.vertices[v] - result.centre);
+    const Vec3& local = result.vertices.emplace_back(mesh.vertices[v] - result.centre);
+    result.low = result.low.cwiseMin(local);
+    result.high = result.high.cwiseMax(local);
   }
   result.vertices.shrink_to_fit();
-  for (Corners& c : result.triangles)
-    for (std::uint32_t& v : c) v = renumbered[v];
-  result.low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  result.high = -result.low;
-  for (const Vec3& v : result.vertices) result.low = result.low.cwiseMin(v), result.high = result.high.cwiseMax(v);
+  parallel_blocks(result.triangles.size(), kChecked, [&](std::size_t from, std::size_t to) {
+    for (std::size_t t = from; t < to; ++t)
+      for (std::uint32_t& v : result.triangles[t]) v = renumbered[v];
+  });
 
-  connect(result);
+  if (!connect_simply(result)) {
+    repair.duplicates = drop_duplicates(result.triangles, result.vertices.size());
+    connect(result);
+  }
   orient(result, body, repair);
   repair.boundary_loops = count_boundary_loops(result);
   return result;

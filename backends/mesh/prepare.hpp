@@ -13,6 +13,9 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair);
 /// For every vertex the first one within the tolerance of it (itself if there is none before it).
 std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double tolerance);
 
+/// Fills mesh.neighbours where no triangle has the corners of another one and no edge has more than two; else false.
+bool connect_simply(PreparedMesh& mesh);
+
 /// Fills mesh.neighbours. Error(input_data) for an edge of more than two triangles.
 void connect(PreparedMesh& mesh);
 

@@ -8,7 +8,7 @@
 
 #include "treadmark/backends/mesh/blend.hpp"
 #include "treadmark/backends/mesh/kernels.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
 
@@ -37,17 +37,16 @@ SmoothPatches::SmoothPatches(const PreparedMesh& mesh, double crease_angle)
     : mesh_(mesh), fits_(fit_vertices(mesh, crease_angle)), bulge_(mesh.triangles.size(), 0.0f) {
   constexpr std::size_t kChunk = 512;
   const std::size_t n = mesh.triangles.size();
-  parallel_for((n + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    for (std::size_t t = chunk * kChunk; t < std::min(n, (chunk + 1) * kChunk); ++t)
+  needle_.resize(n);  // bits: no chunk shares a word with another one
+  parallel_blocks(n, kChunk, [&](std::size_t from, std::size_t to) {
+    for (std::size_t t = from; t < to; ++t) {
       bulge_[t] = std::nextafter(static_cast<float>(sampled_bulge(static_cast<std::uint32_t>(t))),
                                  std::numeric_limits<float>::infinity());
+      const Corners& c = mesh.triangles[t];
+      needle_[t] = is_sliver(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
+    }
   });
   largest_bulge_ = *std::max_element(bulge_.begin(), bulge_.end());
-  needle_.resize(n);
-  for (std::size_t t = 0; t < n; ++t) {
-    const Corners& c = mesh.triangles[t];
-    needle_[t] = is_sliver(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
-  }
 }
 
 PatchSource SmoothPatches::source_of(std::uint32_t triangle) const {

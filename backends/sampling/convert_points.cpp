@@ -90,7 +90,7 @@ SliceSet to_slices(const PointGrid& points, double nominal_radius, std::string n
                         " has a gap at y = " + std::to_string(1e3 * points.y[iy]) + " mm and cannot become a slice",
                     {}, "use a mesh, or limit the region");
       last = iy;
-      y.push_back(points.y[iy]);
+      y.push_back(points.own_y.empty() ? points.y[iy] : points.own_y[points.index(iu, iy)]);
       z.push_back(points.h[points.index(iu, iy)] - zero);
     }
     if (y.size() < kLeastPoints)

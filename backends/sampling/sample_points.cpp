@@ -19,6 +19,8 @@ constexpr std::size_t kRadiusStations = 33;  // in which the lateral nodes are l
 constexpr double kMovedAside = 1.5;          // arc of all sections together over that of the longest one
 constexpr double kCloser = 0.9;  // nodes that follow a section lie askew from station to station, which costs accuracy
 
+constexpr double kArcSpacing = 0.5e-3;  // [m] steps for which arc length is known to some millionths already
+
 std::vector<double> spread(const std::vector<double>& all) {
   if (all.size() <= kRadiusStations) return all;
   std::vector<double> some;
@@ -135,41 +137,37 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
   const std::vector<double> reference = spread(grid.u);
   const double spacing_y = (settings.staggered ? kTriangleHeight : 1.0) * settings.spacing;
   const double y_min = settings.region.y_min, y_max = settings.region.y_max;
-  const LateralArc arc = lateral_arc(surface, body, reference, spacing_y, y_min, y_max, settings.common);
+  LateralArc arc = lateral_arc(surface, body, reference, spacing_y, y_min, y_max);
+  // common nodes are dense wherever any section is steep: far too many where the sections move aside, which share
+  // little
+  const bool follow = settings.follow && arc.has_room() && arc.arc.back() > kMovedAside * arc.longest_section;
+  if (settings.common && !follow) arc = lateral_arc(surface, body, reference, spacing_y, y_min, y_max, true);
   arc.require_room();
-  // common nodes are dense wherever any section is steep: far too many where the sections move aside
-  const bool follow = settings.staggered && arc.arc.back() > kMovedAside * arc.longest_section;
   const int steps =
       follow ? steps_along(arc.longest_section, kCloser * spacing_y) : steps_along(arc.arc.back(), spacing_y);
   grid.y = arc.nodes(steps);
   if (static_cast<double>(grid.u.size()) * static_cast<double>(grid.y.size()) > kMostPoints) refuse();
   grid.h.resize(grid.u.size() * grid.y.size());
-  if (!settings.staggered) {
-    parallel_for(grid.u.size(), [&](std::size_t i) {
-      section_heights(surface, body, grid.u[i], grid.y,
-                      {std::span(grid.h).subspan(i * grid.y.size(), grid.y.size()), {}, {}});
-    });
-    trim(grid);
-    return grid;
-  }
-  grid.stagger = 0.5 * (grid.u[1] - grid.u[0]);
+  if (settings.staggered) grid.stagger = 0.5 * (grid.u[1] - grid.u[0]);
   if (follow) grid.own_y.resize(grid.h.size());
+  // of triangles every other node lies at a station of its own
+  const std::size_t kinds = settings.staggered ? 2 : 1;
   std::vector<double> common[2];
-  for (std::size_t k = 0; k < grid.y.size(); ++k) common[k % 2].push_back(grid.y[k]);
+  for (std::size_t k = 0; k < grid.y.size(); ++k) common[k % kinds].push_back(grid.y[k]);
   parallel_for(grid.u.size(), [&](std::size_t i) {
-    for (std::size_t odd = 0; odd < 2; ++odd) {
-      const double u = grid.u[i] + (odd == 1 ? grid.stagger : 0.0);
-      std::vector<double> nodes = common[odd], h(nodes.size());
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      const double u = grid.u[i] + (kind == 1 ? grid.stagger : 0.0);
+      std::vector<double> nodes = common[kind], h(nodes.size());
       if (follow) {
-        const LateralArc own = lateral_arc(surface, body, {&u, 1}, spacing_y, y_min, y_max);
+        const LateralArc own = lateral_arc(surface, body, {&u, 1}, std::max(spacing_y, kArcSpacing), y_min, y_max);
         if (own.has_room()) {
           const std::vector<double> all = own.nodes(steps);
-          for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = all[2 * k + odd];
+          for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = all[kinds * k + kind];
         }
-        for (std::size_t k = 0; k < nodes.size(); ++k) grid.own_y[grid.index(i, 2 * k + odd)] = nodes[k];
+        for (std::size_t k = 0; k < nodes.size(); ++k) grid.own_y[grid.index(i, kinds * k + kind)] = nodes[k];
       }
       section_heights(surface, body, u, nodes, {h, {}, {}});
-      for (std::size_t k = 0; k < h.size(); ++k) grid.h[grid.index(i, 2 * k + odd)] = h[k];
+      for (std::size_t k = 0; k < h.size(); ++k) grid.h[grid.index(i, kinds * k + kind)] = h[k];
     }
   });
   trim(grid);

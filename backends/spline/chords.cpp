@@ -3,14 +3,15 @@
 #include "treadmark/backends/spline/chords.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
 #include "treadmark/backends/spline/slices/slice_surface.hpp"
-#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::spline {
@@ -30,39 +31,23 @@ ProfileSpline polyline(const Profile& profile) {
   return ProfileSpline(std::move(s), std::move(chords), kinks);
 }
 
-/// A strip: both of its edges at each station, in places so close that the cubic through them is a straight line.
-SampledSlices strip(const sampling::PointGrid& points, std::size_t from, std::size_t to, double zero) {
-  constexpr int kPlaces = 4;
-  SampledSlices all{kPlaces, {}};
-  all.slices.resize(points.u.size());
-  const auto at = [&](std::size_t iu, std::size_t iy) {
-    const std::size_t i = points.index(iu, iy);
-    return NetPair{points.own_y.empty() ? points.y[iy] : points.own_y[i], points.h[i] - zero};
-  };
-  for (std::size_t iu = 0; iu < points.u.size(); ++iu) {
-    if (!points.present(iu, from) || !points.present(iu, to)) continue;
-    auto& places = all.slices[iu].points;
-    places.reserve(kPlaces);
-    const NetPair a = at(iu, from), b = at(iu, to);
-    for (int k = 0; k < kPlaces; ++k) places.push_back(a + (k / (kPlaces - 1.0)) * (b - a));
-  }
-  return all;
-}
+constexpr NetPair kMissing{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
-/// Leaves out what too few successive stations have; whether anything is left.
-bool drop_short_runs(SampledSlices& all) {
+/// Leaves out the points of a line along that too few successive stations have; whether anything is left.
+bool drop_short_runs(std::vector<std::vector<NetPair>>& rows, std::size_t line) {
   constexpr std::size_t kLeast = 4;
+  const auto there = [&](std::size_t i) { return !std::isnan(rows[i][line].w); };
   bool any = false;
-  for (std::size_t first = 0; first < all.slices.size();) {
-    if (all.slices[first].points.empty()) {
+  for (std::size_t first = 0; first < rows.size();) {
+    if (!there(first)) {
       ++first;
       continue;
     }
     std::size_t end = first;
-    while (end < all.slices.size() && !all.slices[end].points.empty()) ++end;
+    while (end < rows.size() && there(end)) ++end;
     const bool enough = end - first >= kLeast;
     any = any || enough;
-    for (std::size_t i = first; i < end && !enough; ++i) all.slices[i].points.clear();
+    for (std::size_t i = first; i < end && !enough; ++i) rows[i][line] = kMissing;
     first = end;
   }
   return any;
@@ -75,30 +60,36 @@ std::shared_ptr<const Surface> make_chord_surface(const Profile& profile, double
   return std::make_shared<RevolutionSurface>(polyline(profile), nominal_radius);
 }
 
-std::vector<std::shared_ptr<const Surface>> make_chord_strips(const sampling::PointGrid& points,
-                                                              double nominal_radius) {
+std::shared_ptr<const Surface> make_chord_surface(const sampling::PointGrid& points, double nominal_radius) {
   const bool wheel = points.body == Body::wheel;
+  const std::size_t across = points.y.size();
   SliceSet stations;
   stations.body = points.body;
   stations.name = "chords";
   stations.u = points.u;
   stations.profiles.resize(points.u.size());
-  std::vector<std::shared_ptr<const Surface>> strips;
-  strips.reserve(points.y.size());
-  for (std::size_t k = 0; k + 1 < points.y.size(); ++k, check_cancelled()) {
-    // sections of wheels run with decreasing y
-    SampledSlices sampled = wheel ? strip(points, k + 1, k, nominal_radius) : strip(points, k, k + 1, 0.0);
-    if (!drop_short_runs(sampled)) continue;
-    SliceNet net = fit_slices(stations, sampled);
-    if (wheel)
-      strips.push_back(std::make_shared<SliceWheel>(std::move(net), nominal_radius));
-    else
-      strips.push_back(std::make_shared<SliceRail>(std::move(net), 0.0));
+  std::vector<std::vector<NetPair>> rows(points.u.size());
+  for (std::size_t iu = 0; iu < rows.size(); ++iu) {
+    rows[iu].reserve(across);
+    for (std::size_t k = 0; k < across; ++k) {
+      const std::size_t iy = wheel ? across - 1 - k : k;  // sections of wheels run with decreasing y
+      const std::size_t i = points.index(iu, iy);
+      const double y = points.own_y.empty() ? points.y[iy] : points.own_y[i];
+      rows[iu].push_back(points.present(iu, iy) ? NetPair{y, points.h[i] - (wheel ? nominal_radius : 0.0)} : kMissing);
+    }
   }
-  if (strips.empty())
+  bool before = false, any = false;
+  for (std::size_t k = 0; k < across; ++k) {
+    const bool here = drop_short_runs(rows, k);
+    any = any || (here && before);
+    before = here;
+  }
+  if (!any)
     throw Error(ErrorKind::input_data, "there are no chords: four stations with two points side by side are needed", {},
                 "sample more densely");
-  return strips;
+  SliceNet net = join_straight(stations, rows);
+  if (wheel) return std::make_shared<SliceWheel>(std::move(net), nominal_radius);
+  return std::make_shared<SliceRail>(std::move(net), 0.0);
 }
 
 }  // namespace treadmark::spline

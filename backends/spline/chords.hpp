@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
@@ -16,10 +15,10 @@ namespace treadmark::spline {
 /// unusable points, Error(configuration) for a radius that is not positive.
 std::shared_ptr<const Surface> make_chord_surface(const Profile& profile, double nominal_radius);
 
-/// The same for sections that change: strips between neighbouring lateral nodes of the grid, straight across, cubic
-/// splines along. Neighbours share their edge; one of them without the other is a strip that ends. A strip that fewer
-/// than 4 successive stations have is left out there. Errors: Error(input_data) if nothing is left, or for fewer than 4
+/// The same for sections that change: straight between neighbouring lateral nodes of the grid, cubic splines along. v
+/// is the number of the node, from 1. Where one of two neighbours is missing there is no chord; a node that fewer than
+/// 4 successive stations have is left out there. Errors: Error(input_data) if nothing is left, or for fewer than 4
 /// stations.
-std::vector<std::shared_ptr<const Surface>> make_chord_strips(const sampling::PointGrid& points, double nominal_radius);
+std::shared_ptr<const Surface> make_chord_surface(const sampling::PointGrid& points, double nominal_radius);
 
 }  // namespace treadmark::spline

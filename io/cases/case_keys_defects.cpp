@@ -149,18 +149,35 @@ DefectKeys<GaugeCornerCollapse> keys_of(const std::vector<GaugeCornerCollapse>&)
             [](const Collapse& g) { return toml_text(g.gauge_side > 0 ? "+y" : "-y"); }}}};
 }
 
+/// What spalls of both bodies have.
+template <class Pit>
+Keys<Pit> pit_keys(const char* length_doc) {
+  return {required(element_number<Pit>("length_mm", kPositive, length_doc, &Pit::length)),
+          required(element_number<Pit>("width_mm", kPositive, "width over the rims", &Pit::width)),
+          required(element_number<Pit>("depth_mm", kPositive, "depth of the floor", &Pit::depth)),
+          required(element_number<Pit>("edge_mm", kPositive, "width of the edge, over which the floor is reached",
+                                       &Pit::edge))};
+}
+
 DefectKeys<Spall> keys_of(const std::vector<Spall>&) {
-  const auto number = [](const char* name, KeyLimits limits, const char* doc, double Spall::*member) {
-    return element_number<Spall>(name, limits, doc, member);
-  };
-  return {
-      "spalls: chips broken out of the running band, pits with a flat floor",
-      {required(number("length_mm", kPositive, "length over the rims", &Spall::length)),
-       required(number("width_mm", kPositive, "width over the rims", &Spall::width)),
-       required(number("depth_mm", kPositive, "depth of the floor", &Spall::depth)),
-       required(number("edge_mm", kPositive, "width of the edge, over which the floor is reached", &Spall::edge)),
-       with_default(number("x_center_mm", kAnyNumber, "middle along the rail", &Spall::x_center), "0"),
-       with_default(number("y_center_mm", kAnyNumber, "middle in rail profile coordinates", &Spall::y_center), "0")}};
+  Keys<Spall> keys = pit_keys<Spall>("length over the rims");
+  append(
+      keys,
+      {with_default(element_number<Spall>("x_center_mm", kAnyNumber, "middle along the rail", &Spall::x_center), "0"),
+       with_default(
+           element_number<Spall>("y_center_mm", kAnyNumber, "middle in rail profile coordinates", &Spall::y_center),
+           "0")});
+  return {"spalls: chips broken out of the running band, pits with a flat floor", std::move(keys)};
+}
+
+DefectKeys<WheelSpall> keys_of(const std::vector<WheelSpall>&) {
+  Keys<WheelSpall> keys = pit_keys<WheelSpall>("length over the rims, along the circumference");
+  append(keys,
+         element_angle<WheelSpall>("theta_center", "angle of the middle on the wheel", &WheelSpall::theta_center));
+  append(keys, {with_default(element_number<WheelSpall>("y_center_mm", kAnyNumber,
+                                                        "middle in wheel profile coordinates", &WheelSpall::y_center),
+                             "0")});
+  return {"spalls: chips broken out of the tread, pits with a flat floor", std::move(keys)};
 }
 
 DefectKeys<FlattenedHead> keys_of(const std::vector<FlattenedHead>&) {

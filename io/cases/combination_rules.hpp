@@ -52,6 +52,8 @@ struct RolledStep {
 };
 /// What a case takes over from the one before it is not quite what was there, in words; empty if all is well.
 std::string doubt_about_history(const Case& previous, const Case& next);
+/// A wheel that is meant to roll and does not move, in words; empty if it moves.
+std::string doubt_about_motion(const Case& c);
 /// None unless next is transient rolling of a wheel on a rail that goes on from previous.
 std::optional<RolledStep> rolled_step(const Case& previous, const Case& next);
 

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -191,6 +192,9 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
     validate_case(c);
   }
   settle_sequences(result.cases, &result.notes);
+  const auto still = [](const Case& c) { return !doubt_about_motion(c).empty(); };
+  if (const auto first = std::ranges::find_if(result.cases, still); first != result.cases.end())
+    result.notes.push_back(fmt::format("case {}: {}", first->number, doubt_about_motion(*first)));
   return result;
 }
 

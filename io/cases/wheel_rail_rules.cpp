@@ -153,6 +153,14 @@ std::string doubt_about_history(const Case& previous, const Case& next) {
   return step ? step->complaint() : "";
 }
 
+std::string doubt_about_motion(const Case& c) {
+  const auto* rail = std::get_if<WheelRailCase>(&c.content);
+  if (rail == nullptr || !rolling(rail->regime) || rail->longitudinal_force || rail->rolls_by_radius) return {};
+  if (rail->state.velocity != SixMotion{} || rail->state.wheel_velocity != SixMotion{}) return {};
+  return "neither a speed nor rolling is given: nothing creeps, and tangential forces are zero "
+         "(wheelset.velocity_km_h and wheelset.rolling = \"nominal\" make the wheel roll)";
+}
+
 std::optional<RolledStep> rolled_step(const Case& previous, const Case& next) {
   const auto *a = std::get_if<WheelRailCase>(&previous.content), *b = std::get_if<WheelRailCase>(&next.content);
   if (a == nullptr || b == nullptr || b->history != HistoryUse::keep_going || b->regime != Regime::transient)

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <hdf5.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -17,13 +18,22 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 
 namespace treadmark::io {
 
 // Writer and reader share this file because it alone knows the HDF5 library.
+
+/// Part of a dataset that is stored as a whole: where it begins, and its bytes with zeros beyond the ends.
+struct Hdf5Chunk {
+  std::vector<hsize_t> offset;
+  std::vector<unsigned char> bytes;
+};
+
 namespace {
 
 constexpr int kDeflateLevel = 4;
@@ -33,6 +43,7 @@ constexpr hssize_t kMostValues = hssize_t{1} << 34;
 constexpr unsigned kMostAttributes = 1000;  // in the header of an object
 constexpr long kLongestName = 4096;
 constexpr double kDensest = 1100.0;  // deflate packs no closer
+constexpr std::size_t kMostPending = std::size_t{64} << 20, kMostDatasets = 4096;
 
 [[noreturn]] void cannot_write(std::string_view what) {
   throw Error(ErrorKind::configuration, fmt::format("HDF5: cannot write {}", what), {},
@@ -122,7 +133,99 @@ std::vector<hsize_t> chunk_size(const std::vector<hsize_t>& size) {
   return chunk;
 }
 
-void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* data, std::size_t count) {
+/// The bytes of numbers of `width` bytes, the first ones of all, then the second ones: what the shuffle filter of the
+/// library makes of them.
+std::vector<unsigned char> shuffled(const std::vector<unsigned char>& bytes, std::size_t width) {
+  const std::size_t count = bytes.size() / width;
+  std::vector<unsigned char> out(bytes.size());
+  for (std::size_t b = 0; b < width; ++b)
+    for (std::size_t i = 0; i < count; ++i) out[b * count + i] = bytes[i * width + b];
+  return out;
+}
+
+/// A dataset cut into chunks, in the order of the library.
+std::vector<Hdf5Chunk> cut(const std::vector<hsize_t>& size, const std::vector<hsize_t>& chunk,
+                           const unsigned char* data, std::size_t width) {
+  const std::size_t rank = size.size();
+  std::vector<std::size_t> step(rank, width), step_in_chunk(rank, width);  // bytes from one index to the next
+  for (std::size_t k = rank; --k > 0;) {
+    step[k - 1] = step[k] * size[k];
+    step_in_chunk[k - 1] = step_in_chunk[k] * chunk[k];
+  }
+  std::vector<Hdf5Chunk> out;
+  std::vector<hsize_t> offset(rank, 0);
+  const auto copy = [&](const auto& self, std::size_t k, const unsigned char* from, unsigned char* to) -> void {
+    const std::size_t count = std::min(chunk[k], size[k] - offset[k]);
+    if (k + 1 == rank) {
+      std::memcpy(to, from, count * width);
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i)
+      self(self, k + 1, from + i * step[k] + offset[k + 1] * step[k + 1], to + i * step_in_chunk[k]);
+  };
+  for (bool more = true; more;) {
+    Hdf5Chunk& one = out.emplace_back(Hdf5Chunk{offset, std::vector<unsigned char>(step_in_chunk[0] * chunk[0], 0)});
+    copy(copy, 0, data + offset[0] * step[0], one.bytes.data());
+    more = false;
+    for (std::size_t k = rank; k-- > 0 && !more;) {
+      offset[k] += chunk[k];
+      more = offset[k] < size[k];
+      if (!more) offset[k] = 0;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+/// The library compresses on one thread: so chunks are collected, compressed on all and handed over as they are to be
+/// stored, in their order.
+struct Hdf5Pending {
+  struct Dataset {
+    Hdf5Id id;
+    std::string name;
+    std::size_t width;
+    std::vector<Hdf5Chunk> chunks;
+  };
+  std::vector<Dataset> datasets;
+  std::size_t bytes = 0;
+
+  void add(Dataset dataset) {
+    for (const Hdf5Chunk& chunk : dataset.chunks) bytes += chunk.bytes.size();
+    datasets.push_back(std::move(dataset));
+    if (bytes >= kMostPending || datasets.size() >= kMostDatasets) write();
+  }
+
+  void write() {
+    std::vector<std::pair<const Dataset*, Hdf5Chunk*>> all;
+    for (Dataset& dataset : datasets)
+      for (Hdf5Chunk& chunk : dataset.chunks) all.emplace_back(&dataset, &chunk);
+    {
+      const NeverCancelled whole;
+      parallel_for(all.size(), [&](std::size_t k) {
+        const auto& [dataset, chunk] = all[k];
+        const std::vector<unsigned char> plain = shuffled(chunk->bytes, dataset->width);
+        uLongf size = compressBound(plain.size());
+        chunk->bytes.resize(size);
+        if (compress2(chunk->bytes.data(), &size, plain.data(), plain.size(), kDeflateLevel) != Z_OK)
+          cannot_write(dataset->name);
+        chunk->bytes.resize(size);
+      });
+    }
+    for (const auto& [dataset, chunk] : all)
+      if (H5Dwrite_chunk(dataset->id.get(), H5P_DEFAULT, 0, chunk->offset.data(), chunk->bytes.size(),
+                         chunk->bytes.data()) < 0)
+        cannot_write(dataset->name);
+    datasets.clear();
+    bytes = 0;
+  }
+};
+
+namespace {
+
+/// pending: where values to be compressed go; none for those that are not numbers.
+void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* data, std::size_t count,
+                  Hdf5Pending* pending) {
   check_name(what.name);
   const std::vector<hsize_t> size(what.shape.begin(), what.shape.end());
   hsize_t wanted = 1;
@@ -131,17 +234,22 @@ void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* 
     throw Error(ErrorKind::configuration,
                 fmt::format("{} has {} values where its shape asks for {}", what.name, count, wanted));
   const Hdf5Id space = make_space(size, what.name), creation = timeless(H5P_DATASET_CREATE, what.name);
-  if (what.compressed && !size.empty() && count > 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
-    const std::vector<hsize_t> chunk = chunk_size(size);
-    if (H5Pset_chunk(creation.get(), static_cast<int>(size.size()), chunk.data()) < 0 ||
-        H5Pset_shuffle(creation.get()) < 0 || H5Pset_deflate(creation.get(), kDeflateLevel) < 0)
-      cannot_write(what.name);
-  }
-  const Hdf5Id dataset = written(
+  const bool compressed =
+      pending != nullptr && what.compressed && !size.empty() && count > 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0;
+  const std::vector<hsize_t> chunk = compressed ? chunk_size(size) : std::vector<hsize_t>{};
+  if (compressed && (H5Pset_chunk(creation.get(), static_cast<int>(size.size()), chunk.data()) < 0 ||
+                     H5Pset_shuffle(creation.get()) < 0 || H5Pset_deflate(creation.get(), kDeflateLevel) < 0))
+    cannot_write(what.name);
+  Hdf5Id dataset = written(
       H5Dcreate2(group, what.name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), what.name);
-  if (count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) cannot_write(what.name);
+  if (!compressed && count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+    cannot_write(what.name);
   AttributeWriter{dataset.get(), "unit"}(what.unit);
   AttributeWriter{dataset.get(), "meaning"}(what.meaning);
+  if (!compressed) return;
+  const std::size_t width = H5Tget_size(type);
+  pending->add(
+      {std::move(dataset), what.name, width, cut(size, chunk, static_cast<const unsigned char*>(data), width)});
 }
 
 /// Before the library is first used: nothing is left to be done at the end of a process, and where a damaged file keeps
@@ -285,7 +393,7 @@ Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, reinterpret_cast<H5E_aut
 Hdf5GroupWriter Hdf5GroupWriter::make_group(const std::string& name) const {
   check_name(name);
   const Hdf5Id creation = timeless(H5P_GROUP_CREATE, name);
-  return Hdf5GroupWriter(written(H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name));
+  return {written(H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name), pending_};
 }
 
 void Hdf5GroupWriter::add(const Attribute& attribute) const {
@@ -297,15 +405,15 @@ void Hdf5GroupWriter::add(std::span<const Attribute> attributes) const {
 }
 
 void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const double> values) const {
-  write_values(id_.get(), dataset, H5T_NATIVE_DOUBLE, values.data(), values.size());
+  write_values(id_.get(), dataset, H5T_NATIVE_DOUBLE, values.data(), values.size(), pending_.get());
 }
 
 void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::uint8_t> values) const {
-  write_values(id_.get(), dataset, H5T_NATIVE_UINT8, values.data(), values.size());
+  write_values(id_.get(), dataset, H5T_NATIVE_UINT8, values.data(), values.size(), pending_.get());
 }
 
 void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::string> values) const {
-  write_values(id_.get(), dataset, string_type().get(), pointers(values).data(), values.size());
+  write_values(id_.get(), dataset, string_type().get(), pointers(values).data(), values.size(), nullptr);
 }
 
 void Hdf5GroupWriter::copy_file(const std::filesystem::path& source, const std::string& name) const {
@@ -318,10 +426,11 @@ void Hdf5GroupWriter::copy_file(const std::filesystem::path& source, const std::
 Hdf5Writer::Hdf5Writer(std::filesystem::path file)
     : target_(std::move(file)),
       file_(open_in_memory(target_.string(), image_)),
-      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), target_.string())) {}
+      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), target_.string()), std::make_shared<Hdf5Pending>()) {}
 
 void Hdf5Writer::commit() {
-  root_ = Hdf5GroupWriter(Hdf5Id());
+  root_.pending_->write();
+  root_ = {Hdf5Id(), nullptr};
   const ssize_t size = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(file_.get(), nullptr, 0);
   if (size < 0 || H5Fclose(file_.release()) < 0 || !image_.bytes) cannot_write(target_.string());
   write_file(target_, {image_.bytes.get(), static_cast<std::size_t>(size)});

@@ -23,6 +23,9 @@ struct Hdf5Dataset {
   bool compressed = false;         ///< where deflate is available and there are values
 };
 
+/// Values of a file that wait to be compressed.
+struct Hdf5Pending;
+
 /// A group of an HDF5 file being written. Equal calls give equal bytes: no times are stored.
 /// Names are not empty, not ".", and have no slash and no zero byte. Errors of all functions: Error(configuration).
 /// Not to be used from two threads at once, not even for different files: the HDF5 library may not be thread-safe.
@@ -41,8 +44,9 @@ class Hdf5GroupWriter {
 
  private:
   friend class Hdf5Writer;
-  explicit Hdf5GroupWriter(Hdf5Id id) : id_(std::move(id)) {}
+  Hdf5GroupWriter(Hdf5Id id, std::shared_ptr<Hdf5Pending> pending) : id_(std::move(id)), pending_(std::move(pending)) {}
   Hdf5Id id_;
+  std::shared_ptr<Hdf5Pending> pending_;  ///< of the file
 };
 
 /// The bytes of a file that was made in memory.
@@ -54,7 +58,8 @@ struct Hdf5Image {
 };
 
 /// An HDF5 file being written, readable by the HDF5 library from version 1.8 on. It is made in memory, where it takes
-/// as much as on the disk; nothing of it stands on the disk before commit().
+/// as much as on the disk and what waits to be compressed, on all threads at a time, as much again as 64 MiB; nothing
+/// of it stands on the disk before commit(). The same bytes for any number of threads.
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(std::filesystem::path file);

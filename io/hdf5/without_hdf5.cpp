@@ -18,7 +18,7 @@ Hdf5Id::~Hdf5Id() = default;
 Hdf5Silence::Hdf5Silence() = default;
 Hdf5Silence::~Hdf5Silence() = default;
 
-Hdf5Writer::Hdf5Writer(std::filesystem::path) : root_(Hdf5Id()) { without_hdf5(); }
+Hdf5Writer::Hdf5Writer(std::filesystem::path) : root_(Hdf5Id(), nullptr) { without_hdf5(); }
 void Hdf5Writer::commit() { without_hdf5(); }
 
 Hdf5GroupWriter Hdf5GroupWriter::make_group(const std::string&) const { without_hdf5(); }

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
@@ -57,17 +57,24 @@ std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& s
   check(file, slices);
   const bool rail = slices.body == Body::rail;
   OutputFolder folder(file.parent_path() / (file.filename().string() + "-slices"), OutputFolder::Old::replaced);
-  std::string sums, text;
-  std::uintmax_t bytes = 0;
-  for (std::size_t i = 0; i < slices.u.size(); ++i) {
-    check_cancelled();
+  struct Written {
+    std::string sum;
+    std::uintmax_t bytes = 0;
+  };
+  std::vector<Written> written(slices.u.size());
+  parallel_for(written.size(), [&](std::size_t i) {
     const Profile& profile = slices.profiles[i];
-    text.clear();
+    std::string text;
     for (std::size_t k = 0; k < profile.y.size(); ++k)
       fmt::format_to(std::back_inserter(text), "{:.10f} {:.10f}\n", kMilli * profile.y[k], kMilli * profile.z[k]);
     write_file(folder.path() / slice_name(i), text);
-    bytes += text.size();
-    sums += sha256_hex(text) + '\n';
+    written[i] = {sha256_hex(text), text.size()};
+  });
+  std::string sums;
+  std::uintmax_t bytes = 0;
+  for (const Written& one : written) {
+    sums += one.sum + '\n';
+    bytes += one.bytes;
   }
   const std::string sum = sha256_hex(sums);
   const std::string name = fmt::format("{}-{}", file.filename().string(), sum.substr(0, kDigitsOfFolder));

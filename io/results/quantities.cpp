@@ -244,7 +244,8 @@ constexpr Quantity<C> kCaseQuantities[] = {
     {"roller", "pitch_rate_rad_s", kRate, B::roller, within<&C::roller, &Roller::pitch_rate>(), "",
      {"roller_pitch_rate"}},
     {"timing", "search_s", kTime, B::timing, of<&C::search_s>(),
-     "wall-clock time of the search for contact, undeformed distance, normal and tangential problem"},
+     "time of the search for contact, undeformed distance, normal and tangential problem: processor time on one "
+     "thread, else of the day"},
     {"timing", "distance_s", kTime, B::timing, of<&C::distance_s>(), ""},
     {"timing", "normal_s", kTime, B::timing, of<&C::normal_s>(), ""},
     {"timing", "tangential_s", kTime, B::timing, of<&C::tangential_s>(), ""},

@@ -153,6 +153,7 @@ RunResult read_hdf5(const std::filesystem::path& path) {
   const std::vector<std::string> files = root.texts("geometry_files"), hashes = root.texts("geometry_sha256");
   if (files.size() != hashes.size()) refuse_result(root, "has another number of geometry files than of their hashes");
   for (std::size_t i = 0; i < files.size(); ++i) run.geometry_sha256.emplace_back(files[i], hashes[i]);
+  if (root.has_attribute("doubts")) run.doubts = root.texts("doubts");
   run.settings = root.texts("settings");
   run.complete = root.integer("complete") != 0;
   run.cases_total = root.integer("cases_total");

@@ -208,7 +208,7 @@ struct SurfaceUse {
   std::string body;  ///< "wheel" or "rail"
   std::string backend;
   double resolution = 0.0;       ///< spacing of the samples it was built from [m]; 0 = built from the data as given
-  double build_seconds = 0.0;    ///< wall clock [s]
+  double build_seconds = 0.0;    ///< as used_seconds() counts
   std::size_t memory_bytes = 0;  ///< of the surface
   SurfaceDifference fit;         ///< from what it was sampled from; points = 0: not sampled
   std::string note;
@@ -223,9 +223,10 @@ struct RunResult {
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
   std::vector<SurfaceUse> surfaces;                                  ///< in the order in which the cases ask for them
-  std::vector<std::string> settings;                                 ///< echo of overrides (--set key=value, --backend)
-  bool complete = true;  ///< false when interrupted: then fewer cases than asked
-  int cases_total = 0;   ///< asked for
+  std::vector<std::string> doubts;    ///< about profiles: "wheel profile w.csv: flange_side: ..."; empty: none
+  std::vector<std::string> settings;  ///< echo of overrides (--set key=value, --backend)
+  bool complete = true;               ///< false when interrupted: then fewer cases than asked
+  int cases_total = 0;                ///< asked for
   std::vector<CaseResult> cases;
   std::vector<SampledSurface> sampled;  ///< of what the cases used; empty where nobody asked for them
 };

@@ -122,11 +122,12 @@ std::string vtk_data_array(const std::string& name, const std::vector<std::int32
   return data_array("Int32", name, values, components);
 }
 
-std::string vtk_quadrilaterals(const std::vector<std::int32_t>& corners, std::size_t point_count,
-                               const std::string& point_data, const std::string& points) {
+std::string vtk_polygons(std::size_t corners_each, const std::vector<std::int32_t>& corners, std::size_t point_count,
+                         const std::string& point_data, const std::string& points) {
   std::vector<std::int32_t> ends;
-  ends.reserve(corners.size() / 4);
-  for (std::size_t i = 4; i <= corners.size(); i += 4) ends.push_back(static_cast<std::int32_t>(i));
+  ends.reserve(corners.size() / corners_each);
+  for (std::size_t i = corners_each; i <= corners.size(); i += corners_each)
+    ends.push_back(static_cast<std::int32_t>(i));
   return fmt::format(R"(<?xml version="1.0"?>
 <VTKFile type="PolyData" version="1.0" byte_order="{}" header_type="UInt64">
   <PolyData>

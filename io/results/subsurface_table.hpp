@@ -45,9 +45,10 @@ std::string vtk_data_array(const std::string& name, const std::vector<std::int32
 std::string vtk_structured_grid(const std::string& extent, const std::string& data_element, const std::string& data,
                                 const std::string& points);
 
-/// Quadrilaterals (.vtp): four indices of points each; point_data and points are DataArray elements.
-std::string vtk_quadrilaterals(const std::vector<std::int32_t>& corners, std::size_t point_count,
-                               const std::string& point_data, const std::string& points);
+/// Polygons (.vtp) of as many corners each: their points one after the other; point_data and points are DataArray
+/// elements.
+std::string vtk_polygons(std::size_t corners_each, const std::vector<std::int32_t>& corners, std::size_t point_count,
+                         const std::string& point_data, const std::string& points);
 
 /// A collection (.pvd) of files; entries are DataSet elements, see vtk_entry.
 std::string vtk_collection(const std::string& entries);

@@ -234,6 +234,7 @@ std::vector<Attribute> attributes_of(const RunResult& run) {
   }
   add("geometry_files", files);
   add("geometry_sha256", hashes);
+  if (!run.doubts.empty()) add("doubts", run.doubts);
   add("settings", run.settings);
   add("complete", run.complete ? 1 : 0);
   add("cases_total", run.cases_total);

@@ -9,7 +9,9 @@
 #include <map>
 #include <utility>
 
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
@@ -80,8 +82,18 @@ class VtkFiles {
 
   void add(double time, int part, const std::string& name, const std::string& text) {
     write_file(folder_ / name, text);
+    this->name(time, part, name);
+  }
+
+  /// A file that is written elsewhere.
+  void name(double time, int part, const std::string& name) {
     written.push_back(folder_ / name);
     entries += vtk_entry(time, part, name);
+  }
+
+  void add(const VtkFiles& others) {
+    written.insert(written.end(), others.written.begin(), others.written.end());
+    entries += others.entries;
   }
 
   std::vector<std::filesystem::path> finish(const std::string& stem) {
@@ -126,8 +138,12 @@ void write_case(VtkFiles& files, const CaseResult& result, double time, const st
 
 std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder, const RunResult& run,
                                              const std::string& stem, std::span<const double> times) {
+  std::vector<VtkFiles> of_case(run.cases.size(), VtkFiles(folder));
+  const NeverCancelled whole;
+  parallel_for(run.cases.size(),
+               [&](std::size_t k) { write_case(of_case[k], run.cases[k], time_of(run, k, times), stem); });
   VtkFiles files(folder);
-  for (std::size_t k = 0; k < run.cases.size(); ++k) write_case(files, run.cases[k], time_of(run, k, times), stem);
+  for (const VtkFiles& one : of_case) files.add(one);
   return files.finish(stem);
 }
 
@@ -153,9 +169,20 @@ std::string surface_to_vtp(const SampledSurface& surface, const Pose& X_TB) {
       if (std::ranges::all_of(quad, [](std::int32_t k) { return k >= 0; }))
         corners.insert(corners.end(), std::begin(quad), std::end(quad));
     }
-  return vtk_quadrilaterals(corners, static_cast<std::size_t>(count),
-                            deviation.empty() ? "" : vtk_data_array("deviation_m", deviation, 1),
-                            vtk_data_array("points_m", points, 3));
+  return vtk_polygons(4, corners, static_cast<std::size_t>(count),
+                      deviation.empty() ? "" : vtk_data_array("deviation_m", deviation, 1),
+                      vtk_data_array("points_m", points, 3));
+}
+
+std::string triangles_to_vtp(const TriangleMesh& mesh) {
+  std::vector<double> points;
+  points.reserve(3 * mesh.vertices.size());
+  for (const Vec3& v : mesh.vertices) points.insert(points.end(), {v.x(), v.y(), v.z()});
+  std::vector<std::int32_t> corners;
+  corners.reserve(3 * mesh.triangles.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) corners.push_back(static_cast<std::int32_t>(corner));
+  return vtk_polygons(3, corners, mesh.vertices.size(), "", vtk_data_array("points_m", points, 3));
 }
 
 std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path& folder, const RunResult& run,
@@ -165,6 +192,7 @@ std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path&
   struct Stand {
     Pose pose;
     std::string file;
+    int surface;
   };
   std::map<std::string, std::vector<Stand>> stands;  // a rail mostly stands in one place
   for (std::size_t k = 0; k < run.cases.size(); ++k) {
@@ -186,10 +214,18 @@ std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path&
         continue;
       }
       const std::string file = fmt::format("{}_{}_{:04}.vtp", stem, name, known.size() + 1);
-      files.add(time, part++, file, surface_to_vtp(run.sampled[static_cast<std::size_t>(index)], pose));
-      known.push_back({pose, file});
+      files.name(time, part++, file);
+      known.push_back({pose, file, index});
     }
   }
+  std::vector<const Stand*> all;
+  for (const auto& [name, known] : stands)
+    for (const Stand& stand : known) all.push_back(&stand);
+  const NeverCancelled whole;
+  parallel_for(all.size(), [&](std::size_t k) {
+    write_file(folder / all[k]->file,
+               surface_to_vtp(run.sampled[static_cast<std::size_t>(all[k]->surface)], all[k]->pose));
+  });
   return files.finish(stem);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark::io {
 
@@ -28,6 +29,9 @@ std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder
 /// precision, quadrilaterals whose corners are all there, and the deviation from the body's mean section as point data.
 /// Thread-safe.
 std::string surface_to_vtp(const SampledSurface& surface, const Pose& X_TB);
+
+/// Triangles as VTK XML polygons (.vtp), points in metres like all files for ParaView. Thread-safe.
+std::string triangles_to_vtp(const TriangleMesh& mesh);
 
 /// Writes the wheel and rail of every case where they are: STEM_wheel_1_0001.vtp and so on, one file a place where the
 /// body stands, and STEM.pvd over the same times as write_vtk. Returns the paths written, the collection last; none

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel_sort.hpp"
 #include "treadmark/scans/cgal/point_checks.hpp"
 
 namespace treadmark::scans {
@@ -48,7 +49,7 @@ PlanePoints plane_points(std::span<const Vec2> points, double period, const char
     }
     items[i] = {x + 0.0, y + 0.0, static_cast<std::uint32_t>(i)};  // + 0.0: no negative zeros
   }
-  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
+  parallel_sort(items, [](const Item& a, const Item& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.input < b.input;
   });
   items.erase(

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/scans/cgal/plane_points.hpp"
 
 namespace treadmark::scans {
@@ -32,18 +34,27 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Copy, Kernel>;
 // order the points are inserted, and the same one for each copy.
 using Delaunay = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase>>;
 
-/// The points, and copies of those within `margin` of the seam.
-Delaunay triangulate(const PlanePoints& points, double margin) {
+/// Part of the points, [first, last), whose triangles are wanted, and the range of x about it whose points, on a
+/// cylinder copies among them, are looked at.
+struct Part {
+  std::uint32_t first, last;
+  double from, to;
+};
+
+Delaunay triangulate(const PlanePoints& points, const Part& part) {
   std::vector<std::pair<Kernel::Point_2, Copy>> all;
-  all.reserve(points.at.size());
-  const auto add = [&](std::uint32_t rank, int shift) {
-    all.emplace_back(Kernel::Point_2(points.at[rank].x() + shift * points.period, points.at[rank].y()),
-                     Copy{rank, shift});
+  all.reserve(part.last - part.first);
+  const auto rank_at = [&](double x) {
+    const auto before = [](const Vec2& p, double limit) { return p.x() < limit; };
+    return static_cast<std::uint32_t>(std::lower_bound(points.at.begin(), points.at.end(), x, before) -
+                                      points.at.begin());
   };
-  for (std::uint32_t rank = 0; rank < points.at.size(); ++rank) {
-    add(rank, 0);
-    if (points.period > 0.0 && points.at[rank].x() < margin) add(rank, 1);
-    if (points.period > 0.0 && points.at[rank].x() >= points.period - margin) add(rank, -1);
+  const int farthest = points.period > 0.0 ? 1 : 0;
+  for (int shift = -farthest; shift <= farthest; ++shift) {
+    const double moved = shift * points.period;
+    const std::uint32_t end = rank_at(part.to - moved);
+    for (std::uint32_t rank = rank_at(part.from - moved); rank < end; ++rank)
+      all.emplace_back(Kernel::Point_2(points.at[rank].x() + moved, points.at[rank].y()), Copy{rank, shift});
   }
   return Delaunay(all.begin(), all.end());
 }
@@ -66,53 +77,79 @@ std::pair<double, double> reach(const std::array<Vec2, 3>& p, double bottom, dou
   return {std::min(low, p[0].x() + centre.x() - half), std::max(high, p[0].x() + centre.x() + half)};
 }
 
-/// Each triangle of a cylinder once, as three ranks: of its copies the one whose vertex of least rank is not moved.
-/// Returns false when a circle leaves the range of x that `margin` covers, so that more copies could change the
-/// triangle.
-bool collect(const Delaunay& delaunay, const PlanePoints& points, double longest, double margin,
+/// Lowest and highest of the points.
+struct Strip {
+  double bottom, top;
+};
+
+/// Triangles whose vertex of least rank belongs to the part, as indices of the input that begin with the least one:
+/// each once, of the copies on a cylinder the one where that vertex is not moved. Returns false when a circle leaves
+/// the range of x that was looked at, so that more points could change the triangle.
+bool collect(const Delaunay& delaunay, const PlanePoints& points, const Strip& strip, const Part& part, double longest,
              std::vector<Triangle>& out) {
-  double bottom = points.at.front().y(), top = bottom;
-  for (const Vec2& p : points.at) {
-    bottom = std::min(bottom, p.y());
-    top = std::max(top, p.y());
-  }
   bool covered = true;
   out.clear();
   for (auto f = delaunay.finite_faces_begin(); f != delaunay.finite_faces_end(); ++f) {
+    const std::array<Copy, 3> v{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
+    const auto least =
+        std::min_element(v.begin(), v.end(), [](const Copy& a, const Copy& b) { return a.rank < b.rank; });
+    if (least->shift != 0 || least->rank < part.first || least->rank >= part.last) continue;
     const std::array<Vec2, 3> p{place(f->vertex(0)), place(f->vertex(1)), place(f->vertex(2))};
     if (std::max({(p[0] - p[1]).norm(), (p[1] - p[2]).norm(), (p[2] - p[0]).norm()}) > longest) continue;
-    const std::array<Copy, 3> v{f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()};
-    if (points.period > 0.0) {
-      const auto least =
-          std::min_element(v.begin(), v.end(), [](const Copy& a, const Copy& b) { return a.rank < b.rank; });
-      const double low_x = std::min({p[0].x(), p[1].x(), p[2].x()}), high_x = std::max({p[0].x(), p[1].x(), p[2].x()});
-      if (least->shift != 0 || high_x - low_x > 0.5 * points.period) continue;
-      const auto [low, high] = reach(p, bottom, top);
-      covered = covered && low > -margin && high < points.period + margin;
-    }
-    out.push_back({v[0].rank, v[1].rank, v[2].rank});
+    const double low_x = std::min({p[0].x(), p[1].x(), p[2].x()}), high_x = std::max({p[0].x(), p[1].x(), p[2].x()});
+    if (points.period > 0.0 && high_x - low_x > 0.5 * points.period) continue;
+    const auto [low, high] = reach(p, strip.bottom, strip.top);
+    covered = covered && low >= part.from && high <= part.to;
+    Triangle& t = out.emplace_back(Triangle{points.input[v[0].rank], points.input[v[1].rank], points.input[v[2].rank]});
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   }
   return covered;
 }
 
-/// Indices of the input, each triangle beginning with its least one, triangles ascending.
-std::vector<Triangle> in_order(const std::vector<Triangle>& ranks, const PlanePoints& points,
-                               std::size_t input_points) {
+/// Of each part of the points; nothing where they are all on a line.
+std::vector<std::vector<Triangle>> triangles_of_parts(const PlanePoints& points, std::size_t parts, double longest) {
+  constexpr double kFirstMargin = 2.0;  // longest edges
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity();
+  const bool cylinder = points.period > 0.0;
+  const double first_x = points.at.front().x(), last_x = points.at.back().x();
+  const double widest = cylinder ? points.period : last_x - first_x;
+  if (!(kFirstMargin * longest * static_cast<double>(parts) < widest)) parts = 1;
+  Strip strip{points.at.front().y(), points.at.front().y()};
+  for (const Vec2& p : points.at) strip = {std::min(strip.bottom, p.y()), std::max(strip.top, p.y())};
+  std::vector<std::vector<Triangle>> found(parts);
+  std::vector<char> flat(parts, 0);
+  parallel_for(parts, [&](std::size_t k) {
+    Part part{static_cast<std::uint32_t>(k * points.at.size() / parts),
+              static_cast<std::uint32_t>((k + 1) * points.at.size() / parts), 0.0, 0.0};
+    const double low = k == 0 && cylinder ? 0.0 : points.at[part.first].x();
+    const double high = k + 1 < parts ? points.at[part.last].x() : cylinder ? points.period : last_x;
+    // More of the points around, until the circles of all triangles are covered; two whole copies at most.
+    for (double margin = std::min(kFirstMargin * longest, widest);; margin = std::min(2.0 * margin, widest)) {
+      part.from = !cylinder && low - margin <= first_x ? -kNoEnd : low - margin;
+      part.to = !cylinder && high + margin >= last_x ? kNoEnd : high + margin;
+      const Delaunay delaunay = triangulate(points, part);
+      flat[k] = delaunay.dimension() < 2;
+      if ((!flat[k] && collect(delaunay, points, strip, part, longest, found[k])) || margin >= widest) break;
+    }
+  });
+  if (std::ranges::all_of(flat, [](char f) { return f != 0; })) found.clear();
+  return found;
+}
+
+/// Ascending.
+std::vector<Triangle> in_order(const std::vector<std::vector<Triangle>>& parts, std::size_t input_points) {
   std::vector<std::uint32_t> begin(input_points + 1, 0);
-  const auto translate = [&](Triangle t) {
-    for (std::uint32_t& v : t) v = points.input[v];
-    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-    return t;
-  };
-  for (const Triangle& t : ranks) ++begin[translate(t)[0] + 1];
+  for (const auto& part : parts)
+    for (const Triangle& t : part) ++begin[t[0] + 1];
   for (std::size_t i = 0; i < input_points; ++i) begin[i + 1] += begin[i];
-  std::vector<Triangle> sorted(ranks.size());
+  std::vector<Triangle> sorted(begin.back());
   std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const Triangle& t : ranks) {
-    const Triangle translated = translate(t);
-    sorted[next[translated[0]]++] = translated;
-  }
-  for (std::size_t i = 0; i < input_points; ++i) std::sort(sorted.begin() + begin[i], sorted.begin() + begin[i + 1]);
+  for (const auto& part : parts)
+    for (const Triangle& t : part) sorted[next[t[0]]++] = t;
+  constexpr std::size_t kBlock = 4096;
+  parallel_blocks(input_points, kBlock, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) std::sort(sorted.begin() + begin[i], sorted.begin() + begin[i + 1]);
+  });
   return sorted;
 }
 
@@ -124,16 +161,12 @@ std::vector<Triangle> triangulate_plane(std::span<const Vec2> points, double lon
   const PlanePoints prepared = plane_points(points, period, kWhat);
   const double longest = longest_edge / prepared.unit;
 
-  // Copies near the seam until the circles of all triangles are covered; two whole copies at most.
-  constexpr double kFirstMargin = 2.0;  // longest edges
-  std::vector<Triangle> ranks;
-  for (double margin = std::min(kFirstMargin * longest, prepared.period);;
-       margin = std::min(2.0 * margin, prepared.period)) {
-    const Delaunay delaunay = triangulate(prepared, margin);
-    if (delaunay.dimension() < 2) throw_on_a_line(kWhat);
-    if (collect(delaunay, prepared, longest, margin, ranks) || margin >= prepared.period) break;
-  }
-  return in_order(ranks, prepared, points.size());
+  constexpr std::size_t kPart = 1 << 15;  // points: what lies around is little beside it
+  const std::size_t parts = std::max<std::size_t>(1, prepared.at.size() / kPart);
+  std::vector<std::vector<Triangle>> found = triangles_of_parts(prepared, parts, longest);
+  if (found.empty() && parts > 1) found = triangles_of_parts(prepared, 1, longest);
+  if (found.empty()) throw_on_a_line(kWhat);
+  return in_order(found, points.size());
 }
 
 }  // namespace treadmark::scans

@@ -3,10 +3,12 @@
 #include "treadmark/scans/fit/fit_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/scans/fit/level_fit.hpp"
 #include "treadmark/scans/fit/significance.hpp"
@@ -55,22 +57,28 @@ FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& nois
   FitResult out{SplineField(band.length(), band.section.length(), band.closed), {}, {}, 0, 0, 0.0, 0.0, 0.0};
   std::vector<float> weight(points.size(), 0.0f);
   out.residual = points.d;
-  for (std::size_t row = 0; row < points.rows; ++row)
-    for (std::size_t column = 0; column < points.columns; ++column) {
-      const double sigma = noise.at(row, column);
-      for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
-        if (points.state[i] == PointState::held_out) points.state[i] = PointState::used;
-        if (points.state[i] != PointState::used) continue;
-        constexpr std::uint64_t kSeed = 0x74726561u;
-        if (Random(kSeed + points.index[i]).uniform() < settings.held_out) {
-          points.state[i] = PointState::held_out;
-          ++out.held_out;
-          continue;
+  constexpr std::size_t kRows = 16;                                                           // of a task
+  std::vector<std::array<std::size_t, 2>> counts((points.rows + kRows - 1) / kRows, {0, 0});  // used, held out
+  parallel_blocks(points.rows, kRows, [&](std::size_t from, std::size_t to) {
+    auto& [used, held_out] = counts[from / kRows];
+    for (std::size_t row = from; row < to; ++row)
+      for (std::size_t column = 0; column < points.columns; ++column) {
+        const double sigma = noise.at(row, column);
+        for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
+          if (points.state[i] == PointState::held_out) points.state[i] = PointState::used;
+          if (points.state[i] != PointState::used) continue;
+          constexpr std::uint64_t kSeed = 0x74726561u;
+          if (Random(kSeed + points.index[i]).uniform() < settings.held_out) {
+            points.state[i] = PointState::held_out;
+            ++held_out;
+            continue;
+          }
+          weight[i] = static_cast<float>(1.0 / (sigma * sigma));
+          ++used;
         }
-        weight[i] = static_cast<float>(1.0 / (sigma * sigma));
-        ++out.used;
       }
-    }
+  });
+  for (const auto& [used, held_out] : counts) out.used += used, out.held_out += held_out;
 
   // coarse to fine by the area of a function; along and across independently
   const std::size_t most_a = points.halvings_a, most_s = points.halvings_s;

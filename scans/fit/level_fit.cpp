@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "treadmark/core/cpu.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/scans/fit/point_sums.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -24,18 +26,27 @@ struct Geometry {
       : cells_a(points.rows / level.intervals_a), cells_s(points.columns / level.intervals_s) {}
 };
 
-/// Calls visit(i, t_a, t_s) for the points of an interval.
-template <class Visit>
-void visit_points(const BandPoints& points, const SplineLevel& level, const Geometry& g, std::size_t ia, std::size_t is,
-                  const Visit& visit) {
-  const double a0 = level.knot_a * static_cast<double>(ia), s0 = level.knot_s * static_cast<double>(is);
-  for (std::size_t r = ia * g.cells_a; r < (ia + 1) * g.cells_a; ++r) {
-    const std::size_t from = points.begin[r * points.columns + is * g.cells_s],
-                      to = points.begin[r * points.columns + (is + 1) * g.cells_s];
-    for (std::size_t i = from; i < to; ++i)
-      visit(i, std::clamp((points.a[i] - a0) / level.knot_a, 0.0, 1.0),
-            std::clamp((points.s[i] - s0) / level.knot_s, 0.0, 1.0));
-  }
+IntervalPoints points_of(const BandPoints& points, const SplineLevel& level, const Geometry& g, std::size_t ia,
+                         std::size_t is) {
+  return {points.a.data(),
+          points.s.data(),
+          points.begin.data() + ia * g.cells_a * points.columns + is * g.cells_s,
+          g.cells_a,
+          g.cells_s,
+          points.columns,
+          level.knot_a * static_cast<double>(ia),
+          level.knot_s * static_cast<double>(is),
+          1.0 / level.knot_a,
+          1.0 / level.knot_s};
+}
+
+const PointSums& point_sums() {
+#if defined(__x86_64__)
+  static const PointSums& fastest = cpu_has_avx2() ? kPointSumsAvx2 : kPointSumsGeneric;
+  return fastest;
+#else
+  return kPointSumsGeneric;
+#endif
 }
 
 template <class Body>
@@ -44,15 +55,6 @@ void by_colours(const SplineLevel& level, const Body& body) {
     const std::size_t count = (level.intervals_a + kColours - 1 - colour) / kColours;
     parallel_for(count, [&](std::size_t k) { body(colour + kColours * k); });
   }
-}
-
-/// Products of the basis at a point, function i_a * 4 + i_s.
-std::array<float, 16> products(double ta, double ts) {
-  const auto ba = cubic_basis(ta), bs = cubic_basis(ts);
-  std::array<float, 16> out;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = 0; k < 4; ++k) out[4 * i + k] = static_cast<float>(ba[i] * bs[k]);
-  return out;
 }
 
 /// Normal equations of the active functions; row f holds its products with the functions around it.
@@ -70,31 +72,12 @@ class NormalEquations {
     rhs_.assign(functions_.size(), 0.0);
     const Geometry g(points, level);
     by_colours(level, [&](std::size_t ia) {
-      std::array<float, 136> sums;
-      std::array<double, 136> total;
       for (std::size_t is = 0; is < level.intervals_s; ++is) {
         if (!touches_active(ia, is)) continue;
         std::array<double, 16> right{};
-        total.fill(0.0);
-        sums.fill(0.0f);
-        std::size_t inside = 0;
-        const auto flush = [&] {
-          for (std::size_t k = 0; k < total.size(); ++k) total[k] += sums[k];
-          sums.fill(0.0f);
-          inside = 0;
-        };
-        visit_points(points, level, g, ia, is, [&](std::size_t i, double ta, double ts) {
-          if (!(weight[i] > 0.0f)) return;
-          const std::array<float, 16> b = products(ta, ts);
-          std::size_t at = 0;
-          for (std::size_t m = 0; m < 16; ++m) {
-            const float wb = weight[i] * b[m];
-            right[m] += static_cast<double>(wb) * residual[i];
-            for (std::size_t n = 0; n <= m; ++n) sums[at++] += wb * b[n];
-          }
-          if (++inside == 64) flush();  // single precision adds up only so far
-        });
-        flush();
+        std::array<double, 256> total{};
+        point_sums().products(points_of(points, level, g, ia, is), residual.data(), weight.data(), total.data(),
+                              right.data());
         scatter(ia, is, total, right);
       }
     });
@@ -162,7 +145,7 @@ class NormalEquations {
     return sum;
   }
 
-  void scatter(std::size_t ia, std::size_t is, const std::array<double, 136>& total,
+  void scatter(std::size_t ia, std::size_t is, const std::array<double, 256>& total,
                const std::array<double, 16>& right) {
     std::array<std::int32_t, 16> at;
     for (std::size_t i = 0; i < 4; ++i)
@@ -175,8 +158,7 @@ class NormalEquations {
         if (at[n] < 0) continue;
         const std::size_t high = std::max(m, n), low = std::min(m, n);
         const std::size_t place = (n / 4 + 3 - m / 4) * 7 + (n % 4 + 3 - m % 4);
-        matrix_[kStencil * static_cast<std::size_t>(at[m]) + place] +=
-            static_cast<float>(total[high * (high + 1) / 2 + low]);
+        matrix_[kStencil * static_cast<std::size_t>(at[m]) + place] += static_cast<float>(total[16 * high + low]);
       }
     }
   }
@@ -225,18 +207,9 @@ FunctionSums sum_functions(const BandPoints& points, std::span<const float> resi
   by_colours(level, [&](std::size_t ia) {
     for (std::size_t is = 0; is < level.intervals_s; ++is) {
       std::array<double, 16> wbr{}, wbb{}, b_sum{};
-      visit_points(points, level, g, ia, is, [&](std::size_t i, double ta, double ts) {
-        if (!(weight[i] > 0.0f)) return;
-        const std::array<float, 16> b = products(ta, ts);
-        // what outliers are left must not call for functions
-        const float most = kClip / std::sqrt(weight[i]);
-        const float wr = weight[i] * std::clamp(residual[i], -most, most);
-        for (std::size_t m = 0; m < 16; ++m) {
-          wbr[m] += wr * b[m];
-          wbb[m] += weight[i] * b[m] * b[m];
-          b_sum[m] += b[m];
-        }
-      });
+      // what outliers are left must not call for functions
+      point_sums().functions(points_of(points, level, g, ia, is), residual.data(), weight.data(), kClip, wbr.data(),
+                             wbb.data(), b_sum.data());
       for (std::size_t m = 0; m < 16; ++m) {
         const std::size_t f = level.function_a(ia, m / 4) * level.functions_s() + is + m % 4;
         out.wbr[f] += wbr[m];
@@ -260,15 +233,10 @@ LevelSolution fit_level(const BandPoints& points, std::span<float> residual, std
   parallel_for(level.intervals_a, [&](std::size_t ia) {
     for (std::size_t is = 0; is < level.intervals_s; ++is) {
       if (!equations.touches_active(ia, is)) continue;
-      std::array<float, 16> c;
+      std::array<double, 16> c;
       for (std::size_t m = 0; m < 16; ++m)
         c[m] = level.coefficient[level.function_a(ia, m / 4) * level.functions_s() + is + m % 4];
-      visit_points(points, level, g, ia, is, [&](std::size_t i, double ta, double ts) {
-        const std::array<float, 16> b = products(ta, ts);
-        float sum = 0.0f;
-        for (std::size_t m = 0; m < 16; ++m) sum += b[m] * c[m];
-        residual[i] -= sum;
-      });
+      point_sums().subtract(points_of(points, level, g, ia, is), c.data(), residual.data());
     }
   });
   return out;

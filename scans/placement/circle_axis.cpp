@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/placement/voxels.hpp"
 
 namespace treadmark::scans {
@@ -30,10 +33,14 @@ Basis basis_of(const Vec3& direction) {
 /// Points sorted into strips along the direction, between its 2nd and 98th percentile.
 std::vector<std::vector<Vec3>> strips_of(std::span<const Vec3> points, const Axis& axis) {
   std::vector<double> along;
+  along.reserve(points.size());
   for (const Vec3& p : points) along.push_back((p - axis.point).dot(axis.direction));
-  std::vector<double> sorted = along;
-  std::sort(sorted.begin(), sorted.end());
-  const double low = sorted[sorted.size() / 50], high = sorted[sorted.size() - 1 - sorted.size() / 50];
+  std::vector<double> values = along;
+  const auto part = static_cast<std::ptrdiff_t>(values.size() / 50), last = std::ssize(values) - 1;
+  std::nth_element(values.begin(), values.begin() + part, values.end());
+  const double low = values[static_cast<std::size_t>(part)];
+  std::nth_element(values.begin(), values.begin() + (last - part), values.end());
+  const double high = values[static_cast<std::size_t>(last - part)];
   std::vector<std::vector<Vec3>> out(kStrips);
   if (!(high > low)) return out;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -46,15 +53,18 @@ std::vector<std::vector<Vec3>> strips_of(std::span<const Vec3> points, const Axi
 }  // namespace
 
 double radius_scatter(std::span<const Vec3> points, const Axis& axis, double extent) {
-  std::vector<double> scatters, r;
-  for (const auto& strip : strips_of(points, axis)) {
-    if (strip.size() < kFewest) continue;
-    r.clear();
-    for (const Vec3& p : strip) r.push_back((p - axis.point).cross(axis.direction).norm());
+  const std::vector<std::vector<Vec3>> strips = strips_of(points, axis);
+  std::vector<double> scatters(strips.size(), -1.0);
+  parallel_for(strips.size(), [&](std::size_t k) {
+    if (strips[k].size() < kFewest) return;
+    std::vector<double> r;
+    r.reserve(strips[k].size());
+    for (const Vec3& p : strips[k]) r.push_back((p - axis.point).cross(axis.direction).norm());
     const double level = median_of(r);
     for (double& value : r) value = std::fabs(value - level);
-    scatters.push_back(median_of(r));
-  }
+    scatters[k] = median_of(r);
+  });
+  std::erase_if(scatters, [](double scatter) { return scatter < 0.0; });
   return scatters.empty() ? extent : median_of(scatters);
 }
 
@@ -84,8 +94,10 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
   for (int round = 0; round < kRounds; ++round) {
     const Basis b = basis_of(out.axis.direction);
     // centre of a circle in every strip: linear least squares (Kasa 1976), twice without what lies far off
-    std::vector<Vec3> centres;
-    for (std::vector<Vec3> strip : strips_of(thinned, out.axis)) {
+    std::vector<std::vector<Vec3>> strips = strips_of(thinned, out.axis);
+    std::vector<std::optional<Vec3>> centre_of(strips.size());
+    parallel_for(strips.size(), [&](std::size_t number) {
+      std::vector<Vec3>& strip = strips[number];
       for (int trim = 0; trim < 3 && strip.size() >= kFewest; ++trim) {
         Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
         Vec3 rhs = Vec3::Zero();
@@ -100,10 +112,11 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
         const Vec3 c = matrix.ldlt().solve(rhs);
         const double cx = 0.5 * c.x(), cy = 0.5 * c.y(), r = std::sqrt(std::max(0.0, c.z() + cx * cx + cy * cy));
         if (trim == 2) {
-          centres.emplace_back(cx, cy, place / static_cast<double>(strip.size()));
+          centre_of[number] = Vec3(cx, cy, place / static_cast<double>(strip.size()));
           break;
         }
         std::vector<double> off;
+        off.reserve(strip.size());
         const auto distance = [&](const Vec3& p) {
           return std::fabs(std::hypot((p - out.axis.point).dot(b.e1) - cx, (p - out.axis.point).dot(b.e2) - cy) - r);
         };
@@ -111,7 +124,11 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
         const double limit = 4.0 * 1.4826 * median_of(off) + 1e-6 * elements.radius;
         std::erase_if(strip, [&](const Vec3& p) { return distance(p) > limit; });
       }
-    }
+    });
+    std::vector<Vec3> centres;
+    centres.reserve(strips.size());
+    for (const std::optional<Vec3>& centre : centre_of)
+      if (centre) centres.push_back(*centre);
     if (centres.size() < 4) return std::nullopt;
     // a line through the centres, without the worst ones
     for (int trim = 0; trim < 3; ++trim) {

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/scans/placement/voxels.hpp"
 
 namespace treadmark::scans {
@@ -36,22 +37,22 @@ struct Extent {
 /// Box of the middle 98 % of the points in each axis.
 Extent extent_of(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
   const std::size_t stride = std::max<std::size_t>(1, points.size() / 200'000);
-  Extent out{Vec3::Zero(), 0.0};
-  Vec3 half = Vec3::Zero();
-  for (int axis = 0; axis < 3; ++axis) {
+  Vec3 centre = Vec3::Zero(), half = Vec3::Zero();
+  parallel_for(3, [&](std::size_t k) {
+    const auto axis = static_cast<Eigen::Index>(k);
     std::vector<double> values;
+    values.reserve(points.size() / stride + 1);
     for (std::size_t i = 0; i < points.size(); i += stride)
       if (keep.empty() || keep[i] != 0) values.push_back(points[i][axis]);
-    if (values.empty()) return out;
+    if (values.empty()) return;
     const std::size_t low = values.size() / 100, high = values.size() - 1 - low;
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(low), values.end());
     const double least = values[low];
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(high), values.end());
-    out.centre[axis] = 0.5 * (least + values[high]);
+    centre[axis] = 0.5 * (least + values[high]);
     half[axis] = 0.5 * (values[high] - least);
-  }
-  out.radius = half.norm();
-  return out;
+  });
+  return {centre, half.norm()};
 }
 
 struct Moments {
@@ -61,8 +62,14 @@ struct Moments {
 };
 
 SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, const Extent& extent) {
+  constexpr std::size_t kBlock = 256;  // voxels
+  const auto for_all = [&](const auto& body) {
+    parallel_blocks(voxels.count(), kBlock, [&](std::size_t from, std::size_t to) {
+      for (std::size_t v = from; v < to; ++v) body(v);
+    });
+  };
   std::vector<Moments> moments(voxels.count());
-  parallel_for(voxels.count(), [&](std::size_t v) {
+  for_all([&](std::size_t v) {
     Moments& m = moments[v];
     for (const std::uint32_t i : voxels.points_of(v)) {
       const Vec3 p = points[i] - extent.centre;
@@ -77,7 +84,7 @@ SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, 
   out.radius = extent.radius;
   std::vector<Vec3> normal(voxels.count());
   std::vector<float> weight(voxels.count(), 0.0f);
-  parallel_for(voxels.count(), [&](std::size_t v) {
+  for_all([&](std::size_t v) {
     Moments around;
     voxels.neighbours(v, [&](std::size_t other) {
       around.count += moments[other].count;

@@ -186,7 +186,10 @@ void check_unit(Body body, double size, LengthUnit unit) {
   throw Error(ErrorKind::input_data,
               fmt::format("in {} the {} would be {:.4g} m{}", symbol(unit), size_name(body), metres,
                           metres > limits(body).most ? ", far too large" : ", far too small"),
-              {}, fitting.empty() ? "is it the right object?" : fmt::format("with --unit {} it fits", fitting));
+              {},
+              fmt::format("{0}is it a {1} (--body {1})?",
+                          fitting.empty() ? "" : fmt::format("with --unit {} it fits; or ", fitting),
+                          body == Body::wheel ? "rail" : "wheel"));
 }
 
 Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly,

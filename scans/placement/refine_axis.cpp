@@ -12,7 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
-#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::scans {
@@ -30,10 +30,12 @@ struct Residual {
 
 std::vector<Vec2> across(std::span<const Vec3> points, Body body, const Pose& X_CS) {
   std::vector<Vec2> out(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Natural n = natural(body, X_CS.apply_inverse(points[i]));
-    out[i] = {n.y, n.v};
-  }
+  parallel_blocks(points.size(), kBlock, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      const Natural n = natural(body, X_CS.apply_inverse(points[i]));
+      out[i] = {n.y, n.v};
+    }
+  });
   return out;
 }
 
@@ -55,8 +57,8 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     out.fit = fit_section(section, across(points, body, out.X_CS), reach, kKnots, round < 4 ? 2 : 1);
     section = out.fit.section;
     std::vector<Residual> residuals(points.size());
-    parallel_for((points.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-      for (std::size_t i = kBlock * block; i < std::min(points.size(), kBlock * (block + 1)); ++i) {
+    parallel_blocks(points.size(), kBlock, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) {
         const Vec3 p = out.X_CS.apply_inverse(points[i]);
         const Natural n = natural(body, p);
         const auto foot = section.foot({n.y, n.v}, reach);
@@ -71,6 +73,7 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     });
     // weights
     std::vector<double> sizes;
+    sizes.reserve(residuals.size());
     for (const Residual& r : residuals)
       if (r.s >= 0.0) sizes.push_back(std::fabs(r.d));
     if (sizes.empty()) break;
@@ -81,43 +84,75 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
       double w = 0.0, d = 0.0;
       std::array<double, 4> j{};
     };
-    std::vector<Sum> mean(strips);
+    const std::size_t blocks = (residuals.size() + kBlock - 1) / kBlock;  // summed one by one, then in their order
+    std::vector<std::vector<Sum>> strip_sums(blocks);
     std::vector<double> weight(residuals.size(), 0.0);
+    std::vector<std::array<std::size_t, 2>> counts(blocks, {0, 0});  // near, used
+    parallel_blocks(residuals.size(), kBlock, [&](std::size_t from, std::size_t to) {
+      std::vector<Sum> own(strips);
+      auto& [near, used] = counts[from / kBlock];
+      for (std::size_t i = from; i < to; ++i) {
+        const Residual& r = residuals[i];
+        if (r.s < 0.0) continue;
+        ++near;
+        const double x = r.d / (kTukey * scale);
+        if (!(std::fabs(x) < 1.0)) continue;
+        weight[i] = (1.0 - x * x) * (1.0 - x * x);
+        ++used;
+        Sum& sum = own[static_cast<std::size_t>(r.s / kStrip)];
+        sum.w += weight[i];
+        sum.d += weight[i] * r.d;
+        for (std::size_t k = 0; k < 4; ++k) sum.j[k] += weight[i] * r.j[k];
+      }
+      strip_sums[from / kBlock] = std::move(own);
+    });
+    std::vector<Sum> mean(strips);
     double used = 0.0, near = 0.0;
-    for (std::size_t i = 0; i < residuals.size(); ++i) {
-      const Residual& r = residuals[i];
-      if (r.s < 0.0) continue;
-      near += 1.0;
-      const double x = r.d / (kTukey * scale);
-      if (!(std::fabs(x) < 1.0)) continue;
-      weight[i] = (1.0 - x * x) * (1.0 - x * x);
-      used += 1.0;
-      Sum& sum = mean[static_cast<std::size_t>(r.s / kStrip)];
-      sum.w += weight[i];
-      sum.d += weight[i] * r.d;
-      for (std::size_t k = 0; k < 4; ++k) sum.j[k] += weight[i] * r.j[k];
+    for (std::size_t block = 0; block < blocks; ++block) {
+      near += static_cast<double>(counts[block][0]);
+      used += static_cast<double>(counts[block][1]);
+      for (std::size_t s = 0; s < strips; ++s) {
+        mean[s].w += strip_sums[block][s].w;
+        mean[s].d += strip_sums[block][s].d;
+        for (std::size_t k = 0; k < 4; ++k) mean[s].j[k] += strip_sums[block][s].j[k];
+      }
     }
     out.undamaged = used / near;
-    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    struct Equations {
+      Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero(), plain = Eigen::Matrix4d::Zero();
+      Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
+      double square = 0.0, slope = 0.0;
+    };
+    std::vector<Equations> equations(blocks);
+    parallel_blocks(residuals.size(), kBlock, [&](std::size_t from, std::size_t to) {
+      Equations own;
+      for (std::size_t i = from; i < to; ++i) {
+        if (!(weight[i] > 0.0)) continue;
+        const Sum& sum = mean[static_cast<std::size_t>(residuals[i].s / kStrip)];
+        Eigen::Vector4d j;
+        for (std::size_t k = 0; k < 4; ++k) j[static_cast<Eigen::Index>(k)] = residuals[i].j[k] - sum.j[k] / sum.w;
+        const double d = residuals[i].d - sum.d / sum.w;
+        own.matrix += weight[i] * j * j.transpose();
+        own.rhs += weight[i] * d * j;
+        own.plain += j * j.transpose();
+        own.square += weight[i] * weight[i] * d * d;
+        const double x = residuals[i].d / (kTukey * scale);
+        own.slope += (1.0 - x * x) * (1.0 - 5.0 * x * x);
+      }
+      equations[from / kBlock] = own;
+    });
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero(), plain = matrix;
     Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
-    Eigen::Matrix4d plain = Eigen::Matrix4d::Zero();
-    double square = 0.0, slope = 0.0, number = 0.0;
-    for (std::size_t i = 0; i < residuals.size(); ++i) {
-      if (!(weight[i] > 0.0)) continue;
-      const Sum& sum = mean[static_cast<std::size_t>(residuals[i].s / kStrip)];
-      Eigen::Vector4d j;
-      for (std::size_t k = 0; k < 4; ++k) j[static_cast<Eigen::Index>(k)] = residuals[i].j[k] - sum.j[k] / sum.w;
-      const double d = residuals[i].d - sum.d / sum.w;
-      matrix += weight[i] * j * j.transpose();
-      rhs += weight[i] * d * j;
-      plain += j * j.transpose();
-      square += weight[i] * weight[i] * d * d;
-      const double x = residuals[i].d / (kTukey * scale);
-      slope += (1.0 - x * x) * (1.0 - 5.0 * x * x);
-      number += 1.0;
+    double square = 0.0, slope = 0.0;
+    for (const Equations& own : equations) {
+      matrix += own.matrix;
+      plain += own.plain;
+      rhs += own.rhs;
+      square += own.square;
+      slope += own.slope;
     }
     // covariance of an M-estimate (Huber 1981): n sum(psi^2) / sum(psi')^2 times the inverse of the plain normal matrix
-    information = plain * (slope * slope) / std::max(number * square, 1e-30);
+    information = plain * (slope * slope) / std::max(used * square, 1e-30);
     // motions that the scan says nothing about stay as they are
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix.topLeftCorner(unknowns, unknowns));
     Eigen::VectorXd step = Eigen::VectorXd::Zero(4);

@@ -103,7 +103,7 @@ Section::Point Section::at(double s) const {
     y = spline(y_[i], y_[i + 1], ddy_[i], ddy_[i + 1], step_, x);
     v = spline(v_[i], v_[i + 1], ddv_[i], ddv_[i + 1], step_, x);
   }
-  const double speed = std::hypot(y.d1, v.d1);
+  const double speed = std::sqrt(y.d1 * y.d1 + v.d1 * v.d1);  // about 1
   return {{y.f, v.f}, Vec2(-v.d1, y.d1) / speed, -(y.d1 * v.d2 - v.d1 * y.d2) / (speed * speed * speed)};
 }
 
@@ -140,10 +140,10 @@ std::optional<Section::Foot> Section::foot(const Vec2& point, double farthest) c
         s = step_ * static_cast<double>(i);
       }
     }
+    here = at(s);
   }
   double along = 0.0;
   for (int round = 0; round < 12; ++round) {
-    here = at(s);
     const Vec2 apart = point - here.position;
     along = apart.dot(Vec2(here.normal.y(), -here.normal.x()));
     const double bend = 1.0 + here.curvature * apart.dot(here.normal);
@@ -151,9 +151,9 @@ std::optional<Section::Foot> Section::foot(const Vec2& point, double farthest) c
     if (std::fabs(move) < 1e-10) break;
     s += move;
     if (s < -2e-3 || s > length_ + 2e-3) return std::nullopt;
+    here = at(s);
   }
   if (s < 0.0 || s > length_ || std::fabs(along) > 1e-6) return std::nullopt;
-  here = at(s);
   const double distance = (point - here.position).dot(here.normal);
   if (!(std::fabs(distance) < farthest)) return std::nullopt;
   return Foot{s, distance};

@@ -9,11 +9,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::scans {
 
@@ -53,6 +57,50 @@ Strip strip_of(std::vector<Vec2>& points, double y_middle) {
   out.present = true;
   return out;
 }
+
+/// A point near a section: place within an interval of it (0 to 1), and distance.
+struct Near {
+  float s = 0.0f, d = 0.0f;
+};
+
+/// Points near a section, by the interval in which they have their feet.
+class NearPoints {
+ public:
+  NearPoints(const Section& section, std::span<const Vec2> points, double farthest, std::size_t intervals)
+      : begin_(intervals + 1, 0) {
+    const double knot = section.length() / static_cast<double>(intervals);
+    constexpr std::uint32_t kFar = ~0u;
+    constexpr std::size_t kBlock = 4096;
+    std::vector<std::pair<std::uint32_t, Near>> all(points.size());
+    parallel_blocks(points.size(), kBlock, [&](std::size_t from, std::size_t to) {
+      for (std::size_t i = from; i < to; ++i) {
+        all[i].first = kFar;
+        const auto foot = section.foot(points[i], farthest);
+        if (!foot) continue;
+        const auto cell = std::min(intervals - 1, static_cast<std::size_t>(foot->s / knot));
+        all[i] = {static_cast<std::uint32_t>(cell),
+                  {static_cast<float>(foot->s / knot - static_cast<double>(cell)), static_cast<float>(foot->distance)}};
+      }
+    });
+    for (const auto& [cell, point] : all)
+      if (cell != kFar) ++begin_[cell + 1];
+    for (std::size_t k = 0; k < intervals; ++k) begin_[k + 1] += begin_[k];
+    sorted_.resize(begin_.back());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const auto& [cell, point] : all)
+      if (cell != kFar) sorted_[next[cell]++] = point;
+  }
+
+  std::size_t size() const { return sorted_.size(); }
+  std::size_t first(std::size_t interval) const { return begin_[interval]; }
+  std::span<const Near> operator[](std::size_t interval) const {
+    return {sorted_.data() + begin_[interval], begin_[interval + 1] - begin_[interval]};
+  }
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<Near> sorted_;
+};
 
 }  // namespace
 
@@ -120,62 +168,64 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
     const double length = out.section.length();
     const auto intervals = static_cast<std::size_t>(std::max(2.0, std::round(length / knot_spacing)));
     const double knot = length / static_cast<double>(intervals);
-    struct Near {
-      float s, d;
-      std::uint32_t cell;
-    };
-    std::vector<Near> near(points.size());
-    parallel_for((points.size() + 4095) / 4096, [&](std::size_t block) {
-      for (std::size_t i = 4096 * block; i < std::min(points.size(), 4096 * (block + 1)); ++i) {
-        const auto foot = out.section.foot(points[i], farthest);
-        if (!foot) {
-          near[i].cell = ~0u;
-          continue;
-        }
-        const auto cell = std::min(intervals - 1, static_cast<std::size_t>(foot->s / knot));
-        near[i] = {static_cast<float>(foot->s / knot - static_cast<double>(cell)), static_cast<float>(foot->distance),
-                   static_cast<std::uint32_t>(cell)};
-      }
-    });
-    std::erase_if(near, [](const Near& n) { return n.cell == ~0u; });
+    const NearPoints near(out.section, points, farthest, intervals);
     if (near.size() < 4 * intervals)
       throw Error(ErrorKind::input_data, "too few points follow the cross-section of the scan", {},
                   "is it a wheel or rail?");
     // medians of the strips to begin with, so that damage and outliers do not draw the spline
     std::vector<double> level(intervals, 0.0), scale(intervals, 0.0);
-    double typical = 0.0;
-    {
-      std::vector<double> scales;
-      std::vector<std::vector<double>> d(intervals);
-      for (const Near& n : near) d[n.cell].push_back(n.d);
-      for (std::size_t k = 0; k < intervals; ++k) {
-        if (d[k].empty()) continue;
-        level[k] = median_of(d[k]);
-        for (double& value : d[k]) value = std::fabs(value - level[k]);
-        scale[k] = kMad * median_of(d[k]);
-        if (d[k].size() > 8) scales.push_back(scale[k]);
-      }
-      if (!scales.empty()) typical = median_of(scales);
-    }
+    parallel_for(intervals, [&](std::size_t k) {
+      std::vector<double> d;
+      d.reserve(near[k].size());
+      for (const Near& n : near[k]) d.push_back(n.d);
+      if (d.empty()) return;
+      const double middle = level[k] = median_of(d);
+      for (double& value : d) value = std::fabs(value - middle);
+      scale[k] = kMad * median_of(d);
+    });
+    std::vector<double> scales;
+    scales.reserve(intervals);
+    for (std::size_t k = 0; k < intervals; ++k)
+      if (near[k].size() > 8) scales.push_back(scale[k]);
+    const double typical = scales.empty() ? 0.0 : median_of(scales);
     const auto size = static_cast<Eigen::Index>(intervals + 3);
     Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(size);
+    const auto value_at = [&](std::size_t cell, const std::array<double, 4>& b) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) sum += b[k] * coefficients[static_cast<Eigen::Index>(cell + k)];
+      return sum;
+    };
+    struct Sums {
+      std::array<double, 16> matrix{};
+      std::array<double, 4> rhs{};
+    };
+    std::vector<Sums> sums(intervals);
     constexpr int kReweights = 6;
     for (int again = 0; again < kReweights; ++again) {
+      parallel_for(intervals, [&](std::size_t cell) {
+        Sums own;
+        const double width = kTukey * std::max({scale[cell], 0.5 * typical, 1e-7});
+        for (const Near& n : near[cell]) {
+          const std::array<double, 4> b = cubic_basis(n.s);
+          const double r = (n.d - (again == 0 ? level[cell] : value_at(cell, b))) / width;
+          if (!(std::fabs(r) < 1.0)) continue;
+          const double w = (1.0 - r * r) * (1.0 - r * r);
+          for (std::size_t i = 0; i < 4; ++i) {
+            own.rhs[i] += w * b[i] * n.d;
+            for (std::size_t k = 0; k < 4; ++k) own.matrix[4 * i + k] += w * b[i] * b[k];
+          }
+        }
+        sums[cell] = own;
+      });
       Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
       Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size);
-      for (const Near& n : near) {
-        const std::array<double, 4> b = cubic_basis(n.s);
-        double expected = 0.0;
-        for (std::size_t k = 0; k < 4; ++k) expected += b[k] * coefficients[static_cast<Eigen::Index>(n.cell + k)];
-        if (again == 0) expected = level[n.cell];
-        const double width = kTukey * std::max({scale[n.cell], 0.5 * typical, 1e-7});
-        const double r = (n.d - expected) / width;
-        if (!(std::fabs(r) < 1.0)) continue;
-        const double w = (1.0 - r * r) * (1.0 - r * r);
-        for (std::size_t a = 0; a < 4; ++a) {
-          const auto ia = static_cast<Eigen::Index>(n.cell + a);
-          rhs[ia] += w * b[a] * n.d;
-          for (std::size_t c = 0; c < 4; ++c) matrix(ia, static_cast<Eigen::Index>(n.cell + c)) += w * b[a] * b[c];
+      for (std::size_t cell = 0; cell < intervals; ++cell) {
+        // not segment<4>: GCC 12 loses sums of segments that overlap (-O3)
+        for (std::size_t i = 0; i < 4; ++i) {
+          const auto row = static_cast<Eigen::Index>(cell + i);
+          rhs[row] += sums[cell].rhs[i];
+          for (std::size_t k = 0; k < 4; ++k)
+            matrix(row, static_cast<Eigen::Index>(cell + k)) += sums[cell].matrix[4 * i + k];
         }
       }
       // second differences bridge strips without points
@@ -186,17 +236,17 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
             matrix(a, c) += stiffness * x * y;
       coefficients = matrix.ldlt().solve(rhs);
     }
-    std::vector<double> sizes;
-    double square = 0.0;
-    for (const Near& n : near) {
-      const std::array<double, 4> b = cubic_basis(n.s);
-      double expected = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) expected += b[k] * coefficients[static_cast<Eigen::Index>(n.cell + k)];
-      sizes.push_back(std::fabs(n.d - expected));
-      square += sizes.back() * sizes.back();
-    }
+    std::vector<double> sizes(near.size()), squares(intervals, 0.0);
+    parallel_for(intervals, [&](std::size_t cell) {
+      double* at = sizes.data() + near.first(cell);
+      for (const Near& n : near[cell]) {
+        *at = std::fabs(n.d - value_at(cell, cubic_basis(n.s)));
+        squares[cell] += *at * *at;
+        ++at;
+      }
+    });
     out.used = near.size();
-    out.spread = std::sqrt(square / static_cast<double>(near.size()));
+    out.spread = std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(near.size()));
     out.scale = kMad * median_of(sizes);
     // the curve moves along its normals; what would fold at badly known ends is left out, from the middle on
     const auto nodes = static_cast<std::size_t>(std::ceil(2.0 * static_cast<double>(intervals)));

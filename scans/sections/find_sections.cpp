@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/parallel_sort.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::scans {
@@ -106,15 +108,20 @@ std::optional<MeasuredSections> find_sections(std::span<const Vec3> points, std:
   const bool wheel = body == Body::wheel;
   const double scale = wheel ? radius : 1.0, turn = wheel ? 2.0 * std::numbers::pi * radius : 0.0;
   std::vector<Natural> at(points.size());
+  constexpr std::size_t kBlock = 8192;
+  parallel_blocks(points.size(), kBlock, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (!keep.empty() && keep[i] == 0) continue;
+      at[i] = natural(body, X_CS.apply_inverse(points[i]));
+      at[i].u *= scale;
+    }
+  });
   std::vector<std::uint32_t> order;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!keep.empty() && keep[i] == 0) continue;
-    at[i] = natural(body, X_CS.apply_inverse(points[i]));
-    at[i].u *= scale;
-    order.push_back(static_cast<std::uint32_t>(i));
-  }
+  order.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (keep.empty() || keep[i] != 0) order.push_back(static_cast<std::uint32_t>(i));
   if (order.size() < kFewestSections * kFewestPoints) return std::nullopt;
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return at[a].u < at[b].u; });
+  parallel_sort(order, [&](std::uint32_t a, std::uint32_t b) { return at[a].u < at[b].u; });
   if (wheel) {
     // begin behind the widest gap, so that no section is cut at the half turn
     std::size_t begin = 0;

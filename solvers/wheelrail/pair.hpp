@@ -50,7 +50,7 @@ struct PatchSolution {
 
 /// Seconds spent, and how often.
 struct PhaseTimes {
-  double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< wall clock [s]
+  double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< as used_seconds() counts
   int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;    ///< how often each was done
 
   PhaseTimes& operator+=(const PhaseTimes& other);

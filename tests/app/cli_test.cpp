@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/version.hpp"
+#include "treadmark/model/defects.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
@@ -19,6 +20,7 @@
 namespace treadmark::testing {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
 TEST(CommandLine, HelpAndVersion) {
@@ -105,6 +107,9 @@ TEST(CommandLine, WrongUsageEndsWithTwo) {
 TEST(CommandLine, ListsAndSchema) {
   EXPECT_THAT(run_program({"list", "backends"}).out, HasSubstr("spline"));
   EXPECT_THAT(run_program({"list", "profiles"}).out, HasSubstr("S1002"));
+  const std::string defects = run_program({"list", "defects"}).out;
+  Defects::each(Defects{}, [&](const char* path, Body, const auto&) { EXPECT_THAT(defects, HasSubstr(path)); });
+  EXPECT_THAT(defects, ContainsRegex("wheel.spalls .*\n.*edge_mm .required.*theta_center_deg"));
   const ProgramResult schema = run_program({"schema"});
   EXPECT_EQ(schema.status, 0);
   EXPECT_THAT(schema.out, HasSubstr("json-schema.org"));

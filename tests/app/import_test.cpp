@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -404,6 +406,19 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
             << what << " case " << k;
     }
   }
+}
+
+TEST_F(ImportCommand, OnATerminalStepsAndFilesAreToldWithoutAGuessOfTheRest) {
+  if (std::system("command -v script > /dev/null") != 0)
+    GTEST_SKIP() << "needs script (bsdutils), which lends a terminal";
+  scan("wheel.ply", {"--range-deg", "-60,60", "--points", "20000"});
+  const std::string command = fmt::format("script -qec \"{} import {} -o {}\" {} > /dev/null 2>&1", TREADMARK_PROGRAM,
+                                          path("wheel.ply"), path("wheel.slcw"), path("seen.txt"));
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string seen = bytes("seen.txt");
+  EXPECT_THAT(seen, HasSubstr("step 1 of 8: reading, 0 s so far"));
+  EXPECT_THAT(seen, HasSubstr("step 8 of 8: writing wheel.slcw, "));
+  EXPECT_THAT(seen, ::testing::Not(HasSubstr("left")));
 }
 
 TEST_F(ImportCommand, ListsSettingsThatItReadsBack) {

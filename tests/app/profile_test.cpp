@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -52,6 +54,22 @@ TEST(CheckProfiles, ShowsWhatWasUnderstoodOfACase) {
   r = run_program({"check", input.inp().string()});
   EXPECT_THAT(r.out, HasSubstr("doubt     flange_side: the flange is on the side of great y (tip at 70 mm)"));
   EXPECT_THAT(run_program({"run", input.inp().string()}).err, HasSubstr("flange_side"));
+}
+
+TEST(CheckProfiles, DoubtsStayWithTheResultAndHeadItsReport) {
+  SampleInput input;
+  input.edit("case.inp", "'wheel.txt'   0 ", "'wheel.txt'   1 ");
+  const std::string folder = (input.folder() / "out").string(), html = (input.folder() / "run.html").string();
+  run_program({"run", input.inp().string(), "-o", folder, "--report", html});
+  const std::string page = input.read("run.html");
+  const std::size_t banner = page.find("Doubtful profile:");
+  ASSERT_NE(banner, std::string::npos);
+  EXPECT_THAT(page.substr(banner, 400), HasSubstr("flange_side"));
+  EXPECT_LT(banner, page.find("Largest pressure"));
+  const auto result = nlohmann::json::parse(input.read("out/result.json"));
+  EXPECT_THAT(result["input"]["doubts"].at(0).get<std::string>(), HasSubstr("flange_side"));
+  ASSERT_EQ(run_program({"report", folder, "-o", folder + "/later.html"}).status, 0);
+  EXPECT_EQ(input.read("out/later.html"), page);
 }
 
 TEST(CheckProfiles, ReportHasFactsDoubtsAndPositions) {

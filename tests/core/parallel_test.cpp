@@ -2,18 +2,24 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/parallel_sort.hpp"
 #include "treadmark/core/progress.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark {
 namespace {
@@ -64,6 +70,39 @@ TEST(ParallelFor, MayBeNested) {
     for (const int p : parts) sums[i] += p;
   });
   for (std::size_t i = 0; i < sums.size(); ++i) EXPECT_EQ(sums[i], static_cast<int>(30 * i) + 435);
+}
+
+TEST(ParallelBlocks, CoverEveryNumberOnce) {
+  for (const std::size_t count : {0u, 1u, 10u, 11u, 1000u}) {
+    std::vector<std::atomic<int>> calls(count);
+    parallel_blocks(count, 10, [&](std::size_t from, std::size_t to) {
+      EXPECT_EQ(from % 10, 0u);
+      EXPECT_LE(to, from + 10);
+      for (std::size_t i = from; i < to; ++i) calls[i].fetch_add(1);
+    });
+    for (const auto& c : calls) EXPECT_EQ(c.load(), 1);
+  }
+}
+
+TEST(ParallelSort, GivesWhatASortGivesForEveryNumberOfThreads) {
+  for (const std::size_t count : {0u, 1u, 32768u, 32769u, 300'000u}) {
+    Random random(count);
+    std::vector<std::pair<int, std::size_t>> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = {static_cast<int>(1000.0 * random.uniform()), i};
+    auto wanted = values;
+    std::sort(wanted.begin(), wanted.end());
+    const auto by_first = [](const auto& a, const auto& b) { return a.first < b.first; };
+    const auto sorted = [&](int threads, const auto& less) {
+      const ThreadLimit limit(threads);
+      auto out = values;
+      parallel_sort(out, less);
+      return out;
+    };
+    EXPECT_EQ(sorted(2, std::less<>()), wanted);
+    const auto one = sorted(1, by_first);
+    EXPECT_TRUE(std::is_sorted(one.begin(), one.end(), by_first));
+    EXPECT_EQ(sorted(3, by_first), one);
+  }
 }
 
 TEST(ThreadLimit, HoldsWhileItLives) {

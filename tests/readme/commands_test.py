@@ -4,40 +4,16 @@
 """Every command `treadmark ...` in the documents is one that the program takes: its verb, its options, and values of options that have a list.
 
 usage: commands_test.py ROOT PROGRAM
-Commands in blocks of code and within lines count; what they would do is not done.
+Commands in blocks of code and within lines count; what they would do is not done here: run_documents.py runs those in blocks.
 """
 import pathlib
 import re
-import shlex
 import subprocess
 import sys
 
-COMMAND = re.compile(r"treadmark [a-z-][^`\n]*")
+from documented_commands import commands_of, pages_of
+
 OPTION = re.compile(r"(?<![\w-])(-[a-zA-Z]|--[a-z][a-z0-9-]*)")
-
-
-def commands_of(text):
-    """(line, words) of each command; lines that end with a backslash go on, comments and what the shell does with it end it."""
-    code = []
-    inside = False
-    for number, line in enumerate(text.split("\n"), 1):
-        if line.lstrip().startswith("```"):
-            inside = not inside
-        elif inside:
-            if code and code[-1][1].endswith("\\") and code[-1][0] > 0:
-                code[-1] = (code[-1][0], code[-1][1][:-1] + " " + line.strip())
-            else:
-                code.append((number, line.strip().removeprefix("$ ")))
-        else:
-            code += [(number, span) for span in re.findall(r"`([^`]+)`", line)]
-    for number, line in code:
-        for part in re.split(r"&&|\|\||[|;>]", line):
-            found = COMMAND.search(part)
-            if found and "import treadmark" not in part and re.search(r"(^|^mpirun .*|^srun .*|\s|/)$", part[: found.start()]):
-                try:
-                    yield number, shlex.split(found.group().split(" # ")[0].split("  #")[0])
-                except ValueError:  # a quotation that the split above has cut
-                    yield number, found.group().split()
 
 
 class Program:
@@ -91,8 +67,8 @@ planted = {"treadmark dance x": 1, "treadmark run x --repot y": 1, "treadmark co
 for command, count in planted.items():
     assert len(program.wrong(command.split())) == count, command
 violations, seen = [], 0
-for page in [root / "README.md", *sorted((root / "docs").glob("*.md")), *sorted(root.glob("*/README.md"))]:
-    for line, words in commands_of(page.read_text(encoding="utf-8")):
+for page in pages_of(root):
+    for line, words, _ in commands_of(page.read_text(encoding="utf-8")):
         seen += 1
         violations += [f"{page.relative_to(root)}:{line}: {text}: {' '.join(words)}" for text in program.wrong(words)]
 assert seen > 80, seen

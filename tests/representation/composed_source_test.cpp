@@ -48,6 +48,22 @@ TEST(ComposedSource, PartsBecomeOneBody) {
   EXPECT_FALSE(rail.constant_profile());
 }
 
+TEST(ComposedSource, EveryRepresentationFollowsAWing) {
+  const NaturalSurface wing =
+      app::read_surface(rail_of("rail.shape.standard = \"60E1\"\nrail.shape.crossing = \"wing\"\n"), Body::rail, 0.0);
+  Region region;
+  region.u_min = -0.02;
+  region.u_max = 0.28;
+  for (const std::string backend : {"spline", "nurbs", "thb", "chords", "mesh"}) {
+    const RepresentedSurface sampled = represent(wing, {backend, 1e-3, region});
+    const SurfaceDifference off = fit_error(wing, sampled);
+    // chords: h^2/(8 r) = 10 um on the arc of r = 13 mm, at most
+    EXPECT_LT(off.height_rms, backend == "chords" ? 6e-6 : 0.6e-6) << backend;
+    EXPECT_LT(off.missing, off.points / 100) << backend;
+    EXPECT_GT(off.points, 1000u) << backend;
+  }
+}
+
 TEST(ComposedSource, TheStoreKeepsPartsRollersAndCrossingsApart) {
   app::SurfaceStore store;
   Region region;

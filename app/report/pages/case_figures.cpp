@@ -219,6 +219,14 @@ Table patch_table(const io::RunResult& run) {
   return table;
 }
 
+std::vector<Block> body_figures(const std::string& name) {
+  return {
+      Figure{"section", name + ", cut at the contact", SectionView{0},
+             "Across the track through the most loaded patch, to one scale; thick: what is in contact there, with the "
+             "normal into the rail and the normal force."},
+      Figure{"scene", name + " in space", SceneView{0}}};
+}
+
 bool has_fields(const io::RunResult& run) {
   return std::ranges::any_of(run.cases, [](const Case& c) {
     return std::ranges::any_of(c.patches, [](const io::PatchResult& p) { return !p.fields.pressure.empty(); });

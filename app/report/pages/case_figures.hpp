@@ -38,6 +38,9 @@ constexpr const char* kTrackNote =
     "dots: "
     "contact references. A click chooses the step.";
 
+/// Both bodies of the first set of frames: cut at the contact, and in space. name: what they are.
+std::vector<Block> body_figures(const std::string& name);
+
 /// Whether any patch of the run has contact fields.
 bool has_fields(const io::RunResult& run);
 

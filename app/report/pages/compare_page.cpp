@@ -193,7 +193,7 @@ Page page_of(const std::shared_ptr<const io::Comparison>& data, std::string docu
     for (std::size_t i = 0; i < page.sets.size(); ++i) view.sets.push_back(static_cast<int>(i));
     contact.blocks.emplace_back(Figure{"contact-view", "Contact patches", std::move(view)});
     page.surfaces = comparison.candidates.front().surfaces;
-    if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail, the truth", SceneView{0}});
+    if (!page.surfaces.empty()) append(contact.blocks, body_figures("Wheel and rail, the truth"));
   } else {
     if (!all.cases.empty()) page.timeline = numbered(all.cases);
     append(contact.blocks, std::move(picture));

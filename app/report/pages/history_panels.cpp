@@ -41,6 +41,7 @@ const UnitEnding* unit_ending(const std::string& column) {
 
 ShownUnit shown_unit(const std::string& column) {
   if (column == "x_m") return {1.0, "m"};
+  if (column.ends_with("Tgamma_N")) return {1.0, "N"};  // as wear laws have it
   const UnitEnding* unit = unit_ending(column);
   return unit == nullptr ? ShownUnit{} : unit->shown;
 }

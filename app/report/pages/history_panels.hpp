@@ -21,8 +21,8 @@ struct ShownUnit {
 /// The name of a column without its unit, where shown_unit gives one: "q_max_N" is "q_max".
 std::string shown_name(const std::string& column);
 
-/// By the ending of the column's name: _N in kN, _Pa in MPa, _m2 in mm², _rad in degrees, gaps and small displacements
-/// in mm.
+/// By the ending of the column's name: _N in kN (wear numbers in N), _Pa in MPa, _m2 in mm², _rad in degrees, gaps and
+/// small displacements in mm.
 ShownUnit shown_unit(const std::string& column);
 
 /// Rows of a history of which at most `most` are to be shown, in order: first and last, and in each of many stretches

@@ -31,6 +31,8 @@ void add_banners(const io::RunResult& run, Section& overview) {
       if (c.status == status && ++count <= 12) numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", c.number);
     return std::pair(count, count > 12 ? numbers + " ..." : numbers);
   };
+  for (const std::string& doubt : run.doubts)
+    overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Doubtful profile:", doubt});
   if (const auto [count, numbers] = list(Status::failed); count > 0) {
     std::string first;
     for (const io::CaseResult& c : run.cases)
@@ -132,7 +134,7 @@ Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string docum
   if (has_fields(*run)) contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}}});
   if (has_fields(*run) && !run->sampled.empty())
     contact.blocks.emplace_back(Figure{"positions", "Contact in the track", TrackView{0}, kTrackNote});
-  if (!run->sampled.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
+  if (!run->sampled.empty()) append(contact.blocks, body_figures("Wheel and rail"));
   if (run->cases.size() > 1) contact.blocks.emplace_back(Figure{"forces", "Forces and pressures", case_chart(*run)});
   if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
   if (std::optional<Section> below = subsurface_section(*run)) page.sections.push_back(std::move(*below));

@@ -61,8 +61,13 @@ Cards cards_of(const Result& result) {
 
 Table named_table(const char* id, const char* caption, const std::vector<io::NamedValue>& values) {
   Table table{id, caption, {{"quantity"}, {"meaning"}, {"value"}, {"unit"}}};
-  for (const io::NamedValue& one : values)
-    table.rows.push_back({{one.name, one.description, Number{one.value, 6}, one.unit}});
+  for (const io::NamedValue& one : values) {
+    const ShownUnit unit = shown_unit(one.name);
+    table.rows.push_back({{shown_name(one.name), one.description, Number{unit.factor * one.value, 6},
+                           !unit.name.empty() ? unit.name
+                           : one.unit == "1"  ? ""
+                                              : one.unit}});
+  }
   return table;
 }
 
@@ -201,9 +206,10 @@ Page simulation_page(const std::shared_ptr<const Result>& result, std::string do
     Section contact{"contact", "Contact at the snapshots"};
     contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}},
                                        "The last snapshot taken until the chosen instant."});
-    if (!page.surfaces.empty())
+    if (!page.surfaces.empty()) {
       contact.blocks.emplace_back(Figure{"positions", "Contact in the track", TrackView{0}, kTrackNote});
-    if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
+      append(contact.blocks, body_figures("Wheel and rail"));
+    }
     page.sections.insert(page.sections.begin() + 1, std::move(contact));
   }
   if (assessed)

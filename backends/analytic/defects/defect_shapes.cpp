@@ -109,11 +109,23 @@ void add_shapes(const std::vector<GaugeCornerCollapse>& collapses, double, Shape
   }
 }
 
+/// A floor between edges; scale: offset of the floor, length_scale: of u to a length.
+template <class Pit>
+ShapePtr pit(const Pit& s, double scale, double u_center, double length_scale) {
+  const double half = 0.5 * s.length / length_scale;
+  const CosineWindow along{u_center - half, u_center + half, s.edge / length_scale};
+  const CosineWindow across{s.y_center - 0.5 * s.width, s.y_center + 0.5 * s.width, s.edge};
+  return product_shape(scale, along, across, {along.start, along.end, across.start, across.end});
+}
+
 void add_shapes(const std::vector<Spall>& spalls, double, Shapes& shapes) {
-  for (const Spall& s : spalls) {
-    const CosineWindow along{s.x_center - 0.5 * s.length, s.x_center + 0.5 * s.length, s.edge};
-    const CosineWindow across{s.y_center - 0.5 * s.width, s.y_center + 0.5 * s.width, s.edge};
-    shapes.push_back(product_shape(s.depth, along, across, {along.start, along.end, across.start, across.end}));
+  for (const Spall& s : spalls) shapes.push_back(pit(s, s.depth, s.x_center, 1.0));
+}
+
+void add_shapes(const std::vector<WheelSpall>& spalls, double nominal_radius, Shapes& shapes) {
+  for (const WheelSpall& s : spalls) {
+    const double center = wrap_angle(s.theta_center);
+    shapes.push_back(std::make_unique<WoundShape>(center, pit(s, -s.depth, center, nominal_radius)));
   }
 }
 

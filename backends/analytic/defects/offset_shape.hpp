@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -107,6 +108,45 @@ template <class Along, class Across>
 std::unique_ptr<const OffsetShape> product_shape(double scale, Along along, Across across, const Rectangle& support) {
   return std::make_unique<ProductShape<Along, Across>>(scale, std::move(along), std::move(across), support);
 }
+
+/// A shape of a wheel that it repeats every turn; its support is less than a turn about `center`.
+class WoundShape final : public OffsetShape {
+ public:
+  WoundShape(double center, std::unique_ptr<const OffsetShape> shape) : center_(center), shape_(std::move(shape)) {}
+
+  displacement::OffsetJet jet(double u, double y) const override { return shape_->jet(near_center(u), y); }
+
+  void add(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
+           std::span<double> d_y) const override {
+    Many turned;
+    for (std::size_t begin = 0; begin < u.size(); begin += kMany) {
+      const std::size_t n = std::min(kMany, u.size() - begin);
+      for (std::size_t i = 0; i < n; ++i) turned[i] = near_center(u[begin + i]);
+      const auto part = [&](std::span<double> all) { return all.empty() ? all : all.subspan(begin, n); };
+      shape_->add({turned.data(), n}, y.subspan(begin, n), part(value), part(d_u), part(d_y));
+    }
+  }
+
+  displacement::OffsetRange range(const Rectangle& r) const override {
+    const double length = r.x_max - r.x_min, first = near_center(r.x_min);
+    if (!(length < kTurn)) return shape_->range({center_ - 0.5 * kTurn, center_ + 0.5 * kTurn, r.y_min, r.y_max});
+    const displacement::OffsetRange here = shape_->range({first, first + length, r.y_min, r.y_max});
+    if (first + length <= center_ + 0.5 * kTurn) return here;
+    const displacement::OffsetRange next = shape_->range({first - kTurn, first + length - kTurn, r.y_min, r.y_max});
+    return {std::min(here.low, next.low), std::max(here.high, next.high), std::max(here.max_d_u, next.max_d_u),
+            std::max(here.max_d_y, next.max_d_y)};
+  }
+
+  Rectangle support() const override { return shape_->support(); }
+  std::size_t memory_bytes() const override { return sizeof(*this) + shape_->memory_bytes(); }
+
+ private:
+  static constexpr double kTurn = 2.0 * std::numbers::pi;
+  double near_center(double u) const { return u - kTurn * std::round((u - center_) / kTurn); }
+
+  double center_;
+  std::unique_ptr<const OffsetShape> shape_;
+};
 
 /// The least rectangle round both.
 inline Rectangle enclosing(const Rectangle& a, const Rectangle& b) {

@@ -137,6 +137,14 @@ PatchCorners NurbsNet::corners(int iu, int iv) const {
   return {{{at(u, v), at(u, v + 1)}, {at(next, v), at(next, v + 1)}}, u_[u + 1] - u_[u], v_[v + 1] - v_[v]};
 }
 
+NurbsNet::Range NurbsNet::range() const {
+  if (!is_list()) return {u_.front(), u_.back(), v_.front(), v_.back()};
+  Range all = range(0, 0);
+  for (const Cell& c : cells_)
+    all = {std::min(all.u0, c.u0), std::max(all.u1, c.u1), std::min(all.v0, c.v0), std::max(all.v1, c.v1)};
+  return all;
+}
+
 NurbsNet::Place NurbsNet::find(double u, double v) const {
   int iu = 0, iv = 0;
   if (is_list()) {

@@ -50,6 +50,8 @@ class NurbsNet {
     if (is_list()) return {cells_[u].u0, cells_[u].u1, cells_[u].v0, cells_[u].v1};
     return {u_[u], u_[u + 1], v_[v], v_[v + 1]};
   }
+  /// Of the whole surface.
+  Range range() const;
   /// How many neighbours in each direction a pyramid above the patches takes together.
   int fan_out_u() const { return is_list() ? 16 : 4; }
   int fan_out_v() const { return is_list() ? 1 : 4; }

@@ -148,6 +148,73 @@ void NurbsSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, s
   });
 }
 
+namespace {
+
+/// The u that located points have, x of a rail or the angle of a wheel, by the surface's own parameters.
+struct Station {
+  double value, by_u, by_v, by_uu, by_uv, by_vv;
+};
+
+Station station_at(const SurfaceDerivatives& d, bool wheel) {
+  if (!wheel) return {d.p.x(), d.pu.x(), d.pv.x(), d.puu.x(), d.puv.x(), d.pvv.x()};
+  const double x = d.p.x(), z = d.p.z(), r2 = x * x + z * z;
+  const auto first = [&](const Vec3& a) { return (z * a.x() - x * a.z()) / r2; };
+  const auto second = [&](const Vec3& a, const Vec3& b, const Vec3& ab) {
+    return (b.z() * a.x() - b.x() * a.z() + z * ab.x() - x * ab.z()) / r2 -
+           first(a) * 2.0 * (x * b.x() + z * b.z()) / r2;
+  };
+  return {std::atan2(x, z),         first(d.pu), first(d.pv), second(d.pu, d.pu, d.puu), second(d.pu, d.pv, d.puv),
+          second(d.pv, d.pv, d.pvv)};
+}
+
+/// By (station, v) instead of (u, v).
+SurfaceJet by_station(const SurfaceDerivatives& d, const Station& g, double outward) {
+  const double u_g = 1.0 / g.by_u, u_v = -g.by_v * u_g;
+  const double u_gg = -g.by_uu * u_g * u_g * u_g, u_gv = -(g.by_uu * u_v + g.by_uv) * u_g * u_g,
+               u_vv = -(g.by_uu * u_v * u_v + 2.0 * g.by_uv * u_v + g.by_vv) * u_g;
+  return {d.p,
+          d.pu * u_g,
+          d.pv + d.pu * u_v,
+          d.puu * (u_g * u_g) + d.pu * u_gg,
+          d.puu * (u_g * u_v) + d.puv * u_g + d.pu * u_gv,
+          d.pvv + 2.0 * u_v * d.puv + (u_v * u_v) * d.puu + d.pu * u_vv,
+          outward};
+}
+
+}  // namespace
+
+void NurbsSurface::do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const {
+  constexpr int kMost = 20;
+  constexpr double kSettled = 1e-14;  // [m] or [rad]
+  constexpr double kAtEnd = 1e-12;    // by which a place may lie beyond the borders
+  const bool wheel = body_ == Body::wheel;
+  const NurbsNet::Range all = net_.range();
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    out[i] = {};
+    const double v = uv[i].y();
+    if (!std::isfinite(uv[i].x()) || !(v >= all.v0 - kAtEnd && v <= all.v1 + kAtEnd)) continue;
+    // the parameter is the station but for a little, of wheels up to whole turns
+    const auto into_range = [&](double station) {
+      return wheel ? station - 2.0 * kPi * std::floor((station - all.u0 + kAtEnd) / (2.0 * kPi)) : station;
+    };
+    const double wanted = into_range(uv[i].x());
+    double u = wanted;
+    for (int k = 0; k < kMost; ++k) {
+      const SurfaceDerivatives d = derivatives(u, v);
+      const Station g = station_at(d, wheel);
+      const double off = wheel ? wrap_angle(wanted - g.value) : wanted - g.value;
+      const double next = std::clamp(u + off / g.by_u, all.u0, all.u1);
+      const bool there = std::fabs(off) <= kSettled || (next == u && std::fabs(off) <= kAtEnd);
+      if (there || k + 1 == kMost) {
+        if (std::fabs(off) <= kAtEnd) out[i] = by_station(d, g, wheel ? 1.0 : -1.0);
+        break;
+      }
+      if (next == u) break;
+      u = next;
+    }
+  }
+}
+
 HeightBounds NurbsSurface::do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const {
   const Interval z = hull_.heights_over(X_SP, rectangle_P, facing());
   if (z.empty()) return {0.0, 0.0, true};

@@ -10,6 +10,7 @@
 #include "treadmark/backends/spline/nurbs/nurbs_net.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
+#include "treadmark/core/parametric.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/surface_spec.hpp"
 
@@ -19,7 +20,7 @@ namespace treadmark::spline {
 /// the angle of a wheel, v with y. Located points have u = x [m] or the angle about the axle [rad], v = the parameter
 /// of the surface [m]. Heights are those of the splines to rounding. Of a wheel only the half turned towards the plane
 /// is hit. A plane that sees the surface edge-on meets nothing.
-class NurbsSurface final : public Surface {
+class NurbsSurface final : public Surface, public Parametric {
  public:
   NurbsSurface(NurbsNet net, Body body, std::string_view backend = "nurbs")
       : net_(std::move(net)), hull_(net_), body_(body), backend_(backend) {}
@@ -39,6 +40,7 @@ class NurbsSurface final : public Surface {
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+  void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override;
   void hit_tile(const Pose& X_SP, const FacingHalf& half, const ViewArrays& view, const TileArrays& tile) const;
   SurfaceDerivatives derivatives_at(const NurbsNet::Place& place) const;
 

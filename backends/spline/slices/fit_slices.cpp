@@ -15,6 +15,7 @@
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
 
 namespace treadmark::spline {
 
@@ -98,24 +99,25 @@ class LineFitter {
 std::vector<std::vector<NetPair>> fit_across(const SampledSlices& sampled) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   std::map<std::size_t, LineFitter> fitters;  // knots are uniform, so only the number of points matters
-  std::vector<std::vector<NetPair>> lines;
-  for (const SampledSlice& slice : sampled.slices) {
-    check_cancelled();
-    auto& line = lines.emplace_back(static_cast<std::size_t>(sampled.positions) + 2, NetPair{kNaN, kNaN});
-    const std::size_t n = slice.points.size();
-    if (n == 0) continue;
-    auto found = fitters.find(n);
-    if (found == fitters.end()) {
+  for (const SampledSlice& slice : sampled.slices)
+    if (const std::size_t n = slice.points.size(); n > 0 && !fitters.contains(n)) {
       std::vector<double> positions(n);
       for (std::size_t i = 0; i < n; ++i) positions[i] = static_cast<double>(i);
-      found = fitters.emplace(n, LineFitter(positions, false)).first;
+      fitters.emplace(n, LineFitter(positions, false));
     }
+  std::vector<std::vector<NetPair>> lines(sampled.slices.size());
+  parallel_for(lines.size(), [&](std::size_t k) {
+    const SampledSlice& slice = sampled.slices[k];
+    lines[k].assign(static_cast<std::size_t>(sampled.positions) + 2, NetPair{kNaN, kNaN});
+    const std::size_t n = slice.points.size();
+    if (n == 0) return;
+    const LineFitter& fitter = fitters.at(n);
     std::vector<double> y(n), w(n), cy(n + 2), cw(n + 2);
     for (std::size_t i = 0; i < n; ++i) y[i] = slice.points[i].y, w[i] = slice.points[i].w;
-    found->second.fit(y, cy);
-    found->second.fit(w, cw);
-    for (std::size_t i = 0; i < n + 2; ++i) line[static_cast<std::size_t>(slice.first) + i] = {cy[i], cw[i]};
-  }
+    fitter.fit(y, cy);
+    fitter.fit(w, cw);
+    for (std::size_t i = 0; i < n + 2; ++i) lines[k][static_cast<std::size_t>(slice.first) + i] = {cy[i], cw[i]};
+  });
   return lines;
 }
 
@@ -222,33 +224,19 @@ void check(const SliceSet& slices) {
     throw fail("cover more than one and a half turns of the wheel");
 }
 
-}  // namespace
-
-std::vector<double> line_coefficients(std::span<const double> positions, std::span<const double> values,
-                                      bool approximate) {
-  std::vector<double> coefficients(values.size() + 2);
-  LineFitter(positions, approximate).fit(values, coefficients);
-  return coefficients;
-}
-
-SliceNet fit_slices(const SliceSet& slices) {
-  check(slices);
-  return fit_slices(slices, sample_slices(slices));
-}
-
-SliceNet fit_slices(const SliceSet& slices, const SampledSlices& sampled) {
-  check(slices);
-  const auto across = fit_across(sampled);
+// lines: coefficients of each slice, one for every line of the net.
+SliceNet fit_along(const SliceSet& slices, const std::vector<std::vector<NetPair>>& lines, int positions,
+                   SliceNet::Across across) {
   const Arrangement all = arrange(slices);
   const SpanPlan plan = plan_spans(slices, all);
-  SliceNet net(plan.starts, plan.end, slices.body == Body::wheel, sampled.positions);
+  SliceNet net(plan.starts, plan.end, slices.body == Body::wheel, positions, across);
 
   // Along every coefficient line, each run of slices that have it is a spline of its own.
   const std::size_t n = all.u.size();
   std::map<std::pair<std::size_t, std::size_t>, LineFitter> fitters;
   for (std::size_t j = 0; j < static_cast<std::size_t>(net.lines()); ++j) {
     check_cancelled();
-    const auto value = [&](std::size_t i) { return across[all.slice[i]][j]; };
+    const auto value = [&](std::size_t i) { return lines[all.slice[i]][j]; };
     std::vector<SliceNet::LineCubic> interval(n - 1, SliceNet::LineCubic{});
     std::vector<bool> present(n - 1, false);
     for (std::size_t first = 0; first < n;) {
@@ -299,6 +287,34 @@ SliceNet fit_slices(const SliceSet& slices, const SampledSlices& sampled) {
     }
   }
   return net;
+}
+
+}  // namespace
+
+std::vector<double> line_coefficients(std::span<const double> positions, std::span<const double> values,
+                                      bool approximate) {
+  std::vector<double> coefficients(values.size() + 2);
+  LineFitter(positions, approximate).fit(values, coefficients);
+  return coefficients;
+}
+
+SliceNet fit_slices(const SliceSet& slices) {
+  check(slices);
+  const SampledSlices sampled = sample_slices(slices);
+  return fit_along(slices, fit_across(sampled), sampled.positions, SliceNet::Across::cubic);
+}
+
+SliceNet join_straight(const SliceSet& stations, const std::vector<std::vector<NetPair>>& points) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  check(stations);
+  std::vector<std::vector<NetPair>> lines;
+  lines.reserve(points.size());
+  for (const std::vector<NetPair>& station : points) {
+    auto& line = lines.emplace_back(1, NetPair{kNaN, kNaN});
+    line.insert(line.end(), station.begin(), station.end());
+    line.push_back({kNaN, kNaN});
+  }
+  return fit_along(stations, lines, static_cast<int>(points.front().size()), SliceNet::Across::straight);
 }
 
 namespace {

@@ -40,8 +40,8 @@ struct SampledSlices {
 /// See fit_slices.
 SampledSlices sample_slices(const SliceSet& slices);
 
-/// The net through points that are sampled already, one row a slice; of slices only what lies along counts. Errors:
-/// those of fit_slices.
-SliceNet fit_slices(const SliceSet& slices, const SampledSlices& sampled);
+/// The net of points joined by straight lines across, cubic along: one row of equally many points a station, NaN where
+/// there is none; of stations only what lies along counts. Errors: those of fit_slices.
+SliceNet join_straight(const SliceSet& stations, const std::vector<std::vector<NetPair>>& points);
 
 }  // namespace treadmark::spline

@@ -2,8 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/slices/slice_hulls.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -23,7 +27,8 @@ void widen(Twist& twist, const SliceNet& net, int span, int cell) {
   const double h = net.span_end(span) - net.span_start(span);
   // Bezier points along u of each line's value, first and second derivative.
   NetPair value[4][4], first[4][3], second[4][2];
-  for (int k = 0; k < 4; ++k) {
+  const int from = net.straight() ? 1 : 0, to = net.straight() ? 3 : 4;
+  for (int k = from; k < to; ++k) {
     const SliceNet::LineCubic line = net.line(span, cell + k);
     const NetPair* p = line.power;
     const NetPair c1 = h * p[1], c2 = (h * h) * p[2], c3 = (h * h * h) * p[3];
@@ -36,7 +41,11 @@ void widen(Twist& twist, const SliceNet& net, int span, int cell) {
     first[k][2] = p[1] + h * (2.0 * p[2] + (3.0 * h) * p[3]);
     second[k][0] = 2.0 * p[2];
     second[k][1] = 2.0 * p[2] + (6.0 * h) * p[3];
+    twist.uuu = greater(twist.uuu, 6.0 * p[3]);
   }
+  for (int k = from; k + 1 < to; ++k)
+    for (int i = 0; i < 2; ++i) twist.uuv = greater(twist.uuv, second[k + 1][i] - second[k][i]);
+  if (net.straight()) return;
   // Differences across the lines are the derivatives in v of uniform B-splines.
   const auto third = [](const auto& l, int i) { return (l[3][i] - l[0][i]) + 3.0 * (l[1][i] - l[2][i]); };
   const auto bend = [](const auto& l, int i, int k) { return (l[k][i] - l[k + 1][i]) + (l[k + 2][i] - l[k + 1][i]); };
@@ -48,11 +57,8 @@ void widen(Twist& twist, const SliceNet& net, int span, int cell) {
     twist.uvvv = greater(twist.uvvv, third(first, i));
     for (const int k : {0, 1}) twist.uvv = greater(twist.uvv, bend(first, i, k));
   }
-  for (int i = 0; i < 2; ++i) {
+  for (int i = 0; i < 2; ++i)
     for (const int k : {0, 1}) twist.uuvv = greater(twist.uuvv, bend(second, i, k));
-    for (const int k : {0, 1, 2}) twist.uuv = greater(twist.uuv, second[k + 1][i] - second[k][i]);
-  }
-  for (int k = 0; k < 4; ++k) twist.uuu = greater(twist.uuu, 6.0 * net.line(span, cell + k).power[3]);
 }
 
 // Least float interval about a range.
@@ -102,29 +108,39 @@ SliceHulls::SliceHulls(const SliceNet& net)
   finest.rows = (spans_ + kSpansPerGroup - 1) / kSpansPerGroup;
   finest.columns = net.cells();
   twist_.assign(static_cast<std::size_t>(finest.rows) * 7 * stride_, 0.0F);
-  for (int row = 0; row < finest.rows; ++row) {
-    const int first = first_span(row), end = first_span(row + 1);
-    Interval u{net.span_start(first), net.span_end(end - 1)};
-    if (!net.closed() && first == 0) u.low = -kInfinite;
-    if (!net.closed() && end == spans_) u.high = kInfinite;
-    finest.u.push_back(u);
-    for (int cell = 0; cell < net.cells(); ++cell) {
-      Interval y = Interval::none(), w = Interval::none();
-      Twist twist;
-      for (int span = first; span < end; ++span) {
-        widen(twist, net, span, cell);
-        Interval part_y, part_w;
-        if (!net.hull(span, cell, net.span_start(span), net.span_end(span), part_y, part_w)) continue;
-        y.include(part_y);
-        w.include(part_w);
+  const auto rows = static_cast<std::size_t>(finest.rows), columns = static_cast<std::size_t>(finest.columns);
+  finest.u.resize(rows);
+  finest.boxes.resize(rows * columns);
+  std::vector<std::array<Interval, 2>> reached(rows, {Interval::none(), Interval::none()});  // y, w
+  constexpr std::size_t kRows = 8;                                                           // of a task
+  parallel_blocks(rows, kRows, [&](std::size_t from, std::size_t to) {
+    for (std::size_t row = from; row < to; ++row) {
+      const int first = first_span(static_cast<int>(row)), end = first_span(static_cast<int>(row) + 1);
+      Interval& u = finest.u[row] = {net.span_start(first), net.span_end(end - 1)};
+      if (!net.closed() && first == 0) u.low = -kInfinite;
+      if (!net.closed() && end == spans_) u.high = kInfinite;
+      for (std::size_t column = 0; column < columns; ++column) {
+        const auto cell = static_cast<int>(column);
+        Interval y = Interval::none(), w = Interval::none();
+        Twist twist;
+        for (int span = first; span < end; ++span) {
+          widen(twist, net, span, cell);
+          Interval part_y, part_w;
+          if (!net.hull(span, cell, net.span_start(span), net.span_end(span), part_y, part_w)) continue;
+          y.include(part_y);
+          w.include(part_w);
+        }
+        const float bounds[7] = {twist.uuu, twist.uuv, twist.uuvv, twist.uvv, twist.uvvv, twist.vvv, twist.vv};
+        for (std::size_t i = 0; i < 7; ++i) twist_[(row * 7 + i) * stride_ + column] = bounds[i];
+        finest.boxes[row * columns + column] = y.empty() ? HullBox() : HullBox(y, w);
+        reached[row][0].include(y);
+        reached[row][1].include(w);
       }
-      const float bounds[7] = {twist.uuu, twist.uuv, twist.uuvv, twist.uvv, twist.uvvv, twist.vvv, twist.vv};
-      for (std::size_t i = 0; i < 7; ++i)
-        twist_[(static_cast<std::size_t>(row) * 7 + i) * stride_ + static_cast<std::size_t>(cell)] = bounds[i];
-      finest.boxes.push_back(y.empty() ? HullBox() : HullBox(y, w));
-      all_y_.include(y);
-      all_w_.include(w);
     }
+  });
+  for (const auto& [y, w] : reached) {
+    all_y_.include(y);
+    all_w_.include(w);
   }
   levels_.push_back(std::move(finest));
   levels_.push_back(level_above(levels_.back(), 1, 8));

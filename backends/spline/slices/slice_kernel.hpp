@@ -16,29 +16,38 @@ TREADMARK_LANES int span_of(const NetArrays& net, double u, int span) {
   return span;
 }
 
+// The last two: derivatives by v before a break where these jump.
 struct Fields {
-  V y, w, y_u, w_u, y_v, w_v;
+  V y, w, y_u, w_u, y_v, w_v, y_before, w_before;
 };
 
 // One field at four breaks, its derivative by t and by v; Horner's rule for all three.
-TREADMARK_LANES void field_at_breaks(const double* p, long stride, V t, V& value, V& by_t, V& by_v) {
-  V c{}, dc{}, d{};
+template <bool straight>
+TREADMARK_LANES void field_at_breaks(const double* p, long stride, V t, V& value, V& by_t, V& by_v, V& before) {
+  V c{}, dc{}, d{}, e{};
   for (int m = 3; m >= 0; --m) {
     const double* q = p + 2 * m * stride;
     const V left = load(q), middle = load(q + 1), right = load(q + 2);
     dc = dc * t + c;
-    c = c * t + ((1.0 / 6.0) * (left + right) + (2.0 / 3.0) * middle);
-    d = d * t + (right - left);
+    if constexpr (straight) {
+      c = c * t + middle;
+      d = d * t + (right - middle);
+      e = e * t + (middle - left);
+    } else {
+      c = c * t + ((1.0 / 6.0) * (left + right) + (2.0 / 3.0) * middle);
+      d = d * t + (right - left);
+    }
   }
-  value = c, by_t = dc, by_v = 0.5 * d;
+  value = c, by_t = dc, by_v = straight ? d : 0.5 * d, before = e;
 }
 
 // At four breaks in one span.
+template <bool straight>
 TREADMARK_LANES Fields at_breaks(const NetArrays& net, int span, int k, V t) {
   const double* p = net.cubics + span * net.span_size + k;
   Fields f;
-  field_at_breaks(p, net.stride, t, f.y, f.y_u, f.y_v);
-  field_at_breaks(p + net.stride, net.stride, t, f.w, f.w_u, f.w_v);
+  field_at_breaks<straight>(p, net.stride, t, f.y, f.y_u, f.y_v, f.y_before);
+  field_at_breaks<straight>(p + net.stride, net.stride, t, f.w, f.w_u, f.w_v, f.w_before);
   return f;
 }
 
@@ -59,24 +68,28 @@ constexpr double kTurn = 6.283185307179586476925;
 
 // Position and derivatives in the turned frame.
 struct Point {
-  V p[3], by_u[3], by_v[3];
+  V p[3], by_u[3], by_v[3], before[3];
 };
 template <bool wheel>
 TREADMARK_LANES Point turned(const SectionArrays& section, V u, const Fields& f) {
-  if constexpr (!wheel) return {{u, f.y, f.w}, {all(1.0), f.y_u, f.w_u}, {all(0.0), f.y_v, f.w_v}};
+  if constexpr (!wheel)
+    return {{u, f.y, f.w}, {all(1.0), f.y_u, f.w_u}, {all(0.0), f.y_v, f.w_v}, {all(0.0), f.y_before, f.w_before}};
   V sine, cosine;
   const V angle = u - section.reference;
   sine_cosine(angle, sine, cosine);
   if (bits(absolute(angle) > kGreatestAngle) != 0)
     for (int i = 0; i < 4; ++i) sine[i] = __builtin_sin(angle[i]), cosine[i] = __builtin_cos(angle[i]);
   const V x = f.w * sine, z = f.w * cosine;
-  return {{x, f.y, z}, {z + f.w_u * sine, f.y_u, f.w_u * cosine - x}, {f.w_v * sine, f.y_v, f.w_v * cosine}};
+  return {{x, f.y, z},
+          {z + f.w_u * sine, f.y_u, f.w_u * cosine - x},
+          {f.w_v * sine, f.y_v, f.w_v * cosine},
+          {f.w_before * sine, f.y_before, f.w_before * cosine}};
 }
 TREADMARK_LANES V on_axis(const double (&axis)[4], const V (&p)[3]) {
   return axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
 }
 
-template <bool wheel>
+template <bool wheel, bool straight>
 void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
   constexpr int kMostSteps = 5;
   const NetArrays& net = section.net;
@@ -107,7 +120,7 @@ void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
       // the first and the last span of a rail go on
       const bool low = !wheel && section.span == 0, high = !wheel && section.span + 1 == net.spans;
       if ((low || bits(u_net >= start) == 15) && (high || bits(u_net < end) == 15)) {
-        f = at_breaks(net, section.span, k, u_net - start);
+        f = at_breaks<straight>(net, section.span, k, u_net - start);
         spans = VInt{section.span, section.span, section.span, section.span};
       } else {
         int least_span = section.span, greatest_span = section.span;
@@ -119,12 +132,18 @@ void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
           spans[lane] = span, in[lane] = span;
         }
         if (greatest_span - least_span > 3) break;
-        f = at_breaks(net, least_span, k, u_net - net.starts[least_span]);
+        f = at_breaks<straight>(net, least_span, k, u_net - net.starts[least_span]);
         for (int span = least_span + 1; span <= greatest_span; ++span) {
-          const Fields other = at_breaks(net, span, k, u_net - net.starts[span]);
+          const Fields other = at_breaks<straight>(net, span, k, u_net - net.starts[span]);
           const VMask here = in == VMask{span, span, span, span};
-          f = {here ? other.y : f.y,     here ? other.w : f.w,     here ? other.y_u : f.y_u,
-               here ? other.w_u : f.w_u, here ? other.y_v : f.y_v, here ? other.w_v : f.w_v};
+          f = {here ? other.y : f.y,
+               here ? other.w : f.w,
+               here ? other.y_u : f.y_u,
+               here ? other.w_u : f.w_u,
+               here ? other.y_v : f.y_v,
+               here ? other.w_v : f.w_v,
+               here ? other.y_before : f.y_before,
+               here ? other.w_before : f.w_before};
         }
         section.span = spans[3];
         // over the seam of a wheel, or beyond its end
@@ -152,6 +171,13 @@ void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
     store(section.u + k, u);
     store(section.du + k, du);
     store(section.spans + k, spans);
+    if constexpr (straight) {
+      const V du_before = -on_axis(section.across, at.before) * u_by_c;
+      for (int i = 0; i < 3; ++i) d[i] = at.before[i] + du_before * at.by_u[i];
+      store(section.ds_end + k - 1, on_axis(section.along, d));
+      store(section.dn_end + k - 1, on_axis(section.normal, d));
+      store(section.du_end + k - 1, du_before);
+    }
     // Adams and Bashforth's step of order 3 to the next cut, at the same distance.
     const V change = known ? u_by_c - load(section.u_by_c + k) : all(0.0);
     const V change_before = load(section.change + k);
@@ -159,12 +185,17 @@ void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
     store(section.predicted + k, u_by_c + 0.5 * change + (5.0 / 12.0) * bend);
     store(section.u_by_c + k, u_by_c);
     store(section.change + k, change);
-    before = u[3], slope = du[3];
+    before = u[3], slope = du[3] == du[3] ? du[3] : 0.0;  // missing behind the last break
   }
 }
 
 void cut(SectionArrays& section, int first, int last, char* trouble) {
-  section.wheel ? cut_breaks<true>(section, first, last, trouble) : cut_breaks<false>(section, first, last, trouble);
+  if (section.net.straight)
+    section.wheel ? cut_breaks<true, true>(section, first, last, trouble)
+                  : cut_breaks<false, true>(section, first, last, trouble);
+  else
+    section.wheel ? cut_breaks<true, false>(section, first, last, trouble)
+                  : cut_breaks<false, false>(section, first, last, trouble);
 }
 
 // The bound of the interpolation error of SliceSection::near_cubic.
@@ -225,9 +256,9 @@ void prepare_cells(const SectionArrays& section, const TwistArrays& twist, const
   const V zero = all(0.0), end = all(samples.count);
   for (int k = first / 4 * 4; k < last; k += 4) {
     const V sa = load(section.s + k), sb = load(section.s + k + 1), dsa = load(section.ds + k),
-            dsb = load(section.ds + k + 1);
+            dsb = load(section.ds_end + k);
     const V rise = sb - sa, reach = greatest(absolute(dsa), absolute(dsb));
-    const V dua = load(section.du + k), dub = load(section.du + k + 1);
+    const V dua = load(section.du + k), dub = load(section.du_end + k);
     // Sufficient for a monotonic cubic (Fritsch and Carlson 1980).
     VMask good =
         (dsa * rise > zero) & (dsb * rise > zero) & (reach <= 3.0 * absolute(rise)) & (absolute(rise) > kUpright);
@@ -253,7 +284,7 @@ void prepare_cells(const SectionArrays& section, const TwistArrays& twist, const
     transpose(f);
     const V na = load(section.n + k), ua = load(section.u + k);
     hermite(s, sa, rise, dsa, dsb);
-    hermite(n, na, load(section.n + k + 1) - na, load(section.dn + k), load(section.dn + k + 1));
+    hermite(n, na, load(section.n + k + 1) - na, load(section.dn + k), load(section.dn_end + k));
     if constexpr (place) hermite(u, ua, load(section.u + k + 1) - ua, dua, dub);
     for (int i = 0; i < 4; ++i) {
       store(cells[k + i].s, s[i]);
@@ -362,7 +393,7 @@ void hit(const SectionArrays& section, const TwistArrays& twist, const SampleArr
                     : hit_cells<true>(section, twist, samples, first, last, work, hits);
 }
 
-template <bool wheel>
+template <bool wheel, bool straight>
 void slopes_at(SectionArrays& section, const HitArrays& hits, int count, const SlopeArrays& slopes) {
   const NetArrays& net = section.net;
   for (int i = 0; i < count; i += 4) {
@@ -373,6 +404,10 @@ void slopes_at(SectionArrays& section, const HitArrays& hits, int count, const S
     V basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
                   f * f * f * (1.0 / 6.0)};
     V basis_v[4] = {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
+    if constexpr (straight) {
+      basis[0] = basis[3] = basis_v[0] = basis_v[3] = all(0.0);
+      basis[1] = g, basis[2] = f, basis_v[1] = all(-1.0), basis_v[2] = all(1.0);
+    }
     transpose(basis);
     transpose(basis_v);
     V w[4], y_u[4], w_u[4], y_v[4], w_v[4];
@@ -388,17 +423,21 @@ void slopes_at(SectionArrays& section, const HitArrays& hits, int count, const S
       const V w1 = load(p + 3 * net.stride), w2 = load(p + 5 * net.stride), w3 = load(p + 7 * net.stride);
       const V line_y = load(p) + t * (y1 + t * (y2 + t * y3)),
               line_w = load(p + net.stride) + t * (w1 + t * (w2 + t * w3));
-      w[lane] = basis[lane] * line_w;
-      y_u[lane] = basis[lane] * (y1 + t * (2.0 * y2 + (3.0 * t) * y3));
-      w_u[lane] = basis[lane] * (w1 + t * (2.0 * w2 + (3.0 * t) * w3));
-      y_v[lane] = basis_v[lane] * line_y;
-      w_v[lane] = basis_v[lane] * line_w;
+      // of straight cells the outer lines do not count, and may be missing
+      const auto counted = [](V x) __attribute__((always_inline)) {
+        return straight ? VMask{0, -1, -1, 0} ? x : V{} : x;
+      };
+      w[lane] = counted(basis[lane] * line_w);
+      y_u[lane] = counted(basis[lane] * (y1 + t * (2.0 * y2 + (3.0 * t) * y3)));
+      w_u[lane] = counted(basis[lane] * (w1 + t * (2.0 * w2 + (3.0 * t) * w3)));
+      y_v[lane] = counted(basis_v[lane] * line_y);
+      w_v[lane] = counted(basis_v[lane] * line_w);
     }
     const auto sum = [](V(&x)[4]) __attribute__((always_inline)) {
       transpose(x);
       return (x[0] + x[1]) + (x[2] + x[3]);
     };
-    Fields fields{all(0.0), wheel ? sum(w) : all(0.0), sum(y_u), sum(w_u), sum(y_v), sum(w_v)};
+    Fields fields{all(0.0), wheel ? sum(w) : all(0.0), sum(y_u), sum(w_u), sum(y_v), sum(w_v), all(0.0), all(0.0)};
     const Point at = turned<wheel>(section, u, fields);
     const V a_u = on_axis(section.across, at.by_u), a_v = on_axis(section.across, at.by_v);
     const V s_u = on_axis(section.along, at.by_u), s_v = on_axis(section.along, at.by_v);
@@ -411,7 +450,12 @@ void slopes_at(SectionArrays& section, const HitArrays& hits, int count, const S
 }
 
 void slopes(SectionArrays& section, const HitArrays& hits, int count, const SlopeArrays& out) {
-  section.wheel ? slopes_at<true>(section, hits, count, out) : slopes_at<false>(section, hits, count, out);
+  if (section.net.straight)
+    section.wheel ? slopes_at<true, true>(section, hits, count, out)
+                  : slopes_at<false, true>(section, hits, count, out);
+  else
+    section.wheel ? slopes_at<true, false>(section, hits, count, out)
+                  : slopes_at<false, false>(section, hits, count, out);
 }
 
 constexpr SliceKernels kKernels = {cut, hit, slopes};

@@ -13,10 +13,12 @@ struct NetArrays {
   const double* starts;  ///< of the spans, then the end of the last one
   long span_size, stride;
   int spans;
+  bool straight;  ///< in v between its breaks
 };
 
 /// A section along one grid line, and the arrays of its breaks (v = index + 1), padded to a multiple of four and one
-/// more.
+/// more. Derivatives by v are those of the cell that begins at a break; at the end of cell k they are ds_end[k] and so
+/// on, which are ds[k + 1] themselves unless cells are straight; then ds_end[-1] exists too.
 struct SectionArrays {
   NetArrays net;
   bool wheel;
@@ -29,6 +31,7 @@ struct SectionArrays {
   double u_tolerance, largest_step, largest_prediction;
   int span;  ///< near u; updated
   double *s, *n, *ds, *dn, *u, *du;
+  double *ds_end, *dn_end, *du_end;
   double *u_by_c, *change, *predicted;
   int* spans;
 };

@@ -11,16 +11,38 @@
 
 namespace treadmark::spline {
 
-SliceNet::SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions)
+SliceNet::SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions, Across across)
     : starts_(std::move(span_starts)),
       closed_(closed),
+      across_(across),
       positions_(positions),
       stride_((static_cast<std::size_t>(positions) + 3) / 4 * 4 + 4) {
   cubics_.assign(starts_.size() * 8 * stride_, std::numeric_limits<double>::quiet_NaN());
   starts_.push_back(u_end);
 }
 
+SliceNet::LineValue SliceNet::line_at(const Place& place, int line_number) const {
+  const LineCubic c = line(place.span, line_number);
+  const NetPair* p = c.power;
+  const double t = place.t;
+  return {p[0] + t * (p[1] + t * (p[2] + t * p[3])), p[1] + t * (2.0 * p[2] + (3.0 * t) * p[3]),
+          2.0 * p[2] + (6.0 * t) * p[3]};
+}
+
+// At a break the other line does not count, even where it is missing.
+NetValue SliceNet::straight_at(const Place& place, int cell, double f) const {
+  const LineValue a = line_at(place, cell + 1), b = line_at(place, cell + 2);
+  const NetPair by_v = b.value - a.value;
+  if (f == 0.0) return {a.value, a.by_u, by_v};
+  if (f == 1.0) return {b.value, b.by_u, by_v};
+  return {a.value + f * by_v, a.by_u + f * (b.by_u - a.by_u), by_v};
+}
+
 NetSecond SliceNet::second_at(const Place& place, int cell, double f) const {
+  if (straight()) {
+    const LineValue a = line_at(place, cell + 1), b = line_at(place, cell + 2);
+    return {a.by_uu + f * (b.by_uu - a.by_uu), b.by_u - a.by_u, {}};
+  }
   const double t = place.t, g = 1.0 - f;
   const double basis[4] = {g * g * g / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
                            f * f * f / 6.0};
@@ -42,9 +64,15 @@ bool SliceNet::hull(int span, int cell, double u0, double u1, Interval& y, Inter
   // The constant ends go on beyond their span.
   u0 = std::clamp(u0, span_start(span), span_end(span));
   const double h = std::clamp(u1, u0, span_end(span)) - u0, t = u0 - span_start(span);
+  const auto include = [&](const NetPair& point) {
+    if (!(point.y == point.y) || !(point.w == point.w)) return false;
+    y.include({point.y, point.y});
+    w.include({point.w, point.w});
+    return true;
+  };
   // In v the B-spline hull is loose by the sag of the control polygon, so go over to Bezier points in both directions.
   NetPair bezier_u[4][4];
-  for (int k = 0; k < 4; ++k) {
+  for (int k = straight() ? 1 : 0; k < (straight() ? 3 : 4); ++k) {
     const LineCubic c = line(span, cell + k);
     const NetPair* p = c.power;
     const NetPair c0 = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
@@ -56,14 +84,15 @@ bool SliceNet::hull(int span, int cell, double u0, double u1, Interval& y, Inter
     bezier_u[k][3] = c0 + c1 + c2 + c3;
   }
   for (int i = 0; i < 4; ++i) {
+    if (straight()) {
+      if (!include(bezier_u[1][i]) || !include(bezier_u[2][i])) return false;
+      continue;
+    }
     const NetPair c[4] = {bezier_u[0][i], bezier_u[1][i], bezier_u[2][i], bezier_u[3][i]};
     const NetPair points[4] = {(1.0 / 6.0) * (c[0] + 4.0 * c[1] + c[2]), (1.0 / 3.0) * (2.0 * c[1] + c[2]),
                                (1.0 / 3.0) * (c[1] + 2.0 * c[2]), (1.0 / 6.0) * (c[1] + 4.0 * c[2] + c[3])};
-    for (const NetPair& point : points) {
-      if (!(point.y == point.y) || !(point.w == point.w)) return false;
-      y.include({point.y, point.y});
-      w.include({point.w, point.w});
-    }
+    for (const NetPair& point : points)
+      if (!include(point)) return false;
   }
   return true;
 }

@@ -34,8 +34,9 @@ struct NetSecond {
 
 /// A tensor B-spline surface (y, w)(u, v) with uniform knots in v, stored for evaluation: on every u-span each v-line
 /// of coefficients is a cubic in t = u - start of span; equal numbers of successive lines lie side by side. v runs from
-/// 1 to positions(); cell k holds v in [k + 1, k + 2]. Where a line is missing its numbers are NaN, and so are results
-/// that need it. Immutable after building.
+/// 1 to positions(); cell k holds v in [k + 1, k + 2]. In v it is cubic, or straight between its breaks: then line k +
+/// 1 is break k itself, and the outer two lines are missing. Where a line is missing its numbers are NaN, and so are
+/// results that need it. Immutable after building.
 class SliceNet {
  public:
   /// One coefficient line on one u-span: powers of t.
@@ -43,15 +44,18 @@ class SliceNet {
     NetPair power[4];
   };
 
+  enum class Across { cubic, straight };
+
   /// span_starts: start of each u-span; the last span ends at u_end. closed: u is an angle, taken into
   /// [u_end - 2 pi, u_end) first. Otherwise the first and last span go on for ever.
-  SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions);
+  SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions, Across across = Across::cubic);
 
   int spans() const { return static_cast<int>(starts_.size()) - 1; }
   int lines() const { return positions_ + 2; }
   int positions() const { return positions_; }
   int cells() const { return positions_ - 1; }
   bool closed() const { return closed_; }
+  bool straight() const { return across_ == Across::straight; }
   double span_start(int span) const { return starts_[static_cast<std::size_t>(span)]; }
   double span_end(int span) const { return starts_[static_cast<std::size_t>(span) + 1]; }
   std::size_t memory_bytes() const { return (cubics_.size() + starts_.size()) * sizeof(double); }
@@ -68,7 +72,8 @@ class SliceNet {
       p[2 * m * stride_] = cubic.power[m].y, p[(2 * m + 1) * stride_] = cubic.power[m].w;
   }
   NetArrays arrays() const {
-    return {cubics_.data(), starts_.data(), static_cast<long>(8 * stride_), static_cast<long>(stride_), spans()};
+    return {cubics_.data(), starts_.data(), static_cast<long>(8 * stride_), static_cast<long>(stride_),
+            spans(),        straight()};
   }
 
   /// Span and offset for u; hint: the span of a near point.
@@ -78,8 +83,10 @@ class SliceNet {
   };
   Place find(double u, int hint = 0) const;
 
+  /// Which cell's derivative by v is meant at a break where two straight ones meet.
+  enum class Side { before, after };
   /// At the break v = k + 1, 0 <= k < positions().
-  NetValue at_break(const Place& place, int k) const;
+  NetValue at_break(const Place& place, int k, Side side = Side::after) const;
   /// At v = cell + 1 + f, 0 <= f <= 1.
   NetValue at(const Place& place, int cell, double f) const;
   NetSecond second_at(const Place& place, int cell, double f) const;
@@ -93,9 +100,16 @@ class SliceNet {
     return static_cast<std::size_t>(span) * 8 * stride_ + static_cast<std::size_t>(line);
   }
   const double* numbers(int span, int line) const { return cubics_.data() + index(span, line); }
+  /// One line: value and derivatives by u.
+  struct LineValue {
+    NetPair value, by_u, by_uu;
+  };
+  LineValue line_at(const Place& place, int line) const;
+  NetValue straight_at(const Place& place, int cell, double f) const;
 
   std::vector<double> starts_;  // of the spans, and the end of the last
   bool closed_;
+  Across across_;
   int positions_;
   std::size_t stride_;  // from a power to the next: lines and NaN up to where four breaks at a time may read
   std::vector<double> cubics_;
@@ -127,8 +141,9 @@ inline SliceNet::Place SliceNet::find(double u, int hint) const {
   return {span, u - starts_[static_cast<std::size_t>(span)]};
 }
 
-inline NetValue SliceNet::at_break(const Place& place, int k) const {
+inline NetValue SliceNet::at_break(const Place& place, int k, Side side) const {
   using detail::Pair;
+  if (straight()) return side == Side::after ? straight_at(place, k, 0.0) : straight_at(place, k - 1, 1.0);
   const double* c = numbers(place.span, k);
   const Pair t = detail::both(place.t);
   // Powers of t at the break first, then one polynomial instead of three.
@@ -146,6 +161,7 @@ inline NetValue SliceNet::at_break(const Place& place, int k) const {
 
 inline NetValue SliceNet::at(const Place& place, int cell, double f) const {
   using detail::Pair;
+  if (straight()) return straight_at(place, cell, f);
   const double* c = numbers(place.span, cell);
   const double g = 1.0 - f;
   const double basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f),

@@ -17,6 +17,7 @@ namespace treadmark::spline {
 
 /// Memory for sections, used again by the next one of the same thread.
 struct SectionWorkspace {
+  static constexpr std::size_t kArrays = 12;
   std::vector<double> numbers;
   std::vector<int> spans, first_sample, sample_count;
   std::vector<char> trouble, fast, redo;
@@ -24,7 +25,7 @@ struct SectionWorkspace {
 
   void fit(std::size_t breaks) {
     if (spans.size() >= breaks) return;
-    numbers.assign(9 * breaks, std::numeric_limits<double>::quiet_NaN());
+    numbers.assign(kArrays * breaks, std::numeric_limits<double>::quiet_NaN());
     spans.assign(breaks, 0), first_sample.resize(breaks), sample_count.resize(breaks);
     trouble.resize(breaks), fast.resize(breaks), redo.assign(breaks, 0);
     cells.resize(breaks);
@@ -57,8 +58,13 @@ class SliceSection {
     work_.fit(breaks);
     double* p = work_.numbers.data();
     SectionArrays& a = arrays_;
-    for (double** array : {&a.s, &a.n, &a.ds, &a.dn, &a.u, &a.du, &a.u_by_c, &a.change, &a.predicted})
+    for (double** array :
+         {&a.s, &a.n, &a.ds, &a.dn, &a.u, &a.du, &a.u_by_c, &a.change, &a.predicted, &a.ds_end, &a.dn_end, &a.du_end})
       *array = p, p += breaks;
+    if (net.straight())
+      ++a.ds_end, ++a.dn_end, ++a.du_end;
+    else
+      a.ds_end = a.ds + 1, a.dn_end = a.dn + 1, a.du_end = a.du + 1;
     a.spans = work_.spans.data();
     a.net = net.arrays();
     a.wheel = Geometry::kTurns;
@@ -93,7 +99,7 @@ class SliceSection {
     }
   }
 
-  /// Cuts the lines v = first + 1 .. last + 1; afterwards break_at(k) is v = k + 1.
+  /// Cuts the lines v = first + 1 .. last + 1, between which are the cells first .. last - 1.
   void cut(int first, int last) {
     arrays_.before = guess_, arrays_.slope = 0.0;
     char* trouble = work_.trouble.data();
@@ -101,10 +107,16 @@ class SliceSection {
     for (int group = first / 4; group <= last / 4; ++group)
       if (trouble[group]) cut_one_by_one(std::max(first, 4 * group), std::min(last, 4 * group + 3));
   }
-  SectionPoint break_at(int line) const {
-    const auto k = static_cast<std::size_t>(line);
+  /// Where a cell begins and where it ends, v = cell + 1 and cell + 2.
+  SectionPoint start_of(int cell) const {
+    const auto k = static_cast<std::size_t>(cell);
     const SectionArrays& a = arrays_;
     return {a.s[k], a.n[k], a.ds[k], a.dn[k], a.u[k], a.du[k]};
+  }
+  SectionPoint end_of(int cell) const {
+    const auto k = static_cast<std::size_t>(cell);
+    const SectionArrays& a = arrays_;
+    return {a.s[k + 1], a.n[k + 1], a.ds_end[k], a.dn_end[k], a.u[k + 1], a.du_end[k]};
   }
 
   /// Hits of all samples by kernels; careful(cell) is called for cells that these do not serve. hits.v may be null.
@@ -203,7 +215,7 @@ class SliceSection {
       int left = kMaxCutSteps;
       SectionPoint p{};
       do {
-        p = at_break(line, u, u_by_c);
+        p = at_break(line, u, SliceNet::Side::after, u_by_c);
         p.u_step = std::clamp(p.u_step, -Geometry::kLargestStepU, Geometry::kLargestStepU);
         u += p.u_step;
       } while (std::abs(p.u_step) > kCutStepU && --left > 0);
@@ -216,14 +228,19 @@ class SliceSection {
       arrays_.predicted[k] = arrays_.u_by_c[k] = u_by_c;
       arrays_.change[k] = 0.0;
       arrays_.spans[k] = span_;
-      before = u, slope = p.du;
+      if (net_.straight()) {
+        double unused;
+        const SectionPoint end = at_break(line, u, SliceNet::Side::before, unused);
+        arrays_.ds_end[line - 1] = end.ds, arrays_.dn_end[line - 1] = end.dn, arrays_.du_end[line - 1] = end.du;
+      }
+      before = u, slope = std::isnan(p.du) ? 0.0 : p.du;
     }
   }
 
-  SectionPoint at_break(int k, double u, double& u_by_c) const {
+  SectionPoint at_break(int k, double u, SliceNet::Side side, double& u_by_c) const {
     const SliceNet::Place place = net_.find(u, span_);
     span_ = place.span;
-    return combine(u, net_.at_break(place, k), u_by_c);
+    return combine(u, net_.at_break(place, k, side), u_by_c);
   }
 
   SectionPoint combine(double u, const NetValue& value, double& u_by_c) const {

@@ -106,7 +106,7 @@ struct CellReaches {
     cell.clear(), low.clear(), high.clear();
     for (const CellRun& run : runs)
       for (int k = run.first; k < run.last; ++k) {
-        const SectionPoint a = section.break_at(k), b = section.break_at(k + 1);
+        const SectionPoint a = section.start_of(k), b = section.end_of(k);
         const double reach = std::max(std::abs(a.ds), std::abs(b.ds));  // of a cubic beyond its ends
         cell.push_back(k);
         low.push_back(std::min(a.s, b.s) - reach);
@@ -127,7 +127,7 @@ void raster_cells(const SliceSection<Geometry>& section, const CellReaches& reac
   for (std::size_t i = begin; i < end; ++i) {
     if (!(reaches.high[i] >= first && reaches.low[i] <= last)) continue;
     const int k = reaches.cell[i];
-    raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+    raster.cell(k, k + 1.0, section.start_of(k), k + 2.0, section.end_of(k));
   }
   raster.finish();
 }
@@ -141,7 +141,7 @@ void hit_cells(SliceSection<Geometry>& section, const std::vector<CellRun>& runs
   const HitArrays arrays = hit_arrays(hits, places);
   for (const CellRun& run : runs)
     section.hit(run.first, run.last, sample_arrays, arrays,
-                [&](int k) { raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1)); });
+                [&](int k) { raster.cell(k, k + 1.0, section.start_of(k), k + 2.0, section.end_of(k)); });
   raster.finish();
 }
 

@@ -3,6 +3,7 @@
 #include "treadmark/backends/spline/thb/thb_space.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -135,8 +136,11 @@ std::uint64_t ThbSpace::key(int level, int fu, int fv) const {
 std::size_t ThbSpace::number(int level, int fu, int fv) const {
   const LevelData& data = at(level);
   const std::uint64_t wanted = key(level, fu, fv);
-  const auto found = std::lower_bound(data.active.begin(), data.active.end(), wanted);
-  if (found == data.active.end() || *found != wanted) return kNone;
+  const auto at_row = [&](int k) {
+    return data.active.begin() + static_cast<std::ptrdiff_t>(data.row[static_cast<std::size_t>(k)]);
+  };
+  const auto end = at_row(fu + 1), found = std::lower_bound(at_row(fu), end, wanted);
+  if (found == end || *found != wanted) return kNone;
   return data.first + static_cast<std::size_t>(found - data.active.begin());
 }
 
@@ -187,6 +191,9 @@ void ThbSpace::settle() {
     std::erase_if(data.active, [&](std::uint64_t k) {
       return !inside(l, static_cast<int>(k / across), static_cast<int>(k % across));
     });
+    data.row.assign(static_cast<std::size_t>(data.line.u.functions()) + 1, 0);
+    for (const std::uint64_t k : data.active) ++data.row[static_cast<std::size_t>(k / across) + 1];
+    std::partial_sum(data.row.begin(), data.row.end(), data.row.begin());
     data.first = functions_;
     functions_ += data.active.size();
     present = std::move(next);

@@ -127,6 +127,7 @@ class ThbSpace {
     Direction along_u, along_v;
     std::vector<bool> divided;
     std::vector<std::uint64_t> active;  // increasing
+    std::vector<std::size_t> row;       // of each function along u: where its own begin there; and the end
     std::size_t first = 0;              // number of the first function
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -31,7 +29,7 @@
 #include "treadmark/tests/app/evolve/wheel_law.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
-#include "treadmark/tests/io/results/xml_reader.hpp"
+#include "treadmark/tests/io/results/vtk_values.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -414,28 +412,6 @@ TEST_F(Evolution, GenerationsAreSurfacesThatOtherCommandsUse) {
   EXPECT_EQ(result.generations[1].bodies.front().record.memory_bytes(), 0u);  // the file has them
   EXPECT_GT(io::read_generation(folder_.path() / "out" / io::generation_file(1)).bodies.front().record.memory_bytes(),
             0u);
-}
-
-/// Values of an array of float or double.
-template <class T>
-std::vector<T> vtk_values(const XmlElement& root, const std::string& name) {
-  const std::string text = root.find("DataArray", "Name", name).at(0)->text;
-  const auto decoded = [](const std::string& base64) {
-    const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string bytes;
-    std::uint32_t group = 0;
-    int bits = 0;
-    for (const char c : base64) {
-      if (c == '=') break;
-      group = group << 6 | static_cast<std::uint32_t>(digits.find(c));
-      if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
-    }
-    return bytes;
-  };
-  const std::string bytes = decoded(text.substr(12));  // behind their number
-  std::vector<T> out(bytes.size() / sizeof(T));
-  std::memcpy(out.data(), bytes.data(), out.size() * sizeof(T));
-  return out;
 }
 
 /// ParaView's files have the surface where it is, with what it has endured.

@@ -126,6 +126,9 @@ TEST(Html, NumbersAsPeopleReadThem) {
   EXPECT_EQ(shown({-99.994}), "-99.99");
   EXPECT_EQ(shown({99.9996}), "100.0");
   EXPECT_EQ(shown({0.99996}), "1.000");
+  // Halves as in charts of browsers, whose toPrecision takes the larger one.
+  EXPECT_EQ(shown({224.25}), "224.3");
+  EXPECT_EQ(shown({-0.03125, 3}), "-0.0313");
   EXPECT_EQ(shown({-1.24e-14}), "0");
   EXPECT_EQ(shown({12}), "12");
   EXPECT_EQ(shown({1.5e9}), "1.500e+09");

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "treadmark/app/report/field_catalogue.hpp"
 #include "treadmark/app/report/frame_packer.hpp"
 #include "treadmark/app/report/plot.hpp"
 #include "treadmark/app/report/write_page.hpp"
@@ -94,6 +95,24 @@ TEST(RunPage, StepsAreNamedByWhatVaries) {
   EXPECT_EQ(one.timeline->axes.front().label, "case");
 }
 
+TEST(RunPage, TheWorstCaseIsShownFirstAndTheOriginComesLast) {
+  auto run = sample(3);
+  run->cases[1].patches[0].pmax = 9e9;
+  run->input_sha256 = std::string(64, 'a');
+  const Page page = run_page(run, "");
+  EXPECT_EQ(page.timeline->start, 1u);
+  EXPECT_EQ(page.sections.back().id, "origin");
+  const std::string html = to_html(page, {false});
+  EXPECT_GT(html.find(run->input_sha256), html.find("table-patches"));
+  EXPECT_THAT(html, HasSubstr("as in the input"));
+  EXPECT_FALSE(has_figure(page, "section"));  // these have no surfaces
+  for (const char* body : {"wheel", "rail"}) {
+    io::SampledSurface& surface = run->sampled.emplace_back();
+    surface.body = surface.name = body;
+  }
+  for (const char* figure : {"section", "scene"}) EXPECT_TRUE(has_figure(run_page(run, ""), figure)) << figure;
+}
+
 TEST(RunPage, WhatWentWrongComesFirst) {
   auto run = sample(4);
   run->complete = false;
@@ -112,6 +131,14 @@ TEST(RunPage, WhatWentWrongComesFirst) {
   EXPECT_THAT(banners, HasSubstr("note: 1 case without contact: 4"));
   EXPECT_TRUE(std::holds_alternative<Banner>(page.sections.front().blocks.front()));
   EXPECT_THAT(to_html(page), HasSubstr("the rail &lt;ends&gt; here"));
+}
+
+TEST(RunPage, FieldsOfOneSignHaveNoScaleAboutZero) {
+  for (const char* name : {"pressure", "traction", "gap", "slip"}) {
+    ASSERT_NE(find_field(name), nullptr) << name;
+    EXPECT_EQ(find_field(name)->kind, FieldInfo::Kind::sequential) << name;
+  }
+  EXPECT_EQ(find_field("traction_x")->kind, FieldInfo::Kind::diverging);
 }
 
 TEST(RunPage, NothingFinishedIsAPageToo) {

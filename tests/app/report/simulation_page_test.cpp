@@ -48,7 +48,13 @@ TEST(SimulationPage, HistoriesAndTablesHoldTheNumbers) {
   const auto& wheels = std::get<ChartView>(figure_of(page, "wheels").view);
   EXPECT_EQ(wheels.panels[0].series[0].name, "ws1_right");
   EXPECT_EQ(wheels.panels[0].series[1].name, "ws1_left");
-  EXPECT_EQ(numbers_in(table_of(page, "summary"), "value")[0], 3e5);
+  // In the units of the cards above it.
+  const Table& summary = table_of(page, "summary");
+  EXPECT_THAT(numbers_in(summary, "value"),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), std::vector<double>{300.0, 0.4}));
+  EXPECT_EQ(std::get<std::string>(summary.rows[0].cells[0]), "q_max");
+  EXPECT_EQ(std::get<std::string>(summary.rows[0].cells[3]), "kN");
+  EXPECT_EQ(std::get<std::string>(summary.rows[1].cells[3]), "m");
   EXPECT_THAT(card_of(page, "Largest vertical force"), HasSubstr("300 kN"));
   EXPECT_TRUE(banners_of(page).empty());
 }
@@ -113,6 +119,7 @@ TEST(HistoryPanels, UnitsFollowNames) {
   EXPECT_EQ(shown_unit("approach_max_m").name, "mm");
   EXPECT_EQ(shown_unit("gap_m").factor, 1e3);
   EXPECT_EQ(shown_unit("Q_N").name, "kN");
+  EXPECT_EQ(shown_unit("ws1_right.Tgamma_N").name, "N");
   EXPECT_EQ(shown_unit("patches").name, "");
 }
 

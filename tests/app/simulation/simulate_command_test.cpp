@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
+#include "treadmark/tests/io/results/xml_reader.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -215,6 +218,36 @@ TEST_F(Simulate, FieldsAreDrawnAndStored) {
     const Vec3 on_rail = c.bodies->X_TS.apply_inverse({p.x_tr, p.y_tr, p.z_tr});
     EXPECT_NEAR(on_rail.x(), c.s + p.x_tr, 1e-9) << "the rail passes below the wheel";
   }
+}
+
+TEST_F(Simulate, ContactWheelAndRailAreWrittenForParaViewOverTime) {
+  const ProgramResult r = run({"-o", out(), "--vtk", "--set", "simulation.fields.position_m=[0.004, 0.008]", "--set",
+                               "simulation.distance_m=0.01"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const io::SnapshotSeries snapshots = io::read_snapshots(out() + "/simulation.h5");
+  const std::vector<double> history = read_table(input.read("out/history.csv")).column("t_s");
+  std::map<double, std::set<std::string>> bodies, patches;
+  const auto add = [&](const std::string& name, auto& to) {
+    for (const XmlElement* set : read_xml(input.read("out/vtk/" + name)).find("DataSet")) {
+      to[std::stod(set->attributes.at("timestep"))].insert(set->attributes.at("file"));
+      EXPECT_GT(std::filesystem::file_size(out() + "/vtk/" + set->attributes.at("file")), 1000u);
+    }
+  };
+  add("bodies.pvd", bodies);
+  add("snapshots.pvd", patches);
+  ASSERT_EQ(bodies.size(), snapshots.run.cases.size());
+  ASSERT_EQ(patches.size(), bodies.size());
+  for (const auto& [time, files] : bodies) {
+    EXPECT_TRUE(patches.contains(time));
+    EXPECT_TRUE(std::ranges::any_of(history, [&](double t) { return std::fabs(t - time) < 1e-9; })) << time;
+    EXPECT_EQ(files.size(), 2u);  // a wheel and a rail
+  }
+  // The wheel goes on, the rail passes below it: no two places are the same.
+  std::set<std::string> places;
+  for (const auto& [time, files] : bodies) places.insert(files.begin(), files.end());
+  EXPECT_EQ(places.size(), 2 * bodies.size());
+  const ProgramResult none = run({"-o", input.path("none"), "--vtk", "--set", "simulation.distance_m=0.01"});
+  EXPECT_THAT(none.err, HasSubstr("simulation.fields"));
 }
 
 TEST_F(Simulate, AnyNumberOfThreadsGivesTheSameBytes) {

@@ -108,6 +108,17 @@ inline std::vector<NamedDefects> offset_defects() {
     return 0.4e-3 * window(x + 0.01, 0.06) * window(y - 0.004, 0.03);
   };
   all.push_back({"spall", Body::rail, {.spalls = {spall}}, spall_offset, -0.09, 0.07, -0.035, 0.04});
+  const WheelSpall chip{
+      .length = 0.05, .width = 0.04, .depth = 0.6e-3, .edge = 7e-3, .theta_center = -3.12, .y_center = 0.003};
+  const auto chip_offset = [=](double t, double y) {
+    const auto window = [](double e, double half) {
+      return std::pow(std::sin(0.5 * kPi * std::clamp((half - std::fabs(e)) / 7e-3, 0.0, 1.0)), 2);
+    };
+    return -0.6e-3 * window(R * turn(t + 3.12), 0.025) * window(y - 0.003, 0.02);
+  };
+  all.push_back({"wheel_spall", Body::wheel, {.wheel_spalls = {chip}}, chip_offset, -3.25, -3.0, -0.03, 0.035});
+  all.push_back(
+      {"wheel_spall_a_turn_later", Body::wheel, {.wheel_spalls = {chip}}, chip_offset, 3.0, 3.3, -0.03, 0.035});
   all.push_back({"squat_on_corrugation",
                  Body::rail,
                  {.squats = {squat}, .corrugations = {waves}},

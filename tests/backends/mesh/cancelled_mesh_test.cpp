@@ -45,7 +45,7 @@ TEST(CancelledMesh, EveryStepAsks) {
       {9, [&] { merge_close(mesh.vertices, 1e-7); }},
       {250, [&] { connect(*std::make_unique<PreparedMesh>(prepared)); }},
       {19, [&] { orient(*std::make_unique<PreparedMesh>(prepared), Body::rail, repair); }},
-      {350, [&] { prepare(mesh, Body::rail, repair); }},
+      {340, [&] { prepare(mesh, Body::rail, repair); }},
       {90, [&] { find_sectors(prepared, 1.0); }},
       {50, [&] { const Bvh bvh(*std::make_unique<PreparedMesh>(prepared)); }},
       {2, [&] { const RayScene scene(prepared); }},

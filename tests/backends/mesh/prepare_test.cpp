@@ -6,6 +6,7 @@
 
 #include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/random.hpp"
 #include "treadmark/tests/backends/mesh/mesh_shapes.hpp"
 
 namespace treadmark::mesh {
@@ -78,6 +79,32 @@ TEST(PrepareMesh, KeepsDistantVerticesApart) {
   const TriangleMesh soup = exploded(small_rail(), 1e-6);
   EXPECT_EQ(repair_of(soup, Body::rail).merged_vertices, 0u);
   EXPECT_EQ(repair_of(soup, Body::rail).parts, soup.triangles.size());
+}
+
+/// As documented, point by point.
+std::vector<std::uint32_t> merged_one_by_one(const std::vector<Vec3>& points, double tolerance) {
+  std::vector<std::uint32_t> same(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    same[i] = i;
+    for (std::uint32_t j = 0; j < i && same[i] == i; ++j)
+      if (same[j] == j && (points[i] - points[j]).norm() <= tolerance) same[i] = j;
+  }
+  return same;
+}
+
+TEST(PrepareMesh, MergesChainsAndCrowdsAsOneByOne) {
+  constexpr double kTolerance = 1e-3;
+  for (const double size : {0.003, 0.03, 0.3}) {
+    Random random(11);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 1500; ++i) {
+      points.emplace_back(size * random.uniform(), size * random.uniform(), 0.2 * size * random.uniform());
+      if (i % 5 == 0) points.push_back(points[static_cast<std::size_t>(random.uniform() * i)]);  // at the place
+      if (i % 7 == 0) points.emplace_back(points.back() + Vec3(0.7 * kTolerance, 0.0, 0.0));     // chains
+      if (i % 7 == 0) points.emplace_back(points.back() + Vec3(0.7 * kTolerance, 1e-5 * size, 0.0));
+    }
+    EXPECT_EQ(merge_close(points, kTolerance), merged_one_by_one(points, kTolerance)) << size;
+  }
 }
 
 TEST(PrepareMesh, CountsWhatItDrops) {

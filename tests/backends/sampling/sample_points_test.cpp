@@ -106,7 +106,7 @@ TEST(SamplePoints, AreTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one, many);
 }
 
-TEST(SamplePoints, TrianglesFollowASectionThatMovesAside) {
+TEST(SamplePoints, FollowASectionThatMovesAside) {
   // a head of one circle that moves by 1:10: common nodes would be as dense everywhere as on its steep sides
   constexpr double kHead = 0.03, kHalfAngle = 1.4, kSlope = 0.1, kSpacing = 1e-3;
   SliceSet slices;
@@ -121,22 +121,28 @@ TEST(SamplePoints, TrianglesFollowASectionThatMovesAside) {
     slices.profiles.push_back(std::move(profile));
   }
   const auto rail = spline::make_slice_surface(slices, 0.0);
-  SampleSettings settings{kSpacing, 0.0, {0.0, 0.4, -1.0, 1.0}};
-  settings.staggered = true;
-  const PointGrid grid = sample_points(*rail, Body::rail, 0.0, settings);
-  const double steps = static_cast<double>(grid.y.size() - 1), angle = 2.0 * kHalfAngle / steps;
-  constexpr double kStep = 0.75 * kSpacing;  // height of the triangles
-  EXPECT_LE(kHead * angle, kStep);
-  EXPECT_GT(kHead * angle, 0.85 * kStep) << "a tenth more points than the section is long";
-  for (std::size_t iu = 0; iu < grid.u.size(); iu += 7)
-    for (std::size_t iy = 0; iy < grid.y.size(); ++iy) {
-      if (iu + 1 == grid.u.size() && iy % 2 == 1) continue;  // behind the end of the region
-      ASSERT_TRUE(grid.present(iu, iy)) << iu << ' ' << iy;
-      const Vec3 p = grid.point(iu, iy);
-      const double beside = p.y() - kSlope * p.x();
-      EXPECT_NEAR(std::hypot(beside, p.z() - kHead), kHead, 1e-7);
-      // at equal angles, to the error of arc lengths measured as chords of a quarter step
-      EXPECT_NEAR(std::atan2(beside, kHead - p.z()), -kHalfAngle + angle * static_cast<double>(iy), 0.01 * angle);
+  for (const bool staggered : {true, false})
+    for (const bool common : {true, false}) {
+      SampleSettings settings{kSpacing, 0.0, {0.0, 0.4, -1.0, 1.0}};
+      settings.staggered = staggered;
+      settings.common = common;
+      const PointGrid grid = sample_points(*rail, Body::rail, 0.0, settings);
+      const double steps = static_cast<double>(grid.y.size() - 1), angle = 2.0 * kHalfAngle / steps;
+      const double step = (staggered ? 0.75 : 1.0) * kSpacing;  // height of the triangles
+      EXPECT_LE(kHead * angle, step);
+      EXPECT_GT(kHead * angle, 0.85 * step) << "a tenth more points than the section is long";
+      for (std::size_t iu = 0; iu < grid.u.size(); iu += 7)
+        for (std::size_t iy = 0; iy < grid.y.size(); ++iy) {
+          if (staggered && iu + 1 == grid.u.size() && iy % 2 == 1) continue;  // behind the end of the region
+          ASSERT_TRUE(grid.present(iu, iy)) << iu << ' ' << iy;
+          const Vec3 p = grid.point(iu, iy);
+          const double beside = p.y() - kSlope * p.x();
+          EXPECT_NEAR(std::hypot(beside, p.z() - kHead), kHead, 1e-7);
+          // at equal angles, to the error of arc lengths measured as chords of a quarter step
+          EXPECT_NEAR(std::atan2(beside, kHead - p.z()), -kHalfAngle + angle * static_cast<double>(iy), 0.01 * angle);
+        }
+      settings.follow = false;
+      EXPECT_TRUE(sample_points(*rail, Body::rail, 0.0, settings).own_y.empty());
     }
 }
 

@@ -83,43 +83,89 @@ sampling::PointGrid wavy(int stations) {
   return g;
 }
 
-TEST(ChordStrips, AreStraightAcrossAndSmoothAlong) {
+// Between two neighbouring nodes of wavy(), t from the first to the second.
+double wavy_at(const sampling::PointGrid& g, double x, std::size_t k, double t) {
+  return 1e-4 * std::sin(200.0 * x) * ((1.0 - t) * std::cos(300.0 * g.y[k]) + t * std::cos(300.0 * g.y[k + 1]));
+}
+
+TEST(ChordsOfChangingSections, AreStraightAcrossAndSmoothAlong) {
   const sampling::PointGrid g = wavy(60);
-  const auto strips = make_chord_strips(g, 0.0);
-  ASSERT_EQ(strips.size(), 10u);
-  for (std::size_t k = 0; k < strips.size(); ++k)
+  const auto rail = make_chord_surface(g, 0.0);
+  for (std::size_t k = 0; k < 10; ++k)
     for (const double x : {20.3e-3, 31.7e-3}) {
-      const double along = 1e-4 * std::sin(200.0 * x);
-      for (const double t : {0.2, 0.5, 0.9}) {
-        const double y = 1e-3 * (static_cast<double>(k) + t);
-        const double wanted = along * ((1.0 - t) * std::cos(300.0 * g.y[k]) + t * std::cos(300.0 * g.y[k + 1]));
-        EXPECT_NEAR(height_at(*strips[k], {}, {x, y}), wanted, 2e-9) << k;
-      }
-      // the edge that two of them share, seen from both
+      for (const double t : {0.2, 0.5, 0.9})
+        EXPECT_NEAR(height_at(*rail, {}, {x, 1e-3 * (static_cast<double>(k) + t)}), wavy_at(g, x, k, t), 2e-9) << k;
       if (k > 0) {
-        EXPECT_NEAR(height_at(*strips[k], {}, {x, g.y[k] + 1e-9}), height_at(*strips[k - 1], {}, {x, g.y[k] - 1e-9}),
-                    1e-10);
+        EXPECT_NEAR(height_at(*rail, {}, {x, g.y[k] + 1e-9}), height_at(*rail, {}, {x, g.y[k] - 1e-9}), 1e-10);
       }
     }
 }
 
-TEST(ChordStrips, EndWhereTheSectionDoes) {
-  sampling::PointGrid g = wavy(40);
-  for (std::size_t iu = 0; iu < 20; ++iu) g.h[g.index(iu, 10)] = std::nan("");
-  const auto strips = make_chord_strips(g, 0.0);
-  ASSERT_EQ(strips.size(), 10u);
-  EXPECT_TRUE(std::isnan(height_at(*strips[9], {}, {10e-3, 9.5e-3})));
-  EXPECT_FALSE(std::isnan(height_at(*strips[9], {}, {30e-3, 9.5e-3})));
-  EXPECT_FALSE(std::isnan(height_at(*strips[8], {}, {10e-3, 8.5e-3})));
+TEST(ChordsOfChangingSections, TellDerivativesOfTheirOwn) {
+  const sampling::PointGrid g = wavy(60);
+  const auto rail = make_chord_surface(g, 0.0);
+  ASSERT_TRUE(has_exact_derivatives(*rail));
+  for (const double t : {0.0, 0.3, 0.8}) {
+    const double x = 31.7e-3;
+    const Vec2 place(x, 4.0 + t);  // the fourth chord
+    SurfaceJet jet;
+    evaluate(*rail, {&place, 1}, {&jet, 1});
+    const double across = std::cos(300.0 * g.y[4]) - std::cos(300.0 * g.y[3]);
+    const double here = (1.0 - t) * std::cos(300.0 * g.y[3]) + t * std::cos(300.0 * g.y[4]);
+    EXPECT_NEAR(jet.p.y(), 1e-3 * (3.0 + t), 1e-15);
+    EXPECT_NEAR(jet.p.z(), wavy_at(g, x, 3, t), 2e-9);
+    EXPECT_NEAR(jet.pu.z(), 1e-4 * 200.0 * std::cos(200.0 * x) * here, 1e-6);
+    EXPECT_NEAR(jet.pv.y(), 1e-3, 1e-15);
+    EXPECT_NEAR(jet.pv.z(), 1e-4 * std::sin(200.0 * x) * across, 1e-9);
+    EXPECT_NEAR(jet.puv.z(), 1e-4 * 200.0 * std::cos(200.0 * x) * across, 1e-6);
+    EXPECT_NEAR(jet.puu.z(), -1e-4 * 4e4 * std::sin(200.0 * x) * here, 2e-3);
+    EXPECT_EQ(jet.pvv, Vec3::Zero());
+  }
 }
 
-TEST(ChordStrips, NeedFourStations) {
-  EXPECT_THROW(make_chord_strips(wavy(3), 0.0), Error);
+TEST(ChordsOfChangingSections, EndWhereTheSectionDoes) {
+  sampling::PointGrid g = wavy(40);
+  for (std::size_t iu = 0; iu < 20; ++iu) g.h[g.index(iu, 10)] = std::nan("");
+  for (std::size_t iu = 20; iu < 40; ++iu) g.h[g.index(iu, 5)] = std::nan("");  // a gap amid the section
+  const auto rail = make_chord_surface(g, 0.0);
+  const auto there = [&](double x, double y) { return !std::isnan(height_at(*rail, {}, {x, y})); };
+  EXPECT_FALSE(there(10e-3, 9.5e-3));
+  EXPECT_TRUE(there(30e-3, 9.5e-3));
+  EXPECT_TRUE(there(10e-3, 8.5e-3));
+  EXPECT_TRUE(there(10e-3, 4.5e-3));
+  EXPECT_FALSE(there(30e-3, 4.5e-3));
+  EXPECT_FALSE(there(30e-3, 5.5e-3));
+  EXPECT_TRUE(there(30e-3, 3.5e-3));
+  EXPECT_NEAR(height_at(*rail, {}, {30e-3, 6.5e-3}), wavy_at(g, 30e-3, 6, 0.5), 2e-9);
+}
+
+TEST(ChordsOfChangingSections, OfAWheelRunRound) {
+  sampling::PointGrid g;
+  g.body = Body::wheel;
+  g.closed = true;
+  constexpr int kStations = 720;
+  for (int i = 0; i < kStations; ++i) g.u.push_back(2.0 * 3.14159265358979 / kStations * i);
+  for (int k = 0; k <= 10; ++k) g.y.push_back(-5e-3 + 1e-3 * k);
+  for (const double u : g.u)
+    for (const double y : g.y) g.h.push_back(0.46 - 1.5 * y * y + 1e-4 * std::cos(6.0 * u));
+  const auto wheel = make_chord_surface(g, 0.46);
+  for (const double turn : {0.0, 1.234, 3.2})
+    for (const double y : {-4.7e-3, 0.3e-3, 3.5e-3}) {
+      const double below = std::floor(y / 1e-3) * 1e-3, t = (y - below) / 1e-3;
+      const double wanted =
+          0.46 - 1.5 * ((1.0 - t) * below * below + t * (below + 1e-3) * (below + 1e-3)) + 1e-4 * std::cos(6.0 * turn);
+      const Pose X{Vec3::Zero(), rotation_y(turn)};
+      EXPECT_NEAR(height_at(*wheel, X, {0.0, y}), wanted, 1e-9) << turn << ' ' << y;
+    }
+}
+
+TEST(ChordsOfChangingSections, NeedFourStations) {
+  EXPECT_THROW(make_chord_surface(wavy(3), 0.0), Error);
   sampling::PointGrid g = wavy(10);
   for (std::size_t iu = 0; iu < 10; ++iu)
     if (iu % 4 == 3)
       for (std::size_t iy = 0; iy < g.y.size(); ++iy) g.h[g.index(iu, iy)] = std::nan("");
-  EXPECT_THROW(make_chord_strips(g, 0.0), Error) << "three in a row at most";
+  EXPECT_THROW(make_chord_surface(g, 0.0), Error) << "three in a row at most";
 }
 
 }  // namespace

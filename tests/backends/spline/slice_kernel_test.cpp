@@ -54,7 +54,7 @@ std::vector<LineHits> lines_of(const SliceNet& net, const SliceHulls& hulls, con
     SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits, hits.queue);
     const auto careful = [&](int k) {
       ++result.careful_cells;
-      raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+      raster.cell(k, k + 1.0, section.start_of(k), k + 2.0, section.end_of(k));
     };
     const HitArrays arrays{hits.sign(), hits.n.data(), hits.cell.data(), hits.v.data(), hits.u.data()};
     if (careful_only)
@@ -149,6 +149,46 @@ TEST(SliceKernel, MissingPartsEqualTheCarefulPath) {
   EXPECT_TRUE(std::isnan(net.line(net.spans() - 1, net.lines() - 1).power[0].w));
   EXPECT_GT(compare<RailGeometry>(
                 net, {{Vec3::Zero(), rotation({0.02, 0.0, 0.01})}, {Vec3::Zero(), rotation({0.02, 0.3, 0.01})}})
+                .hits,
+            1000);
+}
+
+// Points on (u, y) joined by straight lines across, missing where height() says NaN.
+template <class Height>
+SliceNet straight_net(Body body, double u_step, const Height& height) {
+  constexpr double kApart = 0.9973e-3;  // no sample at an edge, where either slope is right
+  SliceSet stations;
+  stations.body = body;
+  std::vector<std::vector<NetPair>> rows;
+  for (int i = 0; i < 90; ++i) {
+    const double u = u_step * (i - 45);
+    stations.u.push_back(u);
+    auto& row = rows.emplace_back();
+    for (int k = 0; k <= 60; ++k) {
+      const double y = (body == Body::wheel ? -kApart : kApart) * (k - 30), w = height(u, y);
+      row.push_back({std::isnan(w) ? w : y, w});
+    }
+  }
+  stations.profiles.resize(stations.u.size());
+  return join_straight(stations, rows);
+}
+
+TEST(SliceKernel, StraightCellsEqualTheCarefulPath) {
+  const SliceNet rail =
+      straight_net(Body::rail, 1e-3, [](double x, double y) { return y * y / 0.6 + 2e-5 * std::sin(400.0 * x); });
+  EXPECT_GT(compare<RailGeometry>(rail, treadmark::testing::rail_planes()).hits, 5000);
+  const SliceNet wheel = with_radius(straight_net(
+      Body::wheel, 3e-3, [](double u, double y) { return -y * y / 0.8 + 1e-5 * std::cos(500.0 * u + 40.0 * y); }));
+  EXPECT_GT(compare<WheelGeometry>(wheel, treadmark::testing::wheel_planes(kRadius)).hits, 5000);
+}
+
+TEST(SliceKernel, MissingStraightCellsEqualTheCarefulPath) {
+  const SliceNet rail = straight_net(Body::rail, 1e-3, [](double x, double y) {
+    const bool missing = (x > 0.0 && y > 11.5e-3) || (x < 3e-3 && std::abs(y + 8e-3) < 0.4e-3);
+    return missing ? std::numeric_limits<double>::quiet_NaN() : y * y / 0.6 + 0.1 * x;
+  });
+  EXPECT_GT(compare<RailGeometry>(
+                rail, {{Vec3::Zero(), rotation({0.02, 0.0, 0.01})}, {Vec3::Zero(), rotation({0.02, 0.3, 0.01})}})
                 .hits,
             1000);
 }

@@ -27,6 +27,13 @@ theta_center_deg = 10
 harmonics = [{ order = 7, amplitude_um = 50, phase_deg = 90 }, { order = 20, amplitude_um = -10, phase_rad = 0.5 }]
 y_center_mm = 2
 width_mm = 60
+[[wheel.spalls]]
+length_mm = 25
+width_mm = 15
+depth_mm = 0.9
+edge_mm = 3
+theta_center_deg = 170
+y_center_mm = -2
 [[rail.squats]]
 length_mm = 40
 width_mm = 25
@@ -130,6 +137,7 @@ std::vector<double> numbers(const Defects& d) {
     put(p.y_center, p.width);
     for (const auto& h : p.harmonics) put(h.order, h.amplitude, h.phase);
   }
+  for (const auto& s : d.wheel_spalls) put(s.length, s.width, s.depth, s.edge, s.theta_center, s.y_center);
   for (const auto& s : d.squats)
     put(s.length, s.width, s.depth, s.x_center, s.y_center, s.second_length, s.second_width, s.second_depth,
         s.second_distance, s.second_y_offset);
@@ -155,6 +163,7 @@ TEST(TomlDefects, EveryKeyFindsItsPlace) {
   Defects wheel;
   wheel.flats = {{WheelFlat::Shape::fresh, 40e-3, 0.0, 10.0 * kDegree, 0.0, 0.0}};
   wheel.polygonizations = {{{{7, 50e-6, 90.0 * kDegree}, {20, -10e-6, 0.5}}, 2e-3, 60e-3}};
+  wheel.wheel_spalls = {{25e-3, 15e-3, 0.9e-3, 3e-3, 170.0 * kDegree, -2e-3}};
   expect_near(numbers(c.wheel.defects), numbers(wheel));
   EXPECT_DOUBLE_EQ(c.wheel.resolution, 2e-3);
   EXPECT_DOUBLE_EQ(c.rail.resolution, 0.5e-3);

@@ -291,6 +291,13 @@ TEST(TomlSteps, StepsOverMoreThanTwoElementsAreRefused) {
                                                             "since the previous case, but a rolling step is 0.4 mm")));
 }
 
+TEST(TomlSteps, AWheelThatShallRollAndDoesNotIsNoted) {
+  EXPECT_THAT(parse(kRail).notes, ::testing::ElementsAre(HasSubstr("case 1: neither a speed nor rolling is given")));
+  for (const char* moves : {"wheelset.velocity_km_h = 100\nwheelset.rolling = \"nominal\"\n",
+                            "wheelset.velocity_m_s = 1\n", "wheelset.vpitch_rad_s = -1\n", "case.regime = \"none\"\n"})
+    EXPECT_THAT(parse(kRail + moves).notes, IsEmpty()) << moves;
+}
+
 TEST(TomlSteps, ElementsOfACaseThatContinuesStayAsTheyAre) {
   EXPECT_THAT(error_of(kRolling + "[[cases]]\n[[cases]]\ndiscretisation.ds_mm = 0.3\n"),
               HasSubstr("case 3: a case that continues the previous one needs elements of the same size"));

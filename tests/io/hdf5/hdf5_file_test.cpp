@@ -2,9 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
@@ -63,6 +66,43 @@ TEST_F(Hdf5File, ValuesOfEveryKindComeBack) {
   EXPECT_TRUE(group.numbers("none").empty());
   EXPECT_TRUE(group.strings("no texts").empty());
   EXPECT_EQ(group.numbers("one"), std::vector<double>{5.0});
+}
+
+// The library takes chunks apart that were compressed without it.
+TEST_F(Hdf5File, CompressedValuesOfEveryShapeComeBackAndTheirBytesDoNotDependOnThreads) {
+  const std::vector<std::vector<std::size_t>> shapes{{1},        {16384},     {16385},       {40000},   {3, 1000},
+                                                     {513, 512}, {700, 1100}, {2, 129, 130}, {5, 4, 3}, {3, 2, 150, 9}};
+  std::vector<std::vector<double>> numbers(shapes.size());
+  std::vector<std::vector<std::uint8_t>> bytes(shapes.size());
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    std::size_t count = 1;
+    for (const std::size_t length : shapes[k]) count *= length;
+    for (std::size_t i = 0; i < count; ++i) {
+      numbers[k].push_back(static_cast<double>(i * i % 1013) / 7.0);
+      bytes[k].push_back(static_cast<std::uint8_t>(i * i % 251));
+    }
+  }
+  std::vector<std::string> files;
+  for (const int threads : {1, 2}) {
+    const ThreadLimit limit(threads);
+    io::Hdf5Writer file(path_);
+    for (std::size_t k = 0; k < shapes.size(); ++k) {
+      const io::Hdf5GroupWriter group = file.root().make_group(std::to_string(k));
+      group.write({"numbers", shapes[k], "m", "", true}, numbers[k]);
+      group.write({"bytes", shapes[k], "1", "", true}, bytes[k]);
+    }
+    file.commit();
+    std::ifstream in(path_, std::ios::binary);
+    files.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+  }
+  EXPECT_EQ(files[0], files[1]);
+  EXPECT_LT(files[0].size(), 3'000'000u);  // a third of the values
+  const io::Hdf5Reader file(path_);
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const io::Hdf5GroupReader group = file.root().open_group(std::to_string(k));
+    EXPECT_EQ(group.numbers("numbers", shapes[k]), numbers[k]) << k;
+    EXPECT_EQ(group.bytes("bytes", shapes[k]), bytes[k]) << k;
+  }
 }
 
 TEST_F(Hdf5File, ACopiedFileIsAGroup) {

@@ -73,6 +73,7 @@ TEST(WriteJson, ShiftCasesGiveLengthsAndWork) {
 
 TEST(WriteJson, TemperaturesAppearWhereTheyWereComputed) {
   io::RunResult run = testing::sample_run();
+  run.doubts = {"wheel profile w.csv: flange_side: the flange is on the side of great y"};
   run.cases[0].patches[1].max_temperature_1 = 166.8;
   run.cases[0].patches[1].max_temperature_2 = 90.85;
   const json document = json::parse(io::to_json(run));

@@ -6,52 +6,19 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <span>
-#include <stdexcept>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/tests/io/results/sample_block.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
-#include "treadmark/tests/io/results/xml_reader.hpp"
+#include "treadmark/tests/io/results/vtk_values.hpp"
 
 namespace treadmark {
 namespace {
 
 constexpr double kSinglePrecision = 1e-7;  // fields are stored as Float32
 constexpr double kRounding = 1e-15;        // [m], of the sums behind a corner's place
-
-std::string decode_base64(const std::string& text) {
-  std::string bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    const int digit = c >= 'A' && c <= 'Z'   ? c - 'A'
-                      : c >= 'a' && c <= 'z' ? c - 'a' + 26
-                      : c >= '0' && c <= '9' ? c - '0' + 52
-                      : c == '+'             ? 62
-                      : c == '/'             ? 63
-                                             : -1;
-    if (digit < 0) throw std::runtime_error("not base64");
-    group = group << 6 | static_cast<std::uint32_t>(digit);
-    if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
-  }
-  return bytes;
-}
-
-/// Values of a DataArray: the header and the data are two base64 texts, the first of 8 bytes (12 digits).
-template <class T>
-std::vector<T> values(const testing::XmlElement& array) {
-  const std::string header = decode_base64(array.text.substr(0, 12)), data = decode_base64(array.text.substr(12));
-  std::uint64_t size = 0;
-  std::memcpy(&size, header.data(), sizeof size);
-  EXPECT_EQ(size, data.size());
-  std::vector<T> out(data.size() / sizeof(T));
-  std::memcpy(out.data(), data.data(), out.size() * sizeof(T));
-  return out;
-}
 
 TEST(Base64, AgreesWithTheExamplesOfTheStandard) {
   // RFC 4648, section 10.
@@ -71,7 +38,7 @@ TEST(WriteVtk, CornersLieInTrackAxes) {
   const testing::XmlElement root = testing::read_xml(io::patch_to_vts(patch, 1, 2));
   EXPECT_EQ(root.attributes.at("type"), "StructuredGrid");
   EXPECT_EQ(root.find("Piece").at(0)->attributes.at("Extent"), "0 24 0 20 0 0");
-  const auto points = values<double>(*root.find("DataArray", "Name", "points_m").at(0));
+  const auto points = testing::vtk_values<double>(root, "points_m");
   ASSERT_EQ(points.size(), 3u * 25u * 21u);
 
   // The centre of an element's corners is its centre; rolled by hand about x by the contact angle.
@@ -91,16 +58,16 @@ TEST(WriteVtk, CellsCarryTheFieldsWithUnitsInTheirNames) {
   const io::RunResult run = testing::sample_run();
   const io::PatchResult& patch = run.cases[0].patches[1];
   const testing::XmlElement root = testing::read_xml(io::patch_to_vts(patch, 1, 2));
-  const auto pressure = values<float>(*root.find("DataArray", "Name", "pressure_Pa").at(0));
+  const auto pressure = testing::vtk_values<float>(root, "pressure_Pa");
   ASSERT_EQ(pressure.size(), patch.fields.pressure.size());
   for (std::size_t i = 0; i < pressure.size(); ++i)
     EXPECT_NEAR(pressure[i], patch.fields.pressure[i], kSinglePrecision * patch.pmax);
-  const auto state = values<std::uint8_t>(*root.find("DataArray", "Name", "state").at(0));
+  const auto state = testing::vtk_values<std::uint8_t>(root, "state");
   EXPECT_EQ(state, patch.fields.state);
   EXPECT_EQ(root.find("DataArray", "Name", "slip_x").size(), 1u);
 
   // The traction vector has the length of its components and pushes the rail down (z down).
-  const auto vectors = values<float>(*root.find("DataArray", "Name", "traction_on_rail_Pa").at(0));
+  const auto vectors = testing::vtk_values<float>(root, "traction_on_rail_Pa");
   const std::size_t i = patch.fields.grid.index(12, 10);
   const double size = std::hypot(patch.fields.pressure[i], patch.fields.traction_x[i], patch.fields.traction_s[i]);
   EXPECT_NEAR(std::hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]), size, 4 * kSinglePrecision * size);
@@ -148,10 +115,10 @@ TEST(WriteVtk, BodiesArePolygonsWhereTheyAreWithoutWhatIsMissing) {
   const Pose X_TA{{0.1, 0.75, -0.46}, rotation_x(0.3)};
   const testing::XmlElement root = testing::read_xml(io::surface_to_vtp(surface, X_TA));
   EXPECT_EQ(root.attributes.at("type"), "PolyData");
-  const auto points = values<float>(*root.find("DataArray", "Name", "points_m").at(0));
-  const auto deviation = values<float>(*root.find("DataArray", "Name", "deviation_m").at(0));
-  const auto corners = values<std::int32_t>(*root.find("DataArray", "Name", "connectivity").at(0));
-  const auto ends = values<std::int32_t>(*root.find("DataArray", "Name", "offsets").at(0));
+  const auto points = testing::vtk_values<float>(root, "points_m");
+  const auto deviation = testing::vtk_values<float>(root, "deviation_m");
+  const auto corners = testing::vtk_values<std::int32_t>(root, "connectivity");
+  const auto ends = testing::vtk_values<std::int32_t>(root, "offsets");
   ASSERT_EQ(points.size(), 3u * 23u);
   ASSERT_EQ(deviation.size(), 23u);
   // 8 x 2 cells round the cylinder; two have the missing corner.
@@ -221,9 +188,9 @@ TEST(WriteVtk, PointsBelowTheSurfaceLieInTrackAxes) {
   const testing::XmlElement root =
       testing::read_xml(testing::read_text(folder.path() / "flat_case0001_patch2_block1.vts"));
   EXPECT_EQ(root.find("Piece").at(0)->attributes.at("Extent"), "0 2 0 1 0 3");
-  const auto points = values<double>(*root.find("DataArray", "Name", "points_m").at(0));
-  const auto stress = values<float>(*root.find("DataArray", "Name", "stress_Pa").at(0));
-  const auto mises = values<float>(*root.find("DataArray", "Name", "von_mises_Pa").at(0));
+  const auto points = testing::vtk_values<double>(root, "points_m");
+  const auto stress = testing::vtk_values<float>(root, "stress_Pa");
+  const auto mises = testing::vtk_values<float>(root, "von_mises_Pa");
   ASSERT_EQ(points.size(), 3u * 24u);
   ASSERT_EQ(stress.size(), 9u * 24u);
   const std::size_t i = 17;

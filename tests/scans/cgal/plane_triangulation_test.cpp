@@ -12,6 +12,7 @@
 
 #include "plane_cases.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -88,6 +89,32 @@ TEST(PlaneTriangulation, OfARegularGridRoundACylinderIsComplete) {
   EXPECT_EQ(triangles.size(), 2U * kAround * (kAcross - 1));
   EXPECT_EQ(rim_edges(triangles), 2U * kAround);
   EXPECT_NEAR(total_area(points, triangles, period), period * 0.05 * (kAcross - 1), 1e-10);
+}
+
+/// Triangles without those of longer edges.
+std::vector<Triangle> short_ones(std::vector<Triangle> triangles, const std::vector<Vec2>& points, double longest,
+                                 double period) {
+  std::erase_if(triangles, [&](const Triangle& t) {
+    const auto p = corners(t, points, period);
+    return std::max({(p[0] - p[1]).norm(), (p[1] - p[2]).norm(), (p[2] - p[0]).norm()}) > longest;
+  });
+  return triangles;
+}
+
+// A limit lets many points be triangulated in parts; without one they are triangulated at once.
+TEST(PlaneTriangulation, PartsOfManyPointsFitTogether) {
+  constexpr double kLength = 40.0, kLongest = 0.08;
+  for (const double period : {0.0, kLength})
+    for (const int threads : {1, 2}) {
+      const ThreadLimit limit(threads);
+      std::vector<Vec2> points = strip(kLength, 100'000, period == 0.0, 7);
+      // a gap wider than any margin, and crowds of points at one place each
+      std::erase_if(points, [](const Vec2& p) { return p.x() > 11.0 && p.x() < 14.0 && p.y() > 0.0 && p.y() < 1.0; });
+      Random random(3);
+      for (int k = 0; k < 2000; ++k) points.emplace_back(20.0 + 1e-4 * random.uniform(), 0.3 + 1e-4 * random.uniform());
+      const std::vector<Triangle> whole = triangulate_plane(points, kNoLimit, period);
+      EXPECT_EQ(triangulate_plane(points, kLongest, period), short_ones(whole, points, kLongest, period));
+    }
 }
 
 TEST(PlaneTriangulation, HolesWiderThanTheLongestEdgeStayOpen) {

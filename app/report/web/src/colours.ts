@@ -122,8 +122,8 @@ export function css([r, g, b]: Rgb): string {
 }
 
 /** Lines of charts: a colour of the style sheet (--series-1 ...), a dash and a marker each, so that none needs its colour alone. */
-export const SERIES_COUNT = 6;
-const dashes = ["", "7 3", "2 3", "9 3 2 3", "5 2", "12 4"];
+export const SERIES_COUNT = 8;
+const dashes = ["", "8 4", "2 3", "10 3 2 3", "16 4", "10 3 2 3 2 3", "5 5", "1.5 5"];
 
 export function seriesColour(index: number): string {
   return `var(--series-${(index % SERIES_COUNT) + 1})`;

@@ -133,7 +133,7 @@ export interface SurfaceData {
   closed: boolean;
 }
 
-export type View = ChartView | ContactView | SceneView | TrackView | MapView | PictureView;
+export type View = ChartView | ContactView | SceneView | SectionView | TrackView | MapView | PictureView;
 
 export interface Series {
   name: string;
@@ -178,6 +178,12 @@ export interface ContactView {
 
 export interface SceneView {
   type: "scene";
+  id: string;
+  set: number;
+}
+
+export interface SectionView {
+  type: "section";
   id: string;
   set: number;
 }

@@ -1,7 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { zipSync } from "fflate";
+
+import { allSteps } from "./print";
+import type { Store } from "./store";
+import { svgToPng } from "./svg";
+
+/** A figure at other steps than the one shown: for films. */
+export interface PictureSeries {
+  store: Store;
+  /** Draws it at the step of the store; its SVG. */
+  draw: () => string;
+}
 
 export interface DownloadSources {
+  series?: PictureSeries;
   svg?: () => string;
   png?: () => Promise<Blob> | Blob;
   csv?: () => string;
@@ -31,11 +44,22 @@ export function save(blob: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+/** A picture a step, 0001.png and so on, in one file. */
+async function zipOf({ store, draw }: PictureSeries, steps: readonly number[]): Promise<Blob> {
+  const files: Record<string, Uint8Array> = {};
+  for (const [k, step] of steps.entries()) {
+    const png = await svgToPng(store.at(step, draw));
+    files[`${String(k + 1).padStart(4, "0")}.png`] = new Uint8Array(await png.arrayBuffer());
+  }
+  draw();
+  return new Blob([zipSync(files, { level: 0 })], { type: "application/zip" });
+}
+
 /** A small row of download buttons below a figure; files are named after the page, the figure and what it shows just now. */
 export function addDownloads(figure: HTMLElement, sources: DownloadSources, name: string, shown: () => string = () => ""): void {
   const row = document.createElement("div");
   row.className = "downloads";
-  const add = (label: string, make: () => Promise<Blob> | Blob): void => {
+  const add = (label: string, make: () => Promise<Blob> | Blob, suffix = label.toLowerCase(), what = shown): void => {
     const button = document.createElement("button");
     button.type = "button";
     button.textContent = label;
@@ -45,7 +69,7 @@ export function addDownloads(figure: HTMLElement, sources: DownloadSources, name
       button.disabled = true;
       Promise.resolve()
         .then(make)
-        .then((blob) => save(blob, fileName(named(name, shown()), label.toLowerCase())))
+        .then((blob) => save(blob, fileName(named(name, what()), suffix)))
         .catch((error: unknown) => {
           button.title = `Failed: ${String(error)}`;
           button.classList.add("failed");
@@ -54,9 +78,12 @@ export function addDownloads(figure: HTMLElement, sources: DownloadSources, name
     });
     row.append(button);
   };
-  const { svg, png, csv } = sources;
+  const { svg, png, csv, series } = sources;
   if (svg) add("SVG", () => new Blob([svg()], { type: "image/svg+xml" }));
   if (png) add("PNG", png);
+  const { timeline, blobs } = series?.store.data ?? {};
+  const steps = timeline && blobs ? allSteps(timeline, blobs) : [];
+  if (series && steps.length > 1) add("PNG of every " + timeline!.label, () => zipOf(series, steps), "zip", () => "");
   if (csv) add("CSV", () => new Blob([csv()], { type: "text/csv" }));
   figure.append(row);
 }

@@ -10,6 +10,7 @@ import { mountPaperTables } from "./paper-tables";
 import { mountPicture } from "./picture";
 import { mountPrint } from "./print";
 import { mountScene } from "./scene/index";
+import { mountSection } from "./section";
 import { Store } from "./store";
 import { mountTables } from "./tables";
 import { mountTheme } from "./theme";
@@ -24,6 +25,8 @@ function mountView(figure: HTMLElement, view: View, store: Store): void {
       return mountContact(figure, view, store);
     case "scene":
       return mountScene(figure, view, store);
+    case "section":
+      return mountSection(figure, view, store);
     case "track":
       return mountTrack(figure, view, store);
     case "map":

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import { PAPER_WIDTH } from "./print";
 
-/** Letters of tables on paper [px], as the style sheet has them (8 pt). */
-const PAPER_FONT = 10.7;
+/** Texts get as much before they are broken into lines [px]. */
+const TEXT_WIDTH = 130;
 /** Rows of which a second copy would cost too much. */
 const MOST_ROWS = 5000;
 
@@ -24,22 +24,36 @@ export function columnParts(widths: readonly number[], room: number): number[][]
   return parts;
 }
 
-/** Widths on paper, or somewhat more, of the columns [px]. */
+/** Widths that columns need on paper [px]: those of a copy that looks as there. */
 function widthsOf(table: HTMLTableElement): number[] {
-  const before = table.style.width;
-  table.style.width = "1px";
-  const cells = [...(table.tHead?.rows[0]?.cells ?? [])];
-  const widths = cells.map((cell) => (cell.offsetWidth * PAPER_FONT) / parseFloat(getComputedStyle(cell).fontSize));
-  table.style.width = before;
-  return widths;
+  const frame = document.createElement("div");
+  frame.className = "paper-tables measured";
+  const copy = table.cloneNode(true) as HTMLTableElement;
+  copy.removeAttribute("id");
+  copy.caption?.remove();
+  frame.append(copy);
+  document.body.append(frame);
+  const cells = [...(copy.tHead?.rows[0]?.cells ?? [])];
+  const [least, most] = ["1px", "max-content"].map((width) => {
+    copy.style.width = width;
+    return cells.map((cell) => cell.offsetWidth);
+  }) as [number[], number[]];
+  const numbers = cells.map((cell) => cell.classList.contains("number"));
+  frame.remove();
+  return least.map((width, k) => (numbers[k] ? width : Math.max(width, Math.min(most[k]!, TEXT_WIDTH))));
 }
 
-function partOf(table: HTMLTableElement, columns: readonly number[], first: boolean): HTMLTableElement {
+/** A part of a table below its name, which may be wider than it. */
+function partOf(table: HTMLTableElement, columns: readonly number[], first: boolean): HTMLElement[] {
   const part = table.cloneNode(true) as HTMLTableElement;
   part.removeAttribute("id");
-  if (!first && part.caption) part.caption.textContent += " (continued)";
+  const name = document.createElement("p");
+  name.className = "paper-name";
+  const caption = part.caption?.textContent ?? "";
+  name.textContent = first ? caption : `${caption.replace(/[.;:].*$/s, "")} (continued)`;
+  part.caption?.remove();
   for (const row of part.rows) [...row.cells].forEach((cell, k) => columns.includes(k) || cell.remove());
-  return part;
+  return [name, part];
 }
 
 /** On paper, which does not scroll, tables that are too wide go on below themselves. */
@@ -53,7 +67,7 @@ export function mountPaperTables(): void {
       if (widths.reduce((sum, width) => sum + width, 0) <= PAPER_WIDTH) continue;
       const list = document.createElement("div");
       list.className = "paper-tables";
-      list.append(...columnParts(widths, PAPER_WIDTH).map((columns, k) => partOf(table, columns, k === 0)));
+      list.append(...columnParts(widths, PAPER_WIDTH).flatMap((columns, k) => partOf(table, columns, k === 0)));
       frame.classList.add("in-parts");
       frame.after(list);
       lists.push({ list, frame });

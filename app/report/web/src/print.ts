@@ -8,6 +8,9 @@ import { stepNamer } from "./timeline";
 /** Width of pictures on paper [px]: what A4 leaves within margins and frames. */
 export const PAPER_WIDTH = 650;
 
+/** Height of a page of Letter within margins [px]; A4 has more. */
+export const PAPER_HEIGHT = 940;
+
 /** So many steps at most: a page each, or more. */
 export const MOST_ON_PAPER = 200;
 

@@ -4,48 +4,21 @@ import { colourMap, lut } from "./colours";
 import { drawBar } from "./contact/bars";
 import { quoted } from "./contact/csv";
 import { contactBox, edgesOf, fieldOf, stateOf, type Box } from "./contact/fields";
-import { byLoad, toTrack, type Vector } from "./contact/place";
+import { toTrack, type Vector } from "./contact/place";
 import { paint } from "./contact/raster";
 import { colourRange, levels, rangeOf, union, type Range } from "./contact/scales";
 import { standalone, svg } from "./contact/svg";
 import { tick, titled } from "./contact/text";
-import type { Frame, Patch, Placed, SurfaceData, TrackView } from "./data";
+import type { Frame, Patch, TrackView } from "./data";
 import { addDownloads } from "./download";
-import { decode, type Decoded } from "./packed";
-import { PAPER_WIDTH } from "./print";
+import { decode } from "./packed";
+import { copyOf, PAPER_WIDTH } from "./print";
+import { cutOf, drawBody, sideNames, type Section } from "./section";
 import type { Store } from "./store";
 import { svgToPng } from "./svg";
 
 /** So many frames at most, at equal distances and with the one shown first. */
 export const MOST_PANELS = 24;
-
-/** (y, z) of the track, NaN where there is no surface [mm]. */
-export type Section = [number, number][];
-
-/** Where the lines along a body, from station to station, pass x of the track; of a wheel's two places the lower one. */
-export function sectionAt(surface: SurfaceData, at: Placed, x: number, blobs: string[]): Section {
-  const [px, py, pz] = [decode(surface.x, blobs), decode(surface.y, blobs), decode(surface.z, blobs)] as [Decoded, Decoded, Decoded];
-  const { nu, nv, closed } = surface;
-  const { origin_mm: o, rotation: r } = at;
-  const along = (k: number): number => o[0] + r[0]! * px[k]! + r[1]! * py[k]! + r[2]! * pz[k]!;
-  const out: Section = [];
-  for (let iv = 0; iv < nv; ++iv) {
-    let best: [number, number] = [NaN, NaN];
-    for (let iu = 0; iu + 1 < nu + (closed ? 1 : 0); ++iu) {
-      const a = iu * nv + iv;
-      const b = ((iu + 1) % nu) * nv + iv;
-      const [xa, xb] = [along(a), along(b)];
-      if (!((xa - x) * (xb - x) <= 0) || xa === xb) continue;
-      const t = (x - xa) / (xb - xa);
-      const [qx, qy, qz] = [px, py, pz].map((p) => p[a]! + t * (p[b]! - p[a]!)) as Vector;
-      const z = o[2] + r[6]! * qx + r[7]! * qy + r[8]! * qz;
-      if (z <= best[1]) continue;
-      best = [o[1] + r[3]! * qx + r[4]! * qy + r[5]! * qz, z];
-    }
-    out.push(best);
-  }
-  return out;
-}
 
 /** Corners of a rectangle of a patch in track. */
 function corners(patch: Patch, box: Box): Vector[] {
@@ -72,12 +45,6 @@ export function somePanels(frames: readonly number[], first: number | null): num
   return some;
 }
 
-/** Names of the sides of the rail at the lower and the upper end of y; none near the track's centre, where there is no such rail. */
-export function sideNames(y: number): [string, string] | null {
-  if (!(Math.abs(y) > 200)) return null;
-  return y > 0 ? ["gauge side", "field side"] : ["field side", "gauge side"];
-}
-
 interface Panel {
   frame: Frame;
   step: number | null;
@@ -92,6 +59,7 @@ const GAP = 14;
 const HEAD = 36;
 const FOOT = 40;
 const LEAST_WIDTH = 165;
+const LEAST_ON_PAPER = 135;
 const MOST_WIDTH = 300;
 /** Beyond the patches, across [mm]. */
 const AROUND = 6;
@@ -107,8 +75,11 @@ class TrackFigure {
   private window: Box = { x0: 0, x1: 1, y0: 0, y1: 1 };
   private range: Range = { low: 0, high: 1 };
   private drawnWidth = 0;
+  private columns = 1;
+  private rowHeight = 0;
 
   constructor(
+    figure: HTMLElement,
     frame: HTMLElement,
     private readonly view: TrackView,
     private readonly store: Store,
@@ -123,8 +94,20 @@ class TrackFigure {
       const width = Math.floor(frame.clientWidth);
       if (width > 0 && width !== this.drawnWidth) this.draw(width);
     }).observe(frame);
-    window.addEventListener("beforeprint", () => this.draw(PAPER_WIDTH));
-    window.addEventListener("afterprint", () => this.draw(Math.floor(frame.clientWidth)));
+    const list = document.createElement("div");
+    list.className = "paper-steps";
+    window.addEventListener("beforeprint", () => {
+      this.draw(PAPER_WIDTH, true);
+      list.replaceChildren(...this.rows());
+      frame.after(list);
+      figure.classList.add("on-paper");
+    });
+    window.addEventListener("afterprint", () => {
+      list.remove();
+      list.replaceChildren();
+      figure.classList.remove("on-paper");
+      this.draw(Math.floor(frame.clientWidth));
+    });
     store.onStep(() => this.mark());
   }
 
@@ -161,13 +144,8 @@ class TrackFigure {
           y1: Math.max(window.y1, box.y1),
         });
       }
-      const main = frame.patches[byLoad(frame)[0] ?? 0]!;
-      const at = toTrack(main, ...main.reference_mm);
-      const section = (body: Placed | null): Section => {
-        const surface = body && data.surfaces[body.surface];
-        return surface ? sectionAt(surface, body, at[0], blobs) : [];
-      };
-      this.panels.push({ frame, step: steps.get(k) ?? null, main: at, rail: section(frame.rail), wheel: section(frame.wheel), pictures: [] });
+      const { rail, wheel, marks } = cutOf(frame, data.surfaces, blobs)!;
+      this.panels.push({ frame, step: steps.get(k) ?? null, main: marks[0]!.at, rail, wheel, pictures: [] });
     }
     this.range = colourRange(range, "sequential");
     this.window = { x0: window.x0 - 2, x1: window.x1 + 2, y0: window.y0 - AROUND, y1: window.y1 + AROUND };
@@ -189,11 +167,12 @@ class TrackFigure {
     return canvas.toDataURL("image/png");
   }
 
-  private draw(width: number): void {
+  private draw(width: number, paper = false): void {
     this.drawnWidth = width;
+    this.outlines.clear();
     const { window, drawing, panels } = this;
     const room = width - LEFT - 8;
-    const columns = Math.max(1, Math.min(panels.length, Math.floor((room + GAP) / (LEAST_WIDTH + GAP))));
+    const columns = Math.max(1, Math.min(panels.length, Math.floor((room + GAP) / ((paper ? LEAST_ON_PAPER : LEAST_WIDTH) + GAP))));
     const w = Math.min(MOST_WIDTH, (room - GAP * (columns - 1)) / columns);
     const scale = Math.min(w / (window.y1 - window.y0), (ABOVE_SHARE * w) / (window.x1 - window.x0));
     const above = scale * (window.x1 - window.x0);
@@ -203,7 +182,7 @@ class TrackFigure {
     const height = Math.ceil(rows * rowHeight + 64);
     for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` })) drawing.setAttribute(name, String(value));
     drawing.replaceChildren();
-    this.outlines.clear();
+    Object.assign(this, { columns, rowHeight });
     panels.forEach((panel, k) => {
       const x = LEFT + (k % columns) * (w + GAP);
       const y = Math.floor(k / columns) * rowHeight + HEAD;
@@ -214,6 +193,20 @@ class TrackFigure {
     const content = { range: this.range, colour: colourMap("sequential"), lines: [], title: titled(field?.label ?? "pressure", field?.unit ?? "MPa"), beyond: false };
     drawBar(drawing, `${this.view.id}-bar`, bar, content);
     this.mark();
+  }
+
+  /** Each row of panels as a picture of its own, between which paper may end; the last one with the scale of colours. */
+  private rows(): SVGSVGElement[] {
+    const count = Math.ceil(this.panels.length / this.columns);
+    return Array.from({ length: count }, (_, row) => {
+      const copy = copyOf(this.drawing, `row-${row}`) as SVGSVGElement;
+      copy.querySelectorAll(".track-panel").forEach((panel, k) => Math.floor(k / this.columns) === row || panel.remove());
+      const top = row * this.rowHeight;
+      const height = row + 1 < count ? this.rowHeight : Number(copy.getAttribute("height")) - top;
+      copy.setAttribute("height", height.toFixed(1));
+      copy.setAttribute("viewBox", `0 ${top.toFixed(1)} ${this.drawnWidth} ${height.toFixed(1)}`);
+      return copy;
+    });
   }
 
   private drawPanel(panel: Panel, k: number, at: { x: number; y: number; w: number; above: number; below: number; scale: number }, first: boolean): void {
@@ -231,16 +224,9 @@ class TrackFigure {
     const box = { x: x.toFixed(1), y: y.toFixed(1), width: w.toFixed(1), height: height.toFixed(1) };
     svg("rect", box, clip);
     const inside = svg("g", { "clip-path": `url(#${view.id}-clip-${k})`, fill: "none", "stroke-linejoin": "round" }, group);
-    const filled = (curve: Section, up: boolean, colour: string): void => {
-      const points = curve.filter(([v, z]) => Number.isFinite(v) && Number.isFinite(z)).map(([v, z]) => `${across(v).toFixed(1)} ${Math.max(y + above, high(z)).toFixed(1)}`);
-      if (points.length < 2) return;
-      const end = up ? y + above : y + height;
-      const [a, b] = [points[0]!, points.at(-1)!].map((p) => p.split(" ")[0]);
-      svg("path", { d: `M${a} ${end}L${points.join("L")}L${b} ${end}z`, fill: colour, "fill-opacity": 0.16 }, inside);
-      svg("path", { d: `M${points.join("L")}`, stroke: colour, "stroke-width": 1.5 }, inside);
-    };
-    filled(panel.rail, false, "var(--series-1)");
-    filled(panel.wheel, true, "var(--series-2)");
+    const placed = (curve: Section): [number, number][] => curve.map(([v, z]) => [across(v), Math.max(y + above, high(z))]);
+    drawBody(inside, placed(panel.rail), y + height, "var(--series-1)");
+    drawBody(inside, placed(panel.wheel), y + above, "var(--series-2)");
     for (const { patch, href } of panel.pictures) this.drawPatch(inside, patch, href, across, along);
     // Where contact is, through both pictures.
     svg("path", { d: `M${across(panel.main[1]).toFixed(1)} ${y.toFixed(1)}v${height.toFixed(1)}`, stroke: "var(--cursor)", "stroke-dasharray": "2 3" }, inside);
@@ -332,6 +318,6 @@ class TrackFigure {
 export function mountTrack(figure: HTMLElement, view: TrackView, store: Store): void {
   const plot = figure.querySelector<HTMLElement>(".plot");
   if (!plot) return;
-  const track = new TrackFigure(plot, view, store);
+  const track = new TrackFigure(figure, plot, view, store);
   addDownloads(figure, { svg: () => track.text(), png: () => svgToPng(track.text()), csv: () => track.csv() }, view.id);
 }

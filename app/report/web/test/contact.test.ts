@@ -6,6 +6,7 @@ import { test } from "node:test";
 import { arrowPath, sampleArrows, strideOf } from "../src/contact/arrows";
 import { contactOutline, division, edgeLines, slipOutline, type Line } from "../src/contact/edges";
 import { isolines } from "../src/contact/isolines";
+import { labelPlaces } from "../src/contact/bars";
 import { layOut, legendPlaces } from "../src/contact/layout";
 import { paint } from "../src/contact/raster";
 import { colourRange, extent, mostOf, withMargin } from "../src/contact/scales";
@@ -254,4 +255,22 @@ test("numbers as readers see them", () => {
   assert.deepEqual(numberName("fn_N"), { label: "Fₙ", unit: "kN", factor: 1e-3 });
   assert.equal(numberName("angle_rad").unit, "°");
   assert.deepEqual(numberName("rail_curvature_1_per_m"), { label: "rail curvature 1", unit: "1/m", factor: 1 });
+});
+
+test("numbers below a colour bar touch neither each other nor what lies beyond its ends", () => {
+  for (let length = 60; length <= 500; ++length)
+    for (const count of [2, 3, 5, 6, 9]) {
+      const at = Array.from({ length: count }, (_, k) => (length * k) / (count - 1));
+      const widths = at.map((_, k) => (k === 0 ? 8 : 30));
+      const places = labelPlaces(at, widths, length);
+      assert.notEqual(places[count - 1], null);
+      let end = 0;
+      places.forEach((place, k) => {
+        if (place === null) return;
+        assert.ok(place - widths[k]! / 2 >= end - 1e-9, `${count} on ${length}`);
+        end = place + widths[k]! / 2 + (k < count - 1 ? 5 : 0);
+      });
+      assert.ok(end <= length + 1e-9);
+    }
+  assert.deepEqual(labelPlaces([0, 50, 100], [10, 10, 10], 100), [5, 50, 95]);
 });

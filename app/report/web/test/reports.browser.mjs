@@ -3,11 +3,13 @@
 // Opens reports of all kinds, made by the program from real results, in a browser and uses them as a reader would.
 // usage: node --test test/reports.browser.mjs, with TREADMARK (program), TREADMARK_EXAMPLES and OUT (folders) and CHROMIUM in the environment
 import assert from "node:assert/strict";
-import { mkdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { mkdirSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
 
+import { unzipSync } from "fflate";
 import { chromium } from "playwright-core";
 
 import { clipped } from "./clipped.mjs";
@@ -105,6 +107,17 @@ class Tab {
   }
 }
 
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+/** What axe finds serious in a page as it is. */
+async function barriers(page) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  return violations
+    .filter(({ impact }) => ["serious", "critical"].includes(impact))
+    .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(" ")).slice(0, 3).join("; ")}`);
+}
+
 /** Pictures of the page at both widths in both themes; nothing sticks out at the side. */
 async function photograph(file, name, selector) {
   for (const size of Object.keys(sizes)) {
@@ -152,6 +165,15 @@ async function readWhole(file, name, steps = "") {
       await page.setViewportSize({ width: Math.floor(((210 - 2 * 14) / 25.4) * 96), height: 1016 });
       await page.emulateMedia({ media: "print" });
       await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    }
+    if (paper) {
+      // What paper may not break through is no higher than a page.
+      const high = await page.evaluate(() =>
+        [...document.querySelectorAll("figure.view:not(.on-paper, .long, [data-view='contact']), figure.view svg, figure:not([data-view='contact']) .paper-step, .contact-side, .contact-values")]
+          .filter((one) => one.getBoundingClientRect().height > ((297 - 2 * 14) / 25.4) * 96)
+          .map((one) => `${one.closest("figure").id} ${one.className.baseVal ?? one.className}`),
+      );
+      assert.deepEqual(high, [], `higher than a page in ${name}`);
     }
     assert.deepEqual(await page.evaluate(clipped, paper), [], `cut off in ${name}, ${size}`);
     await page.screenshot({ path: join(pictures, `${name}-${size}-whole.png`), fullPage: true });
@@ -292,6 +314,66 @@ test("contact lies in the track where the result file says, over its section, on
   await photograph("run.html", "positions", "#positions");
 });
 
+test("wheel and rail are cut at the contact of the chosen case", async () => {
+  const json = read("run/result.json");
+  const pressures = json.cases.map((one) => one.patches[0].pmax_MPa);
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  const shown = () =>
+    page.locator("#section svg.section-view").evaluate((svg) => {
+      const texts = [...svg.querySelectorAll("text")];
+      const ticks = texts.map((text) => [Number(text.textContent), Number(text.getAttribute("x"))]).filter(([value]) => value > 600);
+      const [[y0, x0], [y1, x1]] = [ticks[0], ticks.at(-1)];
+      const scale = (x1 - x0) / (y1 - y0);
+      const xs = [...svg.querySelector(".section-width").getAttribute("d").matchAll(/[ML](\S+) /g)].map((match) => Number(match[1]));
+      return {
+        scale,
+        y: y0 + (Number(svg.querySelector("circle").getAttribute("cx")) - x0) / scale,
+        width: Math.abs(xs[1] - xs[0]) / scale,
+        words: texts.map((text) => text.textContent),
+        bodies: svg.querySelectorAll("path[stroke-width='2']").length,
+      };
+    });
+  await page.locator("#section").scrollIntoViewIfNeeded();
+  // The worst case comes first.
+  const worst = pressures.indexOf(Math.max(...pressures));
+  assert.equal(await tab.step(), worst);
+  for (const [key, k] of [["", worst], ["Home", 0], ["End", 25]]) {
+    if (key) await tab.key(".timeline-slider", key);
+    await page.waitForFunction((n) => document.querySelector("#section svg").textContent.includes(`case ${n}, `), k + 1);
+    const { scale, y, width, words, bodies } = await shown();
+    const [patch] = json.cases[k].patches;
+    near(y, patch.reference.y_tr_mm, 0.15 / scale, `y of case ${k + 1}`);
+    assert.ok(width > 3 && width < 40, `${width} mm wide`);
+    assert.ok(words.includes(`${Number((patch.fn_N / 1e3).toPrecision(4))} kN`), words.join("; "));
+    for (const word of ["wheel", "rail", "gauge side", "field side"]) assert.ok(words.includes(word), word);
+    assert.equal(bodies, 2);
+  }
+  const [csv] = await Promise.all([page.waitForEvent("download"), page.locator("#section .downloads button", { hasText: "CSV" }).click()]);
+  const rows = readFileSync(await csv.path(), "utf8").trim().split("\n").map((line) => line.split(",").slice(-4));
+  for (const body of ["rail", "wheel"]) assert.ok(rows.filter(([what]) => what.includes(body)).length > 50, body);
+  await tab.close();
+  await photograph("run.html", "section", "#section");
+});
+
+test("a picture of every case is saved in one file, all of one size, for films", async () => {
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  for (const [id, place] of [["section", "#section .downloads"], ["patches-view", "#patches-view .contact-left .downloads"]]) {
+    await page.locator(`#${id}`).scrollIntoViewIfNeeded();
+    const before = await page.locator(`#${id} svg`).first().innerHTML();
+    const [file] = await Promise.all([page.waitForEvent("download"), page.locator(`${place} button`, { hasText: "PNG of every case" }).click()]);
+    assert.match(file.suggestedFilename(), /\.zip$/);
+    const pictures = Object.entries(unzipSync(readFileSync(await file.path())));
+    assert.deepEqual(pictures.map(([name]) => name), Array.from({ length: 26 }, (_, k) => `${String(k + 1).padStart(4, "0")}.png`));
+    // Width and height stand in the head of a PNG.
+    assert.equal(new Set(pictures.map(([, bytes]) => String(bytes.slice(16, 24)))).size, 1, "sizes differ");
+    assert.ok(new Set(pictures.map(([, bytes]) => Buffer.from(bytes).toString("base64"))).size > 12);
+    await page.waitForFunction(([name, text]) => document.querySelector(`#${name} svg`).innerHTML.length === text.length, [id, before]);
+  }
+  await tab.close();
+});
+
 test("26 positions open and follow the slider without delay", async () => {
   const tab = await Tab.open("run.html");
   const opened = await tab.page.evaluate(() => {
@@ -422,10 +504,10 @@ test("a simulation in time", async () => {
   const column = csv[0].split(",").indexOf("Q_N");
   const largest = Math.max(...csv.slice(1).map((line) => Number(line.split(",")[column])));
   const summary = await tab.page.locator("#table-summary tbody tr").evaluateAll((rows) => {
-    const row = rows.find((one) => one.cells[0].textContent === "q_max_N");
+    const row = rows.find((one) => one.cells[0].textContent === "q_max");
     return Number([...row.cells].find((cell) => cell.dataset.value).dataset.value);
   });
-  near(summary, largest, 1e-9 * largest, "largest force");
+  near(summary, largest / 1000, 1e-12 * largest, "largest force [kN]");
   // ParaView has contact, wheel and rail at the seconds that the history has for the pitch of the snapshots.
   const times = (name) => [...readFileSync(join(folder, "simulation", "vtk", name), "utf8").matchAll(/timestep="([^"]*)".*file="([^"]*)"/g)];
   const last = Number(csv.at(-1).split(",")[csv[0].split(",").indexOf("t_s")]);
@@ -508,4 +590,39 @@ test("fixed pictures need no scripts", async () => {
   assert.ok((await tab.page.locator("figure.view img.picture").count()) >= 3);
   assert.equal(await tab.page.locator("#table-cases tbody tr").count(), 26);
   await tab.close();
+});
+
+test("nothing stands in the way of readers who use other means, in both themes", async () => {
+  for (const file of ["run.html", "compare.html", "simulation.html", "sweep.html", join("import", "report.html")])
+    for (const theme of ["light", "dark"]) {
+      const tab = await Tab.open(file, { theme, size: theme === "dark" ? "phone" : "desktop" });
+      const { page } = tab;
+      for (const view of await page.locator("figure.view").all()) await view.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
+      const menu = page.locator(".print-menu summary");
+      if (await menu.count()) {
+        await menu.click();
+        await page.locator(".print-menu input").fill("0");  // with its complaint
+      }
+      await page.waitForTimeout(300);
+      assert.deepEqual(await barriers(page), [], `${file}, ${theme}`);
+      await tab.close();
+    }
+});
+
+test("every page stays below 8 MB; how fast they open is told", async () => {
+  const files = [...readdirSync(folder).filter((name) => name.endsWith(".html")), join("import", "report.html")];
+  assert.ok(files.length >= 9, files.join(", "));
+  const told = [];
+  for (const file of files) {
+    const { size } = statSync(join(folder, file));
+    assert.ok(size < 8e6, `${file} has ${size} bytes`);
+    const tab = await Tab.open(file);
+    const opened = await tab.page.evaluate(() => {
+      const [entry] = performance.getEntriesByType("navigation");
+      return entry.loadEventEnd - entry.startTime;
+    });
+    told.push(`${file} ${(size / 1e6).toFixed(2)} MB, ${opened.toFixed(0)} ms`);
+    await tab.context.close();
+  }
+  console.log(told.join("\n"));  // times decide no test: machines are busy
 });

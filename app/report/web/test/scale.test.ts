@@ -62,3 +62,15 @@ test("zoom keeps the place under the pointer and stays within the whole", () => 
   assert.ok(Math.abs(log[0] * log[1] - 100) < 1e-9 && Math.abs(log[1] / log[0] - 10) < 1e-9);
   assert.deepEqual(moved([80, 90], [0, 100], 5, false), [90, 100]);
 });
+
+test("what differs by less than the least span of its quantity is no trend", () => {
+  const [low, high] = padded([99.9995, 100], false, 0.05, 0.01);
+  assert.ok(high - low >= 1 && low < 99.9995 && high > 100, `${low} ${high}`);
+  const [from, to] = padded([90, 100], false, 0.05, 0.01);
+  assert.ok(to - from < 12, `${from} ${to}`);
+});
+
+test("an axis has two numbers at least, so that their distance is told", () => {
+  for (const domain of [[1000, 1950], [0, 2000], [1400, 1600], [-0.3, 0.9], [999.6, 1000.4]] as [number, number][])
+    for (const count of [1, 2, 3]) assert.ok(linearTicks(domain, count).length >= 2, `${domain.join(" ")}, ${count}`);
+});

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { colourMap, css, lut, toLab } from "../src/colours";
+import { colourMap, css, lut, seriesColour, seriesDash, toLab } from "../src/colours";
 import { toCsv, toTsv } from "../src/csv";
 import { fileName } from "../src/download";
 import { decimalsFor, fixed, formatNumber } from "../src/numbers";
@@ -101,4 +101,10 @@ test("the sequential colours grow in lightness evenly; the diverging ones are ne
 test("the theme: unknown choices are auto; three in turn", () => {
   assert.equal(parseChoice("purple"), "auto");
   assert.equal(nextChoice(nextChoice(nextChoice("auto"))), "auto");
+});
+
+test("eight lines have eight colours and eight dashes", () => {
+  const eight = Array.from({ length: 8 }, (_, k) => k);
+  assert.equal(new Set(eight.map(seriesColour)).size, 8);
+  assert.equal(new Set(eight.map(seriesDash)).size, 8);
 });

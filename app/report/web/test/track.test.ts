@@ -4,7 +4,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import type { Patch, Placed, SurfaceData } from "../src/data";
-import { MOST_PANELS, sectionAt, sideNames, somePanels, trackBox } from "../src/track";
+import { cutOf, sectionAt, sideNames } from "../src/section";
+import { MOST_PANELS, somePanels, trackBox } from "../src/track";
 import { Packer } from "./pack";
 
 const near = (value: number, wanted: number, bound: number): void => assert.ok(Math.abs(value - wanted) <= bound, `${value}, not ${wanted}`);
@@ -83,4 +84,56 @@ test("the gauge side is the one towards the middle of the track", () => {
   assert.deepEqual(sideNames(750), ["gauge side", "field side"]);
   assert.deepEqual(sideNames(-750), ["field side", "gauge side"]);
   assert.equal(sideNames(3), null);
+});
+
+test("the section goes through the most loaded contact and has all of them, as wide as they are in its plane", () => {
+  const blobs: string[] = [];
+  const packer = new Packer(blobs);
+  // A flat rail top, and a plane above it as a wheel.
+  const plane = (body: "rail" | "wheel", z: number): SurfaceData => ({
+    body,
+    name: body,
+    nu: 2,
+    nv: 3,
+    x: packer.f32([-50, -50, -50, 50, 50, 50]),
+    y: packer.f32([-30, 0, 30, -30, 0, 30]),
+    z: packer.f32([z, z, z, z, z, z]),
+    deviation: null,
+    closed: false,
+  });
+  const surfaces = [plane("rail", 0), plane("wheel", -1)];
+  const angle = 0.4;
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const state = packer.bytes([0, 0, 0, 0, 1, 0, 0, 0, 0]);
+  const patch = (name: string, x: number, y: number, force: number, [cos, sin]: [number, number]): Patch => ({
+    name,
+    nx: 3,
+    ny: 3,
+    x0_mm: -1,
+    s0_mm: -2,
+    dx_mm: 1,
+    ds_mm: 2,
+    origin_mm: [x, y, 0],
+    rotation: [1, 0, 0, 0, cos, -sin, 0, sin, cos],
+    reference_mm: [0, 0],
+    values: { state },
+    numbers: { fn_N: force },
+  });
+  const body = (surface: number): Placed => ({ surface, origin_mm: [0, 750, 0], rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1] });
+  const frame = { name: "case 1", status: "ok" as const, message: "", patches: [patch("patch 1", 1, 745, 20e3, [1, 0]), patch("patch 2", 9, 760, 80e3, [c, s])], rail: body(0), wheel: body(1) };
+  packer.close();
+  const cut = cutOf(frame, surfaces, blobs);
+  assert.ok(cut);
+  assert.equal(cut.x, 9);
+  assert.deepEqual(cut.rail, [[720, 0], [750, 0], [780, 0]]);
+  assert.deepEqual(cut.wheel, [[720, -1], [750, -1], [780, -1]]);
+  assert.deepEqual(cut.marks.map((mark) => mark.patch.name), ["patch 2", "patch 1"]);
+  const [first, last] = cut.marks[0]!.ends!;
+  near(last[1] - first[1], 2 * c, 1e-12);
+  near(last[2] - first[2], 2 * s, 1e-12);
+  // Without contact the wheel still shows where it is.
+  const away = cutOf({ ...frame, patches: [] }, surfaces, blobs);
+  assert.equal(away?.x, 0);
+  assert.equal(away?.wheel.length, 3);
+  assert.equal(cutOf({ ...frame, patches: [], wheel: null }, surfaces, blobs), null);
 });

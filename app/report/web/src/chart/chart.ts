@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { ChartView } from "../data";
-import { copyOf, onPaper, PAPER_WIDTH } from "../print";
+import { copyOf, onPaper, PAPER_HEIGHT, PAPER_WIDTH } from "../print";
 import { el } from "../svg";
 import type { Store } from "../store";
 import { chartCsv } from "./csv";
 import { PanelHead } from "./head";
 import type { Layout } from "./layout";
-import { chartSvg, drawXLabel, layOut } from "./layout";
+import { chartSvg, drawXLabel, fit, layOut } from "./layout";
 import type { Plot } from "./model";
 import { extentsOfAllSteps, isMonotone, plotOf, seriesKey, wholeX } from "./model";
 import type { Hit } from "./nearest";
@@ -27,6 +27,9 @@ interface PanelParts {
   hover: SVGGElement;
 }
 
+/** Heading of the section, caption, note and frame of a figure on paper [px]. */
+const AROUND_ON_PAPER = 150;
+
 /** A chart in its figure: drawn when it can be seen and something changed. */
 export class Chart implements PointerTarget {
   readonly root = document.createElement("div");
@@ -41,6 +44,7 @@ export class Chart implements PointerTarget {
   private layouts: Layout[] = [];
   private window: Domain | null = null;
   private width = 0;
+  private most = Infinity;
   private visible = false;
   private stale = true;
   private scheduled = false;
@@ -139,6 +143,7 @@ export class Chart implements PointerTarget {
       });
     window.addEventListener("afterprint", () => {
       this.width = Math.floor(this.root.clientWidth);
+      this.most = Infinity;
       this.change();
     });
     this.root.addEventListener("keydown", (event) => {
@@ -161,9 +166,16 @@ export class Chart implements PointerTarget {
     });
   }
 
-  /** On paper every chart is drawn, as wide as a page. */
+  /** On paper every chart is drawn, as wide as a page and not higher with the heads of its panels and what frames it. */
   private drawForPaper(): void {
     this.width = PAPER_WIDTH;
+    this.root.style.width = `${PAPER_WIDTH}px`;
+    this.most = PAPER_HEIGHT - AROUND_ON_PAPER - this.parts.reduce((sum, { head }) => sum + head.element.offsetHeight, 0);
+    this.root.style.width = "";
+    // Paper ends between panels where there are too many.
+    const long = !fit(this.parts.length, this.most);
+    this.plotFrame.closest("figure")?.classList.toggle("long", long);
+    if (long) this.most = Number.MAX_VALUE;
     this.stale = true;
     this.draw();
   }
@@ -182,7 +194,7 @@ export class Chart implements PointerTarget {
 
   private drawPicture(): void {
     this.plot = plotOf(this.view, this.store, this.hidden);
-    this.layouts = layOut(this.plot, this.width, this.window ?? this.whole(), this.window, this.fixed?.y ?? []);
+    this.layouts = layOut(this.plot, this.width, this.window ?? this.whole(), this.window, this.fixed?.y ?? [], this.most);
     this.layouts.forEach(({ geometry, scales }, p) => {
       const { svg, picture } = this.parts[p]!;
       const last = p === this.layouts.length - 1;

@@ -15,10 +15,22 @@ export interface Layout {
   scales: PanelScales;
 }
 
-/** Sizes and scales of the panels in a picture of some width. */
-export function layOut(plot: Plot, width: number, x: Domain, window: Domain | null, fixedY: (Domain | null)[]): Layout[] {
+/** Between the plots of panels, and below the last one with its axis [px]. */
+const PANEL_GAP = 16;
+const AXIS = 48;
+/** Least height of a plot [px]. */
+const LEAST_HEIGHT = 60;
+
+/** Whether so many panels fit into a height. */
+export function fit(count: number, most: number): boolean {
+  return (most - AXIS) / count - PANEL_GAP >= LEAST_HEIGHT;
+}
+
+/** Sizes and scales of the panels in a picture of some width; `most`: height that all of them together may have. */
+export function layOut(plot: Plot, width: number, x: Domain, window: Domain | null, fixedY: (Domain | null)[], most = Infinity): Layout[] {
   const count = plot.panels.length;
-  const plotHeight = (count === 1 ? 250 : count === 2 ? 190 : 150) * (width < 500 ? 0.85 : 1);
+  const wanted = (count === 1 ? 250 : count === 2 ? 190 : 150) * (most < Infinity ? 0.78 : width < 500 ? 0.85 : 1);
+  const plotHeight = Math.max(LEAST_HEIGHT, Math.min(wanted, Math.floor((most - AXIS) / count - PANEL_GAP)));
   const ranges = plot.panels.map((panel, p) => rangeY(panel, window, fixedY[p] ?? null));
   const labelWidth = Math.max(
     24,

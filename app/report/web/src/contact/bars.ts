@@ -20,6 +20,23 @@ export interface BarContent {
   beyond: boolean;
 }
 
+/** Between numbers beside each other [px]. */
+const LABEL_GAP = 5;
+
+/** Where numbers of a lying bar stand: none beyond its ends, where the picture may end, the last one always, others where they touch none. */
+export function labelPlaces(at: readonly number[], widths: readonly number[], length: number): (number | null)[] {
+  const middles = at.map((x, k) => Math.min(length - widths[k]! / 2, Math.max(widths[k]! / 2, x)));
+  const last = middles.length - 1;
+  let end = -Infinity;
+  return middles.map((x, k) => {
+    const half = widths[k]! / 2;
+    const room = k === last ? Infinity : middles[last]! - widths[last]! / 2;
+    if (k < last && (x - half < end || x + half + LABEL_GAP > room)) return null;
+    end = x + half + LABEL_GAP;
+    return x;
+  });
+}
+
 /** Draws a colour bar anew. */
 export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical: boolean }, content: BarContent): void {
   const { range, colour, title } = content;
@@ -54,25 +71,22 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
       parent,
     );
   }
-  for (const value of ticks) {
+  const words = ticks.map((value) => tick(value, step));
+  const widths = words.map((word) => textWidth(word, FONT));
+  const places = labelPlaces(ticks.map(at), widths, length);
+  ticks.forEach((value, k) => {
     const [px, py] = vertical ? [x + width, y + height - at(value)] : [x + at(value), y + height];
     svg(
       "path",
       { d: `M${px.toFixed(1)} ${py.toFixed(1)}${vertical ? "h4" : "v4"}`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" },
       parent,
     );
-    const words = tick(value, step);
-    // Numbers at the ends stay above the bar: beside it the picture may end.
-    const half = textWidth(words, FONT) / 2;
-    const middle = Math.min(x + width - half, Math.max(x + half, px));
-    const text = svg(
-      "text",
-      vertical ? { x: px + 7, y: (py + 4).toFixed(1) } : { x: middle.toFixed(1), y: py + 16, "text-anchor": "middle" },
-      numbers,
-    );
-    text.textContent = words;
-  }
-  const wide = Math.max(...ticks.map((value) => textWidth(tick(value, step), FONT)));
+    const middle = places[k];
+    if (!vertical && middle === null) return;
+    const text = svg("text", vertical ? { x: px + 7, y: (py + 4).toFixed(1) } : { x: (x + middle!).toFixed(1), y: py + 16, "text-anchor": "middle" }, numbers);
+    text.textContent = words[k]!;
+  });
+  const wide = Math.max(...widths);
   const place2 = vertical
     ? { transform: `translate(${(x + width + 7 + wide + 16).toFixed(1)} ${(y + height / 2).toFixed(1)}) rotate(-90)` }
     : { x: (x + width / 2).toFixed(1), y: y + height + 32 };

@@ -27,6 +27,7 @@ import { brief } from "./text";
 const SINGLE_HEIGHT = 450;
 const TALL_HEIGHT = 600;
 const MULTIPLE_HEIGHT = 310;
+const PAPER_PANEL_HEIGHT = 260;
 const FIRST_SHOWN = 4;
 
 /** The view of contact patches in a figure. */
@@ -49,6 +50,7 @@ export class ContactFigure {
   private remembered: Place | null = null;
   private hover: Place | null = null;
   private widths: [number, number] = [0, 0];
+  private onPaper = false;
   private visible = false;
   private stale = true;
 
@@ -141,12 +143,14 @@ export class ContactFigure {
       return parts.filter((part) => !part.hidden).map((part) => copyOf(part, suffix));
     });
     addEventListener("afterprint", () => {
+      this.onPaper = false;
       this.measure();
       this.draw();
     });
   }
 
   private drawForPaper(): void {
+    this.onPaper = true;
     this.widths = [PAPER_WIDTH, PAPER_WIDTH];
     this.draw();
   }
@@ -215,7 +219,7 @@ export class ContactFigure {
       titles: true,
       bars,
       legendRows: 1,
-      panelHeight: many ? MULTIPLE_HEIGHT : tall ? TALL_HEIGHT : SINGLE_HEIGHT,
+      panelHeight: many ? MULTIPLE_HEIGHT : this.onPaper ? PAPER_PANEL_HEIGHT : tall ? TALL_HEIGHT : SINGLE_HEIGHT,
     };
     const first = layOut(wish);
     const rows = legendRows(legend, first.legend.width);
@@ -441,7 +445,18 @@ export class ContactFigure {
     };
     addDownloads(
       this.parts.left,
-      { svg: () => this.pictureText(), png: () => pngOf(this.pictureText(), ...size(this.parts.drawing)), csv },
+      {
+        svg: () => this.pictureText(),
+        png: () => pngOf(this.pictureText(), ...size(this.parts.drawing)),
+        csv,
+        series: {
+          store: this.store,
+          draw: () => {
+            this.draw();
+            return this.pictureText();
+          },
+        },
+      },
       this.view.id,
       shown,
     );
