@@ -51,12 +51,15 @@ TensorSpline random_spline(int degree_u, int degree_v, bool rational, bool with_
 double greatest_distance(const TensorSpline& s, const NurbsNet& net) {
   const NurbsSurface surface(net, Body::rail);
   const auto u = breaks_of(s.knots_u, s.degree_u), v = breaks_of(s.knots_v, s.degree_v);
-  const double scale = net.range(0, net.patches_v() - 1).v1 / v.back();
+  const NurbsNet::Range all = net.range();
   double most = 0.0;
   for (int i = 0; i <= 60; ++i)
     for (int j = 0; j <= 60; ++j) {
       const double a = u.front() + (u.back() - u.front()) * i / 60.0, b = v.front() + (v.back() - v.front()) * j / 60.0;
-      most = std::max(most, (surface.point(a, scale * b) - evaluate(s, a, b).p).norm());
+      most =
+          std::max(most, (surface.point(all.u0 + (all.u1 - all.u0) * i / 60.0, all.v0 + (all.v1 - all.v0) * j / 60.0) -
+                          evaluate(s, a, b).p)
+                             .norm());
     }
   return most;
 }
