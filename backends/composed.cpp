@@ -44,6 +44,11 @@ std::shared_ptr<const Surface> placed(std::shared_ptr<const Surface> surface, co
   return offset.isZero(0.0) ? surface : assembly::place_surface(std::move(surface), shifted(offset));
 }
 
+[[noreturn]] void refuse_splines() {
+  throw Error(ErrorKind::configuration, "files of splines hold rails and wheels, not rollers", {},
+              "write slices or triangles");
+}
+
 [[noreturn]] void refuse_offsets() {
   throw Error(ErrorKind::configuration, "files of offsets hold rails and wheels, not rollers", {},
               "write slices or triangles");
@@ -86,6 +91,10 @@ class RollerKind final : public NaturalKind {
     const SliceSet wheel = treadmark::to_slices(wheel_, of_wheel(wanted), sampled);
     turn_back(sampled);
     return assembly::roller_slices(wheel, radius_);
+  }
+
+  std::vector<SplineSurface> to_splines(const NaturalSurface&, const Representation&, Sampled*) const override {
+    refuse_splines();
   }
 
   void write_offsets(const std::filesystem::path&, const NaturalSurface&, const Representation&, Sampled*,
@@ -144,6 +153,10 @@ class RingKind final : public NaturalKind {
     return treadmark::to_slices(as_rail(ring), wanted, sampled);
   }
 
+  std::vector<SplineSurface> to_splines(const NaturalSurface&, const Representation&, Sampled*) const override {
+    refuse_splines();
+  }
+
   void write_offsets(const std::filesystem::path&, const NaturalSurface&, const Representation&, Sampled*,
                      const SurfaceSpec*, const std::string&) const override {
     refuse_offsets();
@@ -166,24 +179,15 @@ class PartsKind final : public NaturalKind {
     RepresentedSurface out;
     out.region = wanted.region;
     std::vector<std::shared_ptr<const Surface>> surfaces;
-    const bool rail = whole.spec.body == Body::rail;
     std::vector<RepresentedSurface> represented(parts_.size());
     parallel_for(parts_.size(), [&](std::size_t i) {
-      const SurfacePart& part = parts_[i];
-      Representation own{part.backend.empty() ? wanted.backend : part.backend,
-                         part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
-      const double along = rail ? part.offset.x() : 0.0;
-      own.region.u_min -= along;
-      own.region.u_max -= along;
-      own.region.y_min -= part.offset.y();
-      own.region.y_max -= part.offset.y();
-      represented[i] = treadmark::represent(*part.natural, own);
+      represented[i] = treadmark::represent(*parts_[i].natural, own(parts_[i], wanted));
     });
     surfaces.reserve(parts_.size());
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       const SurfacePart& part = parts_[i];
       const RepresentedSurface& r = represented[i];
-      const double along = rail ? part.offset.x() : 0.0;
+      const double along = along_of(part);
       surfaces.push_back(placed(r.surface, part.offset));
       out.note += r.note;
       out.build_seconds += r.build_seconds;
@@ -197,7 +201,38 @@ class PartsKind final : public NaturalKind {
     return out;
   }
 
+  std::vector<SplineSurface> to_splines(const NaturalSurface&, const Representation& wanted,
+                                        Sampled* sampled) const override {
+    std::vector<SplineSurface> out;
+    if (sampled != nullptr) *sampled = {0.0, wanted.region, {}};
+    for (const SurfacePart& part : parts_) {
+      Sampled of_part;
+      for (SplineSurface& splines : treadmark::to_splines(*part.natural, own(part, wanted), &of_part)) {
+        for (Vec3& p : splines.points) p += part.offset;
+        out.push_back(std::move(splines));
+      }
+      if (sampled == nullptr) continue;
+      sampled->resolution = std::max(sampled->resolution, of_part.resolution);
+      sampled->note += of_part.note;
+    }
+    return out;
+  }
+
  private:
+  double along_of(const SurfacePart& part) const {
+    return part.natural->spec.body == Body::rail ? part.offset.x() : 0.0;
+  }
+  /// What is wanted of the whole, of a part.
+  Representation own(const SurfacePart& part, const Representation& wanted) const {
+    Representation out{part.backend.empty() ? wanted.backend : part.backend,
+                       part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
+    out.region.u_min -= along_of(part);
+    out.region.u_max -= along_of(part);
+    out.region.y_min -= part.offset.y();
+    out.region.y_max -= part.offset.y();
+    return out;
+  }
+
   std::vector<SurfacePart> parts_;
 };
 

@@ -29,8 +29,10 @@ void check(const SurfaceSpec& spec) {
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
   if (spec.body == Body::wheel && spec.roller_radius != 0.0)
     throw Error(ErrorKind::configuration, "a roller takes the place of a rail, a wheel cannot be one");
-  if (spec.roller_radius != 0.0 && std::holds_alternative<TensorSpline>(spec.shape))
-    throw Error(ErrorKind::configuration, "a spline surface cannot become a roller", {}, "use a profile or slices");
+  if (spec.roller_radius != 0.0 &&
+      (std::holds_alternative<TensorSpline>(spec.shape) || std::holds_alternative<SplineSurface>(spec.shape)))
+    throw Error(ErrorKind::configuration, "a surface given by its splines cannot become a roller", {},
+                "use a profile, slices or triangles");
   check_body(spec.defects, spec.body);
   if (const auto* points = std::get_if<Profile>(&spec.shape))
     require_same_body(points->body, spec.body, fmt::format("the profile '{}'", points->name));
@@ -93,6 +95,10 @@ TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& w
 
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
   return natural.kind->to_slices(natural, wanted, sampled);
+}
+
+std::vector<SplineSurface> to_splines(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
+  return natural.kind->to_splines(natural, wanted, sampled);
 }
 
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,

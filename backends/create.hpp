@@ -116,6 +116,10 @@ struct Sampled {
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
 /// The same as slices (io/profiles writes them).
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
+/// The same as splines (io/splines writes them), one of each part; wanted.backend: one that has splines, none: those
+/// that are given, else "nurbs". Given splines are not sampled unless a resolution or another backend is asked for.
+std::vector<SplineSurface> to_splines(const NaturalSurface& natural, const Representation& wanted,
+                                      Sampled* sampled = nullptr);
 /// The same as offsets over their base in a .vdb file. base: below the offsets, a constant section of the same body and
 /// radius; null: the section without defects, or the median one. notes: for the head of the file. Errors also:
 /// Error(configuration) for a file that cannot be written.

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/natural_kind.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -59,6 +60,12 @@ SurfaceDifference NaturalKind::fit_error(const NaturalSurface& natural, const Re
     if (!std::isfinite(settings.region.u_min)) settings.region.u_min = -kDefaultHalfLength;
     if (!std::isfinite(settings.region.u_max)) settings.region.u_max = kDefaultHalfLength;
   }
+  // of a part of a wheel, by its box
+  if (const Box3 box = natural.surface->bounds(); natural.spec.body == Body::wheel && box.min.z() > 0.0) {
+    const auto angle = [&](double x, bool outer) { return std::atan2(x, outer ? box.min.z() : box.max.z()); };
+    settings.region.u_min = std::max(settings.region.u_min, angle(box.min.x(), box.min.x() < 0.0));
+    settings.region.u_max = std::min(settings.region.u_max, angle(box.max.x(), box.max.x() > 0.0));
+  }
   return sampling::difference(*natural.surface, *represented.surface, natural.spec.body, natural.spec.nominal_radius,
                               settings);
 }
@@ -76,6 +83,27 @@ SliceSet NaturalKind::to_slices(const NaturalSurface& natural, const Representat
   SliceSet slices = resampling.slices();
   if (sampled != nullptr) *sampled = resampling.sampled();
   return slices;
+}
+
+std::vector<SplineSurface> NaturalKind::to_splines(const NaturalSurface& natural, const Representation& wanted,
+                                                   Sampled* sampled) const {
+  const auto* given = std::get_if<SplineSurface>(&natural.spec.shape);
+  const Region& r = wanted.region;
+  const bool all_of_it =
+      !std::isfinite(r.u_min) && !std::isfinite(r.u_max) && !std::isfinite(r.y_min) && !std::isfinite(r.y_max);
+  if (given != nullptr && natural.spec.defects.empty() && all_of_it && !(wanted.resolution > 0.0) &&
+      is_natural(natural, wanted)) {
+    if (sampled != nullptr) *sampled = {0.0, wanted.region, natural.note};
+    return {*given};
+  }
+  const Backend& backend = backend_of(wanted.backend.empty() ? "nurbs" : wanted.backend);
+  if (!backend.tell_splines)
+    throw Error(ErrorKind::configuration, fmt::format("the backend '{}' has no splines to write", backend.name), {},
+                "nurbs, thb and thb-quadratic have");
+  Resampling resampling(natural, wanted);
+  std::vector<SplineSurface> out{backend.tell_splines(resampling)};
+  if (sampled != nullptr) *sampled = resampling.sampled();
+  return out;
 }
 
 void NaturalKind::write_offsets(const std::filesystem::path& file, const NaturalSurface& natural,

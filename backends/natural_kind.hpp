@@ -17,6 +17,8 @@ class NaturalKind {
   virtual TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted,
                                     Sampled* sampled) const;
   virtual SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) const;
+  virtual std::vector<SplineSurface> to_splines(const NaturalSurface& natural, const Representation& wanted,
+                                                Sampled* sampled) const;
   virtual void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural,
                              const Representation& wanted, Sampled* sampled, const SurfaceSpec* base,
                              const std::string& notes) const;

@@ -24,6 +24,8 @@ struct Backend {
   /// Makes it from another surface, sampled by the resampling in its natural view. Empty: not from samples. Called
   /// from any thread. Errors: Error(configuration) for a body or shape that it cannot represent.
   std::function<std::shared_ptr<const Surface>(Resampling&)> resample{};
+  /// The splines that resample would make, for files of splines. Empty: it has none.
+  std::function<SplineSurface(Resampling&)> tell_splines{};
   std::string needs{};   ///< without resample: what it is made from, as in "the backend 'x' needs ..."
   std::string advice{};  ///< without resample: what to do instead
 

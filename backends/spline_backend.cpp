@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,8 @@
 
 namespace treadmark {
 namespace {
+
+constexpr int kAnyDegree = 1'000'000;  // one that is not known is refused when the surface is made
 
 std::shared_ptr<const Surface> slice_surface(const SliceSet& slices, double nominal_radius) {
   if (slices.kinks.empty()) return spline::make_slice_surface(slices, nominal_radius);
@@ -38,11 +41,6 @@ std::shared_ptr<const Surface> natural_spline(const SurfaceSpec& spec, std::stri
   return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
 }
 
-std::shared_ptr<const Surface> natural_nurbs(const SurfaceSpec& spec, std::string& note) {
-  auto surface = spline::make_nurbs_surface(std::get<TensorSpline>(spec.shape), note);
-  return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
-}
-
 std::shared_ptr<const Surface> as_spline(Resampling& r) {
   const SurfaceSpec& spec = r.spec();
   if (is_formula(spec) && (spec.defects.empty() || flats_only(spec))) {
@@ -58,7 +56,9 @@ std::shared_ptr<const Surface> as_spline(Resampling& r) {
   return spline::make_slice_surface(r.slices(), spec.nominal_radius);
 }
 
-std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
+/// make: spline::make_nurbs_surface or what is called like it.
+template <class Make>
+auto as_nurbs(Resampling& r, const Make& make) {
   const SurfaceSpec& spec = r.spec();
   const auto* chain = std::get_if<ArcChain>(&spec.shape);
   std::optional<ArcChain> known;
@@ -67,14 +67,14 @@ std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
   if (spec.defects.empty() && !r.asked() && (chain != nullptr || known)) {
     r.set_resolution(0.0);
     r.limit_rail();
-    return spline::make_nurbs_surface(chain != nullptr ? *chain : *known, spec.body, spec.nominal_radius,
-                                      r.region().u_min, r.region().u_max);
+    return make(chain != nullptr ? *chain : *known, spec.body, spec.nominal_radius, r.region().u_min, r.region().u_max);
   }
-  return spline::make_nurbs_surface(r.points(true));
+  return make(r.points(true));
 }
 
 /// Triangles of a scan, unless their samples are asked for: their vertices are what was measured.
-std::shared_ptr<const Surface> thb_of_vertices(const TriangleMesh& mesh, Resampling& r, int degree) {
+template <class Make>
+auto thb_of_vertices(const TriangleMesh& mesh, Resampling& r, int degree, const Make& make) {
   const Body body = r.spec().body;
   // the outermost vertices lie inside of the region, and the surface is to reach its ends
   constexpr double kBeyond = 2e-3;
@@ -84,10 +84,10 @@ std::shared_ptr<const Surface> thb_of_vertices(const TriangleMesh& mesh, Resampl
   const std::vector<Vec3> seen = sampling::seen_vertices(r.surface(), body, mesh.vertices, region);
   std::string note;
   try {
-    auto surface = spline::make_thb_surface(seen, body, region, degree, note);
+    auto made = make(seen, body, region, degree, note);
     r.set_resolution(0.0);
     r.add_note(note);
-    return surface;
+    return made;
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::input_data) throw;
     throw Error(e.kind(), e.message() + " (vertices of triangles are fitted where no resolution is given)", e.where(),
@@ -95,18 +95,65 @@ std::shared_ptr<const Surface> thb_of_vertices(const TriangleMesh& mesh, Resampl
   }
 }
 
-std::shared_ptr<const Surface> as_thb(Resampling& r, int degree) {
+/// make: spline::make_thb_surface or what is called like it.
+template <class Make>
+auto as_thb(Resampling& r, int degree, const Make& make) {
   const auto* mesh = std::get_if<TriangleMesh>(&r.spec().shape);
-  if (mesh != nullptr && !r.asked() && r.spec().defects.empty()) return thb_of_vertices(*mesh, r, degree);
+  if (mesh != nullptr && !r.asked() && r.spec().defects.empty()) return thb_of_vertices(*mesh, r, degree, make);
   // a quadratic needs two points to each of its intervals, which are to be as long as was asked for
   const double spacing = r.resolution();
   if (degree == 2) r.set_resolution(0.5 * spacing);
   const sampling::PointGrid points = r.points(true);
   r.set_resolution(spacing);
   std::string note;
-  auto surface = spline::make_thb_surface(points, degree, note);
+  auto made = make(points, degree, note);
   r.add_note(note);
-  return surface;
+  return made;
+}
+
+/// Shapes given by their splines belong to the backend of their kind.
+bool is_given(const SurfaceSpec& spec, bool hierarchical, int most_degree) {
+  const auto* splines = std::get_if<SplineSurface>(&spec.shape);
+  if (splines == nullptr || splines->hierarchical != hierarchical) return false;
+  int degree = 0;
+  for (const auto& level : splines->levels)
+    for (const SplineKnots& knots : level) degree = std::max(degree, knots.degree);
+  return degree <= most_degree;
+}
+
+std::shared_ptr<const Surface> natural_given(const SurfaceSpec& spec, std::string& note) {
+  const auto* tensor = std::get_if<TensorSpline>(&spec.shape);
+  auto surface = tensor != nullptr ? spline::make_nurbs_surface(*tensor, note)
+                                   : spline::make_given_surface(std::get<SplineSurface>(spec.shape), spec.body);
+  return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
+}
+
+Backend nurbs_row() {
+  Backend row{"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, [](Resampling& r) {
+                return as_nurbs(r, [](const auto&... from) { return spline::make_nurbs_surface(from...); });
+              }};
+  row.tell_splines = [](Resampling& r) {
+    return as_nurbs(r, [](const auto&... from) { return spline::tell_nurbs(from...); });
+  };
+  row.natural_for = [](const SurfaceSpec& spec) {
+    return std::holds_alternative<TensorSpline>(spec.shape) || is_given(spec, false, kAnyDegree);
+  };
+  row.make_natural = natural_given;
+  return row;
+}
+
+Backend thb_row(std::string name, std::string summary, int degree) {
+  Backend row{std::move(name), std::move(summary), degree + 1.0, false, [degree](Resampling& r) {
+                return as_thb(r, degree, [](auto&&... from) { return spline::make_thb_surface(from...); });
+              }};
+  row.tell_splines = [degree](Resampling& r) {
+    return as_thb(r, degree, [](auto&&... from) { return spline::tell_thb(from...); });
+  };
+  row.natural_for = [degree](const SurfaceSpec& spec) {
+    return is_given(spec, true, degree == 2 ? 2 : kAnyDegree) && !(degree == 3 && is_given(spec, true, 2));
+  };
+  row.make_natural = natural_given;
+  return row;
 }
 
 }  // namespace
@@ -115,14 +162,8 @@ std::vector<Backend> spline_backends() {
   Backend spline{"spline", "cubic along the section, tensor B-spline of slices along or round", 4.0, false, as_spline};
   spline.natural_for = is_measured_lines;
   spline.make_natural = natural_spline;
-  Backend nurbs{"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs};
-  nurbs.natural_for = [](const SurfaceSpec& spec) { return std::holds_alternative<TensorSpline>(spec.shape); };
-  nurbs.make_natural = natural_nurbs;
-  return {spline,
-          nurbs,
-          {"thb", "truncated hierarchical B-spline, fine where the shape asks for it", 4.0, false,
-           [](Resampling& r) { return as_thb(r, 3); }},
-          {"thb-quadratic", "the same of degree 2", 3.0, false, [](Resampling& r) { return as_thb(r, 2); }}};
+  return {spline, nurbs_row(), thb_row("thb", "truncated hierarchical B-spline, fine where the shape asks for it", 3),
+          thb_row("thb-quadratic", "the same of degree 2", 2)};
 }
 
 }  // namespace treadmark

@@ -38,7 +38,7 @@ treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track 
 treadmark_part(scans TREADMARK_SCANS "scans" "" "Import of raw scans, virtual scans (import, scan)")
 treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Use CGAL (GPL) for stray points, triangulations and free meshes of scans"
   NEEDS scans)
-treadmark_part(e57 TREADMARK_WITH_EXPAT "Expat" "libexpat1-dev" "Read scans in E57 files, with Expat" NEEDS scans)
+treadmark_part(expat TREADMARK_WITH_EXPAT "Expat" "libexpat1-dev" "Read scans in E57 files and spline surfaces in XML files, with Expat")
 treadmark_part(report TREADMARK_REPORT "reports" "" "HTML reports and pictures of result folders (report, plot, --report)")
 treadmark_part(report_scripts TREADMARK_REPORT_SCRIPTS "report scripts" "nodejs and npm"
   "Bundle the scripts that make HTML reports live (needs Node.js, npm and a network once)" NEEDS report)

@@ -35,7 +35,7 @@ def jobs():
         yield f"help-{verb}", [verb, "--help"]
     yield "help", ["--help"]
     yield "schema", ["schema"]
-    for topic in "backends laws profiles solvers verbs nonsense".split():
+    for topic in "backends defects laws profiles solvers verbs nonsense".split():
         yield f"list-{topic}", ["list", topic]
     results = ["-o", "OUT/results", "--json", "OUT/result.json", "--report", "OUT/report.html"]
     for case in sorted((ROOT / "examples").glob("*.toml")):

@@ -25,6 +25,7 @@
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::cli {
@@ -33,6 +34,7 @@ namespace {
 struct ConvertOptions {
   std::string input, output;  ///< geometry or case file; surface or case file
   std::string body;           ///< "wheel", "rail" or empty
+  std::string backend;        ///< of splines; empty: as it comes
   double resolution_mm = 0.0;
   double nominal_radius_mm = 0.0;
   double scale_to_mm = 1.0;
@@ -87,6 +89,9 @@ int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
 }
 
 int convert_command(const ConvertOptions& options, const CommonOptions& common) {
+  if (!options.backend.empty() && !io::is_spline_file(options.output))
+    throw Error(ErrorKind::configuration, "--backend belongs to files of splines", {options.output},
+                "leave it out, or write .xml");
   if (const std::string kind = lower_extension(options.output); kind == ".inp" || kind == ".toml")
     return convert_cases(options, common);
   if (options.at) throw Error(ErrorKind::configuration, "an instant is written as .toml or .inp", {options.output});
@@ -96,6 +101,7 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   app::ConvertSettings settings;
   if (!options.body.empty()) settings.body = options.body == "wheel" ? Body::wheel : Body::rail;
   settings.resolution = 1e-3 * options.resolution_mm;
+  settings.backend = options.backend;
   settings.nominal_radius = 1e-3 * options.nominal_radius_mm;
   settings.scale_to_mm = options.scale_to_mm;
   settings.overrides = options.overrides;
@@ -131,19 +137,19 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
 
 Command add_convert(CLI::App& verb) {
   auto options = std::make_shared<ConvertOptions>();
-  verb.add_option("IN", options->input,
-                  "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), offsets (.vdb), a name of "
-                  "'treadmark list profiles', a case file, "
-                  "or with --at the "
-                  "simulation.h5 of a simulation")
-      ->required();
   verb.add_option(
-          "OUT,-o,--output", options->output,
-          ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .step, or a profile: .prr .prw .ban .whl .csv; of a case file also "
-          ".inp (CONTACT) or .toml: its cases")
+          "IN", options->input,
+          "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), splines (.xml), offsets (.vdb), "
+          "a name of 'treadmark list profiles', a case file, or with --at the simulation.h5 of a simulation")
+      ->required();
+  verb.add_option("OUT,-o,--output", options->output,
+                  ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .step, .xml, or a profile: .prr .prw "
+                  ".ban .whl .csv; of a case file also .inp (CONTACT) or .toml: its cases")
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
+  verb.add_option("--backend", options->backend,
+                  "Splines that are written to .xml: nurbs, thb or thb-quadratic; default: those given, else nurbs");
   verb.add_option("--resolution", options->resolution_mm, "Spacing of the samples [mm]")
       ->check(CLI::PositiveNumber)
       ->type_name("MM");

@@ -23,6 +23,7 @@
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -62,12 +63,12 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   const std::string extension = io::profiles::lower(output.extension().string());
   const bool view = extension == ".vtp";  // only to be looked at
   const bool triangles = view || io::is_mesh_file(output), slices = io::is_slices_file(output),
-             offsets = is_offset_file(output), cad = io::is_step_file(output);
-  if (!triangles && !slices && !offsets && !cad)
+             offsets = is_offset_file(output), cad = io::is_step_file(output), splines = io::is_spline_file(output);
+  if (!triangles && !slices && !offsets && !cad && !splines)
     throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
                 {output.string()},
                 "use .ply, .stl, .obj, .off or .vtp (ParaView) for triangles, .slcs or .slcw for slices, .vdb for "
-                "offsets, .step for CAD");
+                "offsets, .step for CAD, .xml for splines");
   Converted out;
   out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
   out.body = out.source.spec.body;
@@ -77,12 +78,13 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     table = read_offset_table(settings.offsets, out.source);
     out.source = add_offsets(out.source, *table);
   }
-  Representation wanted{triangles ? "mesh"
-                        : slices  ? "spline"
-                                  : "offset",
+  Representation wanted{splines     ? settings.backend
+                        : triangles ? "mesh"
+                        : slices    ? "spline"
+                                    : "offset",
                         settings.resolution, part_of(out.body, settings.range_x, settings.range_theta)};
   // the same data again need a resolution to be sampled anew
-  if (wanted.resolution == 0.0 && !triangles && !cad) wanted.resolution = kDefaultResolution;
+  if (wanted.resolution == 0.0 && !triangles && !cad && !splines) wanted.resolution = kDefaultResolution;
   Sampled sampled;
   // What a pipe, a device or ParaView takes cannot be read again: it gets what a file has.
   std::optional<OutputFolder> own;
@@ -94,6 +96,9 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   if (cad) {
     out.kind = "CAD";
     io::write_cad(place, to_cad(out.source, wanted, sampled));
+  } else if (splines) {
+    out.kind = "splines";
+    io::write_splines(place, to_splines(out.source, wanted, &sampled));
   } else if (triangles) {
     out.kind = "triangles";
     const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);

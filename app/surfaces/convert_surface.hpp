@@ -14,8 +14,9 @@
 namespace treadmark::app {
 
 struct ConvertSettings {
-  std::optional<Body> body;     ///< needed where the input does not tell: cases, triangles, two-column profiles
-  double resolution = 0.0;      ///< [m]; 0 = default
+  std::optional<Body> body;  ///< needed where the input does not tell: cases, triangles, two-column profiles
+  double resolution = 0.0;   ///< [m]; 0 = default
+  std::string backend;       ///< whose splines are written to a file of splines; "" = those that are given, else nurbs
   double nominal_radius = 0.0;  ///< of a wheel [m]; 0 = the case's, or that of an offset file
   double scale_to_mm = 1.0;     ///< of triangle and profile files
   /// Part that is written: along the track [m], round the wheel [rad]. The other body's range is an error.
@@ -29,12 +30,12 @@ struct Converted {
   Body body = Body::rail;
   RepresentedSurface written;  ///< what the file holds, as it would be read back
   SurfaceDifference fit;
-  std::string kind;  ///< "triangles", "slices", "offsets"
+  std::string kind;  ///< "triangles", "slices", "offsets", "CAD", "splines"
 };
 
 /// Reads any geometry (profile, slices, triangles, offsets, or the wheel or rail of the first case of a case file) and
-/// writes it as triangles (.ply .stl .obj .off), slices (.slcs .slcw), offsets over the undamaged section (.vdb) or CAD
-/// (.step).
+/// writes it as triangles (.ply .stl .obj .off), slices (.slcs .slcw), offsets over the undamaged section (.vdb), CAD
+/// (.step) or splines (.xml).
 /// Errors: those of readers, backends and writers; Error(configuration) if the body is not known or the extension means
 /// nothing.
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,

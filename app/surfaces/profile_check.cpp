@@ -15,6 +15,7 @@
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::app {
@@ -88,7 +89,7 @@ void collect(const io::SurfaceSource& source, Body body, const io::ExpectedWheel
   const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
   if (!source.parts.empty() || file == nullptr) return;
   if (is_offset_file(file->file) || io::is_mesh_file(file->file) || io::is_cad_file(file->file) ||
-      io::is_slices_file(file->file))
+      io::is_slices_file(file->file) || io::is_spline_file(file->file))
     return;
   ProfileUse use{*file, body, expected, source.where};
   if (std::none_of(uses.begin(), uses.end(), [&](const ProfileUse& u) { return u.same_as(use); }))

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/surfaces/read_surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -12,12 +13,14 @@
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/profile_library.hpp"
+#include "treadmark/backends/spline/spline_gaps.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -63,6 +66,44 @@ decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body bod
   return std::visit([](auto& shape) -> decltype(SurfaceSpec::shape) { return std::move(shape); }, cad.shape);
 }
 
+/// One surface, or a body of several.
+NaturalSurface read_spline_file(const io::GeometryFile& file, const io::SurfaceSource& source, Body body,
+                                double radius) {
+  io::ProfileOptions scale_alone;
+  scale_alone.scale = file.options.scale;
+  if (!(file.options == scale_alone) || file.open_seam)
+    throw Error(ErrorKind::configuration, "a file of splines is taken as it is", source.where,
+                "of the keys beside shape.file only scale_to_mm belongs to it");
+  io::SplineFile read = io::read_splines(file.file, file.options.scale, source.where);
+  if (read.surfaces.size() > 1 && !source.defects.empty())
+    throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
+  const std::string gaps = spline::spline_gaps(read.surfaces, read.interfaces);
+  std::vector<SurfacePart> parts;
+  parts.reserve(read.surfaces.size());
+  for (SplineSurface& splines : read.surfaces) {
+    SurfaceSpec spec;
+    spec.body = body;
+    (body == Body::wheel ? spec.nominal_radius : spec.roller_radius) = radius;
+    spec.defects = source.defects;
+    spec.shape = std::move(splines);
+    SurfacePart part;
+    part.natural = std::make_shared<const NaturalSurface>(create_natural(std::move(spec)));
+    parts.push_back(std::move(part));
+  }
+  NaturalSurface out = parts.size() == 1 ? *parts.front().natural : join_surfaces(std::move(parts));
+  if (body == Body::wheel) {
+    const double reach = std::max(-out.surface->bounds().min.z(), out.surface->bounds().max.z());
+    constexpr double kLeast = 0.5, kMost = 1.5;
+    if (!(reach > kLeast * radius && reach < kMost * radius))
+      throw Error(ErrorKind::input_data,
+                  fmt::format("the surface reaches out to {:.6g} mm, the nominal radius is {:.6g} mm", 1e3 * reach,
+                              1e3 * radius),
+                  {file.file.string()}, "is the axle the y axis, the running surface below it, and scale_to_mm right?");
+  }
+  out.note += gaps;
+  return out;
+}
+
 NaturalSurface read_parts(const io::SurfaceSource& source, Body body, double radius) {
   if (!source.defects.empty())
     throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
@@ -102,6 +143,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
   std::string note;
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
+    if (io::is_spline_file(file->file)) return read_spline_file(*file, source, body, radius);
     if (io::is_mesh_file(file->file))
       spec.shape = io::read_mesh(file->file, file->options.scale, source.where);
     else if (io::is_cad_file(file->file))

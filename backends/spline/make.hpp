@@ -10,6 +10,7 @@
 #include "treadmark/core/surface.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/slices.hpp"
+#include "treadmark/model/spline_surface.hpp"
 #include "treadmark/model/surface_spec.hpp"
 #include "treadmark/model/tensor_spline.hpp"
 
@@ -50,5 +51,17 @@ std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& point
 /// Scattered points of a scan, as closely as their noise allows.
 std::shared_ptr<const Surface> make_thb_surface(std::span<const Vec3> points, Body body, const sampling::Region& region,
                                                 int degree, std::string& note);
+
+/// A surface as its splines are, without samples: backend "nurbs" of a tensor spline; "thb", or "thb-quadratic" where
+/// no degree is above 2, of a hierarchical one. Errors: those of GivenSpline.
+std::shared_ptr<const Surface> make_given_surface(const SplineSurface& splines, Body body);
+
+/// What the functions above make, as splines of degree 3 or 2: told_spline.
+SplineSurface tell_nurbs(const sampling::PointGrid& points);
+SplineSurface tell_nurbs(const ArcChain& chain, Body body, double nominal_radius, double x_min = -1.0,
+                         double x_max = 1.0);
+SplineSurface tell_thb(const sampling::PointGrid& points, int degree, std::string& note);
+SplineSurface tell_thb(std::span<const Vec3> points, Body body, const sampling::Region& region, int degree,
+                       std::string& note);
 
 }  // namespace treadmark::spline

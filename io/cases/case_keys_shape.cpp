@@ -52,7 +52,9 @@ class ShapeKeys {
   }
 
   void add_geometry() {
-    KeyInfo file = info("file", KeyType::path, "profile or slices file, relative to the folder of the case file");
+    KeyInfo file =
+        info("file", KeyType::path,
+             "profile, slices, triangles, offsets, CAD or splines (.xml), relative to the folder of the case file");
     file.group = prefix_;
     file.alternative = "file";
     CaseKey& named = list_.add(file);

@@ -411,7 +411,7 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
 TEST_F(ImportCommand, OnATerminalStepsAndFilesAreToldWithoutAGuessOfTheRest) {
   if (std::system("command -v script > /dev/null") != 0)
     GTEST_SKIP() << "needs script (bsdutils), which lends a terminal";
-  scan("wheel.ply", {"--range-deg", "-60,60", "--points", "20000"});
+  scan("wheel.ply", {"--body", "wheel", "--range-deg", "-60,60", "--points", "20000"});
   const std::string command = fmt::format("script -qec \"{} import {} -o {}\" {} > /dev/null 2>&1", TREADMARK_PROGRAM,
                                           path("wheel.ply"), path("wheel.slcw"), path("seen.txt"));
   ASSERT_EQ(std::system(command.c_str()), 0);

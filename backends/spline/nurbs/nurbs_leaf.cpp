@@ -42,23 +42,24 @@ NurbsLeaf::NurbsLeaf(const BezierPatch& part, const ControlBox& box) : power_(pa
   t_ = {t_.low - kRounding, t_.high + kRounding};
 
   // Entries of E from differences of control points.
-  double e[4] = {0.0, 0.0, 0.0, 0.0}, change_w = 0.0;
+  double e[4] = {0.0, 0.0, 0.0, 0.0}, change_w_u = 0.0, change_w_v = 0.0;
   const auto widen = [](double& most, double x) { most = std::max(most, std::abs(x)); };
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
       if (i < 3) {
         widen(e[0], 3.0 * (gs[i + 1][j] - gs[i][j]) - 1.0);
         widen(e[2], 3.0 * (gt[i + 1][j] - gt[i][j]));
-        if (part.rational) widen(change_w, 3.0 * (part.b[i + 1][j].w() - part.b[i][j].w()));
+        if (part.rational) widen(change_w_u, 3.0 * (part.b[i + 1][j].w() - part.b[i][j].w()));
       }
       if (j < 3) {
         widen(e[1], 3.0 * (gs[i][j + 1] - gs[i][j]));
         widen(e[3], 3.0 * (gt[i][j + 1] - gt[i][j]) - 1.0);
-        if (part.rational) widen(change_w, 3.0 * (part.b[i][j + 1].w() - part.b[i][j].w()));
+        if (part.rational) widen(change_w_v, 3.0 * (part.b[i][j + 1].w() - part.b[i][j].w()));
       }
     }
   // Only lines that meet the part count, and for those q = A (p - middle) lies in the range of A G / W.
   const double reach_s = s_.width() / box.weight.low, reach_t = t_.width() / box.weight.low;
+  const double change_w = std::max(change_w_u, change_w_v);
   e[0] += change_w * reach_s, e[1] += change_w * reach_s, e[2] += change_w * reach_t, e[3] += change_w * reach_t;
   upright_ = !std::isfinite(s_.width()) || !std::isfinite(t_.width());
   regular_ = !upright_ && e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] < kContraction * kContraction;
@@ -70,7 +71,9 @@ NurbsLeaf::NurbsLeaf(const BezierPatch& part, const ControlBox& box) : power_(pa
         widen(bend_u, (*g)[j][i] - 2.0 * (*g)[j + 1][i] + (*g)[j + 2][i]);
         widen(bend_v, (*g)[i][j] - 2.0 * (*g)[i][j + 1] + (*g)[i][j + 2]);
       }
-  bends_along_u_ = bend_u > bend_v;
+  // weights that change along a direction disturb as much as bends do
+  const double reach = part.rational && !upright_ ? std::max(reach_s, reach_t) : 0.0;
+  bends_along_u_ = 3.0 * bend_u + change_w_u * reach > 3.0 * bend_v + change_w_v * reach;
 }
 
 PatchPowers NurbsLeaf::powers() const {

@@ -34,7 +34,7 @@ class NurbsLeaf {
 
   /// At most one solution, found from anywhere.
   bool regular() const { return regular_; }
-  /// Of a part that is not: which direction to halve, the one in which it bends more.
+  /// Of a part that is not: which direction to halve, the one in which it bends, or its weights change, more.
   bool bends_along_u() const { return bends_along_u_; }
   const ControlBox& box() const { return box_; }
 

@@ -232,43 +232,51 @@ SliceNet fit_along(const SliceSet& slices, const std::vector<std::vector<NetPair
   SliceNet net(plan.starts, plan.end, slices.body == Body::wheel, positions, across);
 
   // Along every coefficient line, each run of slices that have it is a spline of its own.
+  using Run = std::pair<std::size_t, std::size_t>;  // first and last slice
   const std::size_t n = all.u.size();
-  std::map<std::pair<std::size_t, std::size_t>, LineFitter> fitters;
-  for (std::size_t j = 0; j < static_cast<std::size_t>(net.lines()); ++j) {
+  std::map<Run, LineFitter> fitters;
+  std::vector<std::vector<Run>> runs(static_cast<std::size_t>(net.lines()));
+  for (std::size_t j = 0; j < runs.size(); ++j) {
     check_cancelled();
-    const auto value = [&](std::size_t i) { return lines[all.slice[i]][j]; };
-    std::vector<SliceNet::LineCubic> interval(n - 1, SliceNet::LineCubic{});
-    std::vector<bool> present(n - 1, false);
+    const auto missing = [&](std::size_t i) { return std::isnan(lines[all.slice[i]][j].y); };
     for (std::size_t first = 0; first < n;) {
-      if (std::isnan(value(first).y)) {
+      if (missing(first)) {
         ++first;
         continue;
       }
       std::size_t last = first;
-      while (last + 1 < n && !std::isnan(value(last + 1).y)) ++last;
+      while (last + 1 < n && !missing(last + 1)) ++last;
       const std::size_t count = last - first + 1;
       if (count < kLeastSlices)
         throw Error(ErrorKind::input_data, "a part of '" + slices.name + "' exists in only " + std::to_string(count) +
                                                " successive slices near number " +
                                                std::to_string(all.slice[first] + 1) + ", at least 4 are needed");
-      auto fitter = fitters.find({first, last});
-      if (fitter == fitters.end())
-        fitter = fitters
-                     .emplace(std::pair(first, last),
-                              LineFitter(std::span(all.u).subspan(first, count), slices.approximate_u))
-                     .first;
+      if (!fitters.contains({first, last}))
+        fitters.emplace(Run(first, last), LineFitter(std::span(all.u).subspan(first, count), slices.approximate_u));
+      runs[j].emplace_back(first, last);
+      first = last + 1;
+    }
+  }
+  parallel_for(runs.size(), [&](std::size_t j) {
+    std::vector<SliceNet::LineCubic> interval(n - 1, SliceNet::LineCubic{});
+    std::vector<bool> present(n - 1, false);
+    for (const Run& run : runs[j]) {
+      const LineFitter& fitter = fitters.at(run);
+      const std::size_t first = run.first, count = run.second - run.first + 1;
       std::vector<double> y(count), w(count), cy(count + 2), cw(count + 2);
-      for (std::size_t i = 0; i < count; ++i) y[i] = value(first + i).y, w[i] = value(first + i).w;
-      fitter->second.fit(y, cy);
-      fitter->second.fit(w, cw);
+      for (std::size_t i = 0; i < count; ++i) {
+        y[i] = lines[all.slice[first + i]][j].y;
+        w[i] = lines[all.slice[first + i]][j].w;
+      }
+      fitter.fit(y, cy);
+      fitter.fit(w, cw);
       for (std::size_t i = 0; i + 1 < count; ++i) {
-        const BasisPowers& basis = fitter->second.basis(static_cast<int>(i));
+        const BasisPowers& basis = fitter.basis(static_cast<int>(i));
         present[first + i] = true;
         for (std::size_t b = 0; b < 4; ++b)
           for (std::size_t k = 0; k < 4; ++k)
             interval[first + i].power[k] = interval[first + i].power[k] + basis[b][k] * NetPair{cy[i + b], cw[i + b]};
       }
-      first = last + 1;
     }
 
     for (int span = 0; span < net.spans(); ++span) {
@@ -285,7 +293,7 @@ SliceNet fit_along(const SliceSet& slices, const std::vector<std::vector<NetPair
       constant.power[0] = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
       net.set_line(span, static_cast<int>(j), constant);
     }
-  }
+  });
   return net;
 }
 

@@ -225,7 +225,7 @@ std::vector<ThbCell> ThbSpace::path(const ThbCell& cell) const {
   return out;
 }
 
-ThbPiece ThbSpace::piece(const ThbCell& cell, const std::vector<Vec3>& coefficients) const {
+ThbPiece ThbSpace::piece(const ThbCell& cell, const std::vector<Vec3>& coefficients, bool not_truncated) const {
   const int pu = u(0).degree(), pv = v(0).degree();
   const Vec3 zero = Vec3::Zero();
   Vec3 local[kMostDegree + 1][kMostDegree + 1];
@@ -236,7 +236,9 @@ ThbPiece ThbSpace::piece(const ThbCell& cell, const std::vector<Vec3>& coefficie
     const auto iu = static_cast<std::size_t>(on.iu), iv = static_cast<std::size_t>(on.iv);
     if (on.level > 0) transform(local, data.along_u.from_parent[iu], data.along_v.from_parent[iv], pu, pv, zero);
     // What a function has that lies in divided cells alone does not matter: finer ones replace all of it.
-    for_window(on, [&](int ku, int kv, std::size_t n) { local[ku][kv] = coefficients[n]; });
+    for_window(on, [&](int ku, int kv, std::size_t n) {
+      local[ku][kv] = not_truncated ? Vec3(local[ku][kv] + coefficients[n]) : coefficients[n];
+    });
   }
   const LevelData& data = at(cell.level);
   transform(local, data.along_u.to_bernstein[static_cast<std::size_t>(cell.iu)],

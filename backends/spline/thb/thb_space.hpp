@@ -87,8 +87,9 @@ class ThbSpace {
       if (on.level == 0) return;
     }
   }
-  /// A spline of this space over a cell.
-  ThbPiece piece(const ThbCell& cell, const std::vector<Vec3>& coefficients) const;
+  /// A spline of this space over a cell. not_truncated: coefficients are those of the functions as they are, which do
+  /// not sum to 1 (Kraft 1997).
+  ThbPiece piece(const ThbCell& cell, const std::vector<Vec3>& coefficients, bool not_truncated = false) const;
 
   /// The coefficients of a spline that lies in this space, known by its polynomials: piece_of(cell) for cells that are
   /// not divided. A truncated function keeps the coefficient that the level's own spline has (Giannelli, Juettler and

@@ -4,33 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
+#include "treadmark/backends/spline/cubic_pieces.hpp"
 #include "treadmark/core/cancellation.hpp"
 
 namespace treadmark::spline {
 namespace {
-
-// Bernstein coefficients of degree 3 of the same polynomial.
-std::array<Vec3, 4> raised(std::array<Vec3, 4> b, int degree) {
-  for (int p = degree; p < kMostDegree; ++p)
-    for (auto k = static_cast<std::size_t>(p) + 1; k > 0; --k) {
-      const double before = static_cast<double>(k) / (p + 1);
-      b[k] = before * b[k - 1] + (k <= static_cast<std::size_t>(p) ? 1.0 - before : 0.0) * b[k];
-    }
-  return b;
-}
-
-ThbPiece raised(const ThbPiece& piece, int degree_u, int degree_v) {
-  ThbPiece out = piece;
-  for (std::size_t i = 0; i < 4; ++i) out[i] = raised(out[i], degree_v);
-  for (std::size_t j = 0; j < 4; ++j) {
-    const auto column = raised({out[0][j], out[1][j], out[2][j], out[3][j]}, degree_u);
-    for (std::size_t i = 0; i < 4; ++i) out[i][j] = column[i];
-  }
-  return out;
-}
 
 // Corners that cells share, unless the surface has an edge there.
 class CornerList {
@@ -76,18 +58,18 @@ Vec3 ThbSpline::point(double u, double v) const {
   return at[0][0];
 }
 
-NurbsNet extracted(const ThbSpline& spline) {
-  const ThbSpace& space = spline.space;
-  const int degree_u = space.u(0).degree(), degree_v = space.v(0).degree();
+NurbsNet listed_net(std::size_t count, const std::function<CubicPiece(std::size_t)>& piece) {
   CornerList list;
   std::vector<NurbsNet::Cell> cells;
-  cells.reserve(space.cells().size());
+  cells.reserve(count);
   double along = 0.0, across = 0.0, length = 0.0, width = 0.0;
-  for (const ThbCell& cell : space.cells()) {
+  ThbRange all{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+               std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::size_t cell = 0; cell < count; ++cell) {
     check_cancelled();
-    const ThbRange r = space.range(cell);
+    const auto [r, b] = piece(cell);
     const double size_u = r.u1 - r.u0, size_v = r.v1 - r.v0;
-    const ThbPiece b = raised(space.piece(cell, spline.coefficients), degree_u, degree_v);
+    all = {std::min(all.u0, r.u0), std::max(all.u1, r.u1), std::min(all.v0, r.v0), std::max(all.v1, r.v1)};
     NurbsNet::Cell out{r.u0, r.u1, r.v0, r.v1, {}};
     for (std::size_t i = 0; i < 2; ++i)
       for (std::size_t j = 0; j < 2; ++j) {
@@ -102,18 +84,16 @@ NurbsNet extracted(const ThbSpline& spline) {
     across += size_v, width += (b[0][3] - b[0][0]).norm();
   }
   // neighbours on the surface next to each other
-  const KnotLine &u = space.u(0), &v = space.v(0);
   const double per_u = length / along, per_v = width / across;
-  const double extent =
-      std::max((u.breaks().back() - u.breaks().front()) * per_u, (v.breaks().back() - v.breaks().front()) * per_v);
+  const double extent = std::max((all.u1 - all.u0) * per_u, (all.v1 - all.v0) * per_v);
   const auto place = [&](double middle, double first, double per) {
     return static_cast<std::uint32_t>((middle - first) * per / extent * 16'000'000.0);
   };
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   order.reserve(cells.size());
   for (std::size_t k = 0; k < cells.size(); ++k)
-    order.emplace_back(woven(place(0.5 * (cells[k].u0 + cells[k].u1), u.breaks().front(), per_u),
-                             place(0.5 * (cells[k].v0 + cells[k].v1), v.breaks().front(), per_v)),
+    order.emplace_back(woven(place(0.5 * (cells[k].u0 + cells[k].u1), all.u0, per_u),
+                             place(0.5 * (cells[k].v0 + cells[k].v1), all.v0, per_v)),
                        k);
   std::sort(order.begin(), order.end());
   std::vector<NurbsNet::Cell> sorted;
@@ -121,6 +101,17 @@ NurbsNet extracted(const ThbSpline& spline) {
   for (const auto& [key, k] : order) sorted.push_back(cells[k]);
   list.corners.shrink_to_fit();
   return NurbsNet(std::move(sorted), std::move(list.corners));
+}
+
+CubicPiece cubic_piece(const ThbSpline& spline, const ThbCell& cell) {
+  CubicPiece out{spline.space.range(cell), spline.space.piece(cell, spline.coefficients)};
+  raise_to_cubic(out.b, spline.space.u(0).degree(), spline.space.v(0).degree());
+  return out;
+}
+
+NurbsNet extracted(const ThbSpline& spline) {
+  const std::vector<ThbCell>& cells = spline.space.cells();
+  return listed_net(cells.size(), [&](std::size_t k) { return cubic_piece(spline, cells[k]); });
 }
 
 }  // namespace treadmark::spline

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "treadmark/backends/spline/nurbs/nurbs_net.hpp"
@@ -18,7 +20,19 @@ struct ThbSpline {
   Vec3 point(double u, double v) const;
 };
 
-/// Its cells as bicubic patches, exactly: what has degree 1 or 2 is raised.
+/// A part of the parameters with the Bernstein coefficients of degree 3 over it.
+struct CubicPiece {
+  ThbRange range;
+  ThbPiece b;
+};
+
+/// Of a cell, exactly: what has degree 1 or 2 is raised.
+CubicPiece cubic_piece(const ThbSpline& spline, const ThbCell& cell);
+
+/// So many pieces as a list of patches, neighbours near each other.
+NurbsNet listed_net(std::size_t count, const std::function<CubicPiece(std::size_t)>& piece);
+
+/// Its cells as bicubic patches.
 NurbsNet extracted(const ThbSpline& spline);
 
 }  // namespace treadmark::spline

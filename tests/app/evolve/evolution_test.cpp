@@ -425,7 +425,8 @@ TEST_F(Evolution, WritesSurfacesForParaView) {
   ASSERT_EQ(run_program({"evolve", study, "-o", out, "--vtk", "--quiet"}).status, 0);
   std::ostringstream pvd, vts;
   pvd << std::ifstream(out / "vtk" / "evolution.pvd").rdbuf();
-  const auto entries = read_xml(pvd.str()).find("DataSet");
+  const XmlElement collection = read_xml(pvd.str());
+  const auto entries = collection.find("DataSet");
   ASSERT_EQ(entries.size(), 2u);  // nothing has changed at first
   EXPECT_EQ(entries[1]->attributes.at("timestep"), "2000");
   ASSERT_EQ(entries[1]->attributes.at("file"), "wheel_0002.vts");

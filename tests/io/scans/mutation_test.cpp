@@ -176,7 +176,7 @@ TEST(MutatedScans, Ptx) {
   survive_truncation(scans::parse_ptx, ptx());
 }
 TEST(MutatedScans, E57) {
-  TREADMARK_NEEDS("e57");
+  TREADMARK_NEEDS("expat");
   survive(parse_e57_content, e57().content());
   survive_truncation(parse_e57_content, e57().content());
   const std::string whole = e57().bytes();

@@ -46,12 +46,16 @@ export function save(blob: Blob, name: string): void {
 
 /** A picture a step, 0001.png and so on, in one file. */
 async function zipOf({ store, draw }: PictureSeries, steps: readonly number[]): Promise<Blob> {
+  const drawings = steps.map((step) => new DOMParser().parseFromString(store.at(step, draw), "image/svg+xml").documentElement);
+  draw();
+  // Films want pictures of one size.
+  const [width, height] = ["width", "height"].map((name) => Math.max(...drawings.map((drawing) => Number(drawing.getAttribute(name))))) as [number, number];
   const files: Record<string, Uint8Array> = {};
-  for (const [k, step] of steps.entries()) {
-    const png = await svgToPng(store.at(step, draw));
+  for (const [k, drawing] of drawings.entries()) {
+    for (const [name, value] of Object.entries({ width, height, viewBox: `0 0 ${width} ${height}` })) drawing.setAttribute(name, String(value));
+    const png = await svgToPng(new XMLSerializer().serializeToString(drawing));
     files[`${String(k + 1).padStart(4, "0")}.png`] = new Uint8Array(await png.arrayBuffer());
   }
-  draw();
   return new Blob([zipSync(files, { level: 0 })], { type: "application/zip" });
 }
 

@@ -191,7 +191,7 @@ class TrackFigure {
     const bar = { x: LEFT, y: rows * rowHeight + 8, width: Math.min(room, 300), height: 13, vertical: false };
     const field = this.store.data.fields.find(({ name }) => name === "pressure");
     const content = { range: this.range, colour: colourMap("sequential"), lines: [], title: titled(field?.label ?? "pressure", field?.unit ?? "MPa"), beyond: false };
-    drawBar(drawing, `${this.view.id}-bar`, bar, content);
+    drawBar(svg("g", { class: "track-bar" }, drawing), `${this.view.id}-bar`, bar, content);
     this.mark();
   }
 
@@ -201,6 +201,7 @@ class TrackFigure {
     return Array.from({ length: count }, (_, row) => {
       const copy = copyOf(this.drawing, `row-${row}`) as SVGSVGElement;
       copy.querySelectorAll(".track-panel").forEach((panel, k) => Math.floor(k / this.columns) === row || panel.remove());
+      if (row + 1 < count) copy.querySelector(".track-bar")?.remove();
       const top = row * this.rowHeight;
       const height = row + 1 < count ? this.rowHeight : Number(copy.getAttribute("height")) - top;
       copy.setAttribute("height", height.toFixed(1));

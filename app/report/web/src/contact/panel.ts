@@ -57,6 +57,7 @@ export class PanelNodes {
   private readonly marks: [SVGPathElement, SVGPathElement];
   private readonly origin: SVGPathElement;
   private readonly title: SVGTextElement;
+  private titleWidth = 0;
   private readonly note: SVGTextElement;
   private drawn = "";
 
@@ -140,8 +141,9 @@ export class PanelNodes {
     for (const { name, path } of this.lines) put(path, "d", content[name]);
     put(this.slip, "d", content.slip);
     for (const mark of this.marks) put(mark, "d", content.mark);
-    if (this.title.dataset["full"] !== content.title) {
+    if (this.title.dataset["full"] !== content.title || this.titleWidth !== width) {
       this.title.dataset["full"] = content.title;
+      this.titleWidth = width;
       say(this.title, fitted(content.title, width));
     }
     say(this.note, content.note);

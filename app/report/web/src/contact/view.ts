@@ -262,7 +262,9 @@ export class ContactFigure {
     panels.forEach((panel, k) => {
       const picked = this.pick?.set === panel.set ? this.found(panel, this.pick) : null;
       const at = scene.layout.panels[k];
-      if (at) nodes[k]?.fill(contentOf(scene, panel, k, this.cells[k] ?? [], cut, picked), at.width);
+      // A picture alone may have its title over the colour bars too.
+      const room = at && panels.length === 1 ? scene.layout.width - at.x : (at?.width ?? 0);
+      if (at) nodes[k]?.fill(contentOf(scene, panel, k, this.cells[k] ?? [], cut, picked), room);
     });
   }
 

@@ -5,6 +5,6 @@
 
 namespace treadmark::io::scans {
 
-Scan parse_e57(ByteBlocks&, const ScanReadOptions&) { left_out("e57", "scans in E57 files"); }
+Scan parse_e57(ByteBlocks&, const ScanReadOptions&) { left_out("expat", "scans in E57 files"); }
 
 }  // namespace treadmark::io::scans
