@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::spline {
@@ -57,15 +58,40 @@ bool is_smooth(const std::vector<double>& knots, int degree) {
   return true;
 }
 
-double length_across(const TensorSpline& s, const std::vector<double>& u, const std::vector<double>& v) {
-  const double middle = 0.5 * (u.front() + u.back());
-  double length = 0.0;
-  for (std::size_t j = 0; j + 1 < v.size(); ++j)
-    length += (evaluate(s, middle, v[j + 1]).p - evaluate(s, middle, v[j]).p).norm();
-  return length;
-}
+/// Parameters of any kind become the station along the body, about, and metres across.
+struct Scales {
+  double first_u = 0.0, station = 0.0, u = 1.0, v = 1.0;
 
-NurbsNet exact_net(const TensorSpline& s, std::vector<double> u, std::vector<double> v, double scale) {
+  Scales(const TensorSpline& s, const std::vector<double>& at_u, const std::vector<double>& at_v)
+      : first_u(at_u.front()) {
+    const double middle_u = 0.5 * (at_u.front() + at_u.back()), middle_v = 0.5 * (at_v.front() + at_v.back());
+    double length = 0.0, along = 0.0;
+    for (std::size_t j = 0; j + 1 < at_v.size(); ++j)
+      length += (evaluate(s, middle_u, at_v[j + 1]).p - evaluate(s, middle_u, at_v[j]).p).norm();
+    const auto station_at = [&](double t) {
+      const Vec3 p = evaluate(s, t, middle_v).p;
+      return s.body == Body::wheel ? std::atan2(p.x(), p.z()) : p.x();
+    };
+    station = station_at(at_u.front());
+    double before = station;
+    for (std::size_t i = 1; i < at_u.size(); ++i) {
+      const double here = station_at(at_u[i]);
+      along += s.body == Body::wheel ? wrap_angle(here - before) : here - before;
+      before = here;
+    }
+    if (length > 0.0) v = length / (at_v.back() - at_v.front());
+    if (along > 0.0)
+      u = along / (at_u.back() - at_u.front());
+    else
+      station = first_u;
+  }
+  void apply(std::vector<double>& at_u, std::vector<double>& at_v) const {
+    for (double& t : at_u) t = station + (t - first_u) * u;
+    for (double& t : at_v) t *= v;
+  }
+};
+
+NurbsNet exact_net(const TensorSpline& s, std::vector<double> u, std::vector<double> v, const Scales& scales) {
   const std::size_t nu = s.poles_u(), nv = s.poles_v();
   std::vector<Quad> line, pieces, across;
   std::size_t rows = 0;
@@ -88,7 +114,7 @@ NurbsNet exact_net(const TensorSpline& s, std::vector<double> u, std::vector<dou
     append_pieces(line, s.knots_u, s.degree_u, u, pieces);
     for (std::size_t i = 0; i < lines; ++i) points[i * columns + j] = pieces[i];
   }
-  for (double& t : v) t *= scale;
+  scales.apply(u, v);
   const bool plain = std::ranges::all_of(s.weights, [&](double w) { return w == s.weights.front(); });
   if (!plain || !is_smooth(s.knots_u, s.degree_u) || !is_smooth(s.knots_v, s.degree_v))
     return NurbsNet(std::move(u), std::move(v), std::move(points));
@@ -116,19 +142,20 @@ NurbsNet exact_net(const TensorSpline& s, std::vector<double> u, std::vector<dou
 }
 
 /// Patches with position and derivatives of the surface at their corners, each piece parted alike.
-NurbsNet near_net(const TensorSpline& s, const std::vector<double>& u, const std::vector<double>& v, double scale) {
+NurbsNet near_net(const TensorSpline& s, const std::vector<double>& u, const std::vector<double>& v,
+                  const Scales& scales) {
   std::vector<NurbsNet::Corner> corners;
   corners.reserve(u.size() * v.size());
   for (const double a : u) {
     check_cancelled();
     for (const double b : v) {
       const TensorJet at = evaluate(s, a, b);
-      corners.push_back({at.p, at.pu, at.pv / scale, at.puv / scale});
+      corners.push_back({at.p, at.pu / scales.u, at.pv / scales.v, at.puv / (scales.u * scales.v)});
     }
   }
-  std::vector<double> scaled = v;
-  for (double& t : scaled) t *= scale;
-  return NurbsNet(u, std::move(scaled), std::move(corners));
+  std::vector<double> own_u = u, own_v = v;
+  scales.apply(own_u, own_v);
+  return NurbsNet(std::move(own_u), std::move(own_v), std::move(corners));
 }
 
 std::vector<double> halved(const std::vector<double>& breaks) {
@@ -153,8 +180,7 @@ Vec3 middle_of(const NurbsNet& net, int iu, int iv, double s, double t) {
 NurbsNet net_of(const TensorSpline& s, double& deviation) {
   check(s);
   std::vector<double> u = breaks_of(s.knots_u, s.degree_u), v = breaks_of(s.knots_v, s.degree_v);
-  const double length = length_across(s, u, halved(halved(v))),
-               scale = length > 0.0 ? length / (v.back() - v.front()) : 1.0;
+  const Scales scales(s, halved(halved(u)), halved(halved(v)));
   const auto require_room = [&] {
     if (u.size() * v.size() > kMostPatches)
       throw Error(ErrorKind::input_data,
@@ -163,11 +189,11 @@ NurbsNet net_of(const TensorSpline& s, double& deviation) {
   };
   require_room();
   const double wanted = std::exchange(deviation, 0.0);
-  if (s.degree_u <= kCubic && s.degree_v <= kCubic) return exact_net(s, std::move(u), std::move(v), scale);
+  if (s.degree_u <= kCubic && s.degree_v <= kCubic) return exact_net(s, std::move(u), std::move(v), scales);
   constexpr double kInside[] = {-0.25, 0.0, 0.25};
   for (;;) {
     require_room();
-    NurbsNet net = near_net(s, u, v, scale);
+    NurbsNet net = near_net(s, u, v, scales);
     double off_u = 0.0, off_v = 0.0;
     for (std::size_t i = 0; i + 1 < u.size(); ++i)
       for (std::size_t j = 0; j + 1 < v.size(); ++j) {

@@ -10,7 +10,7 @@
 
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/core/parametric.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::spline {
@@ -51,12 +51,15 @@ TensorSpline random_spline(int degree_u, int degree_v, bool rational, bool with_
 double greatest_distance(const TensorSpline& s, const NurbsNet& net) {
   const NurbsSurface surface(net, Body::rail);
   const auto u = breaks_of(s.knots_u, s.degree_u), v = breaks_of(s.knots_v, s.degree_v);
-  const double scale = net.range(0, net.patches_v() - 1).v1 / v.back();
+  const NurbsNet::Range all = net.range();
   double most = 0.0;
   for (int i = 0; i <= 60; ++i)
     for (int j = 0; j <= 60; ++j) {
       const double a = u.front() + (u.back() - u.front()) * i / 60.0, b = v.front() + (v.back() - v.front()) * j / 60.0;
-      most = std::max(most, (surface.point(a, scale * b) - evaluate(s, a, b).p).norm());
+      most =
+          std::max(most, (surface.point(all.u0 + (all.u1 - all.u0) * i / 60.0, all.v0 + (all.v1 - all.v0) * j / 60.0) -
+                          evaluate(s, a, b).p)
+                             .norm());
     }
   return most;
 }
@@ -113,6 +116,30 @@ TEST(TensorNets, GiveTheCoefficientsOfWhatGoesThroughPoints) {
         most = std::max(most, (surface.point(u, v) - evaluate(fitted.spline, u, v).p).norm());
       }
     EXPECT_LT(most, 1e-14);
+  }
+}
+
+TEST(TensorNets, TellStationsWhateverTheirParametersAre) {
+  // a circle in four quarters, u from 0 to 1
+  TensorSpline s;
+  s.body = Body::wheel;
+  s.degree_u = 2, s.degree_v = 1;
+  s.knots_u = {0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0}, s.knots_v = {0.0, 0.0, 7.0, 7.0};
+  const double corners[9][2] = {{0, -1}, {-1, -1}, {-1, 0}, {-1, 1}, {0, 1}, {1, 1}, {1, 0}, {1, -1}, {0, -1}};
+  for (int i = 0; i < 9; ++i)
+    for (const double y : {-0.02, 0.02}) {
+      s.poles.emplace_back(0.46 * corners[i][0], y, 0.46 * corners[i][1]);
+      s.weights.push_back(i % 2 == 1 ? std::sqrt(0.5) : 1.0);
+    }
+  double deviation = 0.0;
+  const NurbsSurface wheel(net_of(s, deviation), Body::wheel);
+  for (const double angle : {-3.0, -1.0, 0.0, 0.7, 2.9}) {
+    const Vec2 uv(angle, wheel.net().range().v0 + 0.01);
+    SurfaceJet jet;
+    evaluate(wheel, {&uv, 1}, {&jet, 1});
+    ASSERT_TRUE(jet.found()) << angle;
+    EXPECT_NEAR(std::atan2(jet.p.x(), jet.p.z()), angle, 1e-11);
+    EXPECT_NEAR(jet.pu.norm(), 0.46, 1e-9);
   }
 }
 
