@@ -75,7 +75,9 @@ class Writer {
         if (const auto* figure = std::get_if<Figure>(&block)) views.push_back(view(*figure));
     Json& blobs = data["blobs"] = Json::array();
     for (const std::string& blob : blobs_.finish()) blobs.push_back(blob);
-    data["document"] = page_.document.empty() ? Json() : Json::parse(page_.document, nullptr, false);
+    constexpr std::size_t kMostDocument = 1'000'000;  // no view reads it; thousands of cases have it beside the page
+    const bool kept = !page_.document.empty() && page_.document.size() <= kMostDocument;
+    data["document"] = kept ? Json::parse(page_.document, nullptr, false) : Json();
     if (data["document"].is_discarded()) data["document"] = Json();
     return without_markup(data.dump(-1, ' ', true, Json::error_handler_t::replace));
   }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "treadmark/app/report/html_text.hpp"
@@ -179,7 +180,11 @@ std::string to_html(const Page& page, const PageOptions& options) {
   out += fmt::format("</main>\n<footer><p>Made by Treadmark {} ({}).</p></footer>\n", html_text(version()),
                      html_text(git_revision()));
   if (live) {
-    out += "<script type=\"application/json\" id=\"treadmark-data\">" + page_data(page, options.field_budget) +
+    // What tables and scripts take of the whole page is not there for fields.
+    constexpr std::size_t kMostPage = 7'500'000, kFewestFields = 1'000'000;
+    const std::size_t taken = std::min(out.size() + script.size(), kMostPage - kFewestFields);
+    const std::size_t budget = std::min(options.field_budget, kMostPage - taken);
+    out += "<script type=\"application/json\" id=\"treadmark-data\">" + page_data(page, budget) +
            "</script>\n<script>" + script + "</script>\n";
   }
   return out + "</body>\n</html>\n";

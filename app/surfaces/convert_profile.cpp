@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/backends/builtin.hpp"
 #include "treadmark/backends/resampling.hpp"
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/core/error.hpp"
@@ -46,7 +48,11 @@ Profile input_profile(const std::filesystem::path& input, const std::filesystem:
     refuse("the section is not the same everywhere, and one profile is written", "write triangles, slices or offsets");
   const auto* profile = std::get_if<Profile>(&natural.spec.shape);
   if (profile != nullptr && settings.resolution == 0.0) return *profile;
-  const Representation wanted{"", settings.resolution > 0.0 ? settings.resolution : kStep, {}};
+  const double step = settings.resolution > 0.0 ? settings.resolution : kStep;
+  // Formulas by their length, so that steep sides have as many points.
+  if (natural.spec.defects.empty())
+    if (const std::optional<Profile> formula = sampled_formula(natural.spec, step)) return *formula;
+  const Representation wanted{"", step, {}};
   return Resampling(natural, wanted).section();
 }
 

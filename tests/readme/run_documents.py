@@ -23,6 +23,7 @@ ONLY_TAKEN = {
     r"^sweep .*(--slurm|--status|/shared/)": "needs a cluster: tests of Slurm run these",
     r"^sweep .*--runs 1-400": "a sample of a study of 100 000 runs",
     r"^stability .*--falling": "a run of several kilometres: tests of stability shorten it through the library",
+    r"^assess .*--section": "places of a run of hundreds of metres: tests of assessments do it",
     r"^run my\.toml.*": "the case of README.md, which has a test of its own",
     r"^check my\.toml": "the same",
 }

@@ -101,7 +101,7 @@ NurbsNet exact_net(const TensorSpline& s, std::vector<double> u, std::vector<dou
     for (std::size_t j = 0; j < nv; ++j) {
       const double w = s.weights.empty() ? 1.0 : s.weights[i * nv + j];
       const Vec3 p = w * s.poles[i * nv + j];
-      line.push_back({p.x(), p.y(), p.z(), w});
+      line.emplace_back(p.x(), p.y(), p.z(), w);
     }
     append_pieces(line, s.knots_v, s.degree_v, v, pieces);
     across.insert(across.end(), pieces.begin(), pieces.end());
