@@ -280,7 +280,8 @@ class RunningSurface {
 
  private:
   bool follows(const std::vector<Seen>& seen, int i, int step, double top) const {
-    const Seen &here = seen[static_cast<std::size_t>(i)], &next = seen[static_cast<std::size_t>(i + step)];
+    const int following = i + step;
+    const Seen &here = seen[static_cast<std::size_t>(i)], &next = seen[static_cast<std::size_t>(following)];
     return next.is_there() && std::fabs(next.h - here.h) <= kJump && below_top(next.h, top) <= kDeep;
   }
 

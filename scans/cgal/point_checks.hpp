@@ -45,7 +45,7 @@ inline NormalisedPoints normalise_points(std::span<const Vec3> points, double un
   NormalisedPoints result{{}, low, unit > 0.0 ? unit : (high - low).maxCoeff()};
   if (!(result.unit > 0.0)) result.unit = 1.0;  // all points equal
   result.points.reserve(points.size());
-  for (const Vec3& p : points) result.points.push_back((p - low) / result.unit);
+  for (const Vec3& p : points) result.points.emplace_back((p - low) / result.unit);
   return result;
 }
 

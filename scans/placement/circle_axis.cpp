@@ -146,6 +146,7 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
         break;
       }
       std::vector<double> off;
+      off.reserve(centres.size());
       const auto distance = [&](const Vec3& c) {
         return std::hypot(c.x() - line(0, 0) - c.z() * line(1, 0), c.y() - line(0, 1) - c.z() * line(1, 1));
       };

@@ -104,7 +104,7 @@ SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, 
     all += moments[v].count;
     if (!(weight[v] > 0.0f)) continue;
     flat += moments[v].count;
-    out.position.push_back(extent.centre + moments[v].sum / moments[v].count);
+    out.position.emplace_back(extent.centre + moments[v].sum / moments[v].count);
     out.normal.push_back(normal[v]);
     out.weight.push_back(weight[v]);
   }

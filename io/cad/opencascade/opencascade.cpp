@@ -639,7 +639,7 @@ TopoDS_Shape shape_of(const CadSheet& sheet) {
     TColStd_Array2OfReal weights(1, rows, 1, columns);
     for (int i = 0; i < rows; ++i)
       for (int j = 0; j < columns; ++j) {
-        const auto k = static_cast<std::size_t>(i * columns + j);
+        const auto k = static_cast<std::size_t>(i) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j);
         poles(i + 1, j + 1) = to_mm(spline.poles.at(k));
         weights(i + 1, j + 1) = spline.weights.empty() ? 1.0 : spline.weights.at(k);
       }
