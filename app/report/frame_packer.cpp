@@ -79,6 +79,18 @@ PackedSets pack(const std::vector<FrameSet>& sets, BlobStore& blobs, const Detai
   return out;
 }
 
+/// What stands beside the numbers of the fields, about [bytes]: names, numbers and places of cases and patches.
+std::size_t size_of_words(const PackedSets& sets) {
+  constexpr std::size_t kFrame = 500, kPatch = 900, kField = 120;
+  std::size_t size = 0;
+  for (const auto& frames : sets)
+    for (const PackedFrame& frame : frames) {
+      size += kFrame;
+      for (const PackedPatch& patch : frame.patches) size += kPatch + kField * patch.values.size();
+    }
+  return size;
+}
+
 }  // namespace
 
 GridPart shown_part(const io::PatchFields& fields) {
@@ -103,7 +115,7 @@ PackedSets pack_frames(const std::vector<FrameSet>& sets, BlobStore& blobs, std:
     BlobStore attempt = blobs;
     PackedSets packed = pack(sets, attempt, detail);
     attempt.finish();
-    if (attempt.text_size() <= budget || &detail == std::end(kDetails) - 1) {
+    if (attempt.text_size() + size_of_words(packed) <= budget || &detail == std::end(kDetails) - 1) {
       blobs = std::move(attempt);
       return packed;
     }

@@ -32,8 +32,9 @@ struct PackedFrame {
 
 using PackedSets = std::vector<std::vector<PackedFrame>>;
 
-/// Fields of all frames: a blob a frame, as precise and as many as the size [bytes of text] allows: first two bytes a
-/// number, then one, then fewer quantities, at last fewer frames. What is left out is said in the frames.
+/// Fields of all frames: a blob a frame, as precise and as many as the size [bytes of text, with what is said of
+/// patches] allows: first two bytes a number, then one, then fewer quantities, at last fewer frames. What is left out
+/// is said in the frames.
 PackedSets pack_frames(const std::vector<FrameSet>& sets, BlobStore& blobs, std::size_t budget);
 
 }  // namespace treadmark::app::report
