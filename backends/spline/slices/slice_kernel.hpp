@@ -185,7 +185,8 @@ void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
     store(section.predicted + k, u_by_c + 0.5 * change + (5.0 / 12.0) * bend);
     store(section.u_by_c + k, u_by_c);
     store(section.change + k, change);
-    before = u[3], slope = du[3] == du[3] ? du[3] : 0.0;  // missing behind the last break
+    before = u[3], slope = du[3];
+    if constexpr (straight) slope = slope == slope ? slope : 0.0;  // missing behind the last break
   }
 }
 
