@@ -144,7 +144,9 @@ TEST_P(ThbBasis, DividingKeepsTheSurface) {
   ThbSpace space = space_of(GetParam().degree, GetParam().closed, 4);
   divide_some(space, 4, 3);
   std::mt19937 random(4);
-  const std::vector<Vec3> coefficients = some_coefficients(space, random);
+  constexpr double kSize = 0.05;  // [m] hulls of surfaces of metres take long
+  std::vector<Vec3> coefficients = some_coefficients(space, random);
+  for (Vec3& c : coefficients) c *= kSize;
   ThbSpace finer = space;
   divide_some(finer, 6, 5);
   ASSERT_GT(finer.functions(), space.functions());
@@ -155,9 +157,9 @@ TEST_P(ThbBasis, DividingKeepsTheSurface) {
   for (int k = 0; k < 400; ++k) {
     const double at_u = u.front() + (u.back() - u.front()) * 0.5 * (1.0 + unit(random)),
                  at_v = v.front() + (v.back() - v.front()) * 0.5 * (1.0 + unit(random));
-    EXPECT_LT((after.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kRounding);
+    EXPECT_LT((after.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kSize * kRounding);
     // and so do the patches that it is cut into
-    EXPECT_LT((patches.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kRounding);
+    EXPECT_LT((patches.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kSize * kRounding);
   }
 }
 
