@@ -38,7 +38,7 @@ io::CadContent to_cad(const NaturalSurface& natural, const Representation& wante
   TensorFit fit = to_tensor_spline(natural, wanted, kTolerance);
   sampled = fit.sampled;
   io::CadContent out;
-  const Body body = natural.spec.body;
+  const Body body = out.body = natural.spec.body;
   if (fit.one_section) {
     const Region& r = fit.sampled.region;
     const bool part = body == Body::rail || r.u_max - r.u_min < 2.0 * kPi;
@@ -49,7 +49,8 @@ io::CadContent to_cad(const NaturalSurface& natural, const Representation& wante
       fit.deviation > 0.0
           ? fmt::format("at most {:.2g} um off what it was made of, as far as was looked", 1e6 * fit.deviation)
           : "with the coefficients that it was given with");
-  sampled.note += fmt::format("{} x {} coefficients. ", fit.spline.poles_u(), fit.spline.poles_v());
+  const auto& [u, v] = fit.spline.levels.front();
+  sampled.note += fmt::format("{} x {} coefficients. ", u.functions(), v.functions());
   if (fit.deviation > kTolerance)
     sampled.note += fmt::format("more points would be needed to lie within {:g} um. ", 1e6 * kTolerance);
   out.spline = std::move(fit.spline);

@@ -23,10 +23,10 @@ struct SplineFile {
 };
 
 /// Reads G+Smo's XML: the patches of its MultiPatch if it has one, else all of its Geometry: TensorBSpline2,
-/// TensorNurbs2, THBSpline2 and HBSpline2 of degrees 1 to 3 in three dimensions. Coordinates times scale_to_mm are
-/// millimetres, since the format has no unit. asked_by: where the file was named. Errors: Error(input_data) with
-/// file:line:column and the id of the geometry; Error(configuration) in a build without Expat, or for a scale that is
-/// not positive.
+/// TensorNurbs2 of degrees up to kHighestDegree, THBSpline2 and HBSpline2 of degrees up to kHighestHierarchicalDegree,
+/// in three dimensions. Coordinates times scale_to_mm are millimetres, since the format has no unit. asked_by: where
+/// the file was named. Errors: Error(input_data) with file:line:column and the id of the geometry; Error(configuration)
+/// in a build without Expat, or for a scale that is not positive.
 SplineFile read_splines(const std::filesystem::path& file, double scale_to_mm = 1.0,
                         const SourcePosition& asked_by = {});
 

@@ -17,12 +17,6 @@ namespace {
 
 using Text = std::back_insert_iterator<std::string>;
 
-std::vector<double> different_knots(const SplineKnots& k) {
-  std::vector<double> out = k.knots;
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
 void write_basis(Text out, const std::array<SplineKnots, 2>& directions, int level) {
   fmt::format_to(out, "<Basis type=\"TensorBSplineBasis2\"");
   if (level >= 0) fmt::format_to(out, " level=\"{}\"", level);
@@ -40,7 +34,7 @@ void write_basis(Text out, const std::array<SplineKnots, 2>& directions, int lev
 bool all_halved(const SplineSurface& s) {
   for (std::size_t l = 1; l < s.levels.size(); ++l)
     for (std::size_t d = 0; d < 2; ++d) {
-      const std::vector<double> a = different_knots(s.levels[l - 1][d]), b = different_knots(s.levels[l][d]);
+      const std::vector<double> a = s.levels[l - 1][d].breaks(), b = s.levels[l][d].breaks();
       if (b.size() != 2 * a.size() - 1 || s.levels[l][d].knots.size() != s.levels[l - 1][d].knots.size() + a.size() - 1)
         return false;
       for (std::size_t i = 0; i < a.size(); ++i)
@@ -56,7 +50,7 @@ std::vector<std::array<std::vector<long>, 2>> box_indices(const SplineSurface& s
   for (std::size_t d = 0; d < 2; ++d) {
     std::vector<double> before;
     for (std::size_t l = 0; l < s.levels.size(); ++l) {
-      std::vector<double> breaks = different_knots(s.levels[l][d]);
+      std::vector<double> breaks = s.levels[l][d].breaks();
       std::vector<long>& at = out[l][d];
       at.reserve(breaks.size());
       std::size_t c = 0;

@@ -162,7 +162,9 @@ TEST(Splines, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(wheel(" geoDim=\"3\"", ""), HasSubstr("has no geoDim"));
   EXPECT_THAT(wheel("geoDim=\"3\"", "geoDim=\"2\""), HasSubstr("a surface in space has 3"));
   // knots
-  EXPECT_THAT(wheel("degree=\"2\"", "degree=\"4\""), HasSubstr("a.xml:8:6: Geometry 7: degree 4 is not read"));
+  EXPECT_THAT(wheel("degree=\"2\"", "degree=\"4\""), HasSubstr("a.xml:8:6: Geometry 7: 6 knots are too few for"));
+  EXPECT_THAT(wheel("degree=\"2\"", "degree=\"26\""), HasSubstr("degree 26 is not known: 1 to 25 are"));
+  EXPECT_THAT(rail("degree=\"2\"", "degree=\"4\""), HasSubstr("Geometry 0: degree 4 is not known: 1 to 3 are"));
   EXPECT_THAT(wheel("degree=\"2\"", "degree=\"two\""), HasSubstr("no whole number"));
   EXPECT_THAT(wheel("0 0 0 1 1 1 ", "0 0 0 1 1"), HasSubstr("5 knots are too few for degree 2"));
   EXPECT_THAT(wheel("0 0 0 1 1 1 ", "0 0 1 0 1 1"), HasSubstr("a.xml:8:35: Geometry 7: knot 4 is less"));
