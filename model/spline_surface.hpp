@@ -81,6 +81,7 @@ struct SplineInterface {
   std::size_t first = 0, second = 0;    ///< places in a list of surfaces
   int first_side = 1, second_side = 1;  ///< 1 to 4
   SourcePosition where;                 ///< in its file
+  bool reversed = false;                ///< parameters along the two sides grow against each other
 };
 
 }  // namespace treadmark

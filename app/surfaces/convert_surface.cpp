@@ -7,11 +7,13 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/backends/spline/spline_gaps.hpp"
 #include "treadmark/backends/tensor_fit.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/copy_bytes.hpp"
@@ -99,7 +101,10 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     io::write_cad(place, to_cad(out.source, wanted, sampled));
   } else if (splines) {
     out.kind = "splines";
-    io::write_splines(place, to_splines(out.source, wanted, &sampled));
+    const std::vector<SplineSurface> told = to_splines(out.source, wanted, &sampled);
+    std::vector<SplineInterface> met;
+    if (told.size() > 1) spline::spline_gaps(told, {}, &met);
+    io::write_splines(place, told, met);
   } else if (triangles) {
     out.kind = "triangles";
     const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);

@@ -49,10 +49,12 @@ bool full_ends(const SplineKnots& k) {
 
 // Where the chords of a section cross, seen along x and at the same x.
 std::optional<Vec2> crossing_of(const std::vector<Vec3>& section) {
-  constexpr double kSameX = 1e-3;  // [m]
+  constexpr double kSameX = 1e-3;     // [m]
+  constexpr double kStraight = 1e-9;  // [rad] more than rounding turns
   const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {
     const Vec3 u = section[b] - section[a], v = section[c] - section[a];
-    return u.y() * v.z() - u.z() * v.y();
+    const double area = u.y() * v.z() - u.z() * v.y();
+    return std::abs(area) > kStraight * u.norm() * v.norm() ? area : 0.0;
   };
   for (std::size_t k = 0; k + 1 < section.size(); ++k)
     for (std::size_t m = k + 2; m + 1 < section.size(); ++m) {
@@ -404,13 +406,13 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
   if (!(std::abs(seen) > kEdgeOn * all)) seen = volume / std::max(highest - lowest, kEdgeOn);
   if (!(std::abs(seen) > kEdgeOn * all)) refuse("it is seen edge-on from the contact side, or not at all", axes);
   out.back_v = (out.back_u ? -seen : seen) < 0.0;
-  // sections by chords
-  constexpr std::size_t kSections = 24;
+  // sections by chords, two at least of every interval
+  constexpr std::size_t kLeastSections = 64;
   const std::vector<double> along_section =
       places(of_v, std::clamp(static_cast<int>(256 / breaks(of_v).size()), 2, 64));
-  for (std::size_t i = 0; i < at_u.size(); i += (at_u.size() - 1) / kSections + 1) {
+  for (const double at : places(of_u, std::max(2, static_cast<int>(kLeastSections / breaks(of_u).size())))) {
     check_cancelled();
-    std::vector<Vec3> section = row_at(at_u[i], along_section);
+    std::vector<Vec3> section = row_at(at, along_section);
     for (Vec3& p : section)
       if (wheel) p = Vec3(0.0, p.y(), std::hypot(p.x(), p.z()));
     if (const auto crossing = crossing_of(section))

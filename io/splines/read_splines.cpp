@@ -272,6 +272,7 @@ class Reader {
           return n[number];
         };
         i.first = patch(k), i.first_side = side(k + 1), i.second = patch(k + 2), i.second_side = side(k + 3);
+        i.reversed = n[k + (i.first_side <= 2 ? 7 : 6)] == 0;
         out_.interfaces.push_back(std::move(i));
       }
     }

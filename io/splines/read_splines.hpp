@@ -33,10 +33,12 @@ SplineFile read_splines(const std::filesystem::path& file, double scale_to_mm = 
 /// The same from text in memory; file is only used for messages.
 SplineFile parse_splines(std::string_view text, const std::string& file, double scale_to_mm = 1.0);
 
-/// Writes such a file in mm, with 17 digits; several surfaces as a MultiPatch. Hierarchical ones whose levels do not
+/// Writes such a file in mm, with 17 digits; several surfaces as a MultiPatch, with the sides that meet as interfaces
+/// and all others as its boundary. Hierarchical ones whose levels do not
 /// halve all intervals say the knots of every level (manualLevels). The file appears only when complete. Errors:
 /// Error(configuration) for another extension, a file that cannot be written, no surface, levels of which one has more
 /// than one new knot in an interval.
-void write_splines(const std::filesystem::path& file, std::span<const SplineSurface> surfaces);
+void write_splines(const std::filesystem::path& file, std::span<const SplineSurface> surfaces,
+                   std::span<const SplineInterface> interfaces = {});
 
 }  // namespace treadmark::io

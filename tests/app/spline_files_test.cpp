@@ -10,8 +10,12 @@
 #include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/natural_view.hpp"
+#include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/io/splines/sample_splines.hpp"
@@ -169,6 +173,38 @@ TEST(SplineFiles, SeveralPatchesAreOneBodyWhoseGapsAreNamed) {
   const Converted c = convert_surface(input.folder() / "plates.xml", input.folder() / "out.xml", settings);
   EXPECT_THAT(c.written.note, HasSubstr("a gap of 30 um"));
   EXPECT_LT(c.fit.height_max, kNanometre);
+  EXPECT_THAT(
+      io::profiles::read_text(input.folder() / "out.xml", "file", {}),
+      HasSubstr("<interfaces>0 2 1 1 0 1 0 1\n</interfaces>\n<boundary>0 1\n0 3\n0 4\n1 2\n1 3\n1 4\n</boundary>"));
+  const io::SplineFile back = io::read_splines(input.folder() / "out.xml");
+  ASSERT_EQ(back.interfaces.size(), 1u);
+  EXPECT_EQ(back.interfaces[0].second_side, 1);
+  EXPECT_FALSE(back.interfaces[0].reversed);
+  read(0.3, "");  // too far apart to be said to meet
+  convert_surface(input.folder() / "plates.xml", input.folder() / "out.xml", settings);
+  EXPECT_TRUE(io::read_splines(input.folder() / "out.xml").interfaces.empty());
+}
+
+TEST(SplineFiles, OfTheProgramKnowTheirBackends) {
+  TREADMARK_NEEDS("expat");
+  const SampleInput input;
+  input.write("rail.xml", treadmark::testing::hierarchical_rail(0.5));
+  const auto convert = [&](const char* backend, const char* name) {
+    return treadmark::testing::run_program({"convert", (input.folder() / "rail.xml").string(),
+                                            (input.folder() / name).string(), "--body", "rail", "--backend", backend});
+  };
+  const auto refused = [&](const char* backend, const char* name) {
+    const treadmark::testing::ProgramResult r = convert(backend, name);
+    EXPECT_NE(r.status, 0) << backend << name;
+    EXPECT_FALSE(std::filesystem::exists(input.folder() / name)) << backend << name;
+    return r.err;
+  };
+  EXPECT_THAT(refused("mesh", "out.xml"), HasSubstr("the backend 'mesh' has no splines to write"));
+  EXPECT_THAT(refused("none", "out.xml"), HasSubstr("'none'"));
+  EXPECT_THAT(refused("thb", "out.ply"), HasSubstr("--backend belongs to files of splines"));
+  const treadmark::testing::ProgramResult tensor = convert("nurbs", "out.xml");
+  EXPECT_EQ(tensor.status, 0) << tensor.err;
+  EXPECT_FALSE(io::read_splines(input.folder() / "out.xml").surfaces.at(0).hierarchical);
 }
 
 TEST(SplineFiles, AHierarchyStaysOneAndTakesDefects) {

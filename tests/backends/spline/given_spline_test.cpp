@@ -546,6 +546,29 @@ TEST(GivenSpline, WhatCannotBeASurfaceIsNamed) {
   EXPECT_THAT(refusal(open), HasSubstr("repeated degree + 1 times"));
 }
 
+TEST(GivenSpline, ALoopIsFoundInTheMiddleOfManySections) {
+  // a roof along x whose section crosses itself at one of 100 breaks
+  SplineSurface s;
+  s.name = "Geometry 3";
+  s.levels.push_back({SplineKnots{1, {0.0}}, knots(3, {})});
+  for (int i = 0; i <= 100; ++i) s.levels[0][0].knots.push_back(0.01 * i);
+  s.levels[0][0].knots.push_back(1.0);
+  const Vec2 plain[] = {{-0.04, 0.0}, {-0.01, -0.06}, {0.01, -0.06}, {0.04, 0.0}},
+             loop[] = {{-0.04, 0.0}, {0.12, -0.06}, {-0.12, -0.06}, {0.04, 0.0}};
+  for (const bool looped : {false, true}) {
+    s.points.clear();
+    for (std::size_t j = 0; j < 4; ++j)
+      for (int i = 0; i <= 100; ++i) {
+        const Vec2& yz = looped && i == 37 ? loop[j] : plain[j];
+        s.points.emplace_back(0.004 * i - 0.2, yz.x(), yz.y());
+      }
+    EXPECT_THAT(refusal(s), looped ? HasSubstr("a section crosses itself near y =") : HasSubstr(""));
+    if (!looped) {
+      EXPECT_EQ(refusal(s), "");
+    }
+  }
+}
+
 SplineSurface plate(double x, double z, const std::string& name) {
   SplineSurface s;
   s.name = name;
@@ -567,6 +590,17 @@ TEST(SplineGaps, AreNamed) {
     EXPECT_EQ(say(0.5e-6, interface), "");
     EXPECT_EQ(say(20e-6, interface), "a gap of 20 um between side 2 of Geometry 4 and side 1 of Geometry 5. ");
   }
+  // the second one told in another order: its side 4 is met, from the other end
+  std::vector<SplineSurface> s{plate(0.0, 0.0, "Geometry 4"), plate(0.1, 0.0, "Geometry 5")};
+  const std::vector<Vec3> p = s[1].points;
+  s[1].points = {p[3], p[1], p[2], p[0]};
+  std::vector<SplineInterface> met;
+  EXPECT_EQ(spline_gaps(s, {}, &met), "");
+  ASSERT_EQ(met.size(), 1u);
+  EXPECT_EQ(met[0].first_side, 2);
+  EXPECT_EQ(met[0].second, 1u);
+  EXPECT_EQ(met[0].second_side, 4);
+  EXPECT_TRUE(met[0].reversed);
   EXPECT_THAT(say(0.2e-3, false), HasSubstr("a gap of 200 um"));
   EXPECT_THAT(error_of([&] { say(0.2e-3, true); }), HasSubstr("are said to meet, but are 200 um apart"));
   EXPECT_THAT(say(5e-3, false), HasSubstr("Geometry 4 meets no other surface"));
