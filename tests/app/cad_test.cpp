@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -138,7 +140,8 @@ TEST(CadRail, TakesTheBackendOfTheCommandLine) {
   for (const char* backend : {"thb", "offset"}) {
     const treadmark::testing::ProgramResult r = run(backend);
     EXPECT_EQ(r.status, 0) << r.err;
-    EXPECT_THAT(r.out, HasSubstr(std::string("rail: ") + backend));
+    EXPECT_THAT(r.err, HasSubstr(fmt::format("rail as {} at 0.5 mm", backend)));
+    EXPECT_THAT(r.out, HasSubstr("case 1: ok"));
   }
   EXPECT_THAT(run("none").err, HasSubstr("'none'"));
 }
