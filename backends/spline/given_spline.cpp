@@ -49,6 +49,10 @@ bool full_ends(const SplineKnots& k) {
 
 // Where the chords of a section cross, seen along x and at the same x.
 std::optional<Vec2> crossing_of(const std::vector<Vec3>& section) {
+  const auto rises = [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); };
+  const auto falls = [](const Vec3& a, const Vec3& b) { return a.y() > b.y(); };
+  // one whose y only rises or falls has no crossing
+  if (std::ranges::is_sorted(section, rises) || std::ranges::is_sorted(section, falls)) return std::nullopt;
   constexpr double kSameX = 1e-3;     // [m]
   constexpr double kStraight = 1e-9;  // [rad] more than rounding turns
   const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {
