@@ -177,11 +177,12 @@ struct FrameSet {
 };
 
 struct Timeline {
-  std::string label;                    ///< what a step is: "case", "instant", "run"
-  std::vector<std::string> names = {};  ///< of the steps; empty: made from the first axis
-  std::vector<int> frames = {};         ///< of each step, -1 = none; empty: there are no contact fields
-  std::vector<Axis> axes = {};          ///< a value a step; at least one
-  std::size_t start = 0;                ///< the step that is shown first
+  std::string label;                      ///< what a step is: "case", "instant", "run"
+  std::vector<std::string> names = {};    ///< of the steps; empty: made from the first axis
+  std::vector<int> frames = {};           ///< of each step, -1 = none; empty: there are no contact fields
+  std::vector<Axis> axes = {};            ///< a value a step; at least one
+  std::size_t start = 0;                  ///< the step that is shown first
+  std::vector<std::size_t> notable = {};  ///< steps that a page of too many keeps; ascending
   std::size_t count() const { return axes.empty() ? names.size() : axes.front().values.size(); }
 };
 

@@ -110,7 +110,7 @@ TEST(HistoryPanels, ThinningKeepsPeaks) {
   EXPECT_EQ(rows.back(), 49'999u);
   EXPECT_TRUE(std::ranges::binary_search(rows, std::size_t{31'234}));
   EXPECT_EQ(thinned_rows(*result, {"Q_N"}, 60'000).size(), 50'000u);
-  EXPECT_EQ(thinned_rows(*result, {"nothing"}, 100).size(), 50u);
+  EXPECT_EQ(thinned_rows(*result, {"nothing"}, 100).size(), 100u);
 }
 
 TEST(HistoryPanels, UnitsFollowNames) {
