@@ -129,8 +129,11 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page, s
   const std::size_t shown = step.value_or(page.timeline ? page.timeline->start : 0);
   if (const auto* chart = std::get_if<ChartView>(&figure.view)) return {chart_svg(*chart, page, figure.title, shown)};
   if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title, shown)};
-  if (const auto* section = std::get_if<SectionView>(&figure.view))
-    return {section_svg(set_of(page, section->set), page.surfaces)};
+  if (const auto* section = std::get_if<SectionView>(&figure.view)) {
+    std::vector<std::string> pictures{section_svg(set_of(page, section->set), page.surfaces)};
+    for (const int other : section->over) pictures.push_back(section_svg(set_of(page, other), page.surfaces));
+    return pictures;
+  }
   if (!std::holds_alternative<ContactView>(figure.view)) return {};
   std::vector<std::string> pictures;
   const std::vector<int>& sets = std::get<ContactView>(figure.view).sets;
