@@ -7,18 +7,17 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/report/html_text.hpp"
 #include "treadmark/core/constants.hpp"
 
 namespace treadmark::app::report {
 namespace {
 
-constexpr const char* kNotSaid = "–";
-
 /// Finds a line by its name, or begins it.
-SaidByAll& line_of(std::vector<SaidByAll>& lines, const std::string& what, std::size_t results) {
+SaidByAll& line_of(std::vector<SaidByAll>& lines, const std::string& what, std::size_t results, const char* otherwise) {
   const auto found = std::ranges::find(lines, what, &SaidByAll::what);
   if (found != lines.end()) return *found;
-  lines.push_back({what, std::vector<std::string>(results, kNotSaid)});
+  lines.push_back({what, std::vector<std::string>(results, otherwise)});
   return lines.back();
 }
 
@@ -29,12 +28,27 @@ std::string version_of(const Origin& origin) {
 }  // namespace
 
 Change change(double first, double second, double scale) {
-  constexpr double kRounding = 1e-12, kLeastShare = 1e-3;
+  constexpr double kRounding = 1e-9, kLeastShare = 1e-3;
   Change out{second - first, kNaN};
   if (std::fabs(out.difference) <= kRounding * std::max(std::fabs(first), std::fabs(second))) out.difference = 0.0;
   if (std::isfinite(out.difference) && first != 0.0 && std::fabs(first) >= kLeastShare * scale)
     out.percent = 100.0 * out.difference / std::fabs(first);
   return out;
+}
+
+Cards::Card change_card(const std::string& label, const Change& change, const std::string& unit,
+                        const std::string& where) {
+  const auto with_sign = [](double value, const std::string& of) {
+    return fmt::format("{}{}{}{}",
+                       value > 0.0   ? "+"
+                       : value < 0.0 ? "−"
+                                     : "",
+                       shown({std::fabs(value), 3}), of.empty() ? "" : " ", of);
+  };
+  if (!std::isfinite(change.difference)) return {label, "–", where};
+  std::string note = std::isfinite(change.percent) ? with_sign(change.percent, "%") : std::string();
+  if (!where.empty()) note += (note.empty() ? "" : ", ") + where;
+  return {label, with_sign(change.difference, unit), std::move(note)};
 }
 
 void add_columns(Table& table, const std::vector<std::string>& names, const std::string& quantity,
@@ -66,8 +80,8 @@ std::vector<SaidByAll> origins_of(std::span<const Origin> origins, bool whole) {
   std::vector<SaidByAll> lines;
   for (std::size_t k = 0; k < origins.size(); ++k) {
     const Origin& origin = origins[k];
-    const auto say = [&](const std::string& what, const std::string& text) {
-      if (!text.empty()) line_of(lines, what, origins.size()).texts[k] = text;
+    const auto say = [&](const std::string& what, const std::string& text, const char* otherwise = "–") {
+      if (!text.empty()) line_of(lines, what, origins.size(), otherwise).texts[k] = text;
     };
     say("version", version_of(origin));
     say("input", origin.input_file);
@@ -76,7 +90,7 @@ std::vector<SaidByAll> origins_of(std::span<const Origin> origins, bool whole) {
     for (const std::string& setting : origin.settings) {
       const std::size_t equals = setting.find('=');
       const bool pair = equals != std::string::npos;
-      say("set: " + setting.substr(0, equals), pair ? setting.substr(equals + 1) : "yes");
+      say("set: " + setting.substr(0, equals), pair ? setting.substr(equals + 1) : "yes", "as in the input");
     }
   }
   return lines;

@@ -14,7 +14,7 @@ namespace treadmark::app::report {
 
 /// Parts of pages that lay results over each other. The first result is what the others are compared with.
 
-/// From one number to another. A difference within the last of 12 digits is rounding: 0.
+/// From one number to another. A difference below 1e-9 of the larger of them is rounding: 0.
 struct Change {
   double difference = 0.0;  ///< second minus first; NaN where one is not known
   double percent = 0.0;     ///< of the size of the first; NaN where that is below a thousandth of `scale`
@@ -22,6 +22,10 @@ struct Change {
 
 /// scale: the largest size that the quantity has anywhere.
 Change change(double first, double second, double scale);
+
+/// A card that says a change with its sign. where: of the note, may be empty.
+Cards::Card change_card(const std::string& label, const Change& change, const std::string& unit,
+                        const std::string& where);
 
 /// Columns of a quantity: of each result, then difference and change of each but the first. quantity: before the names
 /// of the columns, may be empty. unit: empty where rows have units of their own.

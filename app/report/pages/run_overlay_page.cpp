@@ -19,6 +19,7 @@
 #include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -193,9 +194,8 @@ class Extent {
     high_ = std::max(high_, value);
   }
   std::string text(const std::string& unit) const {
-    constexpr int kDigits = 6;
     if (low_ > high_) return "–";
-    const std::string low = shown({low_, kDigits}), high = shown({high_, kDigits});
+    const std::string low = fmt::format("{:.6g}", low_ + 0.0), high = fmt::format("{:.6g}", high_ + 0.0);
     return (low == high ? low : low + " to " + high) + (unit.empty() ? "" : " " + unit);
   }
 
@@ -213,6 +213,17 @@ std::string surfaces_text(const Run& run, const std::string& body) {
   return used.empty() ? "–" : fmt::format("{}", fmt::join(used, ", "));
 }
 
+/// A name for the shape of a body, which results have as points only: of the same points the same.
+std::string shape_text(const std::vector<io::SampledSurface>& surfaces, const std::string& body) {
+  constexpr std::size_t kShort = 12;
+  std::string bytes;
+  for (const io::SampledSurface& surface : surfaces)
+    if (surface.body == body)
+      for (const std::vector<double>* values : {&surface.x, &surface.y, &surface.z})
+        bytes.append(reinterpret_cast<const char*>(values->data()), values->size() * sizeof(double));
+  return bytes.empty() ? "–" : io::sha256_hex(bytes).substr(0, kShort) + "…";
+}
+
 /// A setting of which results tell no more than what was used in each patch.
 struct PatchSetting {
   const char *what, *unit;
@@ -227,13 +238,13 @@ constexpr PatchSetting kPatchSettings[] = {
          if (p.fields.state[i] != 0) e.add(p.fields.friction[i]);
      }},
     {"combined shear modulus", "GPa", [](const io::PatchResult& p, Extent& e) { e.add(1e-9 * p.shear_modulus); }},
-    {"rolling speed", "m/s",
-     [](const io::PatchResult& p, Extent& e) {
-       if (p.has_rolling) e.add(p.velocity);
-     }},
 };
 
-std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const std::vector<Origin>& origins) {
+constexpr std::array<const char*, 2> kBodies{"wheel", "rail"};
+
+/// shapes: the lines of the shapes of bodies.
+std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const std::vector<Origin>& origins,
+                                const std::vector<SaidByAll>& shapes) {
   std::vector<SaidByAll> lines;
   const auto say = [&](const std::string& what, const std::function<std::string(const Run&)>& text) {
     SaidByAll line{what};
@@ -243,8 +254,9 @@ std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const 
   say("title", [](const Run& run) { return run.title.empty() ? "–" : run.title; });
   for (SaidByAll& line : origins_of(origins, false)) lines.push_back(std::move(line));
   say("cases", [](const Run& run) { return fmt::format("{}", run.cases_total); });
-  for (const char* body : {"wheel", "rail"})
+  for (const char* body : kBodies)
     say(fmt::format("surface of the {}", body), [body](const Run& run) { return surfaces_text(run, body); });
+  lines.insert(lines.end(), shapes.begin(), shapes.end());
   for (const PatchSetting& setting : kPatchSettings)
     say(setting.what, [&](const Run& run) {
       Extent extent;
@@ -252,6 +264,12 @@ std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const 
         for (const io::PatchResult& patch : one.patches) setting.add(patch, extent);
       return extent.text(setting.unit);
     });
+  say("speed of the wheelset", [](const Run& run) {
+    Extent extent;
+    for (const Case& one : run.cases)
+      if (one.has_wheelset) extent.add(one.vs);
+    return extent.text("m/s");
+  });
   for (const PoseRow& pose : kPose)
     if (!same_pose(matched, pose.member))
       say(fmt::format("{} of cases of the same number", pose.name), [&](const Run& run) {
@@ -407,23 +425,21 @@ void take_surfaces(Run& run, const std::string& prefix, std::vector<io::SampledS
       if (!name->empty()) *name = prefix + *name;
 }
 
+/// Changes below this share of a quantity's largest size are no headline: solvers reach forces within a tolerance.
+constexpr double kLeastHeadline = 1e-4;
+
 Cards cards_of(const std::vector<Curve>& curves, const std::vector<std::string>& names, const Matched& matched) {
   Cards cards;
-  const auto both =
-      static_cast<std::size_t>(std::ranges::count_if(matched, [](const auto& entry) { return in_all(entry.second); }));
+  const auto both = std::ranges::count_if(matched, [](const auto& entry) { return in_all(entry.second); });
   cards.cards.push_back({"Cases in all", fmt::format("{} of {}", both, matched.size()), ""});
   for (const Curve& curve : curves) {
     const Worst worst = worst_of(curve);
-    const auto number = std::next(matched.begin(), static_cast<std::ptrdiff_t>(worst.step))->first;
-    const double difference = worst.change.difference;
-    std::string note = std::isfinite(worst.change.percent)
-                           ? fmt::format("{}{} %, ", difference > 0.0 ? "+" : "", shown({worst.change.percent, 3}))
-                           : "";
-    note += fmt::format("case {}", number);
-    if (names.size() > 2) note += ", " + names[worst.run];
-    cards.cards.push_back({curve.label,
-                           fmt::format("{}{} {}", difference > 0.0 ? "+" : "", shown({difference, 3}), curve.unit),
-                           difference == 0.0 ? "no difference" : note});
+    if (std::fabs(worst.change.difference) < kLeastHeadline * largest_size(curve) || worst.change.difference == 0.0)
+      continue;
+    const int number = std::next(matched.begin(), static_cast<std::ptrdiff_t>(worst.step))->first;
+    cards.cards.push_back(change_card(
+        curve.label, worst.change, curve.unit,
+        fmt::format("case {}{}{}", number, names.size() > 2 ? ", " : "", names.size() > 2 ? names[worst.run] : "")));
   }
   return cards;
 }
@@ -436,7 +452,10 @@ Page run_overlay_page(std::vector<std::pair<std::string, Run>> given) {
   std::vector<std::string> names;
   std::vector<Origin> origins;
   std::vector<io::SampledSurface> surfaces;
+  std::vector<SaidByAll> shapes;
+  for (const char* body : kBodies) shapes.push_back({fmt::format("shape of the {} (SHA-256 of its points)", body)});
   for (auto& [name, run] : given) {
+    for (std::size_t b = 0; b < shapes.size(); ++b) shapes[b].texts.push_back(shape_text(run.sampled, kBodies[b]));
     take_surfaces(run, fmt::format("r{}_", runs.size() + 1), surfaces);
     origins.push_back({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings});
     names.push_back(name);
@@ -467,7 +486,7 @@ Page run_overlay_page(std::vector<std::pair<std::string, Run>> given) {
 
   const std::vector<Curve> curves = curves_of(runs, matched);
   if (!matched.empty() && !equal) overview.blocks.emplace_back(cards_of(curves, names, matched));
-  overview.blocks.emplace_back(difference_table(names, lines_of(runs, matched, origins)));
+  overview.blocks.emplace_back(difference_table(names, lines_of(runs, matched, origins, shapes)));
   page.sections.push_back(std::move(overview));
 
   if (!matched.empty()) {

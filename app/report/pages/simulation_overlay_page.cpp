@@ -222,17 +222,18 @@ Cards cards_of(const Simulations& all) {
                            {"Largest pressure", "pmax_Pa"},
                            {"Loss of contact", "contact_lost"}};
   Cards cards;
-  for (const Row& row : kRows) {
-    const ShownUnit unit = shown_unit(row.name);
-    std::vector<std::string> texts;
-    for (const auto& [name, simulation] : all) {
-      const auto at = std::ranges::find(simulation.summary, row.name, &io::NamedValue::name);
-      texts.push_back(at == simulation.summary.end() ? "–" : shown({unit.factor * at->value}));
+  const auto value_in = [](const Simulation& simulation, const char* name) {
+    const auto at = std::ranges::find(simulation.summary, name, &io::NamedValue::name);
+    return at == simulation.summary.end() ? kNaN : shown_unit(name).factor * at->value;
+  };
+  for (const Row& row : kRows)
+    for (std::size_t k = 1; k < all.size(); ++k) {
+      const double first = value_in(all.front().second, row.name), here = value_in(all[k].second, row.name);
+      if (!std::isfinite(first) || !std::isfinite(here)) continue;
+      std::string where = fmt::format("{} to {}", shown({first}), shown({here}));
+      if (all.size() > 2) where += ", " + all[k].first;
+      cards.cards.push_back(change_card(row.label, change(first, here, 0.0), shown_unit(row.name).name, where));
     }
-    if (std::ranges::all_of(texts, [](const std::string& text) { return text == "–"; })) continue;
-    cards.cards.push_back(
-        {row.label, fmt::format("{}{}{}", fmt::join(texts, " / "), unit.name.empty() ? "" : " ", unit.name), ""});
-  }
   return cards;
 }
 
