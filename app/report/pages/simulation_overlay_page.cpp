@@ -94,9 +94,12 @@ Measures measures_of(const std::vector<double>& times, const std::vector<double>
 struct MeasureRow {
   const char* name;
   double Measures::*member;
+  bool of_all;  ///< also of columns that are not drawn: vehicles have a hundred
 };
-constexpr MeasureRow kMeasures[] = {
-    {"largest", &Measures::largest}, {"least", &Measures::least}, {"mean", &Measures::mean}, {"rms", &Measures::rms}};
+constexpr MeasureRow kMeasures[] = {{"largest", &Measures::largest, true},
+                                    {"least", &Measures::least, false},
+                                    {"mean", &Measures::mean, false},
+                                    {"rms", &Measures::rms, true}};
 
 double largest_size(std::span<const double> values) {
   double most = 0.0;
@@ -107,9 +110,9 @@ double largest_size(std::span<const double> values) {
 
 Table column_table(const Simulations& all, const std::vector<std::string>& names) {
   Table table{"columns",
-              "Histories. Mean and root mean square are those over the time, straight from instant to instant. "
-              "Changes are of the size of the first.",
-              {{"quantity"}, {"meaning"}, {"measure"}, {"unit"}}};
+              "Histories, of quantities that are not drawn above the largest value and the root mean square only. Mean "
+              "and root mean square are those over the time, straight from instant to instant.",
+              {{"quantity"}, {"meaning"}, {"unit"}}};
   add_columns(table, names, "", "");
   std::vector<const io::HistoryColumn*> columns;
   for (const auto& [name, simulation] : all)
@@ -127,10 +130,12 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
                              ? measures_of(values_of(simulation, *time), values_of(simulation, *here))
                              : Measures{});
     }
+    const bool drawn = std::ranges::any_of(kShownColumns, [&](const auto& one) { return column->name == one.first; });
     for (const MeasureRow& measure : kMeasures) {
+      if (!drawn && !measure.of_all) continue;
       std::vector<double> values;
       for (const Measures& one : measures) values.push_back(unit.factor * one.*measure.member);
-      Table::Row row{{shown_name(column->name), column->description, std::string(measure.name),
+      Table::Row row{{fmt::format("{}, {}", shown_name(column->name), measure.name), column->description,
                       !unit.name.empty()    ? unit.name
                       : column->unit == "1" ? ""
                                             : column->unit}};

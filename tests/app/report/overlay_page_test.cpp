@@ -272,11 +272,12 @@ io::SimulationResult swinging(double amplitude, std::size_t rows, double speed) 
 TEST(SimulationOverlayPage, HistoriesAndMeasuresOfBoth) {
   io::SimulationResult b = swinging(2e4, 3001, 45.0);
   b.columns.push_back({"gap_m", "m", "gap"});
+  b.columns.push_back({"spin_rad_s", "rad/s", "a speed"});
   std::vector<double> wider;
   for (std::size_t row = 0; row < 3001; ++row) {
     wider.insert(wider.end(), b.values.begin() + static_cast<std::ptrdiff_t>(3 * row),
                  b.values.begin() + static_cast<std::ptrdiff_t>(3 * row + 3));
-    wider.push_back(1e-3);
+    wider.insert(wider.end(), {1e-3, 2.0});
   }
   b.values = std::move(wider);
   const Page page = simulation_overlay_page({{"before", swinging(1e4, 2001, 40.0)}, {"after", b}});
@@ -288,8 +289,9 @@ TEST(SimulationOverlayPage, HistoriesAndMeasuresOfBoth) {
   EXPECT_EQ(chart.x->unit, "m");
   EXPECT_DOUBLE_EQ(std::get<ChartView>(figure_of(page, "over-time").view).panels[0].series[1].x.back(), 1.0);
   const Table& columns = table_of(page, "columns");
-  EXPECT_THAT(texts_in(columns, "measure"),
-              ElementsAre("largest", "least", "mean", "rms", "largest", "least", "mean", "rms"));
+  EXPECT_THAT(texts_in(columns, "quantity"),
+              ElementsAre("Q, largest", "Q, least", "Q, mean", "Q, rms", "gap, largest", "gap, least", "gap, mean",
+                          "gap, rms", "spin, largest", "spin, rms"));
   // Of a sine about a mean m: rms² = m² + a²/2.
   const auto rms = [](double a) { return std::sqrt(2500.0 + a * a / 2.0); };
   const std::vector<double> before = numbers_in(columns, "before"), difference = numbers_in(columns, "difference");
@@ -302,7 +304,9 @@ TEST(SimulationOverlayPage, HistoriesAndMeasuresOfBoth) {
   EXPECT_NEAR(numbers_in(columns, "change")[0], 100.0 / 6.0, 1e-3);
   EXPECT_TRUE(std::isnan(before[4]));
   EXPECT_NEAR(numbers_in(columns, "after")[4], 1.0, 1e-12);
-  EXPECT_THAT(banners_of(page), HasSubstr("warning: before has not got 1 column: gap_m."));
+  EXPECT_NEAR(numbers_in(columns, "after")[9], 2.0, 1e-12);
+  EXPECT_EQ(texts_in(columns, "unit")[9], "rad/s");
+  EXPECT_THAT(banners_of(page), HasSubstr("warning: before has not got 2 columns: gap_m, spin_rad_s."));
   EXPECT_EQ(card_of(page, "Largest vertical force"), "+10 kN | +16.7 %, 60 to 70");
   EXPECT_THAT(numbers_in(table_of(page, "summary"), "difference"), ElementsAre(DoubleNear(10.0, 1e-9)));
   EXPECT_EQ(texts_of_row(table_of(page, "differs"), "distance"), "40 m | 45 m");
