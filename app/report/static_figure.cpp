@@ -56,7 +56,8 @@ pictures::Chart drawn(const ChartView& view, std::size_t which, const Axis* axis
                                                        : series.x;
     chart.series.push_back(drawn(series, x, changing ? view.by_step[step].y[which][k] : series.y));
     pictures::set_look(chart.series.back(), k, panel.series.size());
-    if (series.dashed) chart.series.back().dashes = "6 4";
+    constexpr std::array<const char*, 4> kDashes{"6 4", "6 4", "2 3", "10 3 2 3"};  // told apart as in live charts
+    if (series.dashed) chart.series.back().dashes = kDashes[k % kDashes.size()];
   }
   if (!panel.levels.empty()) {
     pictures::ChartSeries levels;

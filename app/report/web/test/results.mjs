@@ -47,8 +47,8 @@ export class Results {
   /** The same positions with less of a flat and more friction, laid over the first run. */
   overlay() {
     const input = this.input("flat-26-less.toml", "flat-26.toml", [["depth_mm = 1.4", "depth_mm = 1.2"], ["coefficient = 0.3", "coefficient = 0.4"]]);
-    this.treadmark(["run", input, "-o", this.path("less")]);
-    this.treadmark(["report", this.path("run"), this.path("less"), "-o", this.path("overlay.html")]);
+    this.treadmark(["run", input, "-o", this.path("less-of-a-flat-and-more-friction")]);
+    this.treadmark(["report", this.path("run"), this.path("less-of-a-flat-and-more-friction"), "-o", this.path("overlay.html")]);
     return "overlay.html";
   }
 
