@@ -9,6 +9,8 @@
 
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/settings/toml_value.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -23,6 +25,43 @@ SaidByAll& line_of(std::vector<SaidByAll>& lines, const std::string& what, std::
 
 std::string version_of(const Origin& origin) {
   return origin.git.empty() ? origin.version : fmt::format("{} ({})", origin.version, origin.git);
+}
+
+/// Adds "a.b.0.c" and the value of each leaf.
+void flatten(const io::CaseValue& value, const std::string& path,
+             std::vector<std::pair<std::string, std::string>>& out) {
+  const auto text_of = [](const io::CaseValue& leaf) -> std::string {
+    if (const auto* flag = std::get_if<bool>(&leaf.data)) return *flag ? "true" : "false";
+    if (const auto* whole = std::get_if<std::int64_t>(&leaf.data)) return fmt::format("{}", *whole);
+    if (const auto* number = std::get_if<double>(&leaf.data)) return fmt::format("{}", *number);
+    if (const auto* text = std::get_if<std::string>(&leaf.data)) return *text;
+    return "";
+  };
+  const std::string below = path.empty() ? "" : path + ".";
+  if (value.is_table()) {
+    for (const io::CaseEntry& entry : value.table()) flatten(entry.value, below + entry.key, out);
+  } else if (value.is_list()) {
+    const auto& list = value.list();
+    const bool plain = std::ranges::none_of(list, [](const auto& one) { return one.is_table() || one.is_list(); });
+    std::string text;
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (plain)
+        text += (k == 0 ? "" : ", ") + text_of(list[k]);
+      else
+        flatten(list[k], fmt::format("{}{}", below, k), out);
+    if (plain) out.emplace_back(path, "[" + text + "]");
+  } else {
+    out.emplace_back(path, text_of(value));
+  }
+}
+
+/// As much of a text as a table has room for.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 60, kKept = 40;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kKept;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // no half characters
+  return fmt::format("{}… ({} characters)", text.substr(0, end), text.size());
 }
 
 }  // namespace
@@ -96,13 +135,39 @@ std::vector<SaidByAll> origins_of(std::span<const Origin> origins, bool whole) {
   return lines;
 }
 
+std::vector<SaidByAll> inputs_of(std::span<const std::string> texts) {
+  std::vector<SaidByAll> lines;
+  if (std::ranges::any_of(texts, [](const std::string& text) { return text.empty(); })) return lines;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    io::CaseValue root;
+    try {
+      root.data = io::parse_toml(texts[k], "input");
+    } catch (const Error&) {
+      return {};  // of another format
+    }
+    std::vector<std::pair<std::string, std::string>> leaves;
+    flatten(root, "", leaves);
+    for (const auto& [path, text] : leaves) line_of(lines, path, texts.size(), "not given").texts[k] = text;
+  }
+  return lines;
+}
+
+std::string inputs_note(std::span<const Origin> origins, std::span<const std::string> texts) {
+  const bool differ =
+      std::ranges::any_of(origins, [&](const Origin& one) { return one.input_sha256 != origins.front().input_sha256; });
+  if (!differ || !inputs_of(texts).empty()) return "";
+  return "The inputs differ but are not compared key by key: results keep their hashes only, and not all files are "
+         "there "
+         "as they were, or they are no TOML.";
+}
+
 Block difference_table(const std::vector<std::string>& names, const std::vector<SaidByAll>& lines) {
   Table table{"differs", "What differs between the results besides their numbers.", {{"what"}}};
   for (const std::string& name : names) table.columns.push_back({name});
   for (const SaidByAll& line : lines) {
     if (std::ranges::all_of(line.texts, [&](const std::string& text) { return text == line.texts.front(); })) continue;
     Table::Row row{{line.what}};
-    row.cells.insert(row.cells.end(), line.texts.begin(), line.texts.end());
+    for (const std::string& text : line.texts) row.cells.emplace_back(shortened(text));
     table.rows.push_back(std::move(row));
   }
   if (table.rows.empty()) return Paragraph{"Version, inputs and settings are the same."};

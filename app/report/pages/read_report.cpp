@@ -22,6 +22,7 @@
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/report/pages/sweep_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -137,12 +138,29 @@ std::vector<std::string> short_names(const std::vector<Found>& all) {
   return out;
 }
 
+/// The input file of results, where it is still there as it was: as it was named, or beside the results or their
+/// folder.
 template <class Result>
-std::vector<std::pair<std::string, Result>> read_all(const std::vector<Found>& found, Result (*read)(const fs::path&)) {
+std::string input_of(const Result& result, const fs::path& folder) {
+  const fs::path named = result.input_file, here = fs::absolute(folder);
+  for (const fs::path& file : {named, here / named.filename(), here.parent_path() / named.filename()}) {
+    std::error_code unknown;
+    if (fs::is_regular_file(file, unknown) && io::sha256_file(file) == result.input_sha256)
+      return io::profiles::read_text(file, "input", {});
+  }
+  return {};
+}
+
+template <class Result>
+std::vector<Overlaid<Result>> read_all(const std::vector<Found>& found, Result (*read)(const fs::path&)) {
   const std::vector<std::string> names = short_names(found);
-  std::vector<std::pair<std::string, Result>> out;
+  std::vector<Overlaid<Result>> out;
   out.reserve(found.size());
-  for (std::size_t k = 0; k < found.size(); ++k) out.emplace_back(names[k], read(found[k].store()));
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    Result result = read(found[k].store());
+    std::string input = input_of(result, found[k].folder);
+    out.push_back({names[k], std::move(result), std::move(input)});
+  }
   return out;
 }
 

@@ -19,7 +19,6 @@
 #include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -213,17 +212,6 @@ std::string surfaces_text(const Run& run, const std::string& body) {
   return used.empty() ? "–" : fmt::format("{}", fmt::join(used, ", "));
 }
 
-/// A name for the shape of a body, which results have as points only: of the same points the same.
-std::string shape_text(const std::vector<io::SampledSurface>& surfaces, const std::string& body) {
-  constexpr std::size_t kShort = 12;
-  std::string bytes;
-  for (const io::SampledSurface& surface : surfaces)
-    if (surface.body == body)
-      for (const std::vector<double>* values : {&surface.x, &surface.y, &surface.z})
-        bytes.append(reinterpret_cast<const char*>(values->data()), values->size() * sizeof(double));
-  return bytes.empty() ? "–" : io::sha256_hex(bytes).substr(0, kShort) + "…";
-}
-
 /// A setting of which results tell no more than what was used in each patch.
 struct PatchSetting {
   const char *what, *unit;
@@ -240,11 +228,8 @@ constexpr PatchSetting kPatchSettings[] = {
     {"combined shear modulus", "GPa", [](const io::PatchResult& p, Extent& e) { e.add(1e-9 * p.shear_modulus); }},
 };
 
-constexpr std::array<const char*, 2> kBodies{"wheel", "rail"};
-
-/// shapes: the lines of the shapes of bodies.
 std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const std::vector<Origin>& origins,
-                                const std::vector<SaidByAll>& shapes) {
+                                std::span<const std::string> inputs) {
   std::vector<SaidByAll> lines;
   const auto say = [&](const std::string& what, const std::function<std::string(const Run&)>& text) {
     SaidByAll line{what};
@@ -253,10 +238,10 @@ std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const 
   };
   say("title", [](const Run& run) { return run.title.empty() ? "–" : run.title; });
   for (SaidByAll& line : origins_of(origins, false)) lines.push_back(std::move(line));
+  for (SaidByAll& line : inputs_of(inputs)) lines.push_back(std::move(line));
   say("cases", [](const Run& run) { return fmt::format("{}", run.cases_total); });
-  for (const char* body : kBodies)
+  for (const char* body : {"wheel", "rail"})
     say(fmt::format("surface of the {}", body), [body](const Run& run) { return surfaces_text(run, body); });
-  lines.insert(lines.end(), shapes.begin(), shapes.end());
   for (const PatchSetting& setting : kPatchSettings)
     say(setting.what, [&](const Run& run) {
       Extent extent;
@@ -446,16 +431,15 @@ Cards cards_of(const std::vector<Curve>& curves, const std::vector<std::string>&
 
 }  // namespace
 
-Page run_overlay_page(std::vector<std::pair<std::string, Run>> given) {
+Page run_overlay_page(std::vector<Overlaid<Run>> given) {
   if (given.size() < 2) throw Error(ErrorKind::configuration, "one run alone cannot be laid over another");
   Runs runs;
   std::vector<std::string> names;
   std::vector<Origin> origins;
+  std::vector<std::string> inputs;
   std::vector<io::SampledSurface> surfaces;
-  std::vector<SaidByAll> shapes;
-  for (const char* body : kBodies) shapes.push_back({fmt::format("shape of the {} (SHA-256 of its points)", body)});
-  for (auto& [name, run] : given) {
-    for (std::size_t b = 0; b < shapes.size(); ++b) shapes[b].texts.push_back(shape_text(run.sampled, kBodies[b]));
+  for (auto& [name, run, input] : given) {
+    inputs.push_back(std::move(input));
     take_surfaces(run, fmt::format("r{}_", runs.size() + 1), surfaces);
     origins.push_back({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings});
     names.push_back(name);
@@ -486,7 +470,9 @@ Page run_overlay_page(std::vector<std::pair<std::string, Run>> given) {
 
   const std::vector<Curve> curves = curves_of(runs, matched);
   if (!matched.empty() && !equal) overview.blocks.emplace_back(cards_of(curves, names, matched));
-  overview.blocks.emplace_back(difference_table(names, lines_of(runs, matched, origins, shapes)));
+  overview.blocks.emplace_back(difference_table(names, lines_of(runs, matched, origins, inputs)));
+  if (std::string note = inputs_note(origins, inputs); !note.empty())
+    overview.blocks.emplace_back(Paragraph{std::move(note)});
   page.sections.push_back(std::move(overview));
 
   if (!matched.empty()) {

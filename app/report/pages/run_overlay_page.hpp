@@ -2,18 +2,15 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "treadmark/app/report/page.hpp"
+#include "treadmark/app/report/pages/overlay_parts.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::app::report {
 
-/// Report of runs laid over each other, cases matched by their numbers as compare_results does; each has its name on
-/// the page. Errors:
+/// Report of runs laid over each other, cases matched by their numbers as compare_results does. Errors:
 /// Error(configuration) for less than two.
-Page run_overlay_page(std::vector<std::pair<std::string, io::RunResult>> runs);
+Page run_overlay_page(std::vector<Overlaid<io::RunResult>> runs);
 
 }  // namespace treadmark::app::report

@@ -19,7 +19,7 @@ namespace treadmark::app::report {
 namespace {
 
 using Simulation = io::SimulationResult;
-using Simulations = std::vector<std::pair<std::string, Simulation>>;
+using Simulations = std::vector<Overlaid<Simulation>>;
 
 constexpr std::size_t kMostPoints = 3000;  // of a curve
 
@@ -44,12 +44,12 @@ std::optional<Figure> histories_over(const Simulations& all, const std::string& 
   ChartView view;
   const ShownUnit unit = shown_unit(abscissa);
   view.x = Axis{label, unit.name};
-  for (const auto& [name, simulation] : all)
+  for (const auto& [name, simulation, input] : all)
     if (column_of(simulation, abscissa) == nullptr) return {};
   for (const auto& [column, what] : kShownColumns) {
     Panel panel{what, shown_unit(column).name};
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const auto& [name, simulation] = all[k];
+      const auto& [name, simulation, input] = all[k];
       const std::vector<std::size_t> rows = thinned_rows(simulation, {column}, kMostPoints);
       auto y = column_at(simulation, column, rows);
       if (!y || rows.empty()) continue;
@@ -115,7 +115,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
               {{"quantity"}, {"meaning"}, {"unit"}}};
   add_columns(table, names, "", "");
   std::vector<const io::HistoryColumn*> columns;
-  for (const auto& [name, simulation] : all)
+  for (const auto& [name, simulation, input] : all)
     for (const io::HistoryColumn& column : simulation.columns)
       if (column.name != "t_s" && column.name != "x_m" &&
           std::ranges::none_of(columns, [&](const auto* known) { return known->name == column.name; }))
@@ -123,7 +123,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
   for (const io::HistoryColumn* column : columns) {
     const ShownUnit unit = shown_unit(column->name);
     std::vector<Measures> measures;
-    for (const auto& [name, simulation] : all) {
+    for (const auto& [name, simulation, input] : all) {
       const io::HistoryColumn* here = column_of(simulation, column->name);
       const io::HistoryColumn* time = column_of(simulation, "t_s");
       measures.push_back(here != nullptr && time != nullptr
@@ -151,13 +151,13 @@ Table named_table(const char* id, const char* caption, const Simulations& all, c
   Table table{id, caption, {{"quantity"}, {"meaning"}, {"unit"}}};
   add_columns(table, names, "", "");
   std::vector<const io::NamedValue*> rows;
-  for (const auto& [name, simulation] : all)
+  for (const auto& [name, simulation, input] : all)
     for (const io::NamedValue& one : list(simulation))
       if (std::ranges::none_of(rows, [&](const auto* known) { return known->name == one.name; })) rows.push_back(&one);
   for (const io::NamedValue* one : rows) {
     const ShownUnit unit = shown_unit(one->name);
     std::vector<double> values;
-    for (const auto& [name, simulation] : all) {
+    for (const auto& [name, simulation, input] : all) {
       const auto& here = list(simulation);
       const auto found = std::ranges::find(here, one->name, &io::NamedValue::name);
       values.push_back(found == here.end() ? kNaN : unit.factor * found->value);
@@ -174,7 +174,7 @@ Table named_table(const char* id, const char* caption, const Simulations& all, c
 
 Table event_table(const Simulations& all) {
   Table table{"events", "Loss of contact.", {{"simulation"}, {"t", "s"}, {"x", "m"}, {"wheel"}, {"event"}}};
-  for (const auto& [name, simulation] : all)
+  for (const auto& [name, simulation, input] : all)
     for (const io::HistoryEvent& e : simulation.events)
       table.rows.push_back({{name, Number{e.time, 6}, Number{e.position, 6}, e.wheel, e.kind}});
   return table;
@@ -183,9 +183,9 @@ Table event_table(const Simulations& all) {
 // ---------------------------------------------------------------------------------------------------------- overview
 
 void add_missing_columns(const Simulations& all, Section& overview) {
-  for (const auto& [name, simulation] : all) {
+  for (const auto& [name, simulation, input] : all) {
     std::vector<std::string> lacking;
-    for (const auto& [other, has] : all)
+    for (const auto& [other, has, unused] : all)
       for (const io::HistoryColumn& column : has.columns)
         if (column_of(simulation, column.name) == nullptr && std::ranges::find(lacking, column.name) == lacking.end())
           lacking.push_back(column.name);
@@ -196,11 +196,12 @@ void add_missing_columns(const Simulations& all, Section& overview) {
   }
 }
 
-std::vector<SaidByAll> lines_of(const Simulations& all, const std::vector<Origin>& origins) {
+std::vector<SaidByAll> lines_of(const Simulations& all, const std::vector<Origin>& origins,
+                                std::span<const std::string> inputs) {
   std::vector<SaidByAll> lines;
   const auto say = [&](const char* what, const std::function<std::string(const Simulation&)>& text) {
     SaidByAll line{what};
-    for (const auto& [name, simulation] : all) line.texts.push_back(text(simulation));
+    for (const auto& [name, simulation, input] : all) line.texts.push_back(text(simulation));
     lines.push_back(std::move(line));
   };
   const auto last = [](const Simulation& simulation, const char* column, const char* unit) {
@@ -211,6 +212,7 @@ std::vector<SaidByAll> lines_of(const Simulations& all, const std::vector<Origin
   };
   say("title", [](const Simulation& one) { return one.title.empty() ? "–" : one.title; });
   for (SaidByAll& line : origins_of(origins, false)) lines.push_back(std::move(line));
+  for (SaidByAll& line : inputs_of(inputs)) lines.push_back(std::move(line));
   say("status", [](const Simulation& one) { return one.status; });
   say("ends at", [&](const Simulation& one) { return last(one, "t_s", "s"); });
   say("distance", [&](const Simulation& one) { return last(one, "x_m", "m"); });
@@ -233,10 +235,10 @@ Cards cards_of(const Simulations& all) {
   };
   for (const Row& row : kRows)
     for (std::size_t k = 1; k < all.size(); ++k) {
-      const double first = value_in(all.front().second, row.name), here = value_in(all[k].second, row.name);
+      const double first = value_in(all.front().result, row.name), here = value_in(all[k].result, row.name);
       if (!std::isfinite(first) || !std::isfinite(here)) continue;
       std::string where = fmt::format("{} to {}", shown({first}), shown({here}));
-      if (all.size() > 2) where += ", " + all[k].first;
+      if (all.size() > 2) where += ", " + all[k].name;
       cards.cards.push_back(change_card(row.label, change(first, here, 0.0), shown_unit(row.name).name, where));
     }
   return cards;
@@ -248,30 +250,34 @@ Page simulation_overlay_page(const Simulations& all) {
   if (all.size() < 2) throw Error(ErrorKind::configuration, "one simulation alone cannot be laid over another");
   std::vector<std::string> names;
   std::vector<Origin> origins;
-  for (const auto& [name, one] : all) {
+  std::vector<std::string> inputs;
+  for (const auto& [name, one, input] : all) {
     names.push_back(name);
+    inputs.push_back(input);
     origins.push_back({one.version, one.git, one.input_file, one.input_sha256, one.geometry_sha256, one.settings});
   }
-  const Simulation& first = all.front().second;
+  const Simulation& first = all.front().result;
   Page page{"overlay", joined(names), ""};
   page.lead = fmt::format("{} laid over each other: {}", counted(all.size(), "simulation"),
                           title_of(first.title, first.input_file));
   page.full_data = "simulation.h5";
   Section overview{"overview", "Overview"};
-  for (const auto& [name, one] : all) add_simulation_banners(one, overview, name);
+  for (const auto& [name, one, input] : all) add_simulation_banners(one, overview, name);
   add_missing_columns(all, overview);
   add_version_note(origins, overview);
   const bool equal = std::ranges::all_of(all, [&](const auto& one) {
-    return std::ranges::equal(one.second.columns, first.columns, {}, &io::HistoryColumn::name,
+    return std::ranges::equal(one.result.columns, first.columns, {}, &io::HistoryColumn::name,
                               &io::HistoryColumn::name) &&
-           std::ranges::equal(one.second.values, first.values,
+           std::ranges::equal(one.result.values, first.values,
                               [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
   });
   if (equal)
     overview.blocks.emplace_back(
         Banner{Banner::Kind::note, "No difference:", "all numbers of the histories are the same."});
   if (Cards cards = cards_of(all); !cards.cards.empty()) overview.blocks.emplace_back(std::move(cards));
-  overview.blocks.emplace_back(difference_table(names, lines_of(all, origins)));
+  overview.blocks.emplace_back(difference_table(names, lines_of(all, origins, inputs)));
+  if (std::string note = inputs_note(origins, inputs); !note.empty())
+    overview.blocks.emplace_back(Paragraph{std::move(note)});
   page.sections.push_back(std::move(overview));
 
   Section histories{"histories", "Histories"};
