@@ -206,9 +206,8 @@ std::vector<SaidByAll> lines_of(const Simulations& all, const std::vector<Origin
   };
   const auto last = [](const Simulation& simulation, const char* column, const char* unit) {
     const io::HistoryColumn* at = column_of(simulation, column);
-    return at == nullptr || simulation.rows() == 0
-               ? std::string("–")
-               : fmt::format("{} {}", shown({values_of(simulation, *at).back(), 6}), unit);
+    return at == nullptr || simulation.rows() == 0 ? std::string("–")
+                                                   : fmt::format("{:.6g} {}", values_of(simulation, *at).back(), unit);
   };
   say("title", [](const Simulation& one) { return one.title.empty() ? "–" : one.title; });
   for (SaidByAll& line : origins_of(origins, false)) lines.push_back(std::move(line));
