@@ -96,8 +96,8 @@ void add_columns(Table& table, const std::vector<std::string>& names, const std:
   for (const std::string& name : names) table.columns.push_back({of + name, unit});
   for (std::size_t k = 1; k < names.size(); ++k) {
     const std::string whose = names.size() > 2 ? " of " + names[k] : "";
-    table.columns.push_back({of + "difference" + whose, unit});
-    table.columns.push_back({of + "change" + whose, "%"});
+    table.columns.push_back({fmt::format("{}difference{}", of, whose), unit});
+    table.columns.push_back({fmt::format("{}change{}", of, whose), "%"});
   }
 }
 

@@ -431,7 +431,7 @@ Cards cards_of(const std::vector<Curve>& curves, const std::vector<std::string>&
 
 }  // namespace
 
-Page run_overlay_page(std::vector<Overlaid<Run>> given) {
+Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
   if (given.size() < 2) throw Error(ErrorKind::configuration, "one run alone cannot be laid over another");
   Runs runs;
   std::vector<std::string> names;

@@ -11,6 +11,6 @@ namespace treadmark::app::report {
 
 /// Report of runs laid over each other, cases matched by their numbers as compare_results does. Errors:
 /// Error(configuration) for less than two.
-Page run_overlay_page(std::vector<Overlaid<io::RunResult>> runs);
+Page run_overlay_page(std::vector<Overlaid<io::RunResult>>&& runs);
 
 }  // namespace treadmark::app::report

@@ -123,6 +123,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
   for (const io::HistoryColumn* column : columns) {
     const ShownUnit unit = shown_unit(column->name);
     std::vector<Measures> measures;
+    measures.reserve(all.size());
     for (const auto& [name, simulation, input] : all) {
       const io::HistoryColumn* here = column_of(simulation, column->name);
       const io::HistoryColumn* time = column_of(simulation, "t_s");
@@ -134,6 +135,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
     for (const MeasureRow& measure : kMeasures) {
       if (!drawn && !measure.of_all) continue;
       std::vector<double> values;
+      values.reserve(measures.size());
       for (const Measures& one : measures) values.push_back(unit.factor * one.*measure.member);
       Table::Row row{{fmt::format("{}, {}", shown_name(column->name), measure.name), column->description,
                       !unit.name.empty()    ? unit.name
