@@ -25,10 +25,6 @@ namespace {
 
 using Run = io::RunResult;
 using Case = io::CaseResult;
-struct NamedRun {
-  std::string name;
-  std::shared_ptr<const Run> result;
-};
 using Runs = std::vector<NamedRun>;
 
 /// The cases of all runs by their numbers: of each number a case a run, nullptr where the run has none.
@@ -172,7 +168,7 @@ std::vector<FrameSet> sets_of(const Runs& runs, const Matched& matched, const st
         auto none = std::make_shared<Case>();
         none->number = number;
         none->status = Status::failed;
-        none->message = "This result has no case of that number.";
+        none->message = "There is none of that number in this result.";
         shown = std::move(none);
       }
       set.frames.push_back({steps[set.frames.size()], std::move(shown)});
@@ -398,18 +394,6 @@ std::string grids_text(const Matched& matched) {
       agreeing, compared);
 }
 
-/// Moves the surfaces of a run to others, under names of their own.
-void take_surfaces(Run& run, const std::string& prefix, std::vector<io::SampledSurface>& all) {
-  for (io::SampledSurface& surface : run.sampled) {
-    surface.name = prefix + surface.name;
-    all.push_back(std::move(surface));
-  }
-  run.sampled.clear();
-  for (Case& one : run.cases)
-    for (std::string* name : {&one.wheel_surface, &one.rail_surface})
-      if (!name->empty()) *name = prefix + *name;
-}
-
 /// Changes below this share of a quantity's largest size are no headline: solvers reach forces within a tolerance.
 constexpr double kLeastHeadline = 1e-4;
 
@@ -430,6 +414,38 @@ Cards cards_of(const std::vector<Curve>& curves, const std::vector<std::string>&
 }
 
 }  // namespace
+
+void take_surfaces(Run& run, const std::string& prefix, std::vector<io::SampledSurface>& all) {
+  for (io::SampledSurface& surface : run.sampled) {
+    surface.name = prefix + surface.name;
+    all.push_back(std::move(surface));
+  }
+  run.sampled.clear();
+  for (Case& one : run.cases)
+    for (std::string* name : {&one.wheel_surface, &one.rail_surface})
+      if (!name->empty()) *name = prefix + *name;
+}
+
+void add_overlaid_contact(Page& page, Section& section, const std::vector<NamedRun>& runs,
+                          const std::vector<std::string>& steps, std::vector<io::SampledSurface> surfaces) {
+  const Matched matched = match(runs);
+  page.sets = sets_of(runs, matched, steps);
+  page.surfaces = std::move(surfaces);
+  if (std::ranges::any_of(runs, [](const auto& one) { return has_fields(*one.result); })) {
+    ContactView view;
+    for (std::size_t k = 0; k < runs.size(); ++k) view.sets.push_back(static_cast<int>(k));
+    section.blocks.emplace_back(Figure{"patches-view", "Contact patches", std::move(view), grids_text(matched)});
+  }
+  if (page.surfaces.empty()) return;
+  constexpr const char* kLines[] = {"dashes", "dots", "dashes and dots"};  // as the scripts draw them
+  SectionView cut{0};
+  std::string note = fmt::format("Across the track through the most loaded patch of {}, to one scale.", runs[0].name);
+  for (std::size_t k = 1; k < runs.size(); ++k) {
+    cut.over.push_back(static_cast<int>(k));
+    note += fmt::format(" {}: {}.", runs[k].name, kLines[(k - 1) % std::size(kLines)]);
+  }
+  section.blocks.emplace_back(Figure{"section", "Wheel and rail, cut at the contact", std::move(cut), std::move(note)});
+}
 
 Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
   if (given.size() < 2) throw Error(ErrorKind::configuration, "one run alone cannot be laid over another");
@@ -479,27 +495,10 @@ Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
     const Run common = common_cases(matched);
     page.timeline = case_timeline(common);
     page.timeline->start = worst_of(curves.front()).step;
-    page.sets = sets_of(runs, matched, page.timeline->names);
-    page.surfaces = std::move(surfaces);
     Section contact{"contact", "Contact"};
-    if (std::ranges::any_of(runs, [](const auto& one) { return has_fields(*one.result); })) {
-      ContactView view;
-      for (std::size_t k = 0; k < runs.size(); ++k) view.sets.push_back(static_cast<int>(k));
-      contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", std::move(view), grids_text(matched)});
-    }
+    add_overlaid_contact(page, contact, runs, page.timeline->names, std::move(surfaces));
     if (matched.size() > 1)
       contact.blocks.emplace_back(Figure{"forces", "Forces and pressures", chart_of(curves, names)});
-    if (!page.surfaces.empty()) {
-      constexpr const char* kLines[] = {"dashes", "dots", "dashes and dots"};  // as the scripts draw them
-      SectionView section{0};
-      std::string note = fmt::format("Across the track through the most loaded patch of {}, to one scale.", names[0]);
-      for (std::size_t k = 1; k < runs.size(); ++k) {
-        section.over.push_back(static_cast<int>(k));
-        note += fmt::format(" {}: {}.", names[k], kLines[(k - 1) % std::size(kLines)]);
-      }
-      contact.blocks.emplace_back(
-          Figure{"section", "Wheel and rail, cut at the contact", std::move(section), std::move(note)});
-    }
     if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
     Section tables{"cases-section", "Cases", {case_table_of(curves, names, matched, page.timeline->axes)}};
     page.sections.push_back(std::move(tables));

@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/pages/case_figures.hpp"
 #include "treadmark/app/report/pages/history_panels.hpp"
 #include "treadmark/app/report/pages/overlay_parts.hpp"
+#include "treadmark/app/report/pages/run_overlay_page.hpp"
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
@@ -245,9 +250,56 @@ Cards cards_of(const Simulations& all) {
   return cards;
 }
 
+/// "snapshot 2: t = 0.0129 / 0.0115 s, pitch angle 0.02 / 0.05°": what each simulation has of it.
+std::vector<std::string> snapshot_names(const Simulations& all) {
+  std::map<int, std::pair<std::string, std::string>> texts;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const io::CaseResult& one : all[k].result.snapshots.cases) texts[one.number];
+  std::vector<std::string> out;
+  out.reserve(texts.size());
+  for (auto& [number, text] : texts) {
+    for (const auto& [name, simulation, input] : all) {
+      const auto& cases = simulation.snapshots.cases;
+      const auto at = std::ranges::find(cases, number, &io::CaseResult::number);
+      const auto index = static_cast<std::size_t>(at - cases.begin());
+      const bool known = at != cases.end();
+      const bool timed = known && index < simulation.snapshot_times.size();
+      const char* between = text.first.empty() ? "" : " / ";
+      text.first += between + (timed ? fmt::format("{:.5g}", simulation.snapshot_times[index]) : "–");
+      text.second += between + (known ? fmt::format("{:.3g}", 180.0 / kPi * at->pitch) : "–");
+    }
+    out.push_back(fmt::format("snapshot {}: t = {} s, pitch angle {}°", number, text.first, text.second));
+  }
+  return out;
+}
+
+/// Contact at the snapshots of all.
+std::optional<Section> snapshots_of(Simulations& all, Page& page) {
+  const std::vector<std::string> names = snapshot_names(all);
+  std::vector<NamedRun> runs;
+  std::vector<io::SampledSurface> surfaces;
+  for (auto& [name, simulation, input] : all) {
+    take_surfaces(simulation.snapshots, fmt::format("r{}_", runs.size() + 1), surfaces);
+    runs.push_back({name, std::make_shared<const io::RunResult>(std::move(simulation.snapshots))});
+  }
+  if (std::ranges::none_of(runs, [](const NamedRun& run) { return has_fields(*run.result); })) return {};
+  Section section{"contact", "Contact at the snapshots"};
+  add_overlaid_contact(page, section, runs, names, std::move(surfaces));
+  Timeline timeline{"snapshot"};
+  timeline.names = names;
+  Axis axis{"snapshot", ""};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    timeline.frames.push_back(static_cast<int>(k));
+    axis.values.push_back(page.sets[0].frames[k].result->number);
+  }
+  timeline.axes.push_back(std::move(axis));
+  page.timeline = std::move(timeline);
+  return section;
+}
+
 }  // namespace
 
-Page simulation_overlay_page(const Simulations& all) {
+Page simulation_overlay_page(Simulations&& all) {
   if (all.size() < 2) throw Error(ErrorKind::configuration, "one simulation alone cannot be laid over another");
   std::vector<std::string> names;
   std::vector<Origin> origins;
@@ -287,6 +339,7 @@ Page simulation_overlay_page(const Simulations& all) {
   if (auto figure = histories_over(all, "t_s", "over-time", "Over the time", "time"))
     histories.blocks.emplace_back(std::move(*figure));
   if (!histories.blocks.empty()) page.sections.push_back(std::move(histories));
+  if (std::optional<Section> contact = snapshots_of(all, page)) page.sections.push_back(std::move(*contact));
 
   Section tables{"tables",
                  "Tables",

@@ -9,8 +9,8 @@
 
 namespace treadmark::app::report {
 
-/// Report of simulations laid over each other, columns matched by their names. Snapshots stay on the pages of the
-/// single ones. Errors: Error(configuration) for less than two.
-Page simulation_overlay_page(const std::vector<Overlaid<io::SimulationResult>>& simulations);
+/// Report of simulations laid over each other: columns matched by their names, snapshots by their numbers. Errors:
+/// Error(configuration) for less than two.
+Page simulation_overlay_page(std::vector<Overlaid<io::SimulationResult>>&& simulations);
 
 }  // namespace treadmark::app::report

@@ -130,7 +130,7 @@ TEST(RunOverlayPage, WhatOnlyOneHasIsNamedAndShown) {
               HasSubstr("warning: before has not got 399 cases: 2 to 6, 8 to 400, 700. There is nothing"));
   EXPECT_EQ(card_of(page, "Cases in all"), "1 of 400 | ");
   EXPECT_EQ(page.timeline->count(), 400u);
-  EXPECT_EQ(page.sets[0].frames[5].result->message, "This result has no case of that number.");
+  EXPECT_EQ(page.sets[0].frames[5].result->message, "There is none of that number in this result.");
   EXPECT_EQ(page.sets[1].frames[399].result->number, 700);
   const Table& cases = table_of(page, "cases");
   ASSERT_EQ(cases.rows.size(), 400u);
@@ -301,7 +301,7 @@ TEST(SimulationOverlayPage, HistoriesAndMeasuresOfBoth) {
     wider.insert(wider.end(), {1e-3, 2.0});
   }
   b.values = std::move(wider);
-  const Page page = simulation_overlay_page({{"before", swinging(1e4, 2001, 40.0)}, {"after", b}});
+  const Page page = simulation_overlay_page({{"before", swinging(1e4, 2001, 40.0)}, {"after", std::move(b)}});
   const auto& chart = std::get<ChartView>(figure_of(page, "over-distance").view);
   ASSERT_EQ(chart.panels[0].series.size(), 2u);
   EXPECT_DOUBLE_EQ(chart.panels[0].series[0].x.back(), 40.0);
@@ -331,6 +331,26 @@ TEST(SimulationOverlayPage, HistoriesAndMeasuresOfBoth) {
   EXPECT_EQ(card_of(page, "Largest vertical force"), "+10 kN | +16.7 %, 60 to 70");
   EXPECT_THAT(numbers_in(table_of(page, "summary"), "difference"), ElementsAre(DoubleNear(10.0, 1e-9)));
   EXPECT_EQ(texts_of_row(table_of(page, "differs"), "distance"), "40 m | 45 m");
+}
+
+TEST(SimulationOverlayPage, SnapshotsLieBesideEachOther) {
+  const auto with_snapshots = [](int count, double delay) {
+    io::SimulationResult result = swinging(1e4, 50, 40.0);
+    result.snapshots = run_of(count);
+    for (int k = 0; k < count; ++k) result.snapshot_times.push_back(0.25 * k + delay);
+    result.snapshot_scenes.resize(static_cast<std::size_t>(count));
+    return result;
+  };
+  const Page page = simulation_overlay_page({{"before", with_snapshots(3, 0.125)}, {"after", with_snapshots(2, 0.0)}});
+  ASSERT_TRUE(page.timeline);
+  EXPECT_THAT(page.timeline->names, ElementsAre("snapshot 1: t = 0.125 / 0 s, pitch angle 0 / 0°",
+                                                "snapshot 2: t = 0.375 / 0.25 s, pitch angle 0.573 / 0.573°",
+                                                "snapshot 3: t = 0.625 / – s, pitch angle 1.15 / –°"));
+  EXPECT_EQ(std::get<ContactView>(figure_of(page, "patches-view").view).sets, (std::vector<int>{0, 1}));
+  EXPECT_EQ(page.sets[1].frames[2].result->message, "There is none of that number in this result.");
+  EXPECT_DOUBLE_EQ(page.sets[1].frames[1].result->patches[0].pmax, 1.01e9);
+  EXPECT_FALSE(
+      has_figure(simulation_overlay_page({{"a", swinging(1, 9, 1)}, {"b", swinging(1, 9, 1)}}), "patches-view"));
 }
 
 TEST(SimulationOverlayPage, FailedAndEqualOnesSaySo) {

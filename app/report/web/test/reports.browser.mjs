@@ -641,7 +641,7 @@ test("26 cases under 400 steps", async () => {
   await tab.key(".timeline-slider", "End");
   await tab.waitForStep(400);
   await page.locator("#patches-view").scrollIntoViewIfNeeded();
-  await page.waitForFunction(() => document.querySelector("#patches-view .contact-status").textContent.includes("run: failed – This result has no case of that number."));
+  await page.waitForFunction(() => document.querySelector("#patches-view .contact-status").textContent.includes("run: failed – There is none of that number in this result."));
   await tab.close();
 });
 
@@ -667,6 +667,15 @@ test("two simulations laid over each other", async () => {
     const looks = await page.locator(`${id} svg path.line`).evaluateAll((paths) => paths.map((path) => `${path.style.stroke} ${path.getAttribute("stroke-dasharray")}`));
     assert.equal(new Set(looks).size, 2, [...new Set(looks)].join("; "));
   }
+  // Patches at the snapshots of both: one of the round wheel, three at the flat.
+  const view = page.locator("#patches-view");
+  await view.scrollIntoViewIfNeeded();
+  await tab.key(".timeline-slider", "End");
+  await tab.waitForStep(3);
+  await page.waitForFunction(() => /^snapshot 4: t = 0\.\d+ \/ 0\.\d+ s/.test(document.querySelector("#timeline").textContent.trim().replace(/^.*?(?=snapshot)/s, "")));
+  await view.locator("[data-control='peak']").first().click();
+  const pressures = (await view.locator(".contact-side tr", { hasText: /^p/ }).first().locator("td").allTextContents()).map(Number);
+  assert.ok(pressures.length === 2 && pressures.every((one) => one > 500 && one < 5000), pressures.join("; "));
   assert.match((await page.locator("#table-differs").textContent()), /set: simulation\.speed_m_s.*45/);
   await tab.close();
   await photograph(file, "overlay-simulations", "#histories");
