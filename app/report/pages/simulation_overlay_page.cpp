@@ -250,32 +250,45 @@ Cards cards_of(const Simulations& all) {
   return cards;
 }
 
-/// "snapshot 2: t = 0.0129 / 0.0115 s, pitch angle 0.02 / 0.05°": what each simulation has of it.
-std::vector<std::string> snapshot_names(const Simulations& all) {
-  std::map<int, std::pair<std::string, std::string>> texts;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    for (const io::CaseResult& one : all[k].result.snapshots.cases) texts[one.number];
-  std::vector<std::string> out;
-  out.reserve(texts.size());
-  for (auto& [number, text] : texts) {
-    for (const auto& [name, simulation, input] : all) {
-      const auto& cases = simulation.snapshots.cases;
-      const auto at = std::ranges::find(cases, number, &io::CaseResult::number);
-      const auto index = static_cast<std::size_t>(at - cases.begin());
-      const bool known = at != cases.end();
-      const bool timed = known && index < simulation.snapshot_times.size();
-      const char* between = text.first.empty() ? "" : " / ";
-      text.first += between + (timed ? fmt::format("{:.5g}", simulation.snapshot_times[index]) : "–");
-      text.second += between + (known ? fmt::format("{:.3g}", 180.0 / kPi * at->pitch) : "–");
+/// When and at which pitch each simulation has its snapshots; a row a step.
+Table snapshot_table(const Simulations& all, const std::vector<std::string>& names) {
+  struct Snapshot {
+    std::vector<double> times, pitches;
+  };
+  std::map<int, Snapshot> snapshots;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Simulation& simulation = all[k].result;
+    for (std::size_t i = 0; i < simulation.snapshots.cases.size(); ++i) {
+      Snapshot& one = snapshots[simulation.snapshots.cases[i].number];
+      one.times.resize(all.size(), kNaN);
+      one.pitches.resize(all.size(), kNaN);
+      if (i < simulation.snapshot_times.size()) one.times[k] = simulation.snapshot_times[i];
+      one.pitches[k] = 180.0 / kPi * simulation.snapshots.cases[i].pitch;
     }
-    out.push_back(fmt::format("snapshot {}: t = {} s, pitch angle {}°", number, text.first, text.second));
   }
-  return out;
+  Table table{"snapshots", "Snapshots.", {{"snapshot"}}};
+  add_columns(table, names, "t", "s");
+  add_columns(table, names, "pitch angle", "°");
+  for (const auto& [number, one] : snapshots) {
+    Table::Row row{{Number{static_cast<double>(number)}}, static_cast<int>(table.rows.size())};
+    add_cells(row, one.times, largest_size(one.times));
+    add_cells(row, one.pitches, largest_size(one.pitches));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
 }
 
 /// Contact at the snapshots of all.
-std::optional<Section> snapshots_of(Simulations& all, Page& page) {
-  const std::vector<std::string> names = snapshot_names(all);
+std::optional<Section> snapshots_of(Simulations& all, const std::vector<std::string>& results, Page& page) {
+  Table table = snapshot_table(all, results);
+  Timeline timeline{"snapshot"};
+  Axis axis{"snapshot", ""};
+  for (const Table::Row& row : table.rows) {
+    axis.values.push_back(std::get<Number>(row.cells.front()).value);
+    timeline.names.push_back(fmt::format("snapshot {}", axis.values.back()));
+    timeline.frames.push_back(row.step);
+  }
+  timeline.axes.push_back(std::move(axis));
   std::vector<NamedRun> runs;
   std::vector<io::SampledSurface> surfaces;
   for (auto& [name, simulation, input] : all) {
@@ -284,15 +297,8 @@ std::optional<Section> snapshots_of(Simulations& all, Page& page) {
   }
   if (std::ranges::none_of(runs, [](const NamedRun& run) { return has_fields(*run.result); })) return {};
   Section section{"contact", "Contact at the snapshots"};
-  add_overlaid_contact(page, section, runs, names, std::move(surfaces));
-  Timeline timeline{"snapshot"};
-  timeline.names = names;
-  Axis axis{"snapshot", ""};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    timeline.frames.push_back(static_cast<int>(k));
-    axis.values.push_back(page.sets[0].frames[k].result->number);
-  }
-  timeline.axes.push_back(std::move(axis));
+  add_overlaid_contact(page, section, runs, timeline.names, std::move(surfaces));
+  section.blocks.emplace_back(std::move(table));
   page.timeline = std::move(timeline);
   return section;
 }
@@ -339,7 +345,7 @@ Page simulation_overlay_page(Simulations&& all) {
   if (auto figure = histories_over(all, "t_s", "over-time", "Over the time", "time"))
     histories.blocks.emplace_back(std::move(*figure));
   if (!histories.blocks.empty()) page.sections.push_back(std::move(histories));
-  if (std::optional<Section> contact = snapshots_of(all, page)) page.sections.push_back(std::move(*contact));
+  if (std::optional<Section> contact = snapshots_of(all, names, page)) page.sections.push_back(std::move(*contact));
 
   Section tables{"tables",
                  "Tables",
