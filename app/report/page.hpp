@@ -74,6 +74,7 @@ struct SceneView {
 /// Wheel and rail cut across the track at the contact of a step; on fixed pages of the most loaded one.
 struct SectionView {
   int set = 0;
+  std::vector<int> over = {};  ///< other sets, whose bodies are drawn as dashed lines in the same plane
 };
 
 /// Contact of some frames from above in track axes, each over the section of wheel and rail; fixed pages have their own
@@ -187,8 +188,8 @@ struct Timeline {
 };
 
 struct Page {
-  std::string
-      kind;  ///< "run", "check", "compare", "bench", "import", "simulation", "assessment", "evolution" or "sweep"
+  std::string kind;  ///< "run", "check", "compare", "bench", "import", "simulation", "assessment", "evolution", "sweep"
+                     ///< or "overlay"
   std::string title, lead;
   std::vector<Section> sections = {};
   std::optional<Timeline> timeline = {};

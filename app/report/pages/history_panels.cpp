@@ -28,8 +28,8 @@ struct UnitEnding {
 };
 const UnitEnding kUnitEndings[] = {
     {"_N", {1e-3, "kN"}}, {"_Pa", {1e-6, "MPa"}}, {"_m2", {1e6, "mm²"}},  {"_rad", {180.0 / std::numbers::pi, "°"}},
-    {"_W", {1.0, "W"}},   {"_J", {1.0, "J"}},     {"_m_s", {1.0, "m/s"}}, {"_s", {1.0, "s"}},
-    {"_x_m", {1.0, "m"}},  // distance travelled
+    {"_W", {1.0, "W"}},   {"_J", {1.0, "J"}},     {"_m_s", {1.0, "m/s"}}, {"_rad_s", {1.0, "rad/s"}},
+    {"_s", {1.0, "s"}},   {"_x_m", {1.0, "m"}},  // distance travelled
     {"_m", {1e3, "mm"}}};
 
 const UnitEnding* unit_ending(const std::string& column) {

@@ -115,6 +115,8 @@ TEST(HistoryPanels, ThinningKeepsPeaks) {
 
 TEST(HistoryPanels, UnitsFollowNames) {
   EXPECT_EQ(shown_unit("x_m").name, "m");
+  EXPECT_EQ(shown_unit("wheelset_vroll_rad_s").name, "rad/s");
+  EXPECT_EQ(shown_name("wheelset_vroll_rad_s"), "wheelset_vroll");
   EXPECT_EQ(shown_unit("q_max_x_m").name, "m");
   EXPECT_EQ(shown_unit("approach_max_m").name, "mm");
   EXPECT_EQ(shown_unit("gap_m").factor, 1e3);
