@@ -318,6 +318,9 @@ Along find_along(const FittedScan& fit, const Truth& truth) {
     const double a = along_of(fitted, begin + even * (static_cast<double>(i) + 0.5));
     for (std::size_t c = 0; c < kColumns; ++c) row[c] = static_cast<float>(fitted.field.value(a, s_of(c)));
   });
+  std::array<double, kColumns> mean{};
+  for (std::size_t i = 0; i < found.size(); ++i)
+    mean[i % kColumns] += static_cast<double>(found[i]) / static_cast<double>(stations);
   const auto truth_rows = [&](double sign) {
     return sampled(truth_stations, [&](std::size_t k, std::span<float> row) {
       std::vector<double> y(kColumns), z(kColumns);
@@ -345,15 +348,21 @@ Along find_along(const FittedScan& fit, const Truth& truth) {
     parallel_for(score.size(), [&](std::size_t q) {
       const std::ptrdiff_t k = first + static_cast<std::ptrdiff_t>(q);
       std::array<double, kColumns> sum{}, squares{}, count{};
+      double alone = 0.0, without = 0.0;
       for (std::ptrdiff_t i = 0; i < n; ++i) {
         std::ptrdiff_t at = reversed ? k - i : k + i;
         if (round) at %= m;
-        if (at < 0 || at >= m) continue;
+        const bool there = at >= 0 && at < m;
         const float* a = found.data() + i * static_cast<std::ptrdiff_t>(kColumns);
-        const float* b = known.data() + at * static_cast<std::ptrdiff_t>(kColumns);
+        const float* b = known.data() + (there ? at : 0) * static_cast<std::ptrdiff_t>(kColumns);
         for (std::size_t c = 0; c < kColumns; ++c) {
           const double e = static_cast<double>(a[c]) - b[c];
-          if (std::isnan(e)) continue;
+          if (!there || std::isnan(e)) {
+            // as against a plain truth: damage that lies beside it is no agreement
+            alone += (a[c] - mean[c]) * (a[c] - mean[c]);
+            without += 1.0;
+            continue;
+          }
           sum[c] += e;
           squares[c] += e * e;
           count[c] += 1.0;
@@ -362,7 +371,7 @@ Along find_along(const FittedScan& fit, const Truth& truth) {
       double total = 0.0, all = 0.0;
       for (std::size_t c = 0; c < kColumns; ++c)
         if (count[c] > 0.0) total += squares[c] - sum[c] * sum[c] / count[c], all += count[c];
-      if (all > kCommon * static_cast<double>(n) * kColumns) score[q] = total / all;
+      if (all > kCommon * static_cast<double>(n) * kColumns) score[q] = (total + alone) / (all + without);
     });
     const auto along_at = [&](double k) {
       // u of the truth at the surface's u = 0
