@@ -176,7 +176,7 @@ TEST_F(ImportPage, TheDistributionHasTheCountsAndNumbersOfTheReport) {
   for (std::size_t i = 1; i < bell.x.size(); ++i)
     area += 0.5 * (bell.y[i] + bell.y[i - 1]) * (bell.x[i] - bell.x[i - 1]);
   EXPECT_NEAR(area / bin, all + 73.0, 1e-3 * all);  // as many points
-  EXPECT_THAT(figure.note, AllOf(HasSubstr("mean 0.100 µm, rms 36.0 µm"), HasSubstr("95 % of them lie within 71.0 µm"),
+  EXPECT_THAT(figure.note, AllOf(HasSubstr("mean 0.100 µm, rms 36 µm"), HasSubstr("95 % of them lie within 71 µm"),
                                  HasSubstr("99 % within 105 µm"), HasSubstr("31 lie below and 42 above")));
   EXPECT_FALSE(has_figure(page, "residual"));  // the picture of the same
 }
@@ -188,7 +188,7 @@ TEST_F(ImportPage, TheErrorAgainstTheTruthIsThatOfTheFile) {
   EXPECT_THAT(numbers_in(table, "rms"), ElementsAre(truth["placed"]["rms_um"], truth["shape"]["rms_um"]));
   EXPECT_THAT(numbers_in(table, "99 % within"),
               ElementsAre(truth["placed"]["within_99_um"], truth["shape"]["within_99_um"]));
-  EXPECT_EQ(fact_of(page, "Shift that lays it on best"), "(1.00, -2.00, 3.00) µm");
+  EXPECT_EQ(fact_of(page, "Shift that lays it on best"), "(1, -2, 3) µm");
   EXPECT_TRUE(has_figure(page, "truth-map"));
 }
 
