@@ -19,6 +19,7 @@ namespace {
 struct ImportOptions {
   std::vector<std::string> scans, outputs;
   std::string report_folder, json_file, settings_file;  ///< empty = none; JSON "-" = stdout
+  std::string truth;                                    ///< empty = none
   std::string body, unit, nominal;                      ///< empty = as the settings say
   double nominal_radius_mm = 0.0, resolution_mm = 0.0;  ///< 0 = as the settings say
   bool list_settings = false;
@@ -43,8 +44,10 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   request.outputs.assign(options.outputs.begin(), options.outputs.end());
   if (request.scans.empty()) throw Error(ErrorKind::configuration, "there is no scan to import", {}, "name its file");
 
+  request.truth = options.truth;
   std::vector<std::string> inputs = options.scans, outputs = options.outputs;
   inputs.push_back(options.settings_file);
+  inputs.push_back(options.truth);
   outputs.push_back(options.json_file);
   require_different(inputs, outputs);
   const ThreadLimit limit(common.threads);
@@ -93,6 +96,10 @@ Command add_import(CLI::App& verb) {
                   "Write the audit here (JSON); - for standard output instead of the summary")
       ->type_name("FILE");
   verb.add_option("--settings", options->settings_file, "TOML file of settings (see --list-settings)")
+      ->type_name("FILE");
+  verb.add_option(
+          "--truth", options->truth,
+          "What treadmark scan --truth wrote, or the true surface: the audit tells the surface's error against it")
       ->type_name("FILE");
   verb.add_option("--body", options->body, "wheel or rail, where the surface file does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

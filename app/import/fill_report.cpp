@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/random.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::app {
@@ -129,18 +130,99 @@ void fill_sections(const ImportFindings& found, io::ImportReport& report) {
   report.nominal_section = found.scan.nominal;
 }
 
+bool was_used(PointState state) { return state == PointState::used || state == PointState::held_out; }
+
 void fill_residuals(const ImportFindings& found, io::ImportReport& report) {
   const scans::BandPoints& points = found.projection.points;
   constexpr std::size_t kBins = 80;
   report.residual_range = 6.0 * std::max(found.noise.typical, report.residual_rms);
   report.residual_histogram.assign(kBins, 0);
+  io::ImportReport::Residuals& residuals = report.residuals.emplace();
+  std::vector<float> all;
+  all.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points.state[i] != PointState::used && points.state[i] != PointState::held_out) continue;
+    if (!was_used(points.state[i])) continue;
     const double r = found.fit.residual[i];
-    report.residual_max = std::max(report.residual_max, std::fabs(r));
+    all.push_back(static_cast<float>(r));
     const double place = 0.5 * (r / report.residual_range + 1.0) * kBins;
-    if (place >= 0.0 && place < static_cast<double>(kBins))
+    if (place < 0.0)
+      ++residuals.below;
+    else if (place < static_cast<double>(kBins))
       ++report.residual_histogram[static_cast<std::size_t>(place)];
+    else
+      ++residuals.above;
+  }
+  residuals.distances = distances_of(std::move(all));
+  report.residual_max = residuals.distances.largest;
+}
+
+/// Of every so many things in their order one, which a seed chooses: even, and without the pattern of scan lines.
+class EvenChoice {
+ public:
+  EvenChoice(std::size_t all, std::size_t most, std::uint64_t seed)
+      : every_(std::max<std::size_t>(1, (all + most - 1) / most)), random_(seed) {
+    choose();
+  }
+  /// Whether the next one is chosen.
+  bool next() {
+    const bool chosen = at_ == chosen_;
+    if (++at_ == every_) choose();
+    return chosen;
+  }
+
+ private:
+  void choose() {
+    at_ = 0;
+    chosen_ = random_.bits() % every_;
+  }
+  std::size_t every_, at_ = 0, chosen_ = 0;
+  Random random_;
+};
+
+void fill_cloud(const ImportFindings& found, io::ImportReport& report) {
+  constexpr std::size_t kMost = 80'000, kMostRemoved = 20'000;
+  constexpr double kFar = 0.1;      // removed points farther from the box of the others are not shown [m]
+  constexpr double kDigits = 1e-6;  // of places [m]
+  io::ImportReport::CloudSample& out = report.cloud;
+  const scans::BandPoints& points = found.projection.points;
+  const Pose X_SC = found.scan.placement.X_CS.inverse();
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const auto add = [&](const Vec3& p_S, float residual, float distance, float tilt) {
+    const auto rounded = [](double value) { return static_cast<float>(kDigits * std::round(value / kDigits)); };
+    out.x.push_back(rounded(p_S.x()));
+    out.y.push_back(rounded(p_S.y()));
+    out.z.push_back(rounded(p_S.z()));
+    out.residual.push_back(residual);
+    out.distance.push_back(distance);
+    out.tilt.push_back(tilt);
+  };
+  std::vector<std::uint8_t> used(found.scan.points.size(), 0);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (was_used(points.state[i])) used[points.index[i]] = 1, ++count;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  EvenChoice choice(count, kMost, 1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!was_used(points.state[i]) || !choice.next()) continue;
+    const Vec3 p_S = X_SC.apply(found.scan.points[points.index[i]]);
+    low = low.cwiseMin(p_S);
+    high = high.cwiseMax(p_S);
+    const Vec2 normal = found.projection.band.section.at(points.s[i]).normal;
+    add(p_S, static_cast<float>(found.fit.residual[i]), points.d[i],
+        static_cast<float>(std::atan2(normal.x(), normal.y())));
+  }
+  out.all = used.size();
+  out.removed = used.size() - count;
+  EvenChoice removed(out.removed, kMostRemoved, 2);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] != 0) continue;
+    const Vec3 p_S = X_SC.apply(found.scan.points[i]);
+    const double off = (low - p_S).cwiseMax(p_S - high).maxCoeff();
+    const bool chosen = removed.next();
+    if (!(off <= kFar))
+      ++out.far;
+    else if (chosen)
+      add(p_S, kNone, kNone, kNone);
   }
 }
 
@@ -201,8 +283,34 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
   report.u_min = band.closed ? -std::numbers::pi : found.fitted.u_at(0.0);
   report.u_max = band.closed ? std::numbers::pi : found.fitted.u_at(band.length());
   fill_residuals(found, report);
+  fill_cloud(found, report);
   fill_maps(found, report);
   fill_sections(found, report);
+}
+
+io::ImportReport::Distances distances_of(std::vector<float> values) {
+  io::ImportReport::Distances out;
+  if (values.empty()) return out;
+  double sum = 0.0, squares = 0.0;
+  for (float& value : values) {
+    sum += value;
+    squares += static_cast<double>(value) * value;
+    value = std::fabs(value);
+  }
+  const auto count = static_cast<double>(values.size());
+  out.mean = sum / count;
+  out.rms = std::sqrt(squares / count);
+  // of few numbers the next greater one
+  const auto at = [&](double share) {
+    return values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * count)) - 1;
+  };
+  const auto at_95 = at(0.95), at_99 = at(0.99);
+  std::nth_element(values.begin(), at_95, values.end());
+  out.within_95 = *at_95;
+  std::nth_element(at_95, at_99, values.end());
+  out.within_99 = *at_99;
+  out.largest = *std::max_element(at_99, values.end());
+  return out;
 }
 
 }  // namespace treadmark::app

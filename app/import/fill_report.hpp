@@ -25,4 +25,7 @@ struct ImportFindings {
 };
 void fill_report(const ImportFindings& found, io::ImportReport& report);
 
+/// Mean, root mean square and so on of signed distances; all 0 for none.
+io::ImportReport::Distances distances_of(std::vector<float> values);
+
 }  // namespace treadmark::app

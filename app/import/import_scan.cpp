@@ -13,6 +13,7 @@
 #include "treadmark/app/import/fill_report.hpp"
 #include "treadmark/app/import/find_place.hpp"
 #include "treadmark/app/import/read_map.hpp"
+#include "treadmark/app/import/truth.hpp"
 #include "treadmark/app/import/write_outputs.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -144,14 +145,20 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   io::ImportReport report;
   report.version = version();
   report.settings_toml = io::import_settings_toml(settings);
-  StepClock clock(report, progress);
+  const bool map = request.scans.size() == 1 && io::is_deviation_map(request.scans.front());
+  constexpr std::size_t kSteps = 6, kOfPlacing = 2;  // a map has neither stray points nor a placement
+  StepClock clock(report, progress, (map ? kSteps : kSteps + kOfPlacing) + (request.truth.empty() ? 0 : 1));
   const CancellationScope scope(progress.stop);
   clock.begin("reading");
+  std::optional<Truth> truth;
+  if (!request.truth.empty())
+    truth = read_truth(request.truth, body_of(request), 1e-3 * settings.placement.nominal_radius_mm);
   PlacedScan scan;
-  if (request.scans.size() == 1 && io::is_deviation_map(request.scans.front())) {
+  if (map) {
     scan = read_map(request, report);
   } else {
     Clouds clouds = read_clouds(request, report, progress);
+    if (truth) check_points(*truth, report.points_read);
     scan = find_place(std::move(clouds), request, report, clock);
   }
 
@@ -215,7 +222,6 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
     scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3(u_zero, 0.0, 0.0), Mat3::Identity()};
   fill_report({scan, projection, noise, coverage, fit, fitted, damage, sections ? &*sections : nullptr}, report);
 
-  clock.begin("writing");
   std::optional<SliceSet> kept;
   if (sections) {
     report.sections->smoothing = 1e-9 * settings.fit.smoothing_lambda_mm3;
@@ -227,6 +233,11 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   }
   const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical, kept ? &*kept : nullptr};
   for (const auto& file : request.outputs) check_holes(file, whole);
+  if (truth) {
+    clock.begin("truth");
+    compare_with_truth(*truth, whole, report);
+  }
+  clock.begin("writing");
   const std::vector<std::string> summary = summary_lines(report);
   StagedOutputs staged;
   for (const auto& file : request.outputs) {

@@ -16,13 +16,15 @@ struct ImportRequest {
   std::vector<std::filesystem::path> scans;    ///< several files are several passes; or one gridded map of deviations
   std::vector<std::filesystem::path> outputs;  ///< .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset)
   io::ImportSettings settings;
+  std::filesystem::path truth;  ///< what `treadmark scan --truth` wrote, or the true surface; empty: not known
 };
 
 /// From the points of a scanner to surfaces: reads, removes what does not belong to the wheel or rail, places, aligns
 /// passes, cleans, fits, writes, and keeps account of all of it. The same input and settings give the same files for
 /// any number of threads. Errors: those of the readers, of placement and fit, naming the file; Error(configuration) for
 /// outputs that cannot hold the surface; Error(numerical) when stopped between steps, Cancelled (core/cancellation.hpp)
-/// within one. Nothing is written then.
+/// within one. Nothing is written then. A truth is compared with the surface; one that cannot be it is refused before
+/// the work.
 io::ImportReport import_scan(const ImportRequest& request, const Progress& progress = {});
 
 /// Refuses settings that would be ignored because they belong to the other body or to another choice.

@@ -11,12 +11,14 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <system_error>
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::app {
@@ -44,7 +46,7 @@ Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem
   const CancellationScope scope(progress.stop);
   check_cancelled();
   const NaturalSurface natural = named_surface(surface, request.surface);
-  Scanned out{surface, cloud, request.scanner, request.unit, {}};
+  Scanned out{surface, cloud, request.surface, request.scanner, request.unit, {}};
   out.settings.body = natural.spec.body;
   out.settings.nominal_radius = natural.spec.nominal_radius;
   const Region part = part_of(natural.spec.body, request.range_x, request.range_theta);
@@ -153,6 +155,10 @@ std::string truth_json(const Scanned& scanned) {
   out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
   out["surface"] = {{"file", scanned.surface.string()}, {"body", wheel ? "wheel" : "rail"}};
   if (wheel) out["surface"]["nominal_radius_mm"] = number(kMilli * scanned.settings.nominal_radius);
+  if (std::error_code ignored; std::filesystem::is_regular_file(scanned.surface, ignored))
+    out["surface"]["sha256"] = io::sha256_file(scanned.surface);
+  if (scanned.named.scale_to_mm != 1.0) out["surface"]["scale_to_mm"] = scanned.named.scale_to_mm;
+  if (!scanned.named.overrides.empty()) out["surface"]["set"] = scanned.named.overrides;
   out["cloud"] = {{"file", scanned.cloud.string()},
                   {"unit", symbol(scanned.unit)},
                   {"metres_per_unit", metres_per(scanned.unit)},

@@ -21,6 +21,7 @@ struct ScanRequest {
 
 struct Scanned {
   std::filesystem::path surface, cloud;  ///< files
+  NamedSurface named;                    ///< as it was asked for
   scans::ScannerSettings settings;       ///< as used
   LengthUnit unit = LengthUnit::millimetre;
   scans::VirtualScan scan;

@@ -14,9 +14,11 @@ namespace treadmark::app {
 /// Times the steps of an import, tells the caller about them and looks for a request to stop between them.
 class StepClock {
  public:
-  StepClock(io::ImportReport& report, const Progress& progress) : report_(report), progress_(progress) {}
+  /// steps: how many are known to come.
+  StepClock(io::ImportReport& report, const Progress& progress, std::size_t steps)
+      : report_(report), progress_(progress), steps_(steps) {}
 
-  /// A step that only some imports have.
+  /// A step that was not known to come.
   void begin_extra(const std::string& name) {
     ++steps_;
     begin(name);
@@ -44,7 +46,7 @@ class StepClock {
   using Clock = std::chrono::steady_clock;
   io::ImportReport& report_;
   const Progress& progress_;
-  std::size_t steps_ = 8;  ///< that all imports have
+  std::size_t steps_;
   std::string name_;
   Clock::time_point start_;
 };

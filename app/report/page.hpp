@@ -100,6 +100,23 @@ struct MapView {
   std::vector<Mark> marks = {};
 };
 
+/// Points in space, in the axes of their wheel or rail [mm]; fixed pages leave it out.
+struct CloudView {
+  /// What colours the points, from -span to span: a distance along the normals.
+  struct Quantity {
+    std::string label, unit;
+    double per_mm = 1.0;  ///< units
+    double span = 0.0;
+    std::vector<double> values = {};  ///< NaN: a point of the other kind
+  };
+  bool wheel = false;
+  std::vector<double> x, y, z;
+  std::vector<double> tilt;  ///< of the normals from straight out (-z, or the radius) towards +y [rad]
+  std::vector<Quantity> quantities;
+  std::string others;  ///< what points without values are
+  std::vector<std::string> caption;
+};
+
 /// A static picture.
 struct PictureView {
   std::string svg;
@@ -107,7 +124,7 @@ struct PictureView {
 
 struct Figure {
   std::string id, title;
-  std::variant<ChartView, ContactView, SceneView, SectionView, TrackView, MapView, PictureView> view;
+  std::variant<ChartView, ContactView, SceneView, SectionView, TrackView, MapView, CloudView, PictureView> view;
   std::string note = {};
 };
 

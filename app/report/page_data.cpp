@@ -271,6 +271,8 @@ class Writer {
       out["set"] = track->set;
     } else if (const auto* map = std::get_if<MapView>(&figure.view)) {
       add_map(out, *map);
+    } else if (const auto* cloud = std::get_if<CloudView>(&figure.view)) {
+      add_cloud(out, *cloud);
     } else {
       out["type"] = "picture";
     }
@@ -312,6 +314,28 @@ class Writer {
     }
     Json& marks = out["marks"] = Json::array();
     for (const MapView::Mark& mark : map.marks) marks.push_back({{"label", mark.label}, {"points", mark.points}});
+  }
+
+  void add_cloud(Json& out, const CloudView& cloud) {
+    out["type"] = "cloud";
+    out["body"] = cloud.wheel ? "wheel" : "rail";
+    blobs_.begin_blob();
+    const auto packed = [&](const std::vector<double>& values) {
+      return to_json(blobs_.add(values, Precision::two_bytes));
+    };
+    out["x"] = packed(cloud.x);
+    out["y"] = packed(cloud.y);
+    out["z"] = packed(cloud.z);
+    out["tilt"] = packed(cloud.tilt);
+    Json& quantities = out["quantities"] = Json::array();
+    for (const CloudView::Quantity& quantity : cloud.quantities)
+      quantities.push_back({{"label", quantity.label},
+                            {"unit", quantity.unit},
+                            {"per_mm", number(quantity.per_mm)},
+                            {"span", number(quantity.span)},
+                            {"values", packed(quantity.values)}});
+    out["others"] = cloud.others;
+    out["caption"] = cloud.caption;
   }
 
   const Page& page_;

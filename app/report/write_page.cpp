@@ -102,7 +102,7 @@ const char* view_name(const Figure& figure) {
   return std::visit(Overload{[](const ChartView&) { return "chart"; }, [](const ContactView&) { return "contact"; },
                              [](const SceneView&) { return "scene"; }, [](const SectionView&) { return "section"; },
                              [](const TrackView&) { return "track"; }, [](const MapView&) { return "map"; },
-                             [](const PictureView&) { return "picture"; }},
+                             [](const CloudView&) { return "cloud"; }, [](const PictureView&) { return "picture"; }},
                     figure.view);
 }
 
@@ -113,7 +113,8 @@ std::string image(const std::string& svg, const std::string& title) {
 }
 
 std::string html(const Figure& figure, const Page& page, bool live) {
-  if (!live && (std::holds_alternative<TrackView>(figure.view) || std::holds_alternative<SceneView>(figure.view)))
+  if (!live && (std::holds_alternative<TrackView>(figure.view) || std::holds_alternative<SceneView>(figure.view) ||
+                std::holds_alternative<CloudView>(figure.view)))
     return {};
   std::string plot;
   if (!live || std::holds_alternative<PictureView>(figure.view))

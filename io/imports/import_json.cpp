@@ -176,18 +176,49 @@ void sections(const File& file, Sections& kept) {
   file.number("smoothing_lambda_mm3", kept.smoothing, kMilli3);
 }
 
+/// An object that may be null, or missing in older files.
+template <class File, class Part, class Fields>
+void optional(const File& file, const char* key, Part& part, Fields fields) {
+  if constexpr (File::kReads) {
+    if (!file.in.find(key)) return;
+    part.emplace();
+  } else if (!part) {
+    file.value(key, nullptr);
+    return;
+  }
+  file.object(key, [&](const File& node) { fields(node, *part); });
+}
+
+template <class File, class Distances>
+void distances(const File& file, Distances& d) {
+  file.number("mean_um", d.mean, kMicro);
+  file.number("rms_um", d.rms, kMicro);
+  file.number("largest_um", d.largest, kMicro);
+  file.number("within_95_um", d.within_95, kMicro);
+  file.number("within_99_um", d.within_99, kMicro);
+}
+
+template <class File, class Truth>
+void truth(const File& file, Body body, Truth& truth) {
+  file.value("file", truth.file);
+  file.value("surface", truth.surface);
+  file.value("from_scan", truth.from_scan);
+  file.value("places", truth.places);
+  file.value("beside", truth.beside);
+  file.object("placed", [&](const File& node) { distances(node, truth.placed); });
+  file.object("shape", [&](const File& node) { distances(node, truth.shape); });
+  if (body == Body::wheel)
+    file.number("along_deg", truth.along, kDegrees);
+  else
+    file.number("along_mm", truth.along, kMilli);
+  file.value("reversed", truth.reversed);
+  file.vector("shift_um", truth.shift_S, kMicro);
+  file.vector("turn_urad", truth.turn_S, kMicro);
+}
+
 template <class File, class Report>
 void fit(const File& file, Report& report) {
-  const auto kept = [&](const File& node) { sections(node, *report.sections); };
-  if constexpr (File::kReads) {
-    if (file.in.find("kept_sections")) {
-      report.sections.emplace();
-      file.object("kept_sections", kept);
-    }
-  } else {
-    file.value("kept_sections", nullptr);
-    if (report.sections) file.object("kept_sections", kept);
-  }
+  optional(file, "kept_sections", report.sections, [](const File& node, auto& kept) { sections(node, kept); });
   file.list("levels", report.levels, [](const File& node, auto& level) {
     node.number("knot_a_mm", level.knot_a, kMilli);
     node.number("knot_s_mm", level.knot_s, kMilli);
@@ -201,6 +232,11 @@ void fit(const File& file, Report& report) {
   file.number("held_out_error_mm", report.held_out_error, kMilli);
   file.number("histogram_range_mm", report.residual_range, kMilli);
   file.value("histogram", report.residual_histogram);
+  optional(file, "residuals", report.residuals, [](const File& node, auto& residuals) {
+    distances(node, residuals.distances);
+    node.value("below", residuals.below);
+    node.value("above", residuals.above);
+  });
 }
 
 template <class File, class Report>
@@ -280,6 +316,7 @@ void audit(const File& file, Report& report) {
     node.number("volume_mm3", part.volume, kMilli3);
   });
   file.object("range", [&](const File& node) { range(node, report); });
+  optional(file, "truth", report.truth, [&](const File& node, auto& known) { truth(node, report.body, known); });
   file.list("outputs", report.outputs, [](const File& node, auto& output) {
     node.value("file", output.file);
     node.value("kind", output.kind);

@@ -31,6 +31,36 @@ constexpr MapName kMaps[] = {
      &ImportReport::fitted},
     {"residual", "m", "mean of measured less fitted", &ImportReport::residual},
     {"noise", "m", "standard deviation of the points", &ImportReport::noise_map},
+    {"truth", "m", "the surface less the truth, laid on it best", &ImportReport::truth_map},
+};
+
+using Cloud = ImportReport::CloudSample;
+struct CloudColumn {
+  const char* name;
+  const char* unit;
+  const char* meaning;
+  std::vector<float> Cloud::*values;
+};
+
+constexpr CloudColumn kCloud[] = {
+    {"x", "m", "in the frame of the surface", &Cloud::x},
+    {"y", "m", "in the frame of the surface", &Cloud::y},
+    {"z", "m", "in the frame of the surface", &Cloud::z},
+    {"residual", "m", "measured less fitted; NaN: removed", &Cloud::residual},
+    {"distance", "m", "from the section, positive out of the material; NaN: removed", &Cloud::distance},
+    {"tilt", "rad", "of the section's normal from straight out towards +y; NaN: removed", &Cloud::tilt},
+};
+constexpr const char* kPoints = "points";
+
+struct CloudCount {
+  const char* name;
+  const char* meaning;
+  std::size_t Cloud::*count;
+};
+constexpr CloudCount kCounts[] = {
+    {"of", "points that these are some of", &Cloud::all},
+    {"of_removed", "removed ones among them", &Cloud::removed},
+    {"far", "removed points that are not among these: too far from all others", &Cloud::far},
 };
 
 std::vector<double> edges(double from, double to, std::size_t cells) {
@@ -92,8 +122,42 @@ void write_import_maps(const std::filesystem::path& path, const ImportReport& re
     const std::vector<double> values(map.value.begin(), map.value.end());
     group.write({"value", {map.rows, map.columns}, name.unit, name.meaning, true}, values);
   }
+  if (!report.cloud.x.empty()) {
+    const Hdf5GroupWriter group = file.root().make_group(kPoints);
+    for (const CloudCount& count : kCounts) {
+      const auto value = static_cast<double>(report.cloud.*count.count);
+      group.write({count.name, {}, "1", count.meaning}, std::span<const double>(&value, 1));
+    }
+    for (const CloudColumn& column : kCloud) {
+      const std::vector<float>& values = report.cloud.*column.values;
+      group.write({column.name, {values.size()}, column.unit, column.meaning, true},
+                  std::vector<double>(values.begin(), values.end()));
+    }
+  }
   file.commit();
 }
+
+namespace {
+
+Cloud read_cloud(const std::filesystem::path& file, const Hdf5GroupReader& group) {
+  Cloud cloud;
+  for (const CloudCount& count : kCounts) {
+    const std::vector<double> values = group.numbers(count.name);
+    constexpr double kMost = 1e15;
+    if (values.size() != 1 || !(values.front() >= 0.0 && values.front() <= kMost))
+      refuse(file, fmt::format("has no count {} of points", count.name));
+    cloud.*count.count = static_cast<std::size_t>(values.front());
+  }
+  for (const CloudColumn& column : kCloud) {
+    const std::vector<double> values = group.numbers(column.name);
+    (cloud.*column.values).assign(values.begin(), values.end());
+    if (values.size() != cloud.x.size())
+      refuse(file, fmt::format("has {} of points where {} have x", values.size(), cloud.x.size()));
+  }
+  return cloud;
+}
+
+}  // namespace
 
 void read_import_maps(const std::filesystem::path& path, ImportReport& report) {
   const Hdf5Reader file(path);
@@ -107,6 +171,7 @@ void read_import_maps(const std::filesystem::path& path, ImportReport& report) {
   report.nominal_radius = radius.front();
   for (const MapName& name : kMaps)
     if (root.has(name.group)) report.*name.map = read_map(path, root.open_group(name.group), name.group);
+  if (root.has(kPoints)) report.cloud = read_cloud(path, root.open_group(kPoints));
 }
 
 ImportReport read_import_report(const std::filesystem::path& folder) {

@@ -70,6 +70,33 @@ struct ImportReport {
     std::string name;
     double seconds = 0.0;
   };
+  /// Of signed distances, > 0 out of the material [m].
+  struct Distances {
+    double mean = 0.0, rms = 0.0, largest = 0.0;  ///< largest without sign
+    double within_95 = 0.0, within_99 = 0.0;      ///< 95 % and 99 % of them are no farther than this from 0
+  };
+  /// Points for a look at the cloud, in the surface's frame: those that the fit saw or was judged by, then removed
+  /// ones.
+  struct CloudSample {
+    std::vector<float> x, y, z;        ///< [m]
+    std::vector<float> residual;       ///< measured less fitted, along the section's normal [m]; NaN: removed
+    std::vector<float> distance;       ///< from the section along its normal, > 0 out of the material [m]; NaN: removed
+    std::vector<float> tilt;           ///< of that normal from straight out (-z, or the radius) towards +y [rad]
+    std::size_t all = 0, removed = 0;  ///< points of both kinds that these stand for
+    std::size_t far = 0;               ///< removed ones too far from all others to be among these
+  };
+  /// The surface against what it should be.
+  struct Truth {
+    std::string file;        ///< as it was named, without folders; what `treadmark scan` wrote, or a surface
+    std::string surface;     ///< file of the surface
+    bool from_scan = false;  ///< the truth knows where the surface lies in the cloud
+    std::size_t places = 0, beside = 0;  ///< compared at so many, the truth has no surface at so many more
+    Distances placed;                    ///< of the surface from the truth, frame on frame
+    Distances shape;                     ///< the same after the rigid motion below
+    double along = 0.0;                  ///< station of the truth at u = 0: [rad] wheel, [m] rail; a choice, no error
+    bool reversed = false;               ///< a rail's x runs against the truth's
+    Vec3 shift_S = Vec3::Zero(), turn_S = Vec3::Zero();  ///< lays the surface on the truth best [m], [rad]
+  };
 
   std::string version;
   Body body = Body::rail;
@@ -112,6 +139,7 @@ struct ImportReport {
   double damage_threshold = 0.0;
   double y_min = 0.0, y_max = 0.0, u_min = 0.0, u_max = 0.0;
   bool closed = false;  ///< a whole wheel
+  std::optional<Truth> truth;
   std::vector<Output> outputs;
   std::vector<Step> steps;    ///< not part of what is the same each time
   std::string settings_toml;  ///< all settings as they were used
@@ -126,8 +154,16 @@ struct ImportReport {
   BandMap fitted;  ///< distance of the fitted surface from the section [m], > 0 out of the material; NaN in open holes
   BandMap residual;                             ///< mean of measured less fitted [m]
   BandMap noise_map;                            ///< standard deviation [m]
+  BandMap truth_map;                            ///< the surface less the truth after the rigid motion [m]
   std::vector<std::size_t> residual_histogram;  ///< counts in equal bins from -residual_range to +residual_range
   double residual_range = 0.0;                  ///< [m]
+  /// Of all points used, held out or not, and how many of them lie outside the histogram.
+  struct Residuals {
+    Distances distances;
+    std::size_t below = 0, above = 0;
+  };
+  std::optional<Residuals> residuals;  ///< older files have none
+  CloudSample cloud;
 };
 
 /// What was removed, one entry a reason: counts of reasons that come twice are added.

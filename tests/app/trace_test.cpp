@@ -19,15 +19,15 @@ namespace {
 using ::testing::HasSubstr;
 using treadmark::testing::error_of;
 
-constexpr double kRadius = 0.08, kAngle = 0.4;
+constexpr double kArcRadius = 0.08, kAngle = 0.4;
 
 SurfaceSpec arc_rail() {
   return {Body::rail,
           0.0,
-          ArcChain{-kRadius * std::sin(kAngle),
-                   kRadius * (1.0 - std::cos(kAngle)),
+          ArcChain{-kArcRadius * std::sin(kAngle),
+                   kArcRadius * (1.0 - std::cos(kAngle)),
                    -kAngle,
-                   {{2.0 * kAngle * kRadius, 1.0 / kRadius}}},
+                   {{2.0 * kAngle * kArcRadius, 1.0 / kArcRadius}}},
           {}};
 }
 
@@ -39,20 +39,20 @@ TEST(TraceLine, AcrossAnArcIsTheArc) {
     request.step = 2e-3;
     const TracedLine line = trace_line(*rail, Body::rail, request);
     ASSERT_GT(line.points.size(), 20u) << backend;
-    EXPECT_NEAR(line.points.back().s, 2.0 * kAngle * kRadius, 2e-7) << backend;
+    EXPECT_NEAR(line.points.back().s, 2.0 * kAngle * kArcRadius, 2e-7) << backend;
     for (std::size_t i = 0; i < line.points.size(); ++i) {
       const TracedPoint& p = line.points[i];
       if (i + 1 < line.points.size()) {
         EXPECT_NEAR(p.s, 2e-3 * static_cast<double>(i), 1e-9) << backend;
       }
       // by arc length from one end of the arc
-      const double angle = -kAngle + p.s / kRadius;
-      EXPECT_NEAR(p.position.y(), kRadius * std::sin(angle), 3e-6) << backend << ' ' << i;
-      EXPECT_NEAR(p.position.z(), kRadius * (1.0 - std::cos(angle)), 3e-6) << backend << ' ' << i;
+      const double angle = -kAngle + p.s / kArcRadius;
+      EXPECT_NEAR(p.position.y(), kArcRadius * std::sin(angle), 3e-6) << backend << ' ' << i;
+      EXPECT_NEAR(p.position.z(), kArcRadius * (1.0 - std::cos(angle)), 3e-6) << backend << ' ' << i;
       EXPECT_EQ(p.u, 0.1);
     }
     const TracedPoint& middle = line.points[line.points.size() / 2];
-    EXPECT_NEAR(middle.curvature_along, line.backend == "chords" ? 0.0 : 1.0 / kRadius, 2e-2) << backend;
+    EXPECT_NEAR(middle.curvature_along, line.backend == "chords" ? 0.0 : 1.0 / kArcRadius, 2e-2) << backend;
   }
 }
 

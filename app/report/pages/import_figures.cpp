@@ -149,18 +149,150 @@ std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what,
   return {Figure{what.id, what.title, std::move(view), std::move(what.note)}};
 }
 
-ChartView residual_chart(const io::ImportReport& report) {
-  ChartView view;
-  const std::vector<double> counts(report.residual_histogram.begin(), report.residual_histogram.end());
+std::vector<Block> residual_figure(const io::ImportReport& report) {
+  const std::vector<std::size_t>& counts = report.residual_histogram;
   const double range = 1e3 * in_file(kMilli * report.residual_range);  // [µm]
-  if (counts.empty() || !(range > 0.0)) return view;
-  Axis axis{"measured less fitted", "µm"};
+  double total = 0.0;
+  for (const std::size_t count : counts) total += static_cast<double>(count);
+  if (!(total > 0.0) || !(range > 0.0)) return {};
   const double width = 2.0 * range / static_cast<double>(counts.size());
+  Series bars{"points", {}}, bell{"normal distribution of the noise", {}};
+  bars.x.push_back(-range);
+  bars.y.push_back(0.0);
   for (std::size_t i = 0; i < counts.size(); ++i)
-    axis.values.push_back(-range + (static_cast<double>(i) + 0.5) * width);
-  view.x = std::move(axis);
-  view.panels = {{"points", "", false, {{"points", counts}}, {}}};
-  return view;
+    for (const double edge : {0.0, 1.0}) {
+      bars.x.push_back(-range + (static_cast<double>(i) + edge) * width);
+      bars.y.push_back(static_cast<double>(counts[i]));
+    }
+  bars.x.push_back(range);
+  bars.y.push_back(0.0);
+  ChartView view;
+  view.x = Axis{"measured less fitted", "µm"};
+  view.panels = {{fmt::format("points in {} µm", shown({width, 3})), "", false, {}, {}}};
+  std::string note;
+  if (report.residuals) {
+    const io::ImportReport::Residuals& residuals = *report.residuals;
+    const io::ImportReport::Distances& d = residuals.distances;
+    const auto um = [](double metres) { return shown({in_file(kMicro * metres), 3}); };
+    total += static_cast<double>(residuals.below + residuals.above);
+    note = fmt::format(
+        "{} points: mean {} µm, rms {} µm; 95 % of them lie within {} µm of the surface, 99 % within {} µm, all within "
+        "{} µm.",
+        static_cast<std::size_t>(total), um(d.mean), um(d.rms), um(d.within_95), um(d.within_99), um(d.largest));
+    if (residuals.below + residuals.above > 0)
+      note += fmt::format(" {} lie below and {} above what is drawn.", residuals.below, residuals.above);
+  }
+  view.panels.front().series.push_back(std::move(bars));
+  if (const double noise = 1e3 * in_file(kMilli * report.noise); noise > 0.0) {
+    constexpr int kSteps = 240;
+    const double peak = total * width / (noise * std::sqrt(2.0 * kPi));
+    for (int i = 0; i <= kSteps; ++i) {
+      const double x = range * (2.0 * i / kSteps - 1.0);
+      bell.x.push_back(x);
+      bell.y.push_back(peak * std::exp(-0.5 * (x / noise) * (x / noise)));
+    }
+    bell.dashed = true;
+    view.panels.front().series.push_back(std::move(bell));
+    note += fmt::format("{}Dashed: as many points with the stated noise, a standard deviation of {} µm.",
+                        note.empty() ? "" : " ", shown({noise, 3}));
+  }
+  if (report.sections) note += " The fit is not the surface here: the sections are.";
+  return {Figure{"residuals", "Distribution of the residuals", std::move(view), std::move(note)}};
+}
+
+namespace {
+
+/// Values in the unit and their colours: of all, or of a share of them where the largest is so many times as far out.
+CloudView::Quantity quantity_of(const char* label, const std::vector<float>& metres, double share, double far,
+                                std::string& note) {
+  constexpr double kSmall = 0.2e-3;
+  std::vector<float> sizes;
+  sizes.reserve(metres.size());
+  for (const float value : metres)
+    if (std::isfinite(value)) sizes.push_back(std::fabs(value));
+  CloudView::Quantity out{label, "µm", 1e3};
+  if (sizes.empty()) return out;
+  std::ranges::sort(sizes);
+  const double usual = sizes[static_cast<std::size_t>(share * static_cast<double>(sizes.size() - 1))],
+               largest = sizes.back();
+  const double span = usual > 0.0 && largest > far * usual ? usual : largest;
+  if (span >= kSmall) out.unit = "mm", out.per_mm = 1.0;
+  const double factor = kMilli * out.per_mm;
+  out.span = span > 0.0 ? factor * span : 1.0;
+  const auto beyond = static_cast<std::size_t>(sizes.end() - std::ranges::upper_bound(sizes, static_cast<float>(span)));
+  if (beyond > 0)
+    note += fmt::format(" {} points of more than {} {} {} have the colour of that.", beyond, shown({out.span, 3}),
+                        out.unit, label);
+  out.values.reserve(metres.size());
+  for (const float value : metres) out.values.push_back(factor * static_cast<double>(value));
+  return out;
+}
+
+}  // namespace
+
+std::vector<Block> cloud_figure(const io::ImportReport& report) {
+  const io::ImportReport::CloudSample& cloud = report.cloud;
+  if (cloud.x.empty()) return {};
+  CloudView view;
+  view.wheel = report.body == Body::wheel;
+  const auto scaled = [](const std::vector<float>& values, double factor) {
+    std::vector<double> out;
+    out.reserve(values.size());
+    for (const float value : values) out.push_back(factor * static_cast<double>(value));
+    return out;
+  };
+  view.x = scaled(cloud.x, kMilli);
+  view.y = scaled(cloud.y, kMilli);
+  view.z = scaled(cloud.z, kMilli);
+  view.tilt = scaled(cloud.tilt, 1.0);
+  const auto removed =
+      static_cast<std::size_t>(std::ranges::count_if(cloud.residual, [](float r) { return std::isnan(r); }));
+  const std::size_t used = cloud.x.size() - removed;
+  std::string note =
+      fmt::format("{} of the {} points used and {} of the {} removed ones, chosen evenly and the same each time.", used,
+                  cloud.all - cloud.removed, removed, cloud.removed);
+  if (cloud.far > 0)
+    note += fmt::format(" {} removed points lie more than 100 mm from all others and are not drawn.", cloud.far);
+  note += " Above 0: out of the material.";
+  view.quantities = {quantity_of("deviation from the surface", cloud.residual, 0.99, 1.5, note),
+                     quantity_of("distance from the section", cloud.distance, 0.999, 3.0, note)};
+  view.others = "removed points";
+  view.caption = {fmt::format("{} of {} points", cloud.x.size(), cloud.all)};
+  return {Figure{"cloud-view", "Points in space", std::move(view), std::move(note)}};
+}
+
+std::vector<Block> truth_blocks(const io::ImportReport& report) {
+  if (!report.truth) return {};
+  const io::ImportReport::Truth& truth = *report.truth;
+  const bool wheel = report.body == Body::wheel;
+  Table table{
+      "truth",
+      fmt::format("The surface less {}, along the normal; above 0: it stands out of the truth.", truth.surface),
+      {{"compared"}, {"rms", "µm"}, {"largest", "µm"}, {"95 % within", "µm"}, {"99 % within", "µm"}, {"mean", "µm"}}};
+  for (const auto& [name, d] : {std::pair{"frame on frame", &truth.placed}, {"laid on it best", &truth.shape}}) {
+    Table::Row row{{std::string(name)}};
+    for (const double value : {d->rms, d->largest, d->within_95, d->within_99, d->mean})
+      row.cells.emplace_back(Number{in_file(kMicro * value), 3});
+    table.rows.push_back(std::move(row));
+  }
+  const auto vector = [](const Vec3& v, const char* unit) {
+    std::string out;
+    for (const double value : v) out += (out.empty() ? "" : ", ") + shown({in_file(kMicro * value), 3});
+    return fmt::format("({}) {}", out, unit);
+  };
+  const double along = wheel ? 180.0 / kPi * truth.along : kMilli * truth.along;
+  Facts facts;
+  facts.entries = {{"Truth", truth.file},
+                   {"Shift that lays it on best", vector(truth.shift_S, "µm")},
+                   {"Turn that lays it on best", vector(truth.turn_S, "µrad")},
+                   {"Zero along the band", fmt::format("at {} {} of the truth{}", shown({in_file(along), 6}),
+                                                       wheel ? "°" : "mm", truth.reversed ? ", reversed" : "")},
+                   {"Places compared", fmt::format("{}; no truth at {} more", truth.places, truth.beside)}};
+  std::vector<Block> out{std::move(table), std::move(facts)};
+  append(out, map_figure(report.truth_map, report.body,
+                         {"truth-map", "Error of the surface", "surface less truth", "µm", 1e6, true,
+                          "After the shift and turn. Above 0: the surface stands out of the truth."}));
+  return out;
 }
 
 }  // namespace treadmark::app::report

@@ -30,7 +30,13 @@ std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what,
 /// mm, or µm where all values are small: unit and factor from metres.
 std::pair<std::string, double> length_unit_of(const io::BandMap& map);
 
-/// Counts of residuals; no panels where there are none.
-ChartView residual_chart(const io::ImportReport& report);
+/// Distribution of the residuals over that of the noise, with their numbers; nothing where there are none.
+std::vector<Block> residual_figure(const io::ImportReport& report);
+
+/// The points in space, coloured by residual or distance from the section; nothing without points.
+std::vector<Block> cloud_figure(const io::ImportReport& report);
+
+/// Numbers of the surface against the truth and where it differs; nothing where no truth was named.
+std::vector<Block> truth_blocks(const io::ImportReport& report);
 
 }  // namespace treadmark::app::report

@@ -72,6 +72,9 @@ Cards cards_of(const io::ImportReport& report) {
                   report.damage.empty()
                       ? ""
                       : fmt::format("the largest {} {}", in_mm(std::fabs(largest)), largest < 0.0 ? "high" : "deep")}};
+  if (report.truth)
+    cards.cards.push_back({"Error against the truth", in_um(report.truth->placed.rms),
+                           fmt::format("rms; of the shape alone {}", in_um(report.truth->shape.rms))});
   return cards;
 }
 
@@ -157,6 +160,16 @@ Section points_section(const io::ImportReport& report, OptionalFiles& files) {
   return section;
 }
 
+/// How far the points lie from the surface: in space, unrolled, and how many.
+Section deviation_section(const io::ImportReport& report) {
+  Section section{"deviation", "Deviation"};
+  append(section.blocks, cloud_figure(report));
+  append(section.blocks, map_figure(report.residual, report.body,
+                                    {"residual-map", "Mean residual", "measured less fitted", "µm", 1e6, true}));
+  append(section.blocks, residual_figure(report));
+  return section;
+}
+
 Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
   Section section{"fit", "Fit"};
   if (const auto& kept = report.sections)
@@ -167,14 +180,11 @@ Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
   section.blocks.emplace_back(
       Paragraph{fmt::format("{} points were fitted, {} held out; these lie {} (rms) from the surface.",
                             report.fitted_points, report.held_out_points, in_um(report.held_out_rms))});
-  append(section.blocks, map_figure(report.residual, report.body,
-                                    {"residual-map", "Mean residual", "measured less fitted", "µm", 1e6, true}));
   append(section.blocks,
          map_figure(report.noise_map, report.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
-  if (ChartView chart = residual_chart(report); !chart.panels.empty())
-    section.blocks.emplace_back(Figure{"residuals", "Distribution of the residuals", std::move(chart)});
   section.blocks.emplace_back(level_table(report));
-  append(section.blocks, files.picture("residual.svg", "residual", "Residuals"));
+  // its maps and counts are shown above
+  if (report.residual.value.empty()) append(section.blocks, files.picture("residual.svg", "residual", "Residuals"));
   return section;
 }
 
@@ -195,7 +205,8 @@ Page import_page(const io::ImportReport& report, std::string document, const std
   overview.blocks.emplace_back(import_facts(report));
   overview.blocks.emplace_back(input_table(report));
   Section surface = surface_section(report, files), points = points_section(report, files),
-          fit = fit_section(report, files);
+          deviation = deviation_section(report), fit = fit_section(report, files),
+          truth{"truth", "Error against the truth", truth_blocks(report)};
   Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"},
       settings{"settings", "Settings"}, summary{"summary", "Summary"};
   if (files.has("times.json", "times of the steps")) steps.blocks.emplace_back(step_table(report));
@@ -207,7 +218,8 @@ Page import_page(const io::ImportReport& report, std::string document, const std
                          note.end());
 
   Section placement{"placement", "Placement", placement_of(report)};
-  for (Section* section : {&overview, &surface, &points, &placement, &fit, &output, &steps, &settings, &summary})
+  for (Section* section :
+       {&overview, &truth, &surface, &deviation, &points, &placement, &fit, &output, &steps, &settings, &summary})
     if (!section->blocks.empty()) page.sections.push_back(std::move(*section));
   return page;
 }

@@ -57,8 +57,8 @@ TEST_F(ImportPage, HasTheNumbersOfTheFile) {
   const Page page = page_of(treadmark::testing::sample_report());
   const Json document = json();
   EXPECT_EQ(page.kind, "import");
-  EXPECT_THAT(section_ids(page), ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "steps",
-                                             "settings", "summary"));
+  EXPECT_THAT(section_ids(page), ElementsAre("overview", "truth", "surface", "deviation", "points", "placement", "fit",
+                                             "outputs", "steps", "settings", "summary"));
   const auto same = [&](const char* table, const char* column, const Json& list, const char* key) {
     const std::vector<double> shown = numbers_in(table_of(page, table), column);
     ASSERT_EQ(shown.size(), list.size()) << table;
@@ -134,6 +134,64 @@ TEST_F(ImportPage, MapsAreThoseOfTheImport) {
   EXPECT_NEAR(noise.values[3], 1e6 * static_cast<double>(report.noise_map.value[3 * 28]), 1e-6);
 }
 
+TEST_F(ImportPage, PointsInSpaceAreThoseOfTheSample) {
+  const io::ImportReport report = treadmark::testing::sample_report();
+  const Page page = page_of(report);
+  const Figure& figure = figure_of(page, "cloud-view");
+  const auto& cloud = std::get<CloudView>(figure.view);
+  EXPECT_TRUE(cloud.wheel);
+  ASSERT_EQ(cloud.x.size(), report.cloud.x.size());
+  ASSERT_EQ(cloud.quantities.size(), 2u);
+  EXPECT_NEAR(cloud.z[5], 1e3 * static_cast<double>(report.cloud.z[5]), 1e-9);
+  const CloudView::Quantity& residual = cloud.quantities.front();
+  std::size_t beyond = 0, removed = 0;
+  for (std::size_t i = 0; i < cloud.x.size(); ++i) {
+    const double value = residual.values[i];
+    if (std::isnan(value))
+      ++removed;
+    else if (std::fabs(value) > residual.span * (1.0 + 1e-6))
+      ++beyond;
+  }
+  EXPECT_EQ(removed, 100u);
+  EXPECT_THAT(figure.note, AllOf(HasSubstr("800 of the 1571000 points used and 100 of the 29000 removed ones"),
+                                 HasSubstr("17 removed points lie more than 100 mm from all others")));
+  if (beyond > 0) {
+    EXPECT_THAT(figure.note, HasSubstr(std::to_string(beyond) + " points of more than"));
+  }
+}
+
+TEST_F(ImportPage, TheDistributionHasTheCountsAndNumbersOfTheReport) {
+  const io::ImportReport report = treadmark::testing::sample_report();
+  const Page page = page_of(report);
+  const Figure& figure = figure_of(page, "residuals");
+  const auto& panel = std::get<ChartView>(figure.view).panels.front();
+  ASSERT_EQ(panel.series.size(), 2u);
+  const Series &bars = panel.series[0], &bell = panel.series[1];
+  double drawn = 0.0, all = 0.0;  // steps of equal height over each bin
+  for (std::size_t i = 1; i + 1 < bars.y.size(); i += 2) drawn += bars.y[i];
+  for (const std::size_t count : report.residual_histogram) all += static_cast<double>(count);
+  EXPECT_EQ(drawn, all);
+  const double bin = bars.x[2] - bars.x[1];
+  double area = 0.0;
+  for (std::size_t i = 1; i < bell.x.size(); ++i)
+    area += 0.5 * (bell.y[i] + bell.y[i - 1]) * (bell.x[i] - bell.x[i - 1]);
+  EXPECT_NEAR(area / bin, all + 73.0, 1e-3 * all);  // as many points
+  EXPECT_THAT(figure.note, AllOf(HasSubstr("mean 0.100 µm, rms 36 µm"), HasSubstr("95 % of them lie within 71 µm"),
+                                 HasSubstr("99 % within 105 µm"), HasSubstr("31 lie below and 42 above")));
+  EXPECT_FALSE(has_figure(page, "residual"));  // the picture of the same
+}
+
+TEST_F(ImportPage, TheErrorAgainstTheTruthIsThatOfTheFile) {
+  const Page page = page_of(treadmark::testing::sample_report());
+  const Json truth = json()["truth"];
+  const Table& table = table_of(page, "truth");
+  EXPECT_THAT(numbers_in(table, "rms"), ElementsAre(truth["placed"]["rms_um"], truth["shape"]["rms_um"]));
+  EXPECT_THAT(numbers_in(table, "99 % within"),
+              ElementsAre(truth["placed"]["within_99_um"], truth["shape"]["within_99_um"]));
+  EXPECT_EQ(fact_of(page, "Shift that lays it on best"), "(1, -2, 3) µm");
+  EXPECT_TRUE(has_figure(page, "truth-map"));
+}
+
 TEST_F(ImportPage, HolesAndDamageAreOutlinedAlsoAcrossTheSeam) {
   const Page page = page_of(treadmark::testing::sample_report());
   const auto& marks = std::get<MapView>(figure_of(page, "fitted-map").view).marks;
@@ -166,8 +224,8 @@ TEST_F(ImportPage, WorksWithTheReportAlone) {
       banners_of(page),
       HasSubstr("note: Files that are not in the folder: maps.h5 (maps over the band), fitted.svg (a picture)"));
   EXPECT_THAT(banners_of(page), AllOf(HasSubstr("times.json"), HasSubstr("summary.txt")));
-  EXPECT_THAT(section_ids(page),
-              ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "settings"));
+  EXPECT_THAT(section_ids(page), ElementsAre("overview", "truth", "surface", "deviation", "points", "placement", "fit",
+                                             "outputs", "settings"));
   EXPECT_FALSE(has_figure(page, "fitted-map"));
   EXPECT_THAT(to_html(page, {.live = false}), HasSubstr("</html>"));
 }

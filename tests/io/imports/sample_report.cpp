@@ -102,6 +102,24 @@ void add_pictures(io::ImportReport& report) {
     const double x = (i % 20 == 0 ? 1.8 : 1.0) * kNoise * random.normal() / report.residual_range;
     if (std::abs(x) < 1.0) ++report.residual_histogram[static_cast<std::size_t>((x + 1.0) * 40.0)];
   }
+  report.residuals = {{0.1e-6, 36e-6, 190e-6, 71e-6, 105e-6}, 31, 42};
+  report.truth_map = make_map(722, 70, a_max, kWidth, [&](double a, double s) {
+    return in_hole(a, s) ? nan : 2e-6 * std::sin(20.0 * a) * std::sin(60.0 * s);
+  });
+  for (int i = 0; i < 900; ++i) {
+    const double theta = 2.0 * kPi * random.next(), y = 0.1 * random.next() - 0.05;
+    const bool removed = i >= 800;
+    const double r = kRadius + (removed ? 8e-3 * random.normal() : 0.0);
+    report.cloud.x.push_back(static_cast<float>(r * std::sin(theta)));
+    report.cloud.y.push_back(static_cast<float>(y));
+    report.cloud.z.push_back(static_cast<float>(r * std::cos(theta)));
+    report.cloud.residual.push_back(static_cast<float>(removed ? nan : kNoise * random.normal()));
+    report.cloud.distance.push_back(static_cast<float>(removed ? nan : deviation(kRadius * theta, y + 0.05)));
+    report.cloud.tilt.push_back(static_cast<float>(removed ? nan : 0.05));
+  }
+  report.cloud.all = 1600000;
+  report.cloud.removed = 29000;
+  report.cloud.far = 17;
 }
 
 }  // namespace
@@ -137,6 +155,17 @@ io::ImportReport sample_report() {
   report.match_agreeing = 0.81;
   report.zero = "the deepest place of the largest damage";
   report.passes = {{1, 800000, Vec3(1e-5, 0.0, -2e-5), Vec3(0.0, 1e-4, 0.0)}, {2, 800000, Vec3::Zero(), Vec3::Zero()}};
+  report.truth = io::ImportReport::Truth{"truth.json",
+                                         "wheel.slcw",
+                                         true,
+                                         400000,
+                                         120,
+                                         {-1.5e-6, 4e-6, 21e-6, 8e-6, 11e-6},
+                                         {0.1e-6, 2e-6, 19e-6, 4e-6, 6e-6},
+                                         0.25,
+                                         false,
+                                         Vec3(1e-6, -2e-6, 3e-6),
+                                         Vec3(0.0, 5e-6, -6e-6)};
   report.pass_before = 1.1e-4;
   report.pass_after = 2.2e-5;
   report.spacing = 0.5e-3;

@@ -133,7 +133,7 @@ export interface SurfaceData {
   closed: boolean;
 }
 
-export type View = ChartView | ContactView | SceneView | SectionView | TrackView | MapView | PictureView;
+export type View = ChartView | ContactView | SceneView | SectionView | TrackView | MapView | CloudView | PictureView;
 
 export interface Series {
   name: string;
@@ -212,6 +212,23 @@ export interface MapView {
   /** Those of each step of the timeline; `values` are the last ones. */
   by_step?: Packed[];
   marks: { label: string; points: [number, number][] }[];
+}
+
+/** Points in space, in the axes of their wheel or rail [mm]. */
+export interface CloudView {
+  type: "cloud";
+  id: string;
+  body: "wheel" | "rail";
+  x: Packed;
+  y: Packed;
+  z: Packed;
+  /** Of the normals from straight out (-z, or the radius) towards +y [rad]. */
+  tilt: Packed;
+  /** What may colour the points, from -span to span: distances along the normals; NaN = a point of the other kind. */
+  quantities: { label: string; unit: string; per_mm: number; span: number; values: Packed }[];
+  /** What points without values are. */
+  others: string;
+  caption: string[];
 }
 
 export interface PictureView {

@@ -9,7 +9,7 @@ import { mountNavigation } from "./navigation";
 import { mountPaperTables } from "./paper-tables";
 import { mountPicture } from "./picture";
 import { mountPrint } from "./print";
-import { mountScene } from "./scene/index";
+import { mountCloud, mountScene } from "./scene/index";
 import { mountSection } from "./section";
 import { Store } from "./store";
 import { mountTables } from "./tables";
@@ -31,6 +31,8 @@ function mountView(figure: HTMLElement, view: View, store: Store): void {
       return mountTrack(figure, view, store);
     case "map":
       return mountMap(figure, view, store);
+    case "cloud":
+      return mountCloud(figure, view, store);
     case "picture":
       return mountPicture(figure, view);
   }

@@ -107,8 +107,8 @@ export class Results {
 
   import() {
     const flat = join(this.examples, "wheel-flat.toml");
-    this.treadmark(["scan", flat, "-o", this.path("scan.ply"), "--body", "wheel", "--range-deg", "-90,90", "--points", "150000", "--noise-mm", "0.02", "--outliers", "0.002", "--seed", "5"]);
-    this.treadmark(["import", this.path("scan.ply"), "-o", this.path("imported.slcw"), "--body", "wheel", "--nominal", "S1002", "--nominal-radius", "490", "--report", this.path("import")]);
+    this.treadmark(["scan", flat, "-o", this.path("scan.ply"), "--body", "wheel", "--range-deg", "-90,90", "--points", "150000", "--noise-mm", "0.02", "--outliers", "0.002", "--seed", "5", "--truth", this.path("scan.json")]);
+    this.treadmark(["import", this.path("scan.ply"), "-o", this.path("imported.slcw"), "--body", "wheel", "--nominal", "S1002", "--nominal-radius", "490", "--truth", this.path("scan.json"), "--report", this.path("import")]);
     return join("import", "report.html");
   }
 

@@ -5,6 +5,7 @@ import { test } from "node:test";
 
 import type { Patch } from "../src/data";
 import { arrowsOfPatch } from "../src/scene/arrows";
+import { normalAt, pointAt } from "../src/scene/cloud";
 import { coarseIndex, meanSpacing, strideFor } from "../src/scene/detail";
 import { drape } from "../src/scene/drape";
 import { eye, orbitOf, panned, pictureAxes, presets, turned, type Subject } from "../src/scene/orbit";
@@ -303,4 +304,20 @@ test("cells are joined while they stay small in the picture", () => {
   assert.equal(strideFor(0.7, 1.5), 2);
   assert.equal(strideFor(0.7, 7), 8);
   assert.equal(strideFor(1e-9, 7), 32);
+});
+
+test("normals of points lean from straight out towards +y", () => {
+  nearVector(normalAt("rail", [5, 1, 2], 0), [0, 0, -1]);
+  nearVector(normalAt("rail", [5, 1, 2], Math.PI / 2), [0, 1, 0]);
+  nearVector(normalAt("wheel", [300, 7, 400], 0), [0.6, 0, 0.8]);
+  nearVector(normalAt("wheel", [0, 7, -400], Math.PI / 6), [0, 0.5, -Math.sqrt(0.75)]);
+});
+
+test("the front one of the points under the pointer is meant", () => {
+  const seen: ([number, number, number] | null)[] = [[10, 10, 50], [12, 10, 20], [40, 10, 5], null];
+  const at = (x: number, y: number): number => pointAt((k) => seen[k] ?? null, seen.length, x, y);
+  assert.equal(at(10, 10), 1);
+  assert.equal(at(3, 10), 0);
+  assert.equal(at(41, 12), 2);
+  assert.equal(at(200, 200), -1);
 });

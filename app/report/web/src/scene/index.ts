@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-import type { SceneView } from "../data";
+import type { CloudView, SceneView } from "../data";
 import { addDownloads } from "../download";
 import { onPaper } from "../print";
-import type { Store } from "../store";
+import type { Store, Theme } from "../store";
+import { CloudViewer } from "./cloud";
 import { Layers } from "./layers";
+import type { Panel } from "./panel";
 import { Stage, graphics } from "./stage";
 import { Viewer } from "./viewer";
 
 const help =
   "Drag turns, Shift and drag or two fingers move, the mouse wheel zooms once the view is clicked (or with Ctrl). " +
-  "Keys: arrows turn, Shift and arrows move, + and \u2212 zoom, 1 to 5 choose a view. A click on the patch reads its value.";
+  "Keys: arrows turn, Shift and arrows move, + and \u2212 zoom, 1 to 5 choose a view.";
 
 function make<K extends keyof HTMLElementTagNameMap>(tag: K, className: string): HTMLElementTagNameMap[K] {
   const element = document.createElement(tag);
@@ -45,17 +47,36 @@ interface Live {
   restore: () => void;
 }
 
+/** What a frame in space shows. */
+interface Subject {
+  panel: Panel;
+  setTheme(theme: Theme): void;
+  /** Shows the store's step. */
+  setStep(): void;
+}
+
+interface Kind {
+  /** What is seen, for those who do not. */
+  seen: string;
+  /** How a value is read. */
+  reading: string;
+  /** Where the same is to be seen without WebGL. */
+  instead: string;
+  make(stage: Stage, layers: Layers, output: HTMLOutputElement, fullScreen: () => void): Subject;
+}
+
 /** Fills the frame with the live scene. */
-function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: Store, software: boolean): Live {
+function start(figure: HTMLElement, frame: HTMLElement, id: string, kind: Kind, store: Store, software: boolean): Live {
+  const words = `${help} ${kind.reading}`;
   const box = make("div", "scene-stage");
   const canvas = make("canvas", "scene-canvas");
   canvas.tabIndex = 0;
   canvas.setAttribute("role", "img");
   const caption = figure.querySelector("figcaption")?.textContent ?? "";
-  canvas.setAttribute("aria-label", `${caption ? `${caption}. ` : ""}Three-dimensional view of wheel, rail and contact. ${help}`);
+  canvas.setAttribute("aria-label", `${caption ? `${caption}. ` : ""}${kind.seen} ${words}`);
   const output = make("output", "scene-value");
   const hint = make("p", "scene-hint");
-  hint.textContent = help;
+  hint.textContent = words;
   box.append(canvas);
 
   const stage = new Stage(canvas, software);
@@ -71,7 +92,7 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   };
   frame.append(box);
   measure();
-  const viewer = new Viewer(figure, stage, layers, output, view, store, fullScreen);
+  const viewer = kind.make(stage, layers, output, fullScreen);
   frame.replaceChildren(viewer.panel.element, box, output, hint);
   measure();
   new ResizeObserver(() => {
@@ -80,9 +101,8 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   }).observe(box);
 
   store.onStep(() => viewer.setStep());
-  store.onPoint(() => viewer.pointChanged());
   store.onTheme((theme) => viewer.setTheme(theme));
-  addDownloads(figure, { png: () => toBlob(composed(stage, layers)) }, view.id);
+  addDownloads(figure, { png: () => toBlob(composed(stage, layers)) }, id);
   const printed = (): HTMLCanvasElement => {
     viewer.setTheme("light");
     viewer.setStep();
@@ -94,13 +114,13 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   return { stage, printed, restore: () => viewer.setStep() };
 }
 
-/** Wheel, rail and contact in space. What needs the graphics is made when the figure first comes in sight. */
-export function mountScene(figure: HTMLElement, view: SceneView, store: Store): void {
+/** What needs the graphics is made when the figure first comes in sight. */
+function mount(figure: HTMLElement, id: string, what: Kind, store: Store): void {
   const plot = figure.querySelector<HTMLElement>(".plot") ?? figure.appendChild(make("div", "plot"));
   const kind = graphics();
   if (kind === "none") {
     const note = make("p", "scene-missing");
-    note.textContent = "This browser offers no WebGL, which the view in space needs. The other views show the same results.";
+    note.textContent = `This browser offers no WebGL, which the view in space needs. ${what.instead}`;
     plot.append(note);
     figure.dataset["ready"] = "false";
     return;
@@ -108,7 +128,7 @@ export function mountScene(figure: HTMLElement, view: SceneView, store: Store): 
   const frame = make("div", "scene");
   plot.replaceChildren(frame);
   let live: Live | null = null;
-  const started = (): Live => (live ??= start(figure, frame, view, store, kind === "software"));
+  const started = (): Live => (live ??= start(figure, frame, id, what, store, kind === "software"));
   // Paper shows it whether it was ever in sight or not.
   window.addEventListener("beforeprint", () => frame.append(started().printed()));
   onPaper(figure, store, () => [started().printed()]);
@@ -125,4 +145,30 @@ export function mountScene(figure: HTMLElement, view: SceneView, store: Store): 
     { rootMargin: "160px" },
   );
   watch.observe(figure);
+}
+
+/** Wheel, rail and contact in space. */
+export function mountScene(figure: HTMLElement, view: SceneView, store: Store): void {
+  const kind: Kind = {
+    seen: "Three-dimensional view of wheel, rail and contact.",
+    reading: "A click on the patch reads its value.",
+    instead: "The other views show the same results.",
+    make: (stage, layers, output, fullScreen) => {
+      const viewer = new Viewer(figure, stage, layers, output, view, store, fullScreen);
+      store.onPoint(() => viewer.pointChanged());
+      return viewer;
+    },
+  };
+  mount(figure, view.id, kind, store);
+}
+
+/** Points in space. */
+export function mountCloud(figure: HTMLElement, view: CloudView, store: Store): void {
+  const kind: Kind = {
+    seen: "Three-dimensional view of points.",
+    reading: "Pointing at a point, or a tap on it, reads its value.",
+    instead: "The maps below show the same unrolled.",
+    make: (stage, layers, output, fullScreen) => new CloudViewer(figure, stage, layers, output, view, store, fullScreen),
+  };
+  mount(figure, view.id, kind, store);
 }

@@ -96,7 +96,7 @@ export function drawColourBar(pen: Pen, palette: Palette, field: FieldInfo, rang
   }
 }
 
-/** Lying, of the deviation from the mean section, at the bottom right. */
+/** Lying, of a deviation, at the bottom right. */
 export function drawDeviationBar(pen: Pen, palette: Palette, span: number, title: string, right: number, bottom: number, width: number): void {
   pen.font = font(12, 600);
   const wide = Math.max(width, pen.measureText(title).width);
@@ -113,6 +113,19 @@ export function drawDeviationBar(pen: Pen, palette: Palette, span: number, title
     pen.fillRect(x - 0.5, bottom - 17, 1, 4);
     pen.fillText(shortNumber(mark), Math.min(x, right - 10), bottom - 6);
   }
+}
+
+/** A dot and what it stands for, its right end given. */
+export function drawKey(pen: Pen, palette: Palette, colour: string, text: string, right: number, y: number): void {
+  pen.font = font(12);
+  const width = pen.measureText(text).width;
+  plate(pen, palette, right - width - 22, y - 10, width + 28, 20);
+  pen.textAlign = "right";
+  pen.textBaseline = "middle";
+  pen.fillStyle = palette.text;
+  pen.fillText(text, right, y + 0.5);
+  pen.fillStyle = colour;
+  pen.fillRect(right - width - 16, y - 4, 8, 8);
 }
 
 /** `axes`: of x, y and z in the picture, right, up and towards the eye. */

@@ -37,24 +37,34 @@ function element<K extends keyof HTMLElementTagNameMap>(tag: K, className: strin
   return made;
 }
 
-/** The row of views and the options, which change `options` and then call `changed`. */
-export function makePanel(options: Options, offered: Offered, changed: () => void, view: (name: ViewName) => void, fullScreen: () => void): Panel {
+/** A panel that is being made: its row of views, and options that call `changed` when the reader sets them. */
+export interface PanelMaker extends Panel {
+  choice: (name: string, label: string, entries: readonly (readonly [string, string])[], get: () => string, set: (value: string) => void) => void;
+  tick: (name: string, label: string, title: string, get: () => boolean, set: (value: boolean) => void) => void;
+}
+
+export interface ViewButton {
+  name: ViewName;
+  label: string;
+  title: string;
+}
+
+export function startPanel(buttons: readonly ViewButton[], changed: () => void, view: (name: ViewName) => void, fullScreen: () => void): PanelMaker {
   const bar = element("div", "scene-bar");
   const refreshers: ((view: ViewName | null) => void)[] = [];
 
   const views = element("div", "scene-views");
   views.setAttribute("role", "group");
   views.setAttribute("aria-label", "View");
-  presets.forEach((preset, k) => {
-    if (preset.name === "whole" && !offered.wheel) return;
-    const button = element("button", "", preset.label);
+  for (const { name, label, title } of buttons) {
+    const button = element("button", "", label);
     button.type = "button";
-    button.title = `${preset.title} (key ${k + 1})`;
-    button.dataset["view"] = preset.name;
-    button.addEventListener("click", () => view(preset.name));
-    refreshers.push((current) => button.setAttribute("aria-pressed", String(current === preset.name)));
+    button.title = `${title} (key ${presets.findIndex((preset) => preset.name === name) + 1})`;
+    button.dataset["view"] = name;
+    button.addEventListener("click", () => view(name));
+    refreshers.push((current) => button.setAttribute("aria-pressed", String(current === name)));
     views.append(button);
-  });
+  }
   const large = element("button", "scene-large", "Full screen");
   large.type = "button";
   large.addEventListener("click", fullScreen);
@@ -70,7 +80,7 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
   more.open = window.matchMedia("(min-width: 700px)").matches;
   bar.append(more);
 
-  const choice = (name: string, label: string, entries: readonly (readonly [string, string])[], get: () => string, set: (value: string) => void): void => {
+  const choice: PanelMaker["choice"] = (name, label, entries, get, set) => {
     const frame = element("label", "scene-choice", `${label} `);
     const select = element("select", "");
     select.name = name;
@@ -87,7 +97,7 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
     frame.append(select);
     list.append(frame);
   };
-  const tick = (name: string, label: string, title: string, get: () => boolean, set: (value: boolean) => void): void => {
+  const tick: PanelMaker["tick"] = (name, label, title, get, set) => {
     const frame = element("label", "scene-tick");
     const box = element("input", "");
     box.type = "checkbox";
@@ -101,7 +111,13 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
     frame.append(box, ` ${label}`);
     list.append(frame);
   };
+  return { element: bar, refresh: (current) => refreshers.forEach((refresh) => refresh(current)), choice, tick };
+}
 
+/** The row of views and the options, which change `options` and then call `changed`. */
+export function makePanel(options: Options, offered: Offered, changed: () => void, view: (name: ViewName) => void, fullScreen: () => void): Panel {
+  const panel = startPanel(presets.filter((preset) => preset.name !== "whole" || offered.wheel), changed, view, fullScreen);
+  const { choice, tick } = panel;
   const styles = [
     ["solid", "solid"],
     ["cut", "cut away"],
@@ -131,5 +147,5 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
     const factors = [1, 10, 50].map((factor) => [String(factor), `× ${factor}`] as const);
     choice("exaggeration", "Deviation shown", factors, () => String(options.exaggeration), (v) => (options.exaggeration = Number(v)));
   }
-  return { element: bar, refresh: (current) => refreshers.forEach((refresh) => refresh(current)) };
+  return panel;
 }
