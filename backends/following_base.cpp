@@ -23,7 +23,7 @@ namespace treadmark {
 namespace {
 
 constexpr double kApart = 40.0;     // resolutions between sections
-constexpr std::size_t kParts = 16;  // into which these distances may be divided
+constexpr std::size_t kParts = 32;  // into which these distances may be divided
 constexpr double kSteep = 2.0;      // [-] slope from which the base alone has to be right
 constexpr double kOff = 1e-7;       // so far [m], normal to the surface
 
