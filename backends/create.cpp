@@ -29,8 +29,7 @@ void check(const SurfaceSpec& spec) {
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
   if (spec.body == Body::wheel && spec.roller_radius != 0.0)
     throw Error(ErrorKind::configuration, "a roller takes the place of a rail, a wheel cannot be one");
-  if (spec.roller_radius != 0.0 &&
-      (std::holds_alternative<TensorSpline>(spec.shape) || std::holds_alternative<SplineSurface>(spec.shape)))
+  if (spec.roller_radius != 0.0 && std::holds_alternative<SplineSurface>(spec.shape))
     throw Error(ErrorKind::configuration, "a surface given by its splines cannot become a roller", {},
                 "use a profile, slices or triangles");
   check_body(spec.defects, spec.body);
@@ -38,8 +37,6 @@ void check(const SurfaceSpec& spec) {
     require_same_body(points->body, spec.body, fmt::format("the profile '{}'", points->name));
   if (const auto* slices = std::get_if<SliceSet>(&spec.shape))
     require_same_body(slices->body, spec.body, fmt::format("the slices '{}'", slices->name));
-  if (const auto* spline = std::get_if<TensorSpline>(&spec.shape))
-    require_same_body(spline->body, spec.body, fmt::format("the spline surface '{}'", spline->name));
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
     require_same_body(analytic::standard_profile_body(standard->name), spec.body,
                       fmt::format("the standard profile {}", standard->name));

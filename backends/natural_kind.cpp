@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -24,22 +23,6 @@ bool is_natural(const NaturalSurface& natural, const Representation& wanted) {
   const Backend& backend = backend_of(wanted.backend);
   if (natural.surface->backend() != wanted.backend) return false;
   return !backend.resample || !(wanted.resolution > 0.0);
-}
-
-/// Nothing for degrees that files of splines are not read with.
-std::optional<SplineSurface> as_spline_surface(const TensorSpline& s) {
-  constexpr int kHighest = 3;
-  if (s.degree_u > kHighest || s.degree_v > kHighest) return std::nullopt;
-  SplineSurface out;
-  out.levels.push_back({SplineKnots{s.degree_u, s.knots_u}, SplineKnots{s.degree_v, s.knots_v}});
-  out.points.reserve(s.poles.size());
-  out.weights.reserve(s.weights.size());
-  for (std::size_t iv = 0; iv < s.poles_v(); ++iv)
-    for (std::size_t iu = 0; iu < s.poles_u(); ++iu) {
-      out.points.push_back(s.poles[iv + s.poles_v() * iu]);
-      if (!s.weights.empty()) out.weights.push_back(s.weights[iv + s.poles_v() * iu]);
-    }
-  return out;
 }
 
 }  // namespace
@@ -102,16 +85,18 @@ SliceSet NaturalKind::to_slices(const NaturalSurface& natural, const Representat
   return slices;
 }
 
-std::vector<SplineSurface> NaturalKind::to_splines(const NaturalSurface& natural, const Representation& wanted,
-                                                   Sampled* sampled) const {
-  std::optional<SplineSurface> tensor;
-  if (const auto* s = std::get_if<TensorSpline>(&natural.spec.shape)) tensor = as_spline_surface(*s);
-  const auto* given = tensor ? &*tensor : std::get_if<SplineSurface>(&natural.spec.shape);
+const SplineSurface* given_splines(const NaturalSurface& natural, const Representation& wanted) {
+  const auto* given = std::get_if<SplineSurface>(&natural.spec.shape);
   const Region& r = wanted.region;
   const bool all_of_it =
       !std::isfinite(r.u_min) && !std::isfinite(r.u_max) && !std::isfinite(r.y_min) && !std::isfinite(r.y_max);
-  if (given != nullptr && natural.spec.defects.empty() && all_of_it && !(wanted.resolution > 0.0) &&
-      is_natural(natural, wanted)) {
+  const bool as_it_is = natural.spec.defects.empty() && !(wanted.resolution > 0.0) && is_natural(natural, wanted);
+  return all_of_it && as_it_is ? given : nullptr;
+}
+
+std::vector<SplineSurface> NaturalKind::to_splines(const NaturalSurface& natural, const Representation& wanted,
+                                                   Sampled* sampled) const {
+  if (const SplineSurface* given = given_splines(natural, wanted)) {
     if (sampled != nullptr) *sampled = {0.0, wanted.region, natural.note};
     return {*given};
   }

@@ -24,6 +24,9 @@ class NaturalKind {
                              const std::string& notes) const;
 };
 
+/// The splines of a surface that is given by them, where all of it is wanted and nothing has to be sampled; else null.
+const SplineSurface* given_splines(const NaturalSurface& natural, const Representation& wanted);
+
 /// Rollers, which are wheels turned over, and rings, which are rails bent upwards; spec.roller_radius says which.
 /// Errors: those of create_natural.
 NaturalSurface create_roller(SurfaceSpec spec);

@@ -122,9 +122,7 @@ bool is_given(const SurfaceSpec& spec, bool hierarchical, int most_degree) {
 }
 
 std::shared_ptr<const Surface> natural_given(const SurfaceSpec& spec, std::string& note) {
-  const auto* tensor = std::get_if<TensorSpline>(&spec.shape);
-  auto surface = tensor != nullptr ? spline::make_nurbs_surface(*tensor, note)
-                                   : spline::make_given_surface(std::get<SplineSurface>(spec.shape), spec.body);
+  auto surface = spline::make_given_surface(std::get<SplineSurface>(spec.shape), spec.body, &note);
   return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
 }
 
@@ -135,9 +133,7 @@ Backend nurbs_row() {
   row.tell_splines = [](Resampling& r) {
     return as_nurbs(r, [](const auto&... from) { return spline::tell_nurbs(from...); });
   };
-  row.natural_for = [](const SurfaceSpec& spec) {
-    return std::holds_alternative<TensorSpline>(spec.shape) || is_given(spec, false, kAnyDegree);
-  };
+  row.natural_for = [](const SurfaceSpec& spec) { return is_given(spec, false, kAnyDegree); };
   row.make_natural = natural_given;
   return row;
 }

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "treadmark/backends/natural_kind.hpp"
 #include "treadmark/backends/resampling.hpp"
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
@@ -128,12 +128,9 @@ sampling::PointGrid coarse_grid(Resampling& r, bool one_section) {
 
 TensorFit to_tensor_spline(const NaturalSurface& natural, const Representation& wanted, double tolerance) {
   const SurfaceSpec& spec = natural.spec;
-  const Region all, &asked = wanted.region;
-  const bool whole =
-      asked.u_min == all.u_min && asked.u_max == all.u_max && asked.y_min == all.y_min && asked.y_max == all.y_max;
   TensorFit out;
-  const auto* given = std::get_if<TensorSpline>(&spec.shape);
-  if (given != nullptr && whole && !(wanted.resolution > 0.0) && spec.defects.empty()) {
+  const SplineSurface* given = given_splines(natural, {"", wanted.resolution, wanted.region});
+  if (given != nullptr && !given->hierarchical) {
     out.spline = *given;
     out.sampled.region = wanted.region;
     return out;

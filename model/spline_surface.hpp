@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,12 @@
 
 namespace treadmark {
 
+/// Of tensor splines, and of hierarchical ones.
+inline constexpr int kHighestDegree = 25, kHighestHierarchicalDegree = 3;
+
 /// The B-splines of one parameter: as many functions as there are knots, less degree and 1.
 struct SplineKnots {
-  int degree = 0;             ///< 1 to 3
+  int degree = 0;
   std::vector<double> knots;  ///< not decreasing; functions begin at knot degree and end as many before the last
 
   /// How many there are.
@@ -21,7 +25,20 @@ struct SplineKnots {
     const auto least = static_cast<std::size_t>(degree) + 1;
     return knots.size() > least ? knots.size() - least : 0;
   }
+  /// Where their pieces join, from the first to the last parameter, each once.
+  std::vector<double> breaks() const;
+  /// Once continuously differentiable inside.
+  bool smooth() const;
 };
+
+/// What is wrong with knots.
+struct KnotFault {
+  std::string what;
+  std::optional<std::size_t> knot = {};  ///< at which it shows, counted from 0
+};
+/// Nothing for knots that are finite, do not fall, leave an interval, and are repeated at most degree times inside and
+/// once more at the ends; for a degree from 1 to the highest.
+std::optional<KnotFault> fault_of(const SplineKnots& knots, int highest_degree);
 
 /// A part of the parameters that is divided: intervals between different knots of a level, upper ones not included.
 struct SplineBox {
@@ -44,12 +61,27 @@ struct SplineSurface {
   std::vector<double> weights;                     ///< positive, one a point; empty: all 1. Not of hierarchical ones
 };
 
+/// Errors: Error(input_data) that names the surface for knots with a fault, what is not finite, weights that are not
+/// positive, and of a tensor spline for other numbers of points or weights than it has functions. Boxes are not looked
+/// at.
+void check(const SplineSurface& surface);
+
+/// Point and first derivatives by the first parameter s and the second one t [m].
+struct SplineJet {
+  Vec3 p = Vec3::Zero(), ps = Vec3::Zero(), pt = Vec3::Zero(), pst = Vec3::Zero();
+};
+/// Of a tensor spline; parameters are clamped to the surface (de Boor 1978; Piegl and Tiller 1997).
+SplineJet evaluate(const SplineSurface& tensor, double s, double t);
+/// Of its polynomials, or rational functions, over the intervals between knots that hold inside.
+SplineJet evaluate(const SplineSurface& tensor, const Vec2& at, const Vec2& inside);
+
 /// Two sides of surfaces that are said to meet. Sides: 1, 2 the least and the greatest first parameter, 3, 4 the same
 /// of the second one.
 struct SplineInterface {
   std::size_t first = 0, second = 0;    ///< places in a list of surfaces
   int first_side = 1, second_side = 1;  ///< 1 to 4
   SourcePosition where;                 ///< in its file
+  bool reversed = false;                ///< parameters along the two sides grow against each other
 };
 
 }  // namespace treadmark

@@ -10,7 +10,6 @@
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/slices.hpp"
 #include "treadmark/model/spline_surface.hpp"
-#include "treadmark/model/tensor_spline.hpp"
 #include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark {
@@ -39,7 +38,7 @@ struct ArcChain {
 struct SurfaceSpec {
   Body body = Body::rail;
   double nominal_radius = 0.0;  ///< wheel: radius at profile z = 0 [m]; rail: unused
-  std::variant<Profile, SliceSet, StandardProfile, ArcChain, TriangleMesh, TensorSpline, SplineSurface> shape;
+  std::variant<Profile, SliceSet, StandardProfile, ArcChain, TriangleMesh, SplineSurface> shape;
   Defects defects;
   /// Rail: 0, or the nominal radius of a roller [m]: the profile turned about an axle parallel to y at z =
   /// roller_radius, with profile z = 0 at that radius. x of slices and defects is then the arc length at that radius, 0

@@ -26,13 +26,18 @@ bool differ_in_place(const std::vector<io::CaseResult>& cases) {
   return places;
 }
 
+constexpr std::size_t kMostPanels = 500;
+
 }  // namespace
 
 std::string pressure_svg(const io::RunResult& run) {
   PatchSheet sheet;
   double top_pressure = 0.0;
   const bool by_place = differ_in_place(run.cases);
-  for (const io::CaseResult& result : run.cases) {
+  const std::size_t count = run.cases.size(), shown = std::min(count, kMostPanels);
+  if (shown < count) sheet.title = fmt::format("{} of {} cases, at equal distances", shown, count);
+  for (std::size_t k = 0; k < shown; ++k) {
+    const io::CaseResult& result = run.cases[shown < count ? k * (count - 1) / (shown - 1) : k];
     PatchPanel& panel = sheet.panels.emplace_back();
     panel.patches = patch_pictures(result);
     panel.titles = {!result.has_wheelset ? fmt::format("case {}", result.number)

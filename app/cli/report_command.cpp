@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <filesystem>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
@@ -12,17 +14,20 @@ namespace treadmark::cli {
 namespace {
 
 struct ReportOptions {
-  std::string folder;
-  std::string output_file;       ///< empty = report.html in the folder
+  std::vector<std::string> folders;
+  std::string output_file;       ///< empty = report.html in the folder, of several overlay.html in the first
   bool static_pictures = false;  ///< in place of live views
 };
 
 int report_command(const ReportOptions& options, const CommonOptions& common) {
   namespace fs = std::filesystem;
-  const app::report::Page page = app::report::read_report(options.folder);
-  const fs::path folder =
-      fs::is_directory(options.folder) ? fs::path(options.folder) : fs::path(options.folder).parent_path();
-  const fs::path file = options.output_file.empty() ? folder / "report.html" : fs::path(options.output_file);
+  const fs::path first = options.folders.front();
+  const bool several = options.folders.size() > 1;
+  const app::report::Page page = several ? app::report::read_overlay({options.folders.begin(), options.folders.end()})
+                                         : app::report::read_report(first);
+  const fs::path folder = fs::is_directory(first) ? first : first.parent_path();
+  const fs::path file =
+      options.output_file.empty() ? folder / (several ? "overlay.html" : "report.html") : fs::path(options.output_file);
   app::report::PageOptions how;
   how.live = !options.static_pictures;
   const std::string html = app::report::to_html(page, how);
@@ -37,9 +42,12 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
 
 Command add_report(CLI::App& verb) {
   auto options = std::make_shared<ReportOptions>();
-  verb.add_option("FOLDER", options->folder, "What run, compare, bench, import --report, simulate or sweep wrote")
+  verb.add_option("FOLDER", options->folders,
+                  "What run, compare, bench, import --report, simulate, sweep or evolve wrote. Two to four folders of "
+                  "run, or of simulate, are laid over each other and compared with the first")
       ->required();
-  verb.add_option("-o,--output", options->output_file, "The report, default FOLDER/report.html")
+  verb.add_option("-o,--output", options->output_file,
+                  "The report, default FOLDER/report.html, of several overlay.html in the first")
       ->type_name("FILE.html");
   verb.add_flag("--static", options->static_pictures,
                 "Fixed pictures in place of live views: a smaller file without scripts");

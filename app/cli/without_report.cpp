@@ -29,6 +29,7 @@ namespace {
 
 std::string to_html(const Page&, const PageOptions&) { without_report(); }
 Page read_report(const std::filesystem::path&) { without_report(); }
+Page read_overlay(const std::vector<std::filesystem::path>&) { without_report(); }
 Page run_page(const std::shared_ptr<const io::RunResult>&, std::string) { without_report(); }
 Page check_page(const std::vector<CheckedInput>&) { without_report(); }
 Page compare_page(const std::shared_ptr<const io::Comparison>&, std::string) { without_report(); }

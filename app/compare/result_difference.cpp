@@ -22,16 +22,20 @@ class Differences {
       : result_(result), rows_(io::quantities<T>()), entries_(rows_.size()) {}
 
   void add(const T& a, const T& b, int case_number, int patch) {
+    std::string_view meaning;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const io::Quantity<T>& row = rows_[k];
+      if (!row.meaning.empty()) meaning = row.meaning;  // rows without one go on with that of the row above
       if (row.key.empty() || row.block == io::Block::timing) continue;
       const bool in_a = known(row, a), in_b = known(row, b);
       if (in_a != in_b)
         result_.unmatched.push_back(fmt::format("case {}{}: only one has {}", case_number,
                                                 patch == 0 ? "" : fmt::format(", patch {}", patch), name(row)));
       if (!in_a || !in_b) continue;
-      const double x = row.unit.in_file(row.access.get(a)), y = row.unit.in_file(row.access.get(b));
-      entries_[k].push_back({name(row), case_number, patch, x, y, 0.0});
+      const double x = row.access.get(a), y = row.access.get(b);
+      const io::Unit& unit = unit_of(row, a);
+      entries_[k].push_back(
+          {name(row), meaning, case_number, patch, unit.in_file(x), unit.in_file(y), 0.0, unit, x, y});
     }
   }
 
@@ -57,6 +61,10 @@ class Differences {
  private:
   static bool known(const io::Quantity<T>& row, const T& item) {
     return io::has_block(item, row.block) && row.has(item);
+  }
+  static const io::Unit& unit_of(const io::Quantity<io::CaseResult>& row, const io::CaseResult&) { return row.unit; }
+  static const io::Unit& unit_of(const io::Quantity<io::PatchResult>& row, const io::PatchResult& patch) {
+    return row.unit_in(patch.shift);
   }
   static std::string name(const io::Quantity<T>& row) {
     return row.object.empty() ? std::string(row.key) : fmt::format("{}.{}", row.object, row.key);

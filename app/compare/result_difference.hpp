@@ -3,19 +3,24 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::app {
 
 /// Where two results differ most in one quantity.
 struct QuantityDifference {
-  std::string key;  ///< "object.key" of the quantity, as in JSON
+  std::string key;           ///< "object.key" of the quantity, as in JSON
+  std::string_view meaning;  ///< of the quantity, or of the group that it begins or belongs to
   int case_number = 0;
   int patch = 0;            ///< from 1; 0: a number of the case
   double a = 0.0, b = 0.0;  ///< in the unit of the JSON file
   double relative = 0.0;    ///< see compare_results
+  io::Unit unit = {};       ///< of both numbers
+  double si_a = 0.0, si_b = 0.0;
 };
 
 struct ResultDifference {

@@ -74,6 +74,7 @@ struct SceneView {
 /// Wheel and rail cut across the track at the contact of a step; on fixed pages of the most loaded one.
 struct SectionView {
   int set = 0;
+  std::vector<int> over = {};  ///< other sets, whose bodies are drawn as dashed lines in the same plane
 };
 
 /// Contact of some frames from above in track axes, each over the section of wheel and rail; fixed pages have their own
@@ -177,17 +178,18 @@ struct FrameSet {
 };
 
 struct Timeline {
-  std::string label;                    ///< what a step is: "case", "instant", "run"
-  std::vector<std::string> names = {};  ///< of the steps; empty: made from the first axis
-  std::vector<int> frames = {};         ///< of each step, -1 = none; empty: there are no contact fields
-  std::vector<Axis> axes = {};          ///< a value a step; at least one
-  std::size_t start = 0;                ///< the step that is shown first
+  std::string label;                      ///< what a step is: "case", "instant", "run"
+  std::vector<std::string> names = {};    ///< of the steps; empty: made from the first axis
+  std::vector<int> frames = {};           ///< of each step, -1 = none; empty: there are no contact fields
+  std::vector<Axis> axes = {};            ///< a value a step; at least one
+  std::size_t start = 0;                  ///< the step that is shown first
+  std::vector<std::size_t> notable = {};  ///< steps that a page of too many keeps; ascending
   std::size_t count() const { return axes.empty() ? names.size() : axes.front().values.size(); }
 };
 
 struct Page {
-  std::string
-      kind;  ///< "run", "check", "compare", "bench", "import", "simulation", "assessment", "evolution" or "sweep"
+  std::string kind;  ///< "run", "check", "compare", "bench", "import", "simulation", "assessment", "evolution", "sweep"
+                     ///< or "overlay"
   std::string title, lead;
   std::vector<Section> sections = {};
   std::optional<Timeline> timeline = {};

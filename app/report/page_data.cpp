@@ -265,6 +265,7 @@ class Writer {
     } else if (const auto* section = std::get_if<SectionView>(&figure.view)) {
       out["type"] = "section";
       out["set"] = section->set;
+      if (!section->over.empty()) out["over"] = section->over;
     } else if (const auto* track = std::get_if<TrackView>(&figure.view)) {
       out["type"] = "track";
       out["set"] = track->set;

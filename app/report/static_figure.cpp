@@ -56,7 +56,8 @@ pictures::Chart drawn(const ChartView& view, std::size_t which, const Axis* axis
                                                        : series.x;
     chart.series.push_back(drawn(series, x, changing ? view.by_step[step].y[which][k] : series.y));
     pictures::set_look(chart.series.back(), k, panel.series.size());
-    if (series.dashed) chart.series.back().dashes = "6 4";
+    constexpr std::array<const char*, 4> kDashes{"6 4", "6 4", "2 3", "10 3 2 3"};  // told apart as in live charts
+    if (series.dashed) chart.series.back().dashes = kDashes[k % kDashes.size()];
   }
   if (!panel.levels.empty()) {
     pictures::ChartSeries levels;
@@ -129,8 +130,11 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page, s
   const std::size_t shown = step.value_or(page.timeline ? page.timeline->start : 0);
   if (const auto* chart = std::get_if<ChartView>(&figure.view)) return {chart_svg(*chart, page, figure.title, shown)};
   if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title, shown)};
-  if (const auto* section = std::get_if<SectionView>(&figure.view))
-    return {section_svg(set_of(page, section->set), page.surfaces)};
+  if (const auto* section = std::get_if<SectionView>(&figure.view)) {
+    std::vector<std::string> pictures{section_svg(set_of(page, section->set), page.surfaces)};
+    for (const int other : section->over) pictures.push_back(section_svg(set_of(page, other), page.surfaces));
+    return pictures;
+  }
   if (!std::holds_alternative<ContactView>(figure.view)) return {};
   std::vector<std::string> pictures;
   const std::vector<int>& sets = std::get<ContactView>(figure.view).sets;

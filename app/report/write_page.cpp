@@ -10,6 +10,7 @@
 
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/page_data.hpp"
+#include "treadmark/app/report/shown_steps.hpp"
 #include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -155,7 +156,8 @@ constexpr const char* kStatic =
 
 }  // namespace
 
-std::string to_html(const Page& page, const PageOptions& options) {
+std::string to_html(const Page& whole, const PageOptions& options) {
+  const Page page = with_shown_steps(whole);
   const bool live = options.live && !page_script().empty();
   const std::string style = "\n" + page_style(), script = "\n" + page_script() + "\n";
   std::string out =

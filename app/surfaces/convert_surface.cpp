@@ -7,11 +7,13 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/backends/spline/spline_gaps.hpp"
 #include "treadmark/backends/tensor_fit.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/copy_bytes.hpp"
@@ -38,7 +40,7 @@ io::CadContent to_cad(const NaturalSurface& natural, const Representation& wante
   TensorFit fit = to_tensor_spline(natural, wanted, kTolerance);
   sampled = fit.sampled;
   io::CadContent out;
-  const Body body = natural.spec.body;
+  const Body body = out.body = natural.spec.body;
   if (fit.one_section) {
     const Region& r = fit.sampled.region;
     const bool part = body == Body::rail || r.u_max - r.u_min < 2.0 * kPi;
@@ -49,7 +51,8 @@ io::CadContent to_cad(const NaturalSurface& natural, const Representation& wante
       fit.deviation > 0.0
           ? fmt::format("at most {:.2g} um off what it was made of, as far as was looked", 1e6 * fit.deviation)
           : "with the coefficients that it was given with");
-  sampled.note += fmt::format("{} x {} coefficients. ", fit.spline.poles_u(), fit.spline.poles_v());
+  const auto& [u, v] = fit.spline.levels.front();
+  sampled.note += fmt::format("{} x {} coefficients. ", u.functions(), v.functions());
   if (fit.deviation > kTolerance)
     sampled.note += fmt::format("more points would be needed to lie within {:g} um. ", 1e6 * kTolerance);
   out.spline = std::move(fit.spline);
@@ -98,7 +101,10 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
     io::write_cad(place, to_cad(out.source, wanted, sampled));
   } else if (splines) {
     out.kind = "splines";
-    io::write_splines(place, to_splines(out.source, wanted, &sampled));
+    const std::vector<SplineSurface> told = to_splines(out.source, wanted, &sampled);
+    std::vector<SplineInterface> met;
+    if (told.size() > 1) spline::spline_gaps(told, {}, &met);
+    io::write_splines(place, told, met);
   } else if (triangles) {
     out.kind = "triangles";
     const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);

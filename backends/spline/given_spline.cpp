@@ -47,21 +47,14 @@ bool full_ends(const SplineKnots& k) {
   return k.knots[p] == k.knots.front() && k.knots[k.knots.size() - 1 - p] == k.knots.back();
 }
 
-// Once continuously differentiable inside.
-bool smooth(const KnotLine& line) {
-  const auto p = static_cast<std::size_t>(line.degree());
-  const std::vector<double>& k = line.knots();
-  for (std::size_t i = p + 1; i + p + 1 < k.size(); ++i)
-    if (k[i] > k[p] && k[i] < k[k.size() - 1 - p] && k[i] == k[i + p - 1]) return false;
-  return true;
-}
-
 // Where the chords of a section cross, seen along x and at the same x.
 std::optional<Vec2> crossing_of(const std::vector<Vec3>& section) {
-  constexpr double kSameX = 1e-3;  // [m]
+  constexpr double kSameX = 1e-3;     // [m]
+  constexpr double kStraight = 1e-9;  // [rad] more than rounding turns
   const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {
     const Vec3 u = section[b] - section[a], v = section[c] - section[a];
-    return u.y() * v.z() - u.z() * v.y();
+    const double area = u.y() * v.z() - u.z() * v.y();
+    return std::abs(area) > kStraight * u.norm() * v.norm() ? area : 0.0;
   };
   for (std::size_t k = 0; k + 1 < section.size(); ++k)
     for (std::size_t m = k + 2; m + 1 < section.size(); ++m) {
@@ -87,53 +80,27 @@ std::array<std::array<Point, 4>, 4> turned(const std::array<std::array<Point, 4>
 }  // namespace
 
 void GivenSpline::refuse(const std::string& what, const std::string& advice) const {
-  throw Error(ErrorKind::input_data, fmt::format("{}: {}", name_, what), where_, advice);
+  throw Error(ErrorKind::input_data, fmt::format("{}: {}", name(), what), data_->where, advice);
 }
 
-const KnotLine& GivenSpline::line(int direction) const {
-  if (const auto* thb = std::get_if<ThbSpline>(&spline_)) return direction == 0 ? thb->space.u(0) : thb->space.v(0);
-  const auto& tensor = std::get<Tensor>(spline_);
-  return direction == 0 ? tensor.s : tensor.t;
-}
-
-GivenSpline::GivenSpline(const SplineSurface& data) : name_(data.name), where_(data.where) {
-  if (data.levels.empty()) refuse("it has no basis");
-  for (const Vec3& p : data.points)
-    if (!p.allFinite()) refuse("a coefficient is not finite");
+GivenSpline::GivenSpline(const SplineSurface& data) : data_(&data) {
+  check(data);
+  breaks_ = {data.levels.front()[0].breaks(), data.levels.front()[1].breaks()};
+  if (!data.hierarchical) return;
   try {
-    if (data.hierarchical) {
-      spline_ = hierarchy(data);
-      return;
-    }
-    const auto& [s, t] = data.levels.front();
-    Tensor out{KnotLine::of_knots(s.degree, s.knots), KnotLine::of_knots(t.degree, t.knots), {}, false};
-    const auto functions = static_cast<std::size_t>(out.s.functions()) * static_cast<std::size_t>(out.t.functions());
-    if (data.points.size() != functions)
-      refuse(fmt::format("its basis has {} x {} functions, but it has {} coefficients", out.s.functions(),
-                         out.t.functions(), data.points.size()));
-    if (!data.weights.empty() && data.weights.size() != functions)
-      refuse(fmt::format("it has {} weights for {} coefficients", data.weights.size(), functions));
-    out.points.reserve(functions);
-    for (std::size_t k = 0; k < functions; ++k) {
-      const double w = data.weights.empty() ? 1.0 : data.weights[k];
-      if (!(w > 0.0) || !std::isfinite(w)) refuse(fmt::format("weight {} is {}, not positive", k + 1, w));
-      out.rational |= w != 1.0;
-      const Vec3 p = w * data.points[k];
-      out.points.emplace_back(p.x(), p.y(), p.z(), w);
-    }
-    spline_ = std::move(out);
+    thb_ = hierarchy();
   } catch (const Error& e) {
-    if (!e.where().file.empty() || where_.file.empty()) throw;
-    throw Error(e.kind(), fmt::format("{}: {}", name_, e.message()), where_, e.advice());
+    if (!e.where().file.empty() || data.where.file.empty()) throw;
+    throw Error(e.kind(), fmt::format("{}: {}", name(), e.message()), data.where, e.advice());
   }
 }
 
-ThbSpline GivenSpline::hierarchy(const SplineSurface& data) const {
-  if (!data.weights.empty()) refuse("hierarchical splines with weights are not known");
+ThbSpline GivenSpline::hierarchy() const {
+  const SplineSurface& data = *data_;
   std::vector<ThbSpace::Level> levels;
   levels.reserve(data.levels.size());
   for (const auto& [s, t] : data.levels) {
-    levels.push_back({KnotLine::of_knots(s.degree, s.knots), KnotLine::of_knots(t.degree, t.knots)});
+    levels.push_back({KnotLine::of_knots(s), KnotLine::of_knots(t)});
     if (!full_ends(s) || !full_ends(t))
       refuse("the first and the last knot of a hierarchical basis must be repeated degree + 1 times",
              "insert the knots that are missing");
@@ -155,9 +122,9 @@ ThbSpline GivenSpline::hierarchy(const SplineSurface& data) const {
     return fmt::format("the box {} {} {} {} of level {}", b.lower[0], b.lower[1], b.upper[0], b.upper[1], b.level);
   };
   const auto fail_at = [&](int at_line, const std::string& what, const std::string& advice = {}) {
-    SourcePosition at = where_;
+    SourcePosition at = data.where;
     if (at_line > 0) at.line = at_line, at.column = 0;
-    throw Error(ErrorKind::input_data, fmt::format("{}: {}", name_, what), at, advice);
+    throw Error(ErrorKind::input_data, fmt::format("{}: {}", name(), what), at, advice);
   };
   for (const SplineBox& b : data.boxes) {
     if (b.level < 0 || b.level >= static_cast<int>(levels.size()))
@@ -246,43 +213,28 @@ ThbSpline GivenSpline::hierarchy(const SplineSurface& data) const {
   return {std::move(space), std::move(coefficients)};
 }
 
-Vec3 GivenSpline::point(double s, double t) const {
-  if (const auto* thb = std::get_if<ThbSpline>(&spline_)) return thb->point(s, t);
-  const auto& spline = std::get<Tensor>(spline_);
-  const auto weights = [](const KnotLine& line, double x, int& interval) {
-    interval = line.find(x);
-    const double at = std::clamp(x, line.from(interval), line.to(interval));
-    const double arguments[kMostDegree] = {at, at, at};
-    return line.blossom(interval, arguments);
-  };
-  int is = 0, it = 0;
-  const KnotWeights ws = weights(spline.s, s, is), wt = weights(spline.t, t, it);
-  Quad sum;
-  const auto stride = static_cast<std::size_t>(spline.s.functions());
-  for (int j = 0; j <= spline.t.degree(); ++j)
-    for (int i = 0; i <= spline.s.degree(); ++i)
-      sum = sum + (ws[static_cast<std::size_t>(i)] * wt[static_cast<std::size_t>(j)]) *
-                      spline.points[static_cast<std::size_t>(spline.s.function(is, i)) +
-                                    stride * static_cast<std::size_t>(spline.t.function(it, j))];
-  return Vec3(sum.x(), sum.y(), sum.z()) / sum.w();
-}
-
-GivenSpline::QuadPiece GivenSpline::piece(const Tensor& spline, int is, int it) const {
-  const int ps = spline.s.degree(), pt = spline.t.degree();
-  const auto stride = static_cast<std::size_t>(spline.s.functions());
+GivenSpline::QuadPiece GivenSpline::exact_piece(const KnotLine& s, const KnotLine& t, int is, int it) const {
+  const int ps = s.degree(), pt = t.degree();
+  const auto stride = static_cast<std::size_t>(s.functions());
+  // weights that are all alike are none
+  const double unit = data_->weights.empty() ? 1.0 : 1.0 / data_->weights.front();
+  std::array<KnotWeights, kMostDegree + 1> ws;
+  for (int k = 0; k <= ps; ++k) ws[static_cast<std::size_t>(k)] = s.bernstein(is, k);
   QuadPiece out{}, half{};
-  for (int k = 0; k <= ps; ++k) {
-    const KnotWeights w = spline.s.bernstein(is, k);
-    for (int j = 0; j <= pt; ++j)
-      for (int i = 0; i <= ps; ++i) {
+  for (int j = 0; j <= pt; ++j)
+    for (int i = 0; i <= ps; ++i) {
+      const std::size_t at =
+          static_cast<std::size_t>(s.function(is, i)) + stride * static_cast<std::size_t>(t.function(it, j));
+      const double w = data_->weights.empty() ? 1.0 : unit * data_->weights[at];
+      const Vec3 p = w * data_->points[at];
+      const Quad point(p.x(), p.y(), p.z(), w);
+      for (int k = 0; k <= ps; ++k) {
         Quad& sum = half[static_cast<std::size_t>(k)][static_cast<std::size_t>(j)];
-        sum = sum + w[static_cast<std::size_t>(i)] *
-                        spline.points[static_cast<std::size_t>(spline.s.function(is, i)) +
-                                      stride * static_cast<std::size_t>(spline.t.function(it, j))];
+        sum = sum + ws[static_cast<std::size_t>(k)][static_cast<std::size_t>(i)] * point;
       }
-  }
+    }
   for (int l = 0; l <= pt; ++l) {
-    const KnotWeights w = spline.t.bernstein(it, l);
+    const KnotWeights w = t.bernstein(it, l);
     for (int k = 0; k <= ps; ++k)
       for (int j = 0; j <= pt; ++j) {
         Quad& sum = out[static_cast<std::size_t>(k)][static_cast<std::size_t>(l)];
@@ -291,6 +243,70 @@ GivenSpline::QuadPiece GivenSpline::piece(const Tensor& spline, int is, int it) 
   }
   raise_to_cubic(out, ps, pt);
   return out;
+}
+
+GivenSpline::QuadPiece GivenSpline::near_piece(const Breaks& at, std::size_t is, std::size_t it) const {
+  const double s[] = {at[0][is], at[0][is + 1]}, t[] = {at[1][it], at[1][it + 1]};
+  const Vec2 inside(0.5 * (s[0] + s[1]), 0.5 * (t[0] + t[1]));
+  QuadPiece out;
+  for (std::size_t i = 0; i < 2; ++i)
+    for (std::size_t j = 0; j < 2; ++j) {
+      // position and derivatives of the surface at this corner, as they are inside
+      const SplineJet jet = evaluate(*data_, {s[i], t[j]}, inside);
+      const double third_s = (i ? s[0] - s[1] : s[1] - s[0]) / 3.0, third_t = (j ? t[0] - t[1] : t[1] - t[0]) / 3.0;
+      const auto put = [&](std::size_t a, std::size_t b, const Vec3& p) { out[a][b] = {p.x(), p.y(), p.z(), 1.0}; };
+      const std::size_t a = 3 * i, b = 3 * j, a1 = i ? 2 : 1, b1 = j ? 2 : 1;
+      put(a, b, jet.p);
+      put(a1, b, jet.p + third_s * jet.ps);
+      put(a, b1, jet.p + third_t * jet.pt);
+      put(a1, b1, jet.p + third_s * jet.ps + third_t * jet.pt + third_s * third_t * jet.pst);
+    }
+  return out;
+}
+
+// Every interval is parted alike.
+GivenSpline::Breaks GivenSpline::cubic_breaks(double& off) const {
+  const auto halved = [](const std::vector<double>& breaks) {
+    std::vector<double> out;
+    out.reserve(2 * breaks.size());
+    for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
+      out.push_back(breaks[i]);
+      out.push_back(0.5 * (breaks[i] + breaks[i + 1]));
+    }
+    out.push_back(breaks.back());
+    return out;
+  };
+  for (Breaks at = breaks_;;) {
+    if (at[0].size() * at[1].size() > kMostPatches)
+      refuse(fmt::format("cubics within {:g} nm of its degrees would be more than {} patches", 1e9 * kCubicsWithin,
+                         kMostPatches),
+             "give a part of it, or triangles");
+    double off_s = 0.0, off_t = 0.0;
+    off = 0.0;
+    for (std::size_t i = 0; i + 1 < at[0].size(); ++i, check_cancelled())
+      for (std::size_t j = 0; j + 1 < at[1].size(); ++j) {
+        const QuadPiece piece = near_piece(at, i, j);
+        BezierPatch bezier;
+        for (std::size_t a = 0; a < 4; ++a) std::copy(piece[a].begin(), piece[a].end(), bezier.b[a]);
+        const PowerPatch patch(bezier);
+        const auto off_at = [&](double a, double b) {
+          const Quad q = patch.jet(a, b).value;
+          const Vec3 p = evaluate(*data_, at[0][i] + (a + 0.5) * (at[0][i + 1] - at[0][i]),
+                                  at[1][j] + (b + 0.5) * (at[1][j + 1] - at[1][j]))
+                             .p;
+          const double distance = (Vec3(q.x(), q.y(), q.z()) - p).norm();
+          if (!std::isfinite(distance)) refuse("it is not finite everywhere", "are its weights right?");
+          return distance;
+        };
+        for (const double a : {-0.25, 0.0, 0.25})
+          off_s = std::max(off_s, off_at(a, -0.5)), off_t = std::max(off_t, off_at(-0.5, a));
+        off = std::max(off, off_at(0.0, 0.0));
+      }
+    off = std::max({off, off_s, off_t});
+    if (off <= kCubicsWithin) return at;
+    if (off_s >= off_t || off_s > 0.5 * kCubicsWithin) at[0] = halved(at[0]);
+    if (off_t > off_s || off_t > 0.5 * kCubicsWithin) at[1] = halved(at[1]);
+  }
 }
 
 GivenSpline::Layout GivenSpline::layout(Body body) const {
@@ -346,7 +362,7 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
   out.u_to = out.u_from + std::abs(u.along);
   out.v_to = v.length;
   // the area seen from the contact side, positive where u x v points there
-  double seen = 0.0, all = 0.0;
+  double seen = 0.0, all = 0.0, volume = 0.0, highest = -HUGE_VAL, lowest = HUGE_VAL;
   const auto places = [&](int direction, int steps) {
     const std::vector<double>& k = breaks(direction);
     constexpr std::size_t kMostIntervals = 200;
@@ -376,21 +392,27 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
       const Vec3 middle_of = 0.25 * (row[j] + row[j + 1] + next[j] + next[j + 1]);
       const Vec3 outwards =
           wheel ? Vec3(Vec3(middle_of.x(), 0.0, middle_of.z()).stableNormalized()) : Vec3(Vec3::UnitZ());
+      const double height = wheel ? std::hypot(middle_of.x(), middle_of.z()) : -middle_of.z();
       seen += area.dot(outwards);
+      volume += height * area.dot(outwards);
       all += area.norm();
+      highest = std::max(highest, height), lowest = std::min(lowest, height);
     }
     row = std::move(next);
   }
+  require_area(all);
   constexpr double kEdgeOn = 1e-3;
+  // of a tube as much is seen from behind as from the front
+  if (!(std::abs(seen) > kEdgeOn * all)) seen = volume / std::max(highest - lowest, kEdgeOn);
   if (!(std::abs(seen) > kEdgeOn * all)) refuse("it is seen edge-on from the contact side, or not at all", axes);
   out.back_v = (out.back_u ? -seen : seen) < 0.0;
-  // sections by chords
-  constexpr std::size_t kSections = 24;
+  // sections by chords, two at least of every interval
+  constexpr std::size_t kLeastSections = 64;
   const std::vector<double> along_section =
       places(of_v, std::clamp(static_cast<int>(256 / breaks(of_v).size()), 2, 64));
-  for (std::size_t i = 0; i < at_u.size(); i += (at_u.size() - 1) / kSections + 1) {
+  for (const double at : places(of_u, std::max(2, static_cast<int>(kLeastSections / breaks(of_u).size())))) {
     check_cancelled();
-    std::vector<Vec3> section = row_at(at_u[i], along_section);
+    std::vector<Vec3> section = row_at(at, along_section);
     for (Vec3& p : section)
       if (wheel) p = Vec3(0.0, p.y(), std::hypot(p.x(), p.z()));
     if (const auto crossing = crossing_of(section))
@@ -401,11 +423,17 @@ GivenSpline::Layout GivenSpline::layout(Body body) const {
   return out;
 }
 
-NurbsNet GivenSpline::tensor_net(const Tensor& spline, const Layout& layout) const {
-  const KnotLine &lu = layout.swapped ? spline.t : spline.s, &lv = layout.swapped ? spline.s : spline.t;
-  const auto mapped = [&](const KnotLine& from, bool back, double low, double high) {
+NurbsNet GivenSpline::tensor_net(const Layout& layout, double& off) const {
+  const auto& [knots_s, knots_t] = data_->levels.front();
+  const bool exact = knots_s.degree <= kMostDegree && knots_t.degree <= kMostDegree;
+  const Breaks at = exact ? breaks_ : cubic_breaks(off);
+  std::optional<KnotLine> s, t;
+  if (exact) s = KnotLine::of_knots(knots_s), t = KnotLine::of_knots(knots_t);
+  const auto piece = [&](std::size_t is, std::size_t it) {
+    return exact ? exact_piece(*s, *t, static_cast<int>(is), static_cast<int>(it)) : near_piece(at, is, it);
+  };
+  const auto mapped = [&](const std::vector<double>& k, bool back, double low, double high) {
     std::vector<double> out;
-    const std::vector<double>& k = from.breaks();
     out.reserve(k.size());
     for (std::size_t i = 0; i < k.size(); ++i) {
       const double x = back ? k[k.size() - 1 - i] : k[i];
@@ -415,16 +443,17 @@ NurbsNet GivenSpline::tensor_net(const Tensor& spline, const Layout& layout) con
     }
     return out;
   };
-  std::vector<double> u = mapped(lu, layout.back_u, layout.u_from, layout.u_to),
-                      v = mapped(lv, layout.back_v, 0.0, layout.v_to);
+  std::vector<double> u = mapped(at[layout.swapped ? 1 : 0], layout.back_u, layout.u_from, layout.u_to),
+                      v = mapped(at[layout.swapped ? 0 : 1], layout.back_v, 0.0, layout.v_to);
   const auto nu = u.size() - 1, nv = v.size() - 1;
   const auto oriented = [&](std::size_t iu, std::size_t iv) {
-    const auto ku = static_cast<int>(layout.back_u ? nu - 1 - iu : iu),
-               kv = static_cast<int>(layout.back_v ? nv - 1 - iv : iv);
-    return turned(piece(spline, layout.swapped ? kv : ku, layout.swapped ? ku : kv), layout.swapped, layout.back_u,
+    const std::size_t ku = layout.back_u ? nu - 1 - iu : iu, kv = layout.back_v ? nv - 1 - iv : iv;
+    return turned(piece(layout.swapped ? kv : ku, layout.swapped ? ku : kv), layout.swapped, layout.back_u,
                   layout.back_v);
   };
-  if (spline.rational || !smooth(lu) || !smooth(lv)) {
+  const bool rational = exact && std::any_of(data_->weights.begin(), data_->weights.end(),
+                                             [&](double w) { return w != data_->weights.front(); });
+  if (rational || !knots_s.smooth() || !knots_t.smooth()) {
     const std::size_t stride = 3 * nv + 1;
     std::vector<Quad> points((3 * nu + 1) * stride);
     for (std::size_t iu = 0; iu < nu; ++iu, check_cancelled())
@@ -435,6 +464,7 @@ NurbsNet GivenSpline::tensor_net(const Tensor& spline, const Layout& layout) con
       }
     return NurbsNet(std::move(u), std::move(v), std::move(points));
   }
+  // corners are evaluated faster
   std::vector<NurbsNet::Corner> corners((nu + 1) * (nv + 1));
   const auto position = [](const Quad& q) { return Vec3(q.x(), q.y(), q.z()); };
   for (std::size_t iu = 0; iu < nu; ++iu, check_cancelled())
@@ -455,7 +485,8 @@ NurbsNet GivenSpline::tensor_net(const Tensor& spline, const Layout& layout) con
   return NurbsNet(std::move(u), std::move(v), std::move(corners));
 }
 
-NurbsNet GivenSpline::hierarchical_net(const ThbSpline& spline, const Layout& layout) const {
+NurbsNet GivenSpline::hierarchical_net(const Layout& layout) const {
+  const ThbSpline& spline = *thb_;
   const std::vector<double>&ks = breaks(0), &kt = breaks(1);
   const auto share = [](const std::vector<double>& k, double x) { return (x - k.front()) / (k.back() - k.front()); };
   return listed_net(spline.space.cells().size(), [&](std::size_t k) {
@@ -477,9 +508,15 @@ NurbsNet GivenSpline::hierarchical_net(const ThbSpline& spline, const Layout& la
   });
 }
 
-void GivenSpline::require_sound(const NurbsNet& net) const {
+void GivenSpline::require_area(double area) const {
   // bounds keep cells of some mm: their number follows the size, whatever the file says
   constexpr double kMostArea = 20.0;  // [m2] 130 m of a rail
+  if (!(area < kMostArea))
+    refuse(fmt::format("it covers {:.3g} m2, more than {:g}", area, kMostArea),
+           "is its unit right (scale_to_mm of .xml), and no coefficient astray?");
+}
+
+void GivenSpline::require_sound(const NurbsNet& net) const {
   double area = 0.0, along = 0.0, across = 0.0;
   for (int iu = 0; iu < net.patches_u(); ++iu, check_cancelled())
     for (int iv = 0; iv < net.patches_v(); ++iv) {
@@ -491,9 +528,7 @@ void GivenSpline::require_sound(const NurbsNet& net) const {
       if (iu == net.patches_u() / 2) across += v;
     }
   if (!net.is_list()) area = std::max(area, along * across);
-  if (!(area < kMostArea))
-    refuse(fmt::format("it covers {:.3g} m2, more than {:g}", area, kMostArea),
-           "is scale_to_mm right, and no coefficient astray?");
+  require_area(area);
   const auto normals_agree = [&](const PowerPatch& patch, int steps, double least, Vec3& worst) {
     std::vector<Vec3> normals;
     normals.reserve(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(steps + 1));
@@ -527,11 +562,12 @@ void GivenSpline::require_sound(const NurbsNet& net) const {
     }
 }
 
-NurbsNet GivenSpline::net(Body body) const {
+NurbsNet GivenSpline::net(Body body, double* off) const {
   const Layout l = layout(body);
-  NurbsNet out =
-      hierarchical() ? hierarchical_net(std::get<ThbSpline>(spline_), l) : tensor_net(std::get<Tensor>(spline_), l);
+  double own_off = 0.0;
+  NurbsNet out = hierarchical() ? hierarchical_net(l) : tensor_net(l, own_off);
   require_sound(out);
+  if (off != nullptr) *off = own_off;
   return out;
 }
 

@@ -10,7 +10,6 @@
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/backends/spline/given_spline.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
-#include "treadmark/backends/spline/nurbs/tensor_net.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
@@ -71,17 +70,8 @@ std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body bo
 
 FittedSpline fit_tensor_spline(const sampling::PointGrid& points) {
   NurbsNet net = fit_point_grid(points);
-  TensorSpline spline = tensor_spline_of(net, points.body);
+  SplineSurface spline = told_spline(net);
   return {std::move(spline), std::make_shared<NurbsSurface>(std::move(net), points.body)};
-}
-
-std::shared_ptr<const Surface> make_nurbs_surface(const TensorSpline& spline, std::string& note) {
-  double deviation = 1e-8;
-  NurbsNet net = net_of(spline, deviation);
-  if (deviation > 0.0)
-    note +=
-        fmt::format("degrees {} x {} by cubics within {:.2g} nm. ", spline.degree_u, spline.degree_v, 1e9 * deviation);
-  return std::make_shared<NurbsSurface>(std::move(net), spline.body);
 }
 
 std::shared_ptr<const Surface> make_thb_surface(std::span<const Vec3> points, Body body, const sampling::Region& region,
@@ -93,10 +83,14 @@ std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& point
   return std::make_shared<NurbsSurface>(extracted(thb_of(points, degree, note)), points.body, thb_name(degree));
 }
 
-std::shared_ptr<const Surface> make_given_surface(const SplineSurface& splines, Body body) {
+std::shared_ptr<const Surface> make_given_surface(const SplineSurface& splines, Body body, std::string* note) {
   const GivenSpline given(splines);
   const auto [of_s, of_t] = given.degrees();
-  return std::make_shared<NurbsSurface>(given.net(body), body,
+  double off = 0.0;
+  NurbsNet net = given.net(body, &off);
+  if (off > 0.0 && note != nullptr)
+    *note += fmt::format("degrees {} x {} by cubics within {:.2g} nm. ", of_s, of_t, 1e9 * off);
+  return std::make_shared<NurbsSurface>(std::move(net), body,
                                         given.hierarchical() ? thb_name(std::max(2, std::max(of_s, of_t))) : "nurbs");
 }
 

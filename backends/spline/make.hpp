@@ -12,7 +12,6 @@
 #include "treadmark/model/slices.hpp"
 #include "treadmark/model/spline_surface.hpp"
 #include "treadmark/model/surface_spec.hpp"
-#include "treadmark/model/tensor_spline.hpp"
 
 namespace treadmark::spline {
 
@@ -36,14 +35,10 @@ std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body bo
 
 /// That spline with its coefficients.
 struct FittedSpline {
-  TensorSpline spline;
+  SplineSurface spline;
   std::shared_ptr<const Surface> surface;
 };
 FittedSpline fit_tensor_spline(const sampling::PointGrid& points);
-
-/// A B-spline surface that is given: exactly up to degree 3, above it within 10 nm, which the note tells. Errors: those
-/// of net_of.
-std::shared_ptr<const Surface> make_nurbs_surface(const TensorSpline& spline, std::string& note);
 
 /// The same points by truncated hierarchical B-splines of degree 2 or 3, backend "thb-quadratic" or "thb"; see fit_thb.
 /// note: how much of what it took, in sentences. Errors: those of fit_thb.
@@ -52,9 +47,10 @@ std::shared_ptr<const Surface> make_thb_surface(const sampling::PointGrid& point
 std::shared_ptr<const Surface> make_thb_surface(std::span<const Vec3> points, Body body, const sampling::Region& region,
                                                 int degree, std::string& note);
 
-/// A surface as its splines are, without samples: backend "nurbs" of a tensor spline; "thb", or "thb-quadratic" where
-/// no degree is above 2, of a hierarchical one. Errors: those of GivenSpline.
-std::shared_ptr<const Surface> make_given_surface(const SplineSurface& splines, Body body);
+/// A surface as its splines are, without samples: backend "nurbs" of a tensor spline, exactly up to degree 3, above it
+/// within 10 nm, which is added to the note; "thb", or "thb-quadratic" where no degree is above 2, of a hierarchical
+/// one. Errors: those of GivenSpline.
+std::shared_ptr<const Surface> make_given_surface(const SplineSurface& splines, Body body, std::string* note = nullptr);
 
 /// What the functions above make, as splines of degree 3 or 2: told_spline.
 SplineSurface tell_nurbs(const sampling::PointGrid& points);

@@ -84,8 +84,9 @@ double apart(const Side& a, const Side& b) {
   return most;
 }
 
+bool near(const Vec3& p, const Vec3& q) { return (p - q).norm() < kNear; }
+
 bool ends_meet(const Side& a, const Side& b) {
-  const auto near = [](const Vec3& p, const Vec3& q) { return (p - q).norm() < kNear; };
   return (near(a.first(), b.first()) && near(a.last(), b.last())) ||
          (near(a.first(), b.last()) && near(a.last(), b.first()));
 }
@@ -96,7 +97,8 @@ std::string length(double metres) {
 
 }  // namespace
 
-std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const SplineInterface> interfaces) {
+std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const SplineInterface> interfaces,
+                        std::vector<SplineInterface>* met) {
   std::vector<GivenSpline> given;
   given.reserve(surfaces.size());
   for (const SplineSurface& s : surfaces) given.emplace_back(s);
@@ -115,11 +117,17 @@ std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const
   }
   const auto place = [](std::size_t surface, int side) { return 4 * surface + static_cast<std::size_t>(side) - 1; };
   std::string out;
-  std::set<std::size_t> meeting;
+  std::set<std::size_t> meeting, joined;
   const auto say = [&](std::size_t a, std::size_t b, double gap) {
     meeting.insert({a / 4, b / 4});
     if (gap > kWorthSaying)
       out += fmt::format("a gap of {} between {} and {}. ", length(gap), sides[a].name(), sides[b].name());
+    if (met == nullptr || a / 4 == b / 4 || gap > kTooFar || joined.contains(a) || joined.contains(b)) return;
+    joined.insert({a, b});
+    const auto side = [](std::size_t at) { return static_cast<int>(at % 4) + 1; };
+    SplineInterface& i = met->emplace_back();
+    i.first = a / 4, i.first_side = side(a), i.second = b / 4, i.second_side = side(b);
+    i.reversed = !near(sides[a].first(), sides[b].first());
   };
   std::set<std::pair<std::size_t, std::size_t>> looked_at;
   for (const SplineInterface& i : interfaces) {

@@ -58,7 +58,8 @@ std::vector<int> multiplicities(const NurbsNet& net, bool of_u) {
   return out;
 }
 
-// The interval in the middle of the inner knots of each function, and which of its functions it is.
+// The interval in the middle of the inner knots of each function, the longer one of two, and which of its functions it
+// is.
 struct Home {
   int interval, k;
 };
@@ -69,7 +70,9 @@ std::vector<Home> homes(const KnotLine& line) {
   for (int i = 0; i < line.intervals(); ++i)
     for (int k = 0; k <= p; ++k) {
       Home& home = out[static_cast<std::size_t>(line.function(i, k))];
-      if (home.k < 0 || off(k) < off(home.k)) home = {i, k};
+      const auto length = [&](int interval) { return line.to(interval) - line.from(interval); };
+      if (home.k < 0 || off(k) < off(home.k) || (off(k) == off(home.k) && length(i) > length(home.interval)))
+        home = {i, k};
     }
   return out;
 }
@@ -100,8 +103,7 @@ SplineSurface of_corners(const NurbsNet& net) {
   SplineSurface out;
   out.levels.push_back({SplineKnots{kToldDegree, cubic_knots(u, multiplicities(net, true))},
                         SplineKnots{kToldDegree, cubic_knots(v, multiplicities(net, false))}});
-  const KnotLine lu = KnotLine::of_knots(kToldDegree, out.levels[0][0].knots),
-                 lv = KnotLine::of_knots(kToldDegree, out.levels[0][1].knots);
+  const KnotLine lu = KnotLine::of_knots(out.levels[0][0]), lv = KnotLine::of_knots(out.levels[0][1]);
   const std::vector<Home> home_u = homes(lu), home_v = homes(lv);
   out.points.reserve(home_u.size() * home_v.size());
   for (const Home& hv : home_v) {

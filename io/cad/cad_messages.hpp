@@ -45,7 +45,7 @@ struct CadFault {
   std::string message = {}, advice = {};
 };
 
-/// As TensorSpline (model/tensor_spline.hpp).
+/// A tensor one of model/spline_surface.hpp: poles along u fastest.
 struct CadSpline {
   std::int64_t degree_u = 3, degree_v = 3;
   std::vector<double> knots_u = {}, knots_v = {}, weights = {};
@@ -66,7 +66,7 @@ struct CadTriangles {
   std::vector<std::int32_t> faces = {};  ///< of each triangle
 };
 
-/// A surface to be written: the curve of the first poles along u, extruded along x or turned about y, or all of it.
+/// A surface to be written: the curve of the poles of least u, extruded along x or turned about y, or all of it.
 struct CadSheet {
   enum class Kind : std::int64_t { extruded, revolved, surface };
   Kind kind = Kind::surface;

@@ -440,23 +440,23 @@ SliceSet slices_of(const RunningSurface& surface, Body body, double radius, cons
 }
 
 /// A face of which at least this part is whole.
-std::optional<TensorSpline> spline_of(const cad::CadShape& shape, std::int64_t face, const cad::CadPart& part,
-                                      Body body, const std::string& name) {
+std::optional<SplineSurface> spline_of(const cad::CadShape& shape, std::int64_t face, const cad::CadPart& part,
+                                       const std::string& file) {
   std::string why;
   cad::CadSpline given = shape.spline_of(face, part, why);
   if (!why.empty()) return std::nullopt;
-  TensorSpline out;
-  out.body = body;
-  out.name = name;
-  constexpr std::int64_t kMost = kHighestDegree;
-  out.degree_u = static_cast<int>(std::clamp<std::int64_t>(given.degree_u, 0, kMost + 1));
-  out.degree_v = static_cast<int>(std::clamp<std::int64_t>(given.degree_v, 0, kMost + 1));
-  out.knots_u = std::move(given.knots_u), out.knots_v = std::move(given.knots_v);
+  SplineSurface out;
+  out.name = shape.entity(face);
+  out.where = {file};
+  const auto knots = [](std::int64_t degree, std::vector<double>& list) {
+    return SplineKnots{static_cast<int>(std::clamp<std::int64_t>(degree, 0, kHighestDegree + 1)), std::move(list)};
+  };
+  out.levels.push_back({knots(given.degree_u, given.knots_u), knots(given.degree_v, given.knots_v)});
   out.weights = std::move(given.weights);
-  out.poles.reserve(given.poles.size());
-  for (const cad::Point& p : given.poles) out.poles.emplace_back(p[0], p[1], p[2]);
+  out.points.reserve(given.poles.size());
+  for (const cad::Point& p : given.poles) out.points.emplace_back(p[0], p[1], p[2]);
   check(out);
-  return along_body(std::move(out));
+  return out;
 }
 
 /// All faces that something can touch, down to where nothing is touched.
@@ -545,10 +545,11 @@ CadSurface cad::running_surface(const CadShape& shape, Body body, double nominal
   try {
     RunningSurface::Faces faces = surface.faces(section);
     const auto is_spline = [&](const cad::CadPart& part) {
-      auto spline = faces.seen.size() == 1 ? spline_of(shape, *faces.seen.begin(), part, body, name) : std::nullopt;
+      auto spline = faces.seen.size() == 1 ? spline_of(shape, *faces.seen.begin(), part, file.string()) : std::nullopt;
       if (!spline) return false;
-      out.note += fmt::format("the B-spline of {}, degrees {} x {}, {} x {} poles. ", shape.entity(*faces.seen.begin()),
-                              spline->degree_u, spline->degree_v, spline->poles_u(), spline->poles_v());
+      const auto& [u, v] = spline->levels.front();
+      out.note += fmt::format("the B-spline of {}, degrees {} x {}, {} x {} poles. ", spline->name, u.degree, v.degree,
+                              u.functions(), v.functions());
       out.shape = *std::move(spline);
       return true;
     };
@@ -591,22 +592,26 @@ CadSurface read_cad(const std::filesystem::path& file, Body body, double nominal
 void write_cad(const std::filesystem::path& file, const CadContent& content) {
   if (!is_step_file(file))
     throw Error(ErrorKind::configuration, "CAD files are written as STEP", {file.string()}, "use .step or .stp");
-  const TensorSpline& given = content.spline;
+  const SplineSurface& given = content.spline;
   check(given);
-  const bool wheel = given.body == Body::wheel;
+  const bool wheel = content.body == Body::wheel;
   cad::CadSheet sheet;
   sheet.name = wheel ? "wheel" : "rail";
   sheet.description = content.description;
   cad::CadSpline& spline = sheet.spline;
-  spline.degree_u = given.degree_u, spline.degree_v = given.degree_v;
-  spline.knots_u = given.knots_u, spline.knots_v = given.knots_v, spline.weights = given.weights;
-  spline.poles.reserve(given.poles.size());
-  for (const Vec3& p : given.poles) spline.poles.push_back({p.x(), p.y(), p.z()});
+  const auto& [u, v] = given.levels.front();
+  spline.degree_u = u.degree, spline.degree_v = v.degree;
+  spline.knots_u = u.knots, spline.knots_v = v.knots, spline.weights = given.weights;
+  spline.poles.reserve(given.points.size());
+  for (const Vec3& p : given.points) spline.poles.push_back({p.x(), p.y(), p.z()});
   if (content.swept) {
     sheet.kind = wheel ? cad::CadSheet::Kind::revolved : cad::CadSheet::Kind::extruded;
     std::tie(sheet.from, sheet.to) = *content.swept;
-    spline.poles.resize(given.poles_v());
-    for (cad::Point& p : spline.poles) p[0] = 0.0;
+    for (std::size_t j = 0; j < v.functions(); ++j) {
+      spline.poles[j] = spline.poles[j * u.functions()];
+      spline.poles[j][0] = 0.0;
+    }
+    spline.poles.resize(v.functions());
   }
   // OpenCASCADE writes as it goes: what stands under the name of the file is whole
   OutputFolder own(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);

@@ -11,7 +11,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/slices.hpp"
-#include "treadmark/model/tensor_spline.hpp"
+#include "treadmark/model/spline_surface.hpp"
 #include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark::io {
@@ -24,7 +24,7 @@ bool is_step_file(const std::filesystem::path& file);
 /// The running surface of a CAD file.
 struct CadSurface {
   /// One section; or where it changes a spline, slices or triangles.
-  std::variant<Profile, SliceSet, TensorSpline, TriangleMesh> shape;
+  std::variant<Profile, SliceSet, SplineSurface, TriangleMesh> shape;
   std::string note;  ///< for people: unit, faces, how it was taken
 };
 
@@ -51,8 +51,10 @@ CadSurface running_surface(const CadShape& shape, Body body, double nominal_radi
 
 /// A surface for write_cad.
 struct CadContent {
-  TensorSpline spline;
-  /// The curve of the first poles along u, in the plane x = 0, extruded or revolved between two places [m] or [rad].
+  Body body = Body::rail;
+  SplineSurface spline;  ///< no hierarchy
+  /// The curve of the coefficients of least u, the first parameter, in the plane x = 0 and without weights, extruded or
+  /// revolved between two places [m] or [rad].
   std::optional<std::pair<double, double>> swept;
   std::string description;  ///< for the head of the file
 };

@@ -28,7 +28,6 @@ namespace {
 using splines::XmlElement;
 using splines::XmlTree;
 
-constexpr int kMostDegree = 3;
 constexpr std::size_t kMostPoints = 20'000'000;
 // Of one direction of a level: memory follows them, not the file.
 constexpr std::size_t kMostIntervals = 65'536;
@@ -273,6 +272,7 @@ class Reader {
           return n[number];
         };
         i.first = patch(k), i.first_side = side(k + 1), i.second = patch(k + 2), i.second_side = side(k + 3);
+        i.reversed = n[k + (i.first_side <= 2 ? 7 : 6)] == 0;
         out_.interfaces.push_back(std::move(i));
       }
     }
@@ -332,37 +332,22 @@ class Reader {
     return out;
   }
 
-  SplineKnots read_knots(const XmlElement& basis) const {
+  SplineKnots read_knots(const XmlElement& basis, int highest_degree) const {
     require_type(basis, "BSplineBasis");
     const XmlElement& e = child(basis, "KnotVector");
     if (const std::string* mode = e.attribute("mode"))
       fail(e, fmt::format("knots by their mode ({}) are not read", profiles::printable(*mode)), "list them");
     SplineKnots out;
     out.degree = whole(e, required(e, "degree"), "degree");
-    if (out.degree < 1 || out.degree > kMostDegree)
-      fail(e, fmt::format("degree {} is not read: 1, 2 and 3 are", out.degree), "fit it with cubic splines");
     out.knots = numbers(e, 0);
-    const auto p = static_cast<std::size_t>(out.degree);
-    const std::size_t n = out.knots.size();
-    if (n < 2 * p + 2) fail(e, fmt::format("{} knots are too few for degree {}: {} at least", n, p, 2 * p + 2));
-    if (n > kMostPoints) fail(e, fmt::format("there are more than {} knots", kMostPoints));
-    for (std::size_t i = 1; i < n; ++i)
-      if (out.knots[i] < out.knots[i - 1])
-        fail_at(e, place_of(e, i), fmt::format("knot {} is less than the one before", i + 1));
-    if (!(out.knots[p] < out.knots[n - 1 - p])) fail(e, "the knots leave no interval");
-    std::size_t repeated = 1;
-    for (std::size_t i = 1; i < n; ++i) {
-      repeated = out.knots[i] == out.knots[i - 1] ? repeated + 1 : 1;
-      const bool inside = out.knots[i] > out.knots[p] && out.knots[i] < out.knots[n - 1 - p];
-      if (repeated > (inside ? p : p + 1))
-        fail_at(e, place_of(e, i),
-                fmt::format("knot {} is repeated {} times, more than degree {} allows", i + 1, repeated, p),
-                inside ? "a surface that is torn there is two patches" : "");
-    }
+    if (out.knots.size() > kMostPoints) fail(e, fmt::format("there are more than {} knots", kMostPoints));
+    const auto fault = fault_of(out, highest_degree);
+    if (fault && fault->knot) fail_at(e, place_of(e, *fault->knot), fault->what, "where it is torn are two patches");
+    if (fault) fail(e, fault->what);
     return out;
   }
 
-  std::array<SplineKnots, 2> read_directions(const XmlElement& basis) const {
+  std::array<SplineKnots, 2> read_directions(const XmlElement& basis, int highest_degree) const {
     std::array<SplineKnots, 2> out;
     std::size_t count = 0;
     for (const XmlElement& e : basis.inside) {
@@ -371,7 +356,7 @@ class Reader {
       if (const std::string* index = e.attribute("index");
           index != nullptr && whole(e, *index, "index") != static_cast<int>(count))
         fail(e, fmt::format("direction {} stands at place {}", profiles::printable(*index), count), "put 0 before 1");
-      out[count++] = read_knots(e);
+      out[count++] = read_knots(e, highest_degree);
     }
     if (count < 2) fail(basis, fmt::format("a surface has two directions, this basis has {}", count));
     return out;
@@ -379,14 +364,8 @@ class Reader {
 
   /// The number of functions.
   std::size_t read_tensor(const XmlElement& basis, SplineSurface& out) const {
-    out.levels.push_back(read_directions(basis));
+    out.levels.push_back(read_directions(basis, kHighestDegree));
     return out.levels.back()[0].functions() * out.levels.back()[1].functions();
-  }
-
-  static std::vector<double> different(const SplineKnots& k) {
-    std::vector<double> out(k.knots.begin() + k.degree, k.knots.end() - k.degree);
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
   }
 
   SplineKnots halved(const XmlElement& at, const SplineKnots& coarser) const {
@@ -401,7 +380,7 @@ class Reader {
       out.knots.push_back(middle);
     }
     out.knots.push_back(coarser.knots[last]);
-    if (different(out).size() > kMostIntervals + 1)
+    if (out.breaks().size() > kMostIntervals + 1)
       fail(at, fmt::format("boxes of this level would need more than {} intervals", kMostIntervals));
     return out;
   }
@@ -429,9 +408,9 @@ class Reader {
   void read_hierarchy(const XmlElement& basis, SplineSurface& out) const {
     const XmlElement& first = child(basis, "Basis");
     require_type(first, "TensorBSplineBasis2");
-    out.levels.push_back(read_directions(first));
+    out.levels.push_back(read_directions(first, kHighestHierarchicalDegree));
     using Breaks = std::array<std::vector<double>, 2>;
-    std::vector<Breaks> breaks{{different(out.levels[0][0]), different(out.levels[0][1])}};
+    std::vector<Breaks> breaks{{out.levels[0][0].breaks(), out.levels[0][1].breaks()}};
     for (const std::vector<double>& b : breaks[0])
       if (b.size() > kMostIntervals + 1) fail(first, fmt::format("it has more than {} intervals", kMostIntervals));
     const std::string* manual = basis.attribute("manualLevels");
@@ -453,8 +432,8 @@ class Reader {
           fail(e, fmt::format("level {} is expected here", level));
         constexpr std::size_t kMostLevels = 16;
         if (level == kMostLevels) fail(e, fmt::format("there are more than {} levels", kMostLevels));
-        out.levels.push_back(read_directions(e));
-        breaks.push_back({different(out.levels.back()[0]), different(out.levels.back()[1])});
+        out.levels.push_back(read_directions(e, kHighestHierarchicalDegree));
+        breaks.push_back({out.levels.back()[0].breaks(), out.levels.back()[1].breaks()});
         std::array<std::vector<std::int64_t>, 2> indices;
         for (std::size_t d = 0; d < 2; ++d) {
           if (breaks.back()[d].size() > kMostIntervals + 1)
@@ -478,7 +457,7 @@ class Reader {
         fail(e, fmt::format("a box is of level {}, but there are {} levels", level, out.levels.size()));
       while (level >= out.levels.size()) {
         out.levels.push_back({halved(e, out.levels.back()[0]), halved(e, out.levels.back()[1])});
-        breaks.push_back({different(out.levels.back()[0]), different(out.levels.back()[1])});
+        breaks.push_back({out.levels.back()[0].breaks(), out.levels.back()[1].breaks()});
       }
       for (std::size_t d = 0; d < 2; ++d) {
         const auto corner = [&](int index) {

@@ -17,12 +17,6 @@ namespace {
 
 using Text = std::back_insert_iterator<std::string>;
 
-std::vector<double> different_knots(const SplineKnots& k) {
-  std::vector<double> out = k.knots;
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
 void write_basis(Text out, const std::array<SplineKnots, 2>& directions, int level) {
   fmt::format_to(out, "<Basis type=\"TensorBSplineBasis2\"");
   if (level >= 0) fmt::format_to(out, " level=\"{}\"", level);
@@ -40,7 +34,7 @@ void write_basis(Text out, const std::array<SplineKnots, 2>& directions, int lev
 bool all_halved(const SplineSurface& s) {
   for (std::size_t l = 1; l < s.levels.size(); ++l)
     for (std::size_t d = 0; d < 2; ++d) {
-      const std::vector<double> a = different_knots(s.levels[l - 1][d]), b = different_knots(s.levels[l][d]);
+      const std::vector<double> a = s.levels[l - 1][d].breaks(), b = s.levels[l][d].breaks();
       if (b.size() != 2 * a.size() - 1 || s.levels[l][d].knots.size() != s.levels[l - 1][d].knots.size() + a.size() - 1)
         return false;
       for (std::size_t i = 0; i < a.size(); ++i)
@@ -56,7 +50,7 @@ std::vector<std::array<std::vector<long>, 2>> box_indices(const SplineSurface& s
   for (std::size_t d = 0; d < 2; ++d) {
     std::vector<double> before;
     for (std::size_t l = 0; l < s.levels.size(); ++l) {
-      std::vector<double> breaks = different_knots(s.levels[l][d]);
+      std::vector<double> breaks = s.levels[l][d].breaks();
       std::vector<long>& at = out[l][d];
       at.reserve(breaks.size());
       std::size_t c = 0;
@@ -112,9 +106,38 @@ void write_surface(Text out, const SplineSurface& s, std::size_t id, const std::
   fmt::format_to(out, "</coefs>\n</Geometry>\n");
 }
 
+/// How patches meet: of each interface both patches with their sides, to which direction of the second one the
+/// directions of the first lead, and which of them run the same way; across the sides, whether both are of one kind.
+void write_patches(Text out, std::size_t patches, std::span<const SplineInterface> interfaces) {
+  fmt::format_to(out, "<MultiPatch parDim=\"2\" id=\"{}\">\n<patches type=\"id_range\">0 {}</patches>\n", patches,
+                 patches - 1);
+  std::vector<bool> meets(4 * patches);
+  const auto place = [](std::size_t patch, int side) { return 4 * patch + static_cast<std::size_t>(side) - 1; };
+  if (!interfaces.empty()) fmt::format_to(out, "<interfaces>");
+  for (const SplineInterface& i : interfaces) {
+    meets.at(place(i.first, i.first_side)) = meets.at(place(i.second, i.second_side)) = true;
+    const std::size_t across = i.first_side <= 2 ? 0 : 1;
+    const int across_second = i.second_side <= 2 ? 0 : 1;
+    std::array<int, 2> leads_to{}, same_way{};
+    leads_to[across] = across_second, leads_to[1 - across] = 1 - across_second;
+    same_way[across] = i.first_side % 2 == i.second_side % 2 ? 1 : 0, same_way[1 - across] = i.reversed ? 0 : 1;
+    fmt::format_to(out, "{} {} {} {} {} {} {} {}\n", i.first, i.first_side, i.second, i.second_side, leads_to[0],
+                   leads_to[1], same_way[0], same_way[1]);
+  }
+  if (!interfaces.empty()) fmt::format_to(out, "</interfaces>\n");
+  if (std::ranges::find(meets, false) != meets.end()) {
+    fmt::format_to(out, "<boundary>");
+    for (std::size_t k = 0; k < meets.size(); ++k)
+      if (!meets[k]) fmt::format_to(out, "{} {}\n", k / 4, k % 4 + 1);
+    fmt::format_to(out, "</boundary>\n");
+  }
+  fmt::format_to(out, "</MultiPatch>\n");
+}
+
 }  // namespace
 
-void write_splines(const std::filesystem::path& file, std::span<const SplineSurface> surfaces) {
+void write_splines(const std::filesystem::path& file, std::span<const SplineSurface> surfaces,
+                   std::span<const SplineInterface> interfaces) {
   if (!is_spline_file(file))
     throw Error(ErrorKind::configuration, "splines are written as G+Smo's XML", {file.string()}, "use .xml");
   if (surfaces.empty()) throw Error(ErrorKind::configuration, "there is no surface to write", {file.string()});
@@ -128,10 +151,7 @@ void write_splines(const std::filesystem::path& file, std::span<const SplineSurf
     output.write(text);
     text.clear();
   }
-  if (surfaces.size() > 1)
-    text =
-        fmt::format("<MultiPatch parDim=\"2\" id=\"{}\">\n<patches type=\"id_range\">0 {}</patches>\n</MultiPatch>\n",
-                    surfaces.size(), surfaces.size() - 1);
+  if (surfaces.size() > 1) write_patches(Text(text), surfaces.size(), interfaces);
   output.write(text + "</xml>\n");
   output.commit();
 }

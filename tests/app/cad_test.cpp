@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -14,6 +16,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/model/natural_view.hpp"
+#include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/support/error_text.hpp"
@@ -116,6 +119,31 @@ TEST(CadRail, IsWhateverRepresentationIsAskedFor) {
     ASSERT_EQ(cad.status, Status::ok) << backend;
     EXPECT_NEAR(cad.patches.at(0).pmax / pressure, 1.0, backend == std::string("mesh") ? 5e-3 : 1e-3) << backend;
   }
+}
+
+TEST(CadRail, TakesTheBackendOfTheCommandLine) {
+  TREADMARK_NEEDS("cad");
+  TREADMARK_NEEDS("hdf5");
+  const treadmark::testing::SampleInput input;
+  std::string text = treadmark::testing::standard_case("1.0");
+  text.replace(text.find("shape.standard = \"60E1\""), 23, "shape.file = \"rail.step\"");
+  input.write("cad.toml", text);
+  input.write("squat.toml", treadmark::testing::standard_case("1.0", "shape.standard = \"S1002\"\n", kSquat));
+  ConvertSettings settings;
+  settings.body = Body::rail;
+  settings.range_x = {-0.03, 0.03};
+  convert_surface(input.folder() / "squat.toml", input.folder() / "rail.step", settings);
+  const auto run = [&](const char* backend) {
+    return treadmark::testing::run_program({"run", (input.folder() / "cad.toml").string(), "--rail-backend", backend,
+                                            "--resolution", "0.5", "-o", (input.folder() / "out").string()});
+  };
+  for (const char* backend : {"thb", "offset"}) {
+    const treadmark::testing::ProgramResult r = run(backend);
+    EXPECT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.err, HasSubstr(fmt::format("rail as {} at 0.5 mm", backend)));
+    EXPECT_THAT(r.out, HasSubstr("case 1: ok"));
+  }
+  EXPECT_THAT(run("none").err, HasSubstr("'none'"));
 }
 
 TEST(CadRail, SidesThatMoveAreAMeshOnTheFaces) {

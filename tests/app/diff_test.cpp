@@ -55,6 +55,20 @@ TEST(ResultDifference, LargestDifferenceOfEachQuantityIsNamed) {
   EXPECT_TRUE(app::agree(difference, 0.05));
 }
 
+TEST(ResultDifference, NumbersAreInTheUnitsOfTheFileAndInSi) {
+  io::RunResult a = two_cases();
+  a.cases[0].patches[0].shift = true;
+  a.cases[0].patches[0].xi = 2e-3;
+  io::RunResult b = a;
+  b.cases[0].patches[0].xi = 3e-3;
+  const app::QuantityDifference worst = app::compare_results(a, b).quantities.front();
+  EXPECT_EQ(worst.key, "kinematics.xi");
+  EXPECT_DOUBLE_EQ(worst.a, 2.0);  // mm, as result.json has shifts
+  EXPECT_DOUBLE_EQ(worst.si_b, 3e-3);
+  EXPECT_EQ(worst.unit.shown, "mm");
+  EXPECT_THAT(std::string(worst.meaning), HasSubstr("longitudinal creepage"));
+}
+
 TEST(ResultDifference, RoundingAboutZeroAndTimesDoNotCount) {
   io::RunResult a = two_cases(), b = a;
   a.cases[0].patches[0].fx = 1e-9;

@@ -3,10 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -55,6 +62,116 @@ TEST(ReportCommand, BadInputIsNamed) {
       run_program({"run", input.inp().string(), input.inp().string(), "--report", folder + "/x.html"});
   EXPECT_EQ(several.status, 2);
   EXPECT_THAT(several.err, HasSubstr("one case file"));
+}
+
+/// The full numbers of a row of a table in a page: data-value of its cells, NaN without.
+std::vector<double> row_of(const std::string& html, const std::string& table, std::size_t row) {
+  std::size_t at = html.find("id=\"table-" + table + "\"");
+  at = html.find("<tbody>", at);
+  for (std::size_t k = 0; k <= row; ++k) at = html.find("<tr", at + 1);
+  const std::string text = html.substr(at, html.find("</tr>", at) - at);
+  std::vector<double> out;
+  for (std::size_t cell = text.find("<td"); cell != std::string::npos; cell = text.find("<td", cell + 1)) {
+    constexpr std::string_view kValue = "data-value=\"";
+    const std::string one = text.substr(cell, text.find("</td>", cell) - cell);
+    const std::size_t value = one.find(kValue);
+    out.push_back(value == std::string::npos ? NAN : std::stod(one.substr(value + kValue.size())));
+  }
+  return out;
+}
+
+TEST(ReportCommand, TwoRunsHaveTheNumbersOfTheirFiles) {
+  const SampleInput input;
+  input.write("case.toml", flat_wheel_case());
+  const std::string toml = (input.folder() / "case.toml").string(), folder = input.folder().string();
+  ASSERT_EQ(run_program({"run", toml, "-o", folder + "/before"}).status, 0);
+  ASSERT_EQ(run_program({"run", toml, "-o", folder + "/after", "--set", "wheelset.vertical_force_N=100e3"}).status, 0);
+  const ProgramResult made = run_program({"report", folder + "/before", folder + "/after/result.json"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_EQ(made.out, folder + "/before/overlay.html\n");
+  const std::string html = input.read("before/overlay.html");
+  EXPECT_LT(html.size(), 8'000'000u);
+  EXPECT_THAT(html, HasSubstr("<td>set: wheelset.vertical_force_N</td><td>as in the input</td><td>100e3</td>"));
+  const auto json = [&](const char* which) {
+    return nlohmann::json::parse(input.read(which + std::string("/result.json")));
+  };
+  const auto before = json("before"), after = json("after");
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto most = [k](const nlohmann::json& result) {
+      double out = 0.0;
+      for (const auto& patch : result["cases"][k]["patches"]) out = std::max(out, patch["pmax_MPa"].get<double>());
+      return out;
+    };
+    const double a = most(before), b = most(after);
+    // case, status, pitch, then largest pressure of both, difference and change
+    const std::vector<double> cells = row_of(html, "cases", k);
+    ASSERT_GT(cells.size(), 12u);
+    EXPECT_EQ(cells[0], static_cast<double>(k + 1));
+    EXPECT_NEAR(cells[3], a, 1e-9 * a);
+    EXPECT_NEAR(cells[4], b, 1e-9 * a);
+    EXPECT_GT(b, 1.02 * a);
+    EXPECT_NEAR(cells[5], b - a, 1e-9 * a);
+    EXPECT_NEAR(cells[6], 100.0 * (b - a) / a, 1e-6);
+    const auto force = [k](const nlohmann::json& result) {
+      return 1e-3 * result["cases"][k]["force_on_rail"]["fz_tr_N"].get<double>();
+    };
+    EXPECT_NEAR(cells[9], force(after) - force(before), 1e-8);
+  }
+  const ProgramResult fixed =
+      run_program({"report", folder + "/before", folder + "/after", "--static", "-o", folder + "/s.html"});
+  ASSERT_EQ(fixed.status, 0) << fixed.err;
+  EXPECT_THAT(input.read("s.html"), Not(HasSubstr("<script")));
+}
+
+TEST(ReportCommand, ResultsThatCannotBeLaidOverEachOtherAreNamed) {
+  const SampleInput input;
+  const std::string folder = input.folder().string(), a = folder + "/one/a", b = folder + "/two/a";
+  ASSERT_EQ(run_program({"run", input.inp().string(), "-o", a}).status, 0);
+  fs::create_directories(b);
+  for (const char* file : {"fields.h5", "result.json"}) fs::copy_file(fs::path(a) / file, fs::path(b) / file);
+  const std::string out = folder + "/page.html";
+  const auto refused = [&](std::vector<std::string> folders, int status) {
+    folders.insert(folders.begin(), "report");
+    folders.insert(folders.end(), {"-o", out});
+    const ProgramResult result = run_program(folders);
+    EXPECT_EQ(result.status, status) << result.err;
+    EXPECT_FALSE(fs::exists(out));
+    return result.err;
+  };
+  EXPECT_THAT(refused({a, folder + "/nowhere"}, 3), HasSubstr("nowhere: there is no such folder"));
+  EXPECT_THAT(refused({a, folder}, 3), HasSubstr("holds no results"));
+  EXPECT_THAT(refused({a, a, a, a, a}, 2), HasSubstr("5 results are too many for a page (give at most 4)"));
+  fs::create_directories(folder + "/sim");
+  fs::create_directories(folder + "/study");
+  input.write("sim/simulation.h5", "not looked at");
+  input.write("study/study.id", "not looked at");
+  EXPECT_THAT(refused({a, folder + "/sim"}, 3), HasSubstr("the folder holds a simulation, " + a + " holds a run"));
+  EXPECT_THAT(refused({a, folder + "/study"}, 3), HasSubstr("the folder holds a sweep (runs (treadmark run)"));
+  EXPECT_THAT(refused({folder + "/study", folder + "/study"}, 3), HasSubstr("holds a sweep"));
+  input.write("one/a/other.h5", input.read("one/a/fields.h5"));
+  EXPECT_THAT(refused({a, a + "/other.h5"}, 3), HasSubstr("known by their folder or its fields.h5"));
+  // A file that is cut off, and one of another format.
+  const std::string whole = input.read("two/a/fields.h5");
+  input.write("two/a/fields.h5", whole.substr(0, whole.size() / 2));
+  EXPECT_THAT(refused({a, b}, 3), HasSubstr("two/a/fields.h5"));
+  std::string other = whole;
+  const std::string format = "treadmark result 1";
+  const std::size_t at = other.find(format);
+  ASSERT_NE(at, std::string::npos);
+  other.replace(at, format.size(), "treadmark result 9");
+  input.write("two/a/fields.h5", other);
+  EXPECT_THAT(refused({a, b}, 3), HasSubstr("treadmark result 9"));
+  // Numbers come from fields.h5: a cut result.json takes none of them.
+  input.write("two/a/fields.h5", whole);
+  input.write("two/a/result.json", "{\"cases\": [");
+  const ProgramResult fine = run_program({"report", a, b, "-o", out});
+  EXPECT_EQ(fine.status, 0) << fine.err;
+  EXPECT_THAT(input.read("page.html"), HasSubstr("<h1>one/a and two/a</h1>"));
+  EXPECT_THAT(input.read("page.html"), HasSubstr("No difference:"));
+  const ProgramResult twice = run_program({"report", a, a + "/fields.h5", "-o", out});
+  EXPECT_EQ(twice.status, 0) << twice.err;
+  EXPECT_THAT(input.read("page.html"), HasSubstr("The same folder more than once:"));
+  EXPECT_THAT(input.read("page.html"), HasSubstr("<h1>a (1) and a (2)</h1>"));
 }
 
 TEST(PlotCommand, ListsAndDraws) {

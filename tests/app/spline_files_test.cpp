@@ -10,8 +10,12 @@
 #include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/natural_view.hpp"
+#include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/io/splines/sample_splines.hpp"
@@ -169,6 +173,38 @@ TEST(SplineFiles, SeveralPatchesAreOneBodyWhoseGapsAreNamed) {
   const Converted c = convert_surface(input.folder() / "plates.xml", input.folder() / "out.xml", settings);
   EXPECT_THAT(c.written.note, HasSubstr("a gap of 30 um"));
   EXPECT_LT(c.fit.height_max, kNanometre);
+  EXPECT_THAT(
+      io::profiles::read_text(input.folder() / "out.xml", "file", {}),
+      HasSubstr("<interfaces>0 2 1 1 0 1 0 1\n</interfaces>\n<boundary>0 1\n0 3\n0 4\n1 2\n1 3\n1 4\n</boundary>"));
+  const io::SplineFile back = io::read_splines(input.folder() / "out.xml");
+  ASSERT_EQ(back.interfaces.size(), 1u);
+  EXPECT_EQ(back.interfaces[0].second_side, 1);
+  EXPECT_FALSE(back.interfaces[0].reversed);
+  read(0.3, "");  // too far apart to be said to meet
+  convert_surface(input.folder() / "plates.xml", input.folder() / "out.xml", settings);
+  EXPECT_TRUE(io::read_splines(input.folder() / "out.xml").interfaces.empty());
+}
+
+TEST(SplineFiles, OfTheProgramKnowTheirBackends) {
+  TREADMARK_NEEDS("expat");
+  const SampleInput input;
+  input.write("rail.xml", treadmark::testing::hierarchical_rail(0.5));
+  const auto convert = [&](const char* backend, const char* name) {
+    return treadmark::testing::run_program({"convert", (input.folder() / "rail.xml").string(),
+                                            (input.folder() / name).string(), "--body", "rail", "--backend", backend});
+  };
+  const auto refused = [&](const char* backend, const char* name) {
+    const treadmark::testing::ProgramResult r = convert(backend, name);
+    EXPECT_NE(r.status, 0) << backend << name;
+    EXPECT_FALSE(std::filesystem::exists(input.folder() / name)) << backend << name;
+    return r.err;
+  };
+  EXPECT_THAT(refused("mesh", "out.xml"), HasSubstr("the backend 'mesh' has no splines to write"));
+  EXPECT_THAT(refused("none", "out.xml"), HasSubstr("'none'"));
+  EXPECT_THAT(refused("thb", "out.ply"), HasSubstr("--backend belongs to files of splines"));
+  const treadmark::testing::ProgramResult tensor = convert("nurbs", "out.xml");
+  EXPECT_EQ(tensor.status, 0) << tensor.err;
+  EXPECT_FALSE(io::read_splines(input.folder() / "out.xml").surfaces.at(0).hierarchical);
 }
 
 TEST(SplineFiles, AHierarchyStaysOneAndTakesDefects) {
@@ -193,20 +229,55 @@ TEST(SplineFiles, AHierarchyStaysOneAndTakesDefects) {
               HasSubstr("has no splines to write"));
 }
 
+TEST(SplineFiles, HigherDegreesAreReadAndWrittenAgain) {
+  TREADMARK_NEEDS("expat");
+  const SampleInput input;
+  SplineSurface plate;  // z = 300 y^4 - 2e3 x^3 y^2 as blossoms of degrees 3 and 5
+  plate.levels.push_back({SplineKnots{3, {0, 0, 0, 0, 0.1, 0.1, 0.1, 0.1}}, SplineKnots{5, {}}});
+  for (const double end : {-0.03, 0.03}) plate.levels[0][1].knots.insert(plate.levels[0][1].knots.end(), 6, end);
+  for (int j = 0; j <= 5; ++j)
+    for (int i = 0; i <= 3; ++i) {
+      // of j ends and 5 - j beginnings: means of the products of 2 and of 4 of them
+      const double s = (5.0 - 2.0 * j), h = 0.03, second = (s * s - 5.0) / 20.0 * h * h,
+                   fourth = (j == 0 || j == 5   ? 1.0
+                             : j == 1 || j == 4 ? -0.6
+                                                : 0.2) *
+                            h * h * h * h;
+      plate.points.emplace_back(0.1 * i / 3.0, -0.2 * h * s, 300.0 * fourth - (i == 3 ? 2e3 * 1e-3 * second : 0.0));
+    }
+  io::write_splines(input.folder() / "plate.xml", std::vector<SplineSurface>{plate});
+  const NaturalSurface read = surface_of(input.folder() / "plate.xml", Body::rail);
+  EXPECT_THAT(read.note, HasSubstr("degrees 3 x 5 by cubics within"));
+  std::vector<double> z(1);
+  HeightsOut out;
+  out.z = z;
+  for (const double x : {0.01, 0.05, 0.093})
+    for (const double y : {-0.028, -0.01, 0.0, 0.017}) {
+      section_heights(*read.surface, Body::rail, x, std::vector<double>{y}, out);
+      EXPECT_NEAR(z[0], 300.0 * std::pow(y, 4) - 2e3 * x * x * x * y * y, 1e-8) << x << ' ' << y;
+    }
+  // as it is, into both kinds of files
+  ConvertSettings settings;
+  settings.body = Body::rail;
+  for (const char* name : {"again.xml", "again.step"}) {
+    if (std::string_view(name) == "again.step" && !has_part("cad")) continue;
+    const Converted c = convert_surface(input.folder() / "plate.xml", input.folder() / name, settings);
+    EXPECT_THAT(c.written.note, HasSubstr("degrees 3 x 5 by cubics within")) << name;
+    EXPECT_LT(c.fit.height_max, 1e-12) << name;
+  }
+}
+
 TEST(SplineFiles, SplinesOfOtherFilesAreNotSampled) {
   SurfaceSpec spec;
-  TensorSpline plate;
-  plate.degree_u = 1, plate.degree_v = 2;
-  plate.knots_u = {0.0, 0.0, 0.1, 0.1};
-  plate.knots_v = {0.0, 0.0, 0.0, 0.06, 0.06, 0.06};
-  for (const double x : {0.0, 0.1})
-    for (const double y : {-0.03, 0.0, 0.03}) plate.poles.emplace_back(x, y, y * y);
+  SplineSurface plate;
+  plate.levels.push_back({SplineKnots{1, {0.0, 0.0, 0.1, 0.1}}, SplineKnots{2, {0.0, 0.0, 0.0, 0.06, 0.06, 0.06}}});
+  for (const double y : {-0.03, 0.0, 0.03})
+    for (const double x : {0.0, 0.1}) plate.points.emplace_back(x, y, y * y);
   spec.shape = plate;
   const std::vector<SplineSurface> told = to_splines(create_natural(spec), {});
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_EQ(told[0].levels[0][1].knots, plate.knots_v);
-  ASSERT_EQ(told[0].points.size(), 6u);
-  EXPECT_EQ(told[0].points[1], plate.poles[3]);  // u runs first there
+  EXPECT_EQ(told[0].levels[0][1].knots, plate.levels[0][1].knots);
+  EXPECT_EQ(told[0].points, plate.points);
 }
 
 }  // namespace

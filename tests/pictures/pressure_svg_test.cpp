@@ -156,6 +156,15 @@ TEST(PressureSvg, ThirteenCasesStaySmall) {
   EXPECT_LT(pictures::pressure_svg(run).size(), 300000u);
 }
 
+TEST(PressureSvg, OfThousandsOfCasesItSaysHowManyItShows) {
+  io::RunResult run;
+  for (int i = 0; i < 3000; ++i) run.cases.emplace_back().number = i + 1;
+  const std::string svg = pictures::pressure_svg(run);
+  EXPECT_EQ(testing::read_xml(svg).find("g", "class", "panel").size(), 500u);
+  for (const char* words : {"500 of 3000 cases", ">case 1<", ">case 3000<"})
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+}
+
 TEST(PressureSvg, AnEmptyRunAndMissingFieldsStillGiveAPicture) {
   EXPECT_NO_THROW(testing::read_xml(pictures::pressure_svg({})));
   io::RunResult run;

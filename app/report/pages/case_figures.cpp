@@ -138,7 +138,10 @@ Timeline case_timeline(const io::RunResult& run) {
   Timeline timeline{"case"};
   timeline.axes = case_axes(run);
   timeline.names = step_names(run);
-  for (std::size_t i = 0; i < run.cases.size(); ++i) timeline.frames.push_back(static_cast<int>(i));
+  for (std::size_t i = 0; i < run.cases.size(); ++i) {
+    timeline.frames.push_back(static_cast<int>(i));
+    if (run.cases[i].status != Status::ok || !run.cases[i].remarks.empty()) timeline.notable.push_back(i);
+  }
   return timeline;
 }
 

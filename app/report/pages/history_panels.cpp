@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <iterator>
 #include <numbers>
-#include <set>
 #include <string_view>
+
+#include "treadmark/app/report/shown_steps.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -27,8 +28,8 @@ struct UnitEnding {
 };
 const UnitEnding kUnitEndings[] = {
     {"_N", {1e-3, "kN"}}, {"_Pa", {1e-6, "MPa"}}, {"_m2", {1e6, "mm²"}},  {"_rad", {180.0 / std::numbers::pi, "°"}},
-    {"_W", {1.0, "W"}},   {"_J", {1.0, "J"}},     {"_m_s", {1.0, "m/s"}}, {"_s", {1.0, "s"}},
-    {"_x_m", {1.0, "m"}},  // distance travelled
+    {"_W", {1.0, "W"}},   {"_J", {1.0, "J"}},     {"_m_s", {1.0, "m/s"}}, {"_rad_s", {1.0, "rad/s"}},
+    {"_s", {1.0, "s"}},   {"_x_m", {1.0, "m"}},  // distance travelled
     {"_m", {1e3, "mm"}}};
 
 const UnitEnding* unit_ending(const std::string& column) {
@@ -55,32 +56,12 @@ std::string shown_name(const std::string& column) {
 
 std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const std::vector<std::string>& columns,
                                       std::size_t most) {
-  const std::size_t rows = result.rows();
-  std::vector<std::size_t> out;
-  std::vector<std::size_t> watched;
+  std::vector<RowValue> watched;
   for (const std::string& column : columns)
-    if (const auto index = find(result, column)) watched.push_back(*index);
-  const std::size_t each = 2 * std::max<std::size_t>(1, watched.size());
-  if (rows <= most || most < each + 2) {
-    for (std::size_t row = 0; row < rows; ++row) out.push_back(row);
-    return out;
-  }
-  std::set<std::size_t> kept{0, rows - 1};
-  const std::size_t stretches = std::max<std::size_t>(1, (most - 2) / each), width = result.columns.size();
-  for (std::size_t k = 0; k < stretches; ++k) {
-    const std::size_t begin = k * rows / stretches, end = (k + 1) * rows / stretches;
-    if (watched.empty() && begin < end) kept.insert(begin);
-    for (const std::size_t column : watched) {
-      std::size_t low = begin, high = begin;
-      for (std::size_t row = begin; row < end; ++row) {
-        const double value = result.values[row * width + column];
-        if (value < result.values[low * width + column]) low = row;
-        if (value > result.values[high * width + column]) high = row;
-      }
-      kept.insert({low, high});
-    }
-  }
-  return {kept.begin(), kept.end()};
+    if (const auto index = find(result, column))
+      watched.emplace_back(
+          [&result, at = *index](std::size_t row) { return result.values[row * result.columns.size() + at]; });
+  return spread_rows(result.rows(), most, watched);
 }
 
 std::optional<std::vector<double>> column_at(const io::SimulationResult& result, const std::string& column,

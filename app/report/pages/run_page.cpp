@@ -18,46 +18,6 @@
 namespace treadmark::app::report {
 namespace {
 
-/// What went wrong comes first.
-void add_banners(const io::RunResult& run, Section& overview) {
-  if (!run.complete)
-    overview.blocks.emplace_back(Banner{
-        Banner::Kind::failed, "Interrupted.",
-        fmt::format("{} of {} cases were finished; the others are missing here.", run.cases.size(), run.cases_total)});
-  const auto list = [&](Status status) {
-    std::string numbers;
-    std::size_t count = 0;
-    for (const io::CaseResult& c : run.cases)
-      if (c.status == status && ++count <= 12) numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", c.number);
-    return std::pair(count, count > 12 ? numbers + " ..." : numbers);
-  };
-  for (const std::string& doubt : run.doubts)
-    overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Doubtful profile:", doubt});
-  if (const auto [count, numbers] = list(Status::failed); count > 0) {
-    std::string first;
-    for (const io::CaseResult& c : run.cases)
-      if (first.empty() && c.status == Status::failed) first = c.message;
-    overview.blocks.emplace_back(Banner{Banner::Kind::failed, counted(count, "case") + " failed.",
-                                        fmt::format("Case {}. First message: {}", numbers, first)});
-  }
-  if (const auto [count, numbers] = list(Status::not_converged); count > 0)
-    overview.blocks.emplace_back(Banner{Banner::Kind::warning, counted(count, "case") + " did not converge.",
-                                        fmt::format("Judge the results with care: case {}.", numbers)});
-  if (const auto [count, numbers] = list(Status::no_contact); count > 0)
-    overview.blocks.emplace_back(Banner{Banner::Kind::note, counted(count, "case") + " without contact:", numbers});
-  for (const RemarkRow& row : kRemarkRows) {
-    std::size_t count = 0;
-    std::string first;
-    for (const io::CaseResult& c : run.cases)
-      for (const Remark& r : c.remarks)
-        if (r.kind == row.kind && ++count == 1) first = fmt::format("case {}, {}", c.number, to_line(r));
-    if (count > 0)
-      overview.blocks.emplace_back(Banner{
-          row.grave ? Banner::Kind::warning : Banner::Kind::note,
-          row.grave ? "Doubtful:" : "Remark:", count > 1 ? fmt::format("{} (the first of {})", first, count) : first});
-  }
-}
-
 Cards::Card extreme(const io::RunResult& run, const char* label, const char* unit, double factor,
                     double (*value)(const io::CaseResult&)) {
   double best = NAN;
@@ -109,12 +69,51 @@ Cards cards_of(const io::RunResult& run) {
 
 Section overview(const io::RunResult& run) {
   Section section{"overview", "Overview"};
-  add_banners(run, section);
+  add_run_banners(run, section);
   section.blocks.emplace_back(cards_of(run));
   return section;
 }
 
 }  // namespace
+
+void add_run_banners(const io::RunResult& run, Section& overview, const std::string& name) {
+  const auto add = [&](Banner::Kind kind, const std::string& heading, std::string text) {
+    overview.blocks.emplace_back(Banner{kind, name.empty() ? heading : name + ": " + heading, std::move(text)});
+  };
+  if (!run.complete)
+    add(Banner::Kind::failed, "Interrupted.",
+        fmt::format("{} of {} cases were finished; the others are missing here.", run.cases.size(), run.cases_total));
+  const auto list = [&](Status status) {
+    std::string numbers;
+    std::size_t count = 0;
+    for (const io::CaseResult& c : run.cases)
+      if (c.status == status && ++count <= 12) numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", c.number);
+    return std::pair(count, count > 12 ? numbers + " ..." : numbers);
+  };
+  for (const std::string& doubt : run.doubts) add(Banner::Kind::warning, "Doubtful profile:", doubt);
+  if (const auto [count, numbers] = list(Status::failed); count > 0) {
+    std::string first;
+    for (const io::CaseResult& c : run.cases)
+      if (first.empty() && c.status == Status::failed) first = c.message;
+    add(Banner::Kind::failed, counted(count, "case") + " failed.",
+        fmt::format("Case {}. First message: {}", numbers, first));
+  }
+  if (const auto [count, numbers] = list(Status::not_converged); count > 0)
+    add(Banner::Kind::warning, counted(count, "case") + " did not converge.",
+        fmt::format("Judge the results with care: case {}.", numbers));
+  if (const auto [count, numbers] = list(Status::no_contact); count > 0)
+    add(Banner::Kind::note, counted(count, "case") + " without contact:", numbers);
+  for (const RemarkRow& row : kRemarkRows) {
+    std::size_t count = 0;
+    std::string first;
+    for (const io::CaseResult& c : run.cases)
+      for (const Remark& r : c.remarks)
+        if (r.kind == row.kind && ++count == 1) first = fmt::format("case {}, {}", c.number, to_line(r));
+    if (count > 0)
+      add(row.grave ? Banner::Kind::warning : Banner::Kind::note,
+          row.grave ? "Doubtful:" : "Remark:", count > 1 ? fmt::format("{} (the first of {})", first, count) : first);
+  }
+}
 
 Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string document) {
   Page page{"run", title_of(run->title, run->input_file), ""};

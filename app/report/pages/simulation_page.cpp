@@ -31,18 +31,6 @@ std::string value_text(double value, const std::string& name) {
   return shown({unit.factor * value}) + (unit.name.empty() ? "" : " " + unit.name);
 }
 
-void add_banners(const Result& result, Section& section) {
-  if (result.status == "interrupted")
-    section.blocks.emplace_back(
-        Banner{Banner::Kind::failed, "Interrupted.",
-               fmt::format("{}{}The history ends before the end of the track; treadmark simulate --resume goes on.",
-                           result.message, result.message.empty() ? "" : ". ")});
-  if (result.status == "failed") section.blocks.emplace_back(Banner{Banner::Kind::failed, "Failed.", result.message});
-  if (!result.events.empty())
-    section.blocks.emplace_back(Banner{Banner::Kind::note, "Loss of contact.",
-                                       counted(result.events.size(), "event") + " in the table below."});
-}
-
 Cards cards_of(const Result& result) {
   Cards cards;
   const auto card = [&](const char* label, const char* name, std::string note) {
@@ -166,6 +154,19 @@ Section tables(const Result& result) {
 
 }  // namespace
 
+void add_simulation_banners(const Result& result, Section& overview, const std::string& name) {
+  const auto add = [&](Banner::Kind kind, const std::string& heading, std::string text) {
+    overview.blocks.emplace_back(Banner{kind, name.empty() ? heading : name + ": " + heading, std::move(text)});
+  };
+  if (result.status == "interrupted")
+    add(Banner::Kind::failed, "Interrupted.",
+        fmt::format("{}{}The history ends before the end of the track; treadmark simulate --resume goes on.",
+                    result.message, result.message.empty() ? "" : ". "));
+  if (result.status == "failed") add(Banner::Kind::failed, "Failed.", result.message);
+  if (!result.events.empty())
+    add(Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below.");
+}
+
 Page simulation_page(const std::shared_ptr<const Result>& result, std::string document, const AssessedRun* assessed) {
   Page page{"simulation", title_of(result->title, result->input_file), ""};
   page.document = std::move(document);
@@ -173,7 +174,7 @@ Page simulation_page(const std::shared_ptr<const Result>& result, std::string do
   page.lead =
       fmt::format("Simulation in time, {}, {} written down", result->status, counted(result->rows(), "instant"));
   Section overview{"overview", "Overview"};
-  add_banners(*result, overview);
+  add_simulation_banners(*result, overview);
   overview.blocks.emplace_back(cards_of(*result));
   page.sections.push_back(std::move(overview));
 

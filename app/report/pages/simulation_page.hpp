@@ -16,4 +16,7 @@ namespace treadmark::app::report {
 Page simulation_page(const std::shared_ptr<const io::SimulationResult>& result, std::string document,
                      const AssessedRun* assessed = nullptr);
 
+/// What went wrong in a simulation, and loss of contact. name: of the simulation, where a page has several.
+void add_simulation_banners(const io::SimulationResult& result, Section& overview, const std::string& name = {});
+
 }  // namespace treadmark::app::report

@@ -24,7 +24,8 @@ namespace treadmark::app::report {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 1200;  // of the history of a run
+constexpr std::size_t kMostPoints = 1200, kMostPointsOfAll = 200'000;  // of the history of a run, and of all runs
+constexpr std::size_t kFewestPoints = 100;
 const std::vector<std::string> kQuantities{"q_max_N", "q_min_N", "ty_max_N", "pmax_Pa", "Fn_max_N", "approach_max_m"};
 const std::vector<std::pair<std::string, std::string>> kColumns{
     {"Q_N", "vertical force Q"}, {"Ty_N", "lateral creep force T_y"}, {"pmax_Pa", "largest pressure"}};
@@ -130,12 +131,14 @@ ChartView history_by_run(const io::StudyTable& table) {
   view.x = Axis{"distance travelled", "m", false, {}};
   for (const auto& [column, label] : kColumns)
     view.panels.push_back({label, shown_unit(column).name, false, {Series{label, {}}}});
+  const std::size_t most =
+      std::clamp(kMostPointsOfAll / std::max<std::size_t>(1, table.runs.size()), kFewestPoints, kMostPoints);
   for (const io::SimulationRun* run : table.runs) {
     ChartView::Curves curves;
     curves.y.assign(kColumns.size(), std::vector<std::vector<double>>(1));
     if (!run->store.empty()) {
       const io::SimulationResult result = io::read_simulation(run->store);
-      const std::vector<std::size_t> rows = thinned_rows(result, {"Q_N", "Ty_N", "pmax_Pa"}, kMostPoints);
+      const std::vector<std::size_t> rows = thinned_rows(result, {"Q_N", "Ty_N", "pmax_Pa"}, most);
       const std::string& x = result.columns.empty() || result.columns.front().name == "case" ? kCase : kDistance;
       if (x == kCase) view.x = Axis{"case", ""};
       curves.x = column_at(result, x, rows).value_or(std::vector<double>());
@@ -232,7 +235,10 @@ Page sweep_page(const StudyOnDisk& disk) {
   page.sections.push_back(overview(disk, table));
   if (!table.runs.empty()) {
     Timeline timeline{"run"};
-    for (const io::SimulationRun* run : table.runs) timeline.names.push_back(run_name(*run));
+    for (const io::SimulationRun* run : table.runs) {
+      if (run->status != "complete") timeline.notable.push_back(timeline.names.size());
+      timeline.names.push_back(run_name(*run));
+    }
     Section summaries{"summaries", "Summaries"};
     int number = 0;
     for (const std::string& key : table.keys)

@@ -59,24 +59,9 @@ KnotLine KnotLine::periodic(int degree, std::span<const double> breaks) {
   return KnotLine(degree, std::move(knots), true);
 }
 
-KnotLine KnotLine::of_knots(int degree, std::vector<double> knots) {
-  check_degree(degree);
-  const auto p = static_cast<std::size_t>(degree);
-  if (knots.size() < 2 * p + 2)
-    refuse_knots(
-        fmt::format("{} knots are too few for a spline of degree {}: {} at least", knots.size(), degree, 2 * p + 2));
-  std::size_t repeated = 1;
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    if (!std::isfinite(knots[i])) refuse_knots(fmt::format("knot {} is not finite", i + 1));
-    if (i == 0) continue;
-    if (knots[i] < knots[i - 1]) refuse_knots(fmt::format("knot {} is less than the one before", i + 1));
-    repeated = knots[i] == knots[i - 1] ? repeated + 1 : 1;
-    const bool inside = knots[i] > knots[p] && knots[i] < knots[knots.size() - 1 - p];
-    if (repeated > (inside ? p : p + 1))
-      refuse_knots(fmt::format("knot {} is repeated {} times, more than degree {} allows", i + 1, repeated, degree));
-  }
-  if (!(knots[p] < knots[knots.size() - 1 - p])) refuse_knots("the knots of a spline leave no interval");
-  return KnotLine(degree, std::move(knots), false);
+KnotLine KnotLine::of_knots(SplineKnots of) {
+  if (auto fault = fault_of(of, kMostDegree)) refuse_knots(std::move(fault->what));
+  return KnotLine(of.degree, std::move(of.knots), false);
 }
 
 KnotLine::KnotLine(int degree, std::vector<double> knots, bool closed)

@@ -6,9 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "treadmark/model/spline_surface.hpp"
+
 namespace treadmark::spline {
 
-inline constexpr int kMostDegree = 3;
+inline constexpr int kMostDegree = kHighestHierarchicalDegree;
 /// One number for each of the degree + 1 functions over an interval; the rest is 0.
 using KnotWeights = std::array<double, kMostDegree + 1>;
 
@@ -24,7 +26,7 @@ class KnotLine {
   /// Simple knots; the last break is the first one a period on.
   static KnotLine periodic(int degree, std::span<const double> breaks);
   /// As files have them; the functions begin at knot degree and end as many before the last.
-  static KnotLine of_knots(int degree, std::vector<double> knots);
+  static KnotLine of_knots(SplineKnots knots);
 
   int degree() const { return degree_; }
   bool closed() const { return closed_; }

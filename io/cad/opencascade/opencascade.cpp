@@ -308,9 +308,6 @@ CadSpline Shape::spline_of(int face, CadPart part, std::string& why) const {
         new Geom_RectangularTrimmedSurface(surface, part.u0, part.u1, part.v0, part.v1));
   if (spline->IsUPeriodic()) spline->SetUNotPeriodic();
   if (spline->IsVPeriodic()) spline->SetVNotPeriodic();
-  constexpr int kExact = 3;
-  if ((spline->UDegree() > kExact || spline->VDegree() > kExact) && !(spline->IsCNu(1) && spline->IsCNv(1)))
-    return why = "has a degree above 3, and edges", CadSpline{};
   CadSpline out;
   out.degree_u = spline->UDegree(), out.degree_v = spline->VDegree();
   const auto knots = [](const TColStd_Array1OfReal& sequence) {
@@ -324,8 +321,8 @@ CadSpline Shape::spline_of(int face, CadPart part, std::string& why) const {
   const auto size = static_cast<std::size_t>(spline->NbUPoles()) * static_cast<std::size_t>(spline->NbVPoles());
   out.poles.reserve(size);
   out.weights.reserve(rational ? size : 0);
-  for (int i = 1; i <= spline->NbUPoles(); ++i)
-    for (int j = 1; j <= spline->NbVPoles(); ++j) {
+  for (int j = 1; j <= spline->NbVPoles(); ++j)
+    for (int i = 1; i <= spline->NbUPoles(); ++i) {
       out.poles.push_back(to_m(spline->Pole(i, j)));
       if (rational) out.weights.push_back(spline->Weight(i, j));
     }
@@ -672,7 +669,7 @@ TopoDS_Shape shape_of(const CadSheet& sheet) {
     TColStd_Array2OfReal weights(1, rows, 1, columns);
     for (int i = 0; i < rows; ++i)
       for (int j = 0; j < columns; ++j) {
-        const auto k = static_cast<std::size_t>(i) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j);
+        const auto k = static_cast<std::size_t>(j) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(i);
         poles(i + 1, j + 1) = to_mm(spline.poles.at(k));
         weights(i + 1, j + 1) = spline.weights.empty() ? 1.0 : spline.weights.at(k);
       }

@@ -110,11 +110,13 @@ TEST(HistoryPanels, ThinningKeepsPeaks) {
   EXPECT_EQ(rows.back(), 49'999u);
   EXPECT_TRUE(std::ranges::binary_search(rows, std::size_t{31'234}));
   EXPECT_EQ(thinned_rows(*result, {"Q_N"}, 60'000).size(), 50'000u);
-  EXPECT_EQ(thinned_rows(*result, {"nothing"}, 100).size(), 50u);
+  EXPECT_EQ(thinned_rows(*result, {"nothing"}, 100).size(), 100u);
 }
 
 TEST(HistoryPanels, UnitsFollowNames) {
   EXPECT_EQ(shown_unit("x_m").name, "m");
+  EXPECT_EQ(shown_unit("wheelset_vroll_rad_s").name, "rad/s");
+  EXPECT_EQ(shown_name("wheelset_vroll_rad_s"), "wheelset_vroll");
   EXPECT_EQ(shown_unit("q_max_x_m").name, "m");
   EXPECT_EQ(shown_unit("approach_max_m").name, "mm");
   EXPECT_EQ(shown_unit("gap_m").factor, 1e3);

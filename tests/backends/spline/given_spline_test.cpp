@@ -145,6 +145,75 @@ TEST(GivenSpline, ATensorSplineIsThatOfTheRecursion) {
   }
 }
 
+TEST(GivenSpline, HigherDegreesAreMetWithinTenNanometres) {
+  for (const auto& [ps, pt] : {std::pair{5, 4}, {4, 2}, {3, 7}})
+    for (const bool rational : {false, true})
+      for (const bool edge : {false, true}) {
+        SplineSurface s = tensor_rail(ps, pt);
+        if (edge) {  // a ridge along y = -0.004 and thereabouts
+          auto& t = s.levels[0][1];
+          t.knots.insert(std::find(t.knots.begin(), t.knots.end(), 0.3), static_cast<std::size_t>(pt) - 1, 0.3);
+          s.points.clear();
+          for (std::size_t j = 0; j < t.functions(); ++j)
+            for (std::size_t i = 0; i < s.levels[0][0].functions(); ++i) {
+              const double at = greville(t, j);
+              s.points.push_back(rail_point(greville(s.levels[0][0], i), at) + Vec3(0, 0, 0.01 * std::abs(at - 0.3)));
+            }
+        }
+        if (rational)
+          for (std::size_t k = 0; k < s.points.size(); ++k)
+            s.weights.push_back(1.0 + 0.1 * std::sin(static_cast<double>(k)));
+        double off = -1.0;
+        const NurbsNet net = GivenSpline(s).net(Body::rail, &off);
+        EXPECT_EQ(net.by_corners(), !edge);
+        EXPECT_GT(off, 0.0);
+        EXPECT_LE(off, kCubicsWithin);
+        const NurbsSurface surface(net, Body::rail);
+        for (double u = 0.02; u < 1.0; u += 0.031)
+          for (double v = 0.02; v < 1.0; v += 0.031) {
+            const Vec3 p = by_recursion(s, u, v);
+            std::vector<double> z(1);
+            HeightsOut out;
+            out.z = z;
+            surface.heights_at({}, std::vector<Vec2>{Vec2(p.x(), p.y())}, out);
+            EXPECT_NEAR(z[0], p.z(), 2.0 * kCubicsWithin) << ps << pt << rational << edge << u << ' ' << v;
+          }
+      }
+}
+
+TEST(GivenSpline, WeightsThatAreAllAlikeAreNone) {
+  SplineSurface s = tensor_rail(3, 3);
+  const auto plain = make_given_surface(s, Body::rail);
+  s.weights.assign(s.points.size(), 3.0);
+  EXPECT_TRUE(GivenSpline(s).net(Body::rail).by_corners());
+  expect_same(*plain, *make_given_surface(s, Body::rail), kRounding);
+}
+
+TEST(GivenSpline, ATubeIsSeenFromItsOuterSide) {
+  // an ellipse of four quarters, turned either way
+  for (const bool back : {false, true}) {
+    SplineSurface s;
+    s.levels.push_back({knots(1, {}), SplineKnots{2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}}});
+    const Vec2 corners[] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+    for (std::size_t k = 0; k < 9; ++k)
+      for (const double x : {-0.2, 0.2}) {
+        const Vec2& c = corners[back ? 8 - k : k];
+        s.points.emplace_back(x, 0.04 * c.x(), 0.02 * c.y());
+        s.weights.push_back(k % 2 == 1 ? std::sqrt(0.5) : 1.0);
+      }
+    const auto tube = make_given_surface(s, Body::rail);
+    std::vector<SurfacePoint> located(1);
+    const std::vector<Vec2> at{Vec2(0.05, 0.01)};
+    std::vector<double> z(1);
+    HeightsOut out;
+    out.z = z;
+    tube->heights_at({}, at, out);
+    EXPECT_NEAR(z[0], -0.02 * std::sqrt(1.0 - 1.0 / 16.0), 1e-12);
+    tube->locate({}, at, located);
+    EXPECT_LT(located[0].normal_S.z(), -0.9) << "out of the material";
+  }
+}
+
 TEST(GivenSpline, AQuarterOfACylinderIsRound) {
   const double half = std::numbers::pi / 4.0, w = std::cos(half);
   SplineSurface s;
@@ -373,6 +442,33 @@ TEST(ToldSpline, IsTheSameSurfaceAgain) {
   }
 }
 
+TEST(ToldSpline, GoesThroughPointsWithKnotsOnce) {
+  for (const bool closed : {false, true}) {
+    sampling::PointGrid grid;
+    grid.body = closed ? Body::wheel : Body::rail;
+    grid.closed = closed;
+    for (int i = 0; i < 40; ++i)
+      grid.u.push_back(closed ? -3.0 + 0.15 * i + 0.02 * std::sin(1.0 * i)
+                              : 1e-3 * i + (i > 20 ? 3e-4 * (i - 20) : 0.0));
+    for (int j = 0; j < 30; ++j) grid.y.push_back(1e-3 * j + 2e-4 * std::cos(3.0 * j));
+    for (const double u : grid.u)
+      for (const double y : grid.y) grid.h.push_back((closed ? 0.46 : 0.0) + 1e-3 * std::sin(3.0 * u + 90.0 * y));
+    const FittedSpline fitted = fit_tensor_spline(grid);
+    const auto& [along, across] = fitted.spline.levels.front();
+    EXPECT_EQ(along.functions(), grid.u.size() + (closed ? 3 : 2));
+    EXPECT_EQ(across.functions(), grid.y.size() + 2);
+    const auto& surface = dynamic_cast<const NurbsSurface&>(*fitted.surface);
+    const NurbsNet::Range end = surface.net().range(surface.net().patches_u() - 1, surface.net().patches_v() - 1);
+    double most = 0.0;
+    for (int i = 0; i <= 200; ++i)
+      for (int j = 0; j <= 50; ++j) {
+        const double u = grid.u.front() + (end.u1 - grid.u.front()) * i / 200.0, v = end.v1 * j / 50.0;
+        most = std::max(most, (surface.point(u, v) - evaluate(fitted.spline, u, v).p).norm());
+      }
+    EXPECT_LT(most, kRounding);
+  }
+}
+
 TEST(ToldSpline, ArcsStayRound) {
   const ArcChain chain{-0.04, 0.0, -0.3, {{0.03, 10.0}, {0.02, 0.0}, {0.03, 10.0}}};
   for (const Body body : {Body::rail, Body::wheel}) {
@@ -450,6 +546,29 @@ TEST(GivenSpline, WhatCannotBeASurfaceIsNamed) {
   EXPECT_THAT(refusal(open), HasSubstr("repeated degree + 1 times"));
 }
 
+TEST(GivenSpline, ALoopIsFoundInTheMiddleOfManySections) {
+  // a roof along x whose section crosses itself at one of 100 breaks
+  SplineSurface s;
+  s.name = "Geometry 3";
+  s.levels.push_back({SplineKnots{1, {0.0}}, knots(3, {})});
+  for (int i = 0; i <= 100; ++i) s.levels[0][0].knots.push_back(0.01 * i);
+  s.levels[0][0].knots.push_back(1.0);
+  const Vec2 plain[] = {{-0.04, 0.0}, {-0.01, -0.06}, {0.01, -0.06}, {0.04, 0.0}},
+             loop[] = {{-0.04, 0.0}, {0.12, -0.06}, {-0.12, -0.06}, {0.04, 0.0}};
+  for (const bool looped : {false, true}) {
+    s.points.clear();
+    for (std::size_t j = 0; j < 4; ++j)
+      for (int i = 0; i <= 100; ++i) {
+        const Vec2& yz = looped && i == 37 ? loop[j] : plain[j];
+        s.points.emplace_back(0.004 * i - 0.2, yz.x(), yz.y());
+      }
+    EXPECT_THAT(refusal(s), looped ? HasSubstr("a section crosses itself near y =") : HasSubstr(""));
+    if (!looped) {
+      EXPECT_EQ(refusal(s), "");
+    }
+  }
+}
+
 SplineSurface plate(double x, double z, const std::string& name) {
   SplineSurface s;
   s.name = name;
@@ -471,6 +590,17 @@ TEST(SplineGaps, AreNamed) {
     EXPECT_EQ(say(0.5e-6, interface), "");
     EXPECT_EQ(say(20e-6, interface), "a gap of 20 um between side 2 of Geometry 4 and side 1 of Geometry 5. ");
   }
+  // the second one told in another order: its side 4 is met, from the other end
+  std::vector<SplineSurface> s{plate(0.0, 0.0, "Geometry 4"), plate(0.1, 0.0, "Geometry 5")};
+  const std::vector<Vec3> p = s[1].points;
+  s[1].points = {p[3], p[1], p[2], p[0]};
+  std::vector<SplineInterface> met;
+  EXPECT_EQ(spline_gaps(s, {}, &met), "");
+  ASSERT_EQ(met.size(), 1u);
+  EXPECT_EQ(met[0].first_side, 2);
+  EXPECT_EQ(met[0].second, 1u);
+  EXPECT_EQ(met[0].second_side, 4);
+  EXPECT_TRUE(met[0].reversed);
   EXPECT_THAT(say(0.2e-3, false), HasSubstr("a gap of 200 um"));
   EXPECT_THAT(error_of([&] { say(0.2e-3, true); }), HasSubstr("are said to meet, but are 200 um apart"));
   EXPECT_THAT(say(5e-3, false), HasSubstr("Geometry 4 meets no other surface"));

@@ -251,7 +251,7 @@ TEST(ThbSpace, NamesLevelsWithoutSupport) {
 TEST(KnotLine, SaysWhatIsWrongWithKnots) {
   const auto refused = [](int degree, std::vector<double> knots) {
     try {
-      KnotLine::of_knots(degree, std::move(knots));
+      KnotLine::of_knots({degree, std::move(knots)});
     } catch (const Error& e) {
       return std::string(e.what());
     }

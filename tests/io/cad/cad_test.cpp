@@ -119,33 +119,33 @@ TEST_F(Cad, RefusesWhatIsNoFileOfItsKind) {
 double paraboloid(double x, double y, double b) { return b * y * y + 0.02 * (x - 0.05) * (x - 0.05); }
 
 /// x = u and y = v of a polynomial of degree 3 in each, over knots that divide it.
-TensorSpline polynomial_rail() {
+SplineSurface polynomial_rail() {
   const auto z = [](const std::array<double, 3>& x, const std::array<double, 3>& y) {
     // the blossom of 4 y^2 + 20 x^3 - 100 x^2 y^3
     const auto second = [](const auto& a) { return (a[0] * a[1] + a[1] * a[2] + a[2] * a[0]) / 3.0; };
     const auto third = [](const auto& a) { return a[0] * a[1] * a[2]; };
     return 4.0 * second(y) + 20.0 * third(x) - 100.0 * second(x) * third(y);
   };
-  TensorSpline s;
-  s.knots_u = {0.0, 0.0, 0.0, 0.0, 0.01, 0.025, 0.06, 0.06, 0.06, 0.06};
-  s.knots_v = {-0.03, -0.03, -0.03, -0.03, 0.005, 0.03, 0.03, 0.03, 0.03};
-  for (std::size_t i = 0; i < s.poles_u(); ++i)
-    for (std::size_t j = 0; j < s.poles_v(); ++j) {
-      const std::array<double, 3> x{s.knots_u[i + 1], s.knots_u[i + 2], s.knots_u[i + 3]},
-          y{s.knots_v[j + 1], s.knots_v[j + 2], s.knots_v[j + 3]};
-      s.poles.emplace_back((x[0] + x[1] + x[2]) / 3.0, (y[0] + y[1] + y[2]) / 3.0, z(x, y));
+  SplineSurface s;
+  s.levels.push_back({SplineKnots{3, {0.0, 0.0, 0.0, 0.0, 0.01, 0.025, 0.06, 0.06, 0.06, 0.06}},
+                      SplineKnots{3, {-0.03, -0.03, -0.03, -0.03, 0.005, 0.03, 0.03, 0.03, 0.03}}});
+  const auto& [u, v] = s.levels.front();
+  for (std::size_t j = 0; j < v.functions(); ++j)
+    for (std::size_t i = 0; i < u.functions(); ++i) {
+      const std::array<double, 3> x{u.knots[i + 1], u.knots[i + 2], u.knots[i + 3]},
+          y{v.knots[j + 1], v.knots[j + 2], v.knots[j + 3]};
+      s.points.emplace_back((x[0] + x[1] + x[2]) / 3.0, (y[0] + y[1] + y[2]) / 3.0, z(x, y));
     }
   return s;
 }
 
 TEST_F(Cad, WritesSectionsThatItReads) {
   CadContent wheel;
-  wheel.spline.body = Body::wheel;
-  wheel.spline.degree_u = 1;
-  wheel.spline.knots_u = {0.0, 0.0, 1.0, 1.0};
-  wheel.spline.knots_v = {-0.05, -0.05, -0.05, -0.05, 0.05, 0.05, 0.05, 0.05};
-  for (int row = 0; row < 2; ++row)
-    for (int j = 0; j <= 3; ++j) wheel.spline.poles.emplace_back(0.0, -0.05 + 0.1 * j / 3.0, j < 2 ? 0.46 : 0.466);
+  wheel.body = Body::wheel;
+  wheel.spline.levels.push_back(
+      {SplineKnots{1, {0.0, 0.0, 1.0, 1.0}}, SplineKnots{3, {-0.05, -0.05, -0.05, -0.05, 0.05, 0.05, 0.05, 0.05}}});
+  for (int j = 0; j <= 3; ++j)
+    for (const double x : {0.0, 1.0}) wheel.spline.points.emplace_back(x, -0.05 + 0.1 * j / 3.0, j < 2 ? 0.46 : 0.466);
   const auto radius = [](double y) {  // of these poles: a smooth step
     const double t = (y + 0.05) / 0.1;
     return 0.46 + 0.006 * t * t * (3.0 - 2.0 * t);
@@ -168,15 +168,14 @@ TEST_F(Cad, WritesSectionsThatItReads) {
 
 TEST_F(Cad, WritesAndReadsTheVeryCoefficients) {
   const auto file = folder_.path() / "rail.stp";
-  const TensorSpline given = polynomial_rail();
-  write_cad(file, {given, {}, {}});
+  const SplineSurface given = polynomial_rail();
+  write_cad(file, {Body::rail, given, {}, {}});
   const CadSurface s = read_cad(file, Body::rail, 0.0);
-  ASSERT_TRUE(std::holds_alternative<TensorSpline>(s.shape)) << s.note;
-  const auto& back = std::get<TensorSpline>(s.shape);
+  ASSERT_TRUE(std::holds_alternative<SplineSurface>(s.shape)) << s.note;
+  const auto& back = std::get<SplineSurface>(s.shape);
   check(back);
-  ASSERT_EQ(back.knots_u, given.knots_u);
-  ASSERT_EQ(back.knots_v, given.knots_v);
-  for (std::size_t k = 0; k < given.poles.size(); ++k) EXPECT_LT((back.poles[k] - given.poles[k]).norm(), 1e-14);
+  for (std::size_t d = 0; d < 2; ++d) ASSERT_EQ(back.levels[0][d].knots, given.levels[0][d].knots);
+  for (std::size_t k = 0; k < given.points.size(); ++k) EXPECT_LT((back.points[k] - given.points[k]).norm(), 1e-14);
   for (double x = 0.0; x <= 0.06; x += 0.003)
     for (double y = -0.03; y <= 0.03; y += 0.002)
       EXPECT_LT(
@@ -187,15 +186,15 @@ TEST_F(Cad, WritesAndReadsTheVeryCoefficients) {
 
 TEST_F(Cad, TakesWhatIsWholeOfAFaceThatIsTrimmedOutOfSight) {
   const CadSurface s = read(sample("trimmed.step"), "trimmed.step");
-  ASSERT_TRUE(std::holds_alternative<TensorSpline>(s.shape)) << s.note;
-  const auto& spline = std::get<TensorSpline>(s.shape);
+  ASSERT_TRUE(std::holds_alternative<SplineSurface>(s.shape)) << s.note;
+  const auto& spline = std::get<SplineSurface>(s.shape);
   double deepest = 0.0;
   for (int i = 0; i <= 40; ++i)
     for (int j = 0; j <= 40; ++j) {
       const auto at = [](const std::vector<double>& knots, int k) {
         return knots.front() + (knots.back() - knots.front()) * k / 40.0;
       };
-      const Vec3 p = evaluate(spline, at(spline.knots_u, i), at(spline.knots_v, j)).p;
+      const Vec3 p = evaluate(spline, at(spline.levels[0][0].knots, i), at(spline.levels[0][1].knots, j)).p;
       EXPECT_NEAR(p.z(), paraboloid(p.x(), p.y(), 37.5), 1e-12);
       deepest = std::max(deepest, p.z());
     }
@@ -435,7 +434,7 @@ void expect_sound(const CadSurface& s, const std::string& which) {
   } else if (const auto* slices = std::get_if<SliceSet>(&s.shape)) {
     EXPECT_TRUE(finite(slices->u) && std::ranges::is_sorted(slices->u)) << which;
     for (const Profile& p : slices->profiles) EXPECT_TRUE(finite(p.y) && finite(p.z)) << which;
-  } else if (const auto* spline = std::get_if<TensorSpline>(&s.shape)) {
+  } else if (const auto* spline = std::get_if<SplineSurface>(&s.shape)) {
     EXPECT_NO_THROW(check(*spline)) << which;
   } else {
     const auto& mesh = std::get<TriangleMesh>(s.shape);

@@ -162,7 +162,9 @@ TEST(Splines, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(wheel(" geoDim=\"3\"", ""), HasSubstr("has no geoDim"));
   EXPECT_THAT(wheel("geoDim=\"3\"", "geoDim=\"2\""), HasSubstr("a surface in space has 3"));
   // knots
-  EXPECT_THAT(wheel("degree=\"2\"", "degree=\"4\""), HasSubstr("a.xml:8:6: Geometry 7: degree 4 is not read"));
+  EXPECT_THAT(wheel("degree=\"2\"", "degree=\"4\""), HasSubstr("a.xml:8:6: Geometry 7: 6 knots are too few for"));
+  EXPECT_THAT(wheel("degree=\"2\"", "degree=\"26\""), HasSubstr("degree 26 is not known: 1 to 25 are"));
+  EXPECT_THAT(rail("degree=\"2\"", "degree=\"4\""), HasSubstr("Geometry 0: degree 4 is not known: 1 to 3 are"));
   EXPECT_THAT(wheel("degree=\"2\"", "degree=\"two\""), HasSubstr("no whole number"));
   EXPECT_THAT(wheel("0 0 0 1 1 1 ", "0 0 0 1 1"), HasSubstr("5 knots are too few for degree 2"));
   EXPECT_THAT(wheel("0 0 0 1 1 1 ", "0 0 1 0 1 1"), HasSubstr("a.xml:8:35: Geometry 7: knot 4 is less"));
@@ -175,6 +177,13 @@ TEST(Splines, WhatIsWrongIsNamedWithItsPlace) {
   EXPECT_THAT(wheel("0 -30 650", "-30 650"), HasSubstr("<coefs> has 17 numbers, where 18 are expected"));
   EXPECT_THAT(wheel("0 -30 650", "0 0 -30 650"), HasSubstr("a.xml:23:23: Geometry 7: <coefs> has more than the 18"));
   EXPECT_THAT(wheel("weights>1 0", "weights>1 -0"), HasSubstr("a.xml:14:15: Geometry 7: weight 2 is -0.7"));
+  // what is not read
+  EXPECT_THAT(wheel("geoDim=\"3\"", "geoDim=\"3\" order=\"coordinates\""),
+              HasSubstr("a.xml:18:3: Geometry 7: coefficients in the order 'coordinates' are not read"));
+  EXPECT_THAT(wheel("<KnotVector degree=\"2\">", "<KnotVector degree=\"2\" mode=\"uniform\">"),
+              HasSubstr("a.xml:8:6: Geometry 7: knots by their mode ('uniform') are not read"));
+  EXPECT_THAT(wheel(" </Geometry>", "  <transform>1 0 0</transform>\n </Geometry>"),
+              HasSubstr("a.xml:25:3: Geometry 7: a transform is not read"));
   // boxes
   EXPECT_THAT(rail("2 2 6 6", "2 2 6 9"), HasSubstr("a.xml:13:4: Geometry 0: the box 2 2 6 9 of level 1 is empty or"));
   EXPECT_THAT(rail("2 2 6 6", "2 2 2 6"), HasSubstr("is empty"));
@@ -200,9 +209,10 @@ TEST(Splines, ComeBackFromAFile) {
   const std::filesystem::path file = folder.path() / "a.xml";
   for (const std::string& text : {kWheelShell, hierarchical_rail(0.1), hierarchical_rail(0.1, "HB"), two_plates(0.0)}) {
     const SplineFile given = parse_splines(text, "a.xml");
-    write_splines(file, given.surfaces);
+    write_splines(file, given.surfaces, given.interfaces);
     const SplineFile back = read_splines(file);
     ASSERT_EQ(back.surfaces.size(), given.surfaces.size());
+    EXPECT_EQ(back.interfaces.size(), given.interfaces.size());
     for (std::size_t k = 0; k < back.surfaces.size(); ++k) {
       const SplineSurface &a = given.surfaces[k], &b = back.surfaces[k];
       EXPECT_EQ(a.hierarchical, b.hierarchical);

@@ -5,12 +5,12 @@
 
 export interface ReportData {
   format: "treadmark report 1";
-  kind: "run" | "check" | "compare" | "bench" | "import" | "simulation" | "assessment" | "evolution" | "sweep";
+  kind: "run" | "check" | "compare" | "bench" | "import" | "simulation" | "assessment" | "evolution" | "sweep" | "overlay";
   title: string;
   timeline: Timeline | null;
   /** Quantities that patches may have, in the order of the menu. */
   fields: FieldInfo[];
-  /** Contact fields; run and simulation: one set; compare: one a candidate, the truth first. */
+  /** Contact fields; run and simulation: one set; compare: one a candidate, the truth first; overlay: one a result. */
   sets: FrameSet[];
   surfaces: SurfaceData[];
   /** A view's id is the id of its <figure>. */
@@ -186,6 +186,8 @@ export interface SectionView {
   type: "section";
   id: string;
   set: number;
+  /** Other sets, whose bodies are drawn as dashed lines in the same plane. */
+  over?: number[];
 }
 
 export interface TrackView {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { seriesDash } from "./colours";
 import { quoted } from "./contact/csv";
 import { contactBox, edgesOf } from "./contact/fields";
 import { byLoad, toTrack, type Vector } from "./contact/place";
@@ -64,8 +65,11 @@ export interface Cut {
   marks: Mark[];
 }
 
-/** Wheel and rail of a frame cut across the track through its most loaded contact; without contact, below the axle. */
-export function cutOf(frame: Frame, surfaces: readonly SurfaceData[], blobs: string[]): Cut | null {
+/**
+ * Wheel and rail of a frame cut across the track through its most loaded contact; without contact, below the axle. `plane`: at
+ * this x instead.
+ */
+export function cutOf(frame: Frame, surfaces: readonly SurfaceData[], blobs: string[], plane?: number): Cut | null {
   const marks = byLoad(frame).map((k): Mark => {
     const patch = frame.patches[k]!;
     const [x, s] = patch.reference_mm;
@@ -73,7 +77,7 @@ export function cutOf(frame: Frame, surfaces: readonly SurfaceData[], blobs: str
     const box = contact && edgesOf(patch, contact);
     return { patch, at: toTrack(patch, x, s), ends: box && [toTrack(patch, x, box.y0), toTrack(patch, x, box.y1)] };
   });
-  const x = marks[0]?.at[0] ?? frame.wheel?.origin_mm[0];
+  const x = plane ?? marks[0]?.at[0] ?? frame.wheel?.origin_mm[0];
   if (x === undefined) return null;
   const section = (body: Placed | null): Section => {
     const surface = body && surfaces[body.surface];
@@ -89,6 +93,12 @@ export function drawBody(parent: SVGElement, curve: readonly [number, number][],
   const path = points.map((point) => point.join(" ")).join("L");
   svg("path", { d: `M${points[0]![0]} ${end}L${path}L${points.at(-1)![0]} ${end}z`, fill: colour, "fill-opacity": 0.16 }, parent);
   svg("path", { d: `M${path}`, stroke: colour, "stroke-width": width }, parent);
+}
+
+/** A body of another result as a dashed line. */
+function drawOther(parent: SVGElement, curve: readonly [number, number][], colour: string, dash: string): void {
+  const points = curve.filter(([x, y]) => Number.isFinite(x) && Number.isFinite(y)).map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`);
+  if (points.length > 1) svg("path", { class: "section-other", d: `M${points.join("L")}`, stroke: colour, "stroke-width": 2, "stroke-dasharray": dash }, parent);
 }
 
 const LEFT = 52;
@@ -108,6 +118,7 @@ class SectionFigure {
   private readonly drawing = svg("svg", { class: "section-view", "font-family": "var(--sans)", "font-size": 11.5, role: "img" });
   private drawnWidth = 0;
   private shown: Cut | null = null;
+  private others: { name: string; cut: Cut }[] = [];
 
   constructor(
     figure: HTMLElement,
@@ -138,7 +149,13 @@ class SectionFigure {
     const frame = data.sets[view.set]?.frames[this.store.frame() ?? -1];
     const cut = frame ? cutOf(frame, data.surfaces, data.blobs) : null;
     this.shown = cut;
-    const bodies = cut ? [...cut.rail, ...cut.wheel].filter(([y, z]) => Number.isFinite(y) && Number.isFinite(z)) : [];
+    const others = (view.over ?? []).map((k) => ({ name: data.sets[k]?.name ?? "", frame: data.sets[k]?.frames[this.store.frame() ?? -1] }));
+    this.others = others.flatMap(({ name, frame: one }) => {
+      const other = one && cut && cutOf(one, data.surfaces, data.blobs, cut.x);
+      return other ? [{ name, cut: other }] : [];
+    });
+    const all = cut ? [cut, ...this.others.map((other) => other.cut)] : [];
+    const bodies = all.flatMap(({ rail, wheel }) => [...rail, ...wheel]).filter(([y, z]) => Number.isFinite(y) && Number.isFinite(z));
     drawing.replaceChildren();
     if (!cut || bodies.length === 0) {
       this.resize(width, 40);
@@ -162,6 +179,10 @@ class SectionFigure {
     const placed = (curve: Section): [number, number][] => curve.map(([y, z]) => [across(y), down(z)]);
     drawBody(inside, placed(cut.rail), TOP + h, "var(--series-1)", 2);
     drawBody(inside, placed(cut.wheel), TOP, "var(--series-2)", 2);
+    this.others.forEach(({ cut: other }, k) => {
+      drawOther(inside, placed(other.rail), "var(--series-1)", seriesDash(k + 1));
+      drawOther(inside, placed(other.wheel), "var(--series-2)", seriesDash(k + 1));
+    });
     svg("rect", { x: LEFT, y: TOP, width: w, height: h, fill: "none", stroke: "var(--line-strong)" }, drawing);
     cut.marks.forEach((mark) => this.drawMark(mark, across, down));
     this.drawTexts(cut, frame!, { w, h }, { y0, y1, z0: z0 + (z1 - z0 - h / scale) / 2, z1: z1 - (z1 - z0 - h / scale) / 2 }, across, down);
@@ -250,6 +271,10 @@ class SectionFigure {
       add("rail", cut.x, cut.rail);
       add("wheel", cut.x, cut.wheel);
       for (const { patch, at } of cut.marks) add(patch.name, at[0], [[at[1], at[2]]]);
+      for (const { name, cut: other } of this.others) {
+        add(`rail, ${name}`, cut.x, other.rail);
+        add(`wheel, ${name}`, cut.x, other.wheel);
+      }
     }
     return `${lines.join("\n")}\n`;
   }

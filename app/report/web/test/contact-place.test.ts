@@ -6,7 +6,7 @@ import { test } from "node:test";
 import { csvOf, plain } from "../src/contact/csv";
 import { difference } from "../src/contact/difference";
 import { contactBox, fieldOf, learnFields, shownValue, TRACTION } from "../src/contact/fields";
-import { choicesOf, Model } from "../src/contact/model";
+import { choicesOf, isApart, Model } from "../src/contact/model";
 import { elementOf, peakOf } from "../src/contact/pick";
 import { itemsOf, matchedItems, nominalItem, toTrack } from "../src/contact/place";
 import { curvePath, sectionOf } from "../src/contact/section";
@@ -120,6 +120,18 @@ test("the same contact through another representation is found by its place in t
   near(found!.ox, 0.25 - 1);
   near(found!.os, 0.5);
   assert.deepEqual(matchedItems(truth, frame([far]), { kind: "load", rank: 0 }), []);
+});
+
+test("patches far apart are told, to be shown together", () => {
+  const blobs: string[] = [];
+  const at = (y: number): Frame => frame([simple(blobs, { nx: 5, ny: 5, pressure: bump, fn: 5, origin: [0, y, 0] })]);
+  const report = contactReport("compare", 2);
+  const model = (y: number): Model =>
+    new Model({ ...report, blobs, timeline: null, sets: [at(0), at(y)].map((one, k) => ({ name: `run ${k}`, nominal: null, frames: [one] })) }, [0, 1]);
+  assert.equal(isApart(model(14)), false);
+  assert.equal(isApart(model(16)), true);
+  assert.deepEqual(choicesOf(model(16)), []);
+  assert.deepEqual(choicesOf(model(16), true).map(({ label }) => label), ["all patches", "most loaded"]);
 });
 
 test("the nominal patch lies by the wheel's centre, or reference on reference", () => {

@@ -582,6 +582,106 @@ test("evolutions follow the slider over their generations", async () => {
   await readWhole(flat, "evolution", "1-2");
 });
 
+test("two runs laid over each other", async () => {
+  const other = "less-of-a-flat-and-more-friction";
+  const file = results.overlay();
+  assert.ok(statSync(join(folder, file)).size < 8e6);
+  const [before, after] = ["run", other].map((name) => read(`${name}/result.json`));
+  const most = (json, k) => Math.max(...json.cases[k].patches.map((one) => one.pmax_MPa));
+  const tab = await Tab.open(file);
+  const { page } = tab;
+  const differences = before.cases.map((_, k) => most(after, k) - most(before, k));
+  for (let k = 0; k < 26; ++k) {
+    near(await tab.cell("cases", k, "largest pressure, run"), most(before, k), 1e-6, `pressure of case ${k + 1}`);
+    near(await tab.cell("cases", k, `largest pressure, ${other}`), most(after, k), 1e-6, `other pressure of case ${k + 1}`);
+    near(await tab.cell("cases", k, "largest pressure, difference"), differences[k], 1e-6, `difference of case ${k + 1}`);
+    near(await tab.cell("cases", k, "largest pressure, change"), (100 * differences[k]) / most(before, k), 1e-6, `change of case ${k + 1}`);
+  }
+  // The case with the greatest difference comes first, the settings that differ are named.
+  const sizes = differences.map(Math.abs);
+  assert.equal(await tab.step(), sizes.indexOf(Math.max(...sizes)));
+  const said = await page.locator("#table-differs tbody tr").allTextContents();
+  assert.ok(said.some((row) => /coefficient of friction.*0\.3.*0\.4/.test(row)), said.join("; "));
+  // Both curves in every panel, in two colours and dashes.
+  await page.locator("#forces").scrollIntoViewIfNeeded();
+  const looks = await page.locator("#forces .sample path.line, #forces svg path.line").evaluateAll((paths) => paths.map((path) => `${path.style.stroke} ${path.getAttribute("stroke-dasharray")}`));
+  assert.equal(new Set(looks).size, 2, [...new Set(looks)].join("; "));
+  // Patches side by side; the picked element and the sections through it have both.
+  const view = page.locator("#patches-view");
+  await view.scrollIntoViewIfNeeded();
+  await view.locator("[data-control='peak']").first().click();
+  const step = await tab.step();
+  const patch = (json) => json.cases[step].patches.reduce((a, b) => (a.fn_N > b.fn_N ? a : b));
+  const numbers = view.locator(".contact-side tr", { hasText: /^p/ }).first();
+  for (const json of [before, after]) assert.ok((await numbers.textContent()).includes(String(Number(patch(json).pmax_MPa.toPrecision(4)))), await numbers.textContent());
+  const curves = await view.locator(".contact-sections svg g[clip-path]").evaluateAll((groups) => groups.map((group) => [...group.querySelectorAll("path")].map((path) => [path.getAttribute("d").length > 20, path.getAttribute("stroke-dasharray")].join())));
+  assert.equal(curves.length, 2);
+  for (const pair of curves) {
+    assert.equal(new Set(pair).size, 2, pair.join("; "));
+    assert.ok(pair.every((one) => one.startsWith("true")), pair.join("; "));
+  }
+  await view.locator("[data-control='difference']").check();
+  await view.locator(`text[data-full*="${other} – difference"]`).waitFor();
+  // The other wheel lies dashed in the section.
+  await page.locator("#section").scrollIntoViewIfNeeded();
+  assert.equal(await page.locator("#section .section-other").count(), 2);
+  const [csv] = await Promise.all([page.waitForEvent("download"), page.locator("#section .downloads button", { hasText: "CSV" }).click()]);
+  assert.ok(readFileSync(await csv.path(), "utf8").includes(`"wheel, ${other}"`));
+  await tab.close();
+  await photograph(file, "overlay", "#contact");
+  await readWhole(file, "overlay", "1, 13-14");
+});
+
+test("26 cases under 400 steps", async () => {
+  const file = results.overlayLong();
+  const tab = await Tab.open(file);
+  const { page } = tab;
+  assert.match((await page.locator(".banner").allTextContents()).join("\n"), /run has not got 375 cases: 27 to 401\. There is nothing/);
+  assert.equal(await page.locator("#table-cases tbody tr").count(), 401);
+  await tab.key(".timeline-slider", "End");
+  await tab.waitForStep(400);
+  await page.locator("#patches-view").scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelector("#patches-view .contact-status").textContent.includes("run: failed – There is none of that number in this result."));
+  await tab.close();
+});
+
+test("two simulations laid over each other", async () => {
+  const file = results.overlaySimulations();
+  const tab = await Tab.open(file);
+  const { page } = tab;
+  const history = (name) => {
+    const [head, ...rows] = readFileSync(join(folder, name, "history.csv"), "utf8").trim().split("\n").map((line) => line.split(","));
+    const column = (wanted) => rows.map((row) => Number(row[head.indexOf(wanted)]));
+    return { t: column("t_s"), q: column("Q_N") };
+  };
+  const mean = ({ t, q }) => q.slice(1).reduce((sum, b, i) => sum + (0.5 * (q[i] + b) * (t[i + 1] - t[i])) / t.at(-1), 0) / 1e3;
+  const rows = await page.locator("#table-columns tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.dataset.value ?? cell.textContent)));
+  const row = (measure) => rows.find(([name]) => name === `Q, ${measure}`).map(Number);
+  const [a, b] = ["simulation", "faster"].map(history);
+  near(row("largest")[3], Math.max(...a.q) / 1e3, 1e-6, "largest force");
+  near(row("largest")[5], (Math.max(...b.q) - Math.max(...a.q)) / 1e3, 1e-6, "difference of the largest forces");
+  near(row("mean")[4], mean(b), 1e-6, "mean force");
+  near(row("mean")[5], mean(b) - mean(a), 1e-6, "difference of the mean forces");
+  for (const id of ["#over-distance", "#over-time"]) {
+    await page.locator(id).scrollIntoViewIfNeeded();
+    const looks = await page.locator(`${id} svg path.line`).evaluateAll((paths) => paths.map((path) => `${path.style.stroke} ${path.getAttribute("stroke-dasharray")}`));
+    assert.equal(new Set(looks).size, 2, [...new Set(looks)].join("; "));
+  }
+  // Patches at the snapshots of both: one of the round wheel, three at the flat.
+  const view = page.locator("#patches-view");
+  await view.scrollIntoViewIfNeeded();
+  await tab.key(".timeline-slider", "End");
+  await tab.waitForStep(3);
+  near(await tab.cell("snapshots", 3, "pitch angle, faster"), -4, 0.3, "pitch of the last snapshot");
+  await view.locator("[data-control='peak']").first().click();
+  const pressures = (await view.locator(".contact-side tr", { hasText: /^p/ }).first().locator("td").allTextContents()).map(Number);
+  assert.ok(pressures.length === 2 && pressures.every((one) => one > 500 && one < 5000), pressures.join("; "));
+  assert.match((await page.locator("#table-differs").textContent()), /set: simulation\.speed_m_s.*45/);
+  await tab.close();
+  await photograph(file, "overlay-simulations", "#histories");
+  await readWhole(file, "overlay-simulations");
+});
+
 test("fixed pictures need no scripts", async () => {
   results.treadmark(["report", results.path("run"), "--static", "-o", results.path("static.html")]);
   const tab = await Tab.open("static.html", { scripts: false });
@@ -593,7 +693,7 @@ test("fixed pictures need no scripts", async () => {
 });
 
 test("nothing stands in the way of readers who use other means, in both themes", async () => {
-  for (const file of ["run.html", "compare.html", "simulation.html", "sweep.html", join("import", "report.html")])
+  for (const file of ["run.html", "compare.html", "simulation.html", "sweep.html", "overlay.html", "overlay-simulations.html", join("import", "report.html")])
     for (const theme of ["light", "dark"]) {
       const tab = await Tab.open(file, { theme, size: theme === "dark" ? "phone" : "desktop" });
       const { page } = tab;

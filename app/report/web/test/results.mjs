@@ -44,6 +44,26 @@ export class Results {
     return "run.html";
   }
 
+  /** The same positions with less of a flat and more friction, laid over the first run. */
+  overlay() {
+    const input = this.input("flat-26-less.toml", "flat-26.toml", [["depth_mm = 1.4", "depth_mm = 1.2"], ["coefficient = 0.3", "coefficient = 0.4"]]);
+    this.treadmark(["run", input, "-o", this.path("less-of-a-flat-and-more-friction")]);
+    this.treadmark(["report", this.path("run"), this.path("less-of-a-flat-and-more-friction"), "-o", this.path("overlay.html")]);
+    return "overlay.html";
+  }
+
+  /** 400 steps over 26 cases. */
+  overlayLong() {
+    this.treadmark(["report", this.path("run"), this.path("long"), "-o", this.path("overlay-long.html")]);
+    return "overlay-long.html";
+  }
+
+  overlaySimulations() {
+    this.treadmark(["simulate", join(this.examples, "short.toml"), "-o", this.path("faster"), "--set", "simulation.speed_m_s=45"]);
+    this.treadmark(["report", this.path("simulation"), this.path("faster"), "-o", this.path("overlay-simulations.html")]);
+    return "overlay-simulations.html";
+  }
+
   /** 400 steps in time. */
   long() {
     this.treadmark(["run", join(this.examples, "rolling-flat.toml"), "-o", this.path("long"), "--report", this.path("long.html")]);

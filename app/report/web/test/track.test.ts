@@ -131,6 +131,8 @@ test("the section goes through the most loaded contact and has all of them, as w
   const [first, last] = cut.marks[0]!.ends!;
   near(last[1] - first[1], 2 * c, 1e-12);
   near(last[2] - first[2], 2 * s, 1e-12);
+  // Another result is cut in the same plane, wherever its own contact is.
+  assert.equal(cutOf(frame, surfaces, blobs, 3)?.x, 3);
   // Without contact the wheel still shows where it is.
   const away = cutOf({ ...frame, patches: [] }, surfaces, blobs);
   assert.equal(away?.x, 0);

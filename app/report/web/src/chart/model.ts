@@ -49,7 +49,7 @@ function looks(view: ChartView): number[][] {
 }
 
 function dashOf(series: Series, look: number, lines: number): string {
-  if (series.dashed) return "6 4";
+  if (series.dashed) return (look > 0 && seriesDash(look)) || "6 4";
   // Beyond two lines colours alone do not tell them apart; markers do, and colours used twice.
   if (look >= SERIES_COUNT) return seriesDash(1 + (look % (SERIES_COUNT - 1)));
   return lines > 2 && (series.marks ?? "line") === "line" ? seriesDash(look) : "";

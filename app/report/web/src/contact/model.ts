@@ -167,8 +167,18 @@ function nearest(patch: Patch, items: readonly Item[]): Patch | null {
   return best;
 }
 
-/** What the reader may choose beside the most loaded patch: the others by load or by name, and all together. */
-export function choicesOf(model: Model): { label: string; choice: Choice }[] {
+/** Whether at some step a set's patches all lie too far from the first set's most loaded one to be of one contact. */
+export function isApart(model: Model): boolean {
+  return model.frames.some((frame) =>
+    model.panels(frame, { kind: "load", rank: 0 }).some((panel) => panel.items.length === 0 && (panel.frame?.patches.length ?? 0) > 0),
+  );
+}
+
+/**
+ * What the reader may choose beside the most loaded patch: the others by load or by name, and all together. `allFirst`: these are
+ * what is shown at first.
+ */
+export function choicesOf(model: Model, allFirst = false): { label: string; choice: Choice }[] {
   let most = 0;
   const names = new Set<string>();
   for (const frame of model.frames)
@@ -178,10 +188,10 @@ export function choicesOf(model: Model): { label: string; choice: Choice }[] {
       most = Math.max(most, found.patches.length);
       for (const k of byLoad(found)) names.add(found.patches[k]?.name ?? "");
     }
-  if (most < 2) return [];
+  if (most < 2 && !allFirst) return [];
   const ranks = ["most loaded", "second by load", "third by load"];
   const out: { label: string; choice: Choice }[] = ranks.slice(0, most).map((label, rank) => ({ label, choice: { kind: "load", rank } }));
-  out.push({ label: "all patches", choice: { kind: "all" } });
+  out.splice(allFirst ? 0 : out.length, 0, { label: "all patches", choice: { kind: "all" } });
   if (names.size > 1 && names.size <= 40)
     for (const name of [...names].sort(byNumber)) out.push({ label: name, choice: { kind: "name", name } });
   return out;

@@ -11,7 +11,7 @@ import { centre, csvOf } from "./csv";
 import { shownValue, TRACTION } from "./fields";
 import { listen } from "./input";
 import { layOut, type Layout } from "./layout";
-import { choicesOf, Model, type PanelModel } from "./model";
+import { choicesOf, isApart, Model, type PanelModel } from "./model";
 import { Painter, rectOf, type Cells } from "./painter";
 import { locate, PanelNodes } from "./panel";
 import { elementOf, peakOf, type Found, type Place } from "./pick";
@@ -36,6 +36,7 @@ export class ContactFigure {
   private readonly fields: FieldInfo[];
   private readonly options: Options;
   private readonly other: string | null;
+  private readonly allFirst: boolean;
   private readonly painter = new Painter();
   private readonly readout: Readout;
   private readonly charts: SectionCharts;
@@ -63,9 +64,11 @@ export class ContactFigure {
     this.fields = this.model.fields();
     const { sets } = this.model;
     this.other = sets.some(({ nominal }) => nominal !== null) ? "nominal patch" : sets.length > 1 ? (sets[0]?.name ?? null) : null;
+    // Results that are laid over each other may differ in where they have contact.
+    this.allFirst = store.data.kind === "overlay" && isApart(this.model);
     this.options = {
       field: this.fields.find(({ name }) => name === "pressure")?.name ?? this.fields[0]?.name ?? "",
-      choice: { kind: "load", rank: 0 },
+      choice: this.allFirst ? { kind: "all" } : { kind: "load", rank: 0 },
       scale: "all",
       own: { low: 0, high: 1 },
       window: "all",
@@ -99,7 +102,7 @@ export class ContactFigure {
     const has = (name: string): boolean => this.fields.some((field) => field.name === name);
     return {
       fields: this.fields.map(({ name, label }) => ({ name, label })),
-      choices: choicesOf(this.model),
+      choices: choicesOf(this.model, this.allFirst),
       steps: this.model.frames.length > 1,
       tractions: has("traction_x") && has("traction_s"),
       slip: has("state"),
