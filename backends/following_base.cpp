@@ -82,13 +82,22 @@ class Sections {
   /// Keeps more where the base is off; false: there are none.
   bool add(const Surface& base) {
     const std::vector<std::size_t> now = kept();
-    std::vector<std::size_t> middles;
-    for (std::size_t k = 0; k + 1 < now.size(); ++k)
-      if (now[k + 1] > now[k] + 1) middles.push_back((now[k] + now[k + 1]) / 2);
-    make(middles);
-    std::vector<char> wanted(middles.size());
-    parallel_for(middles.size(), [&](std::size_t k) { wanted[k] = off(base, middles[k]) > kOff; });
-    for (std::size_t k = 0; k < middles.size(); ++k) kept_[middles[k]] = wanted[k] != 0;
+    // in the middle alone an error may pass through zero
+    std::vector<std::size_t> middles, places;
+    for (std::size_t k = 0; k + 1 < now.size(); ++k) {
+      const std::size_t step = now[k + 1] - now[k];
+      if (step == 1) continue;
+      middles.push_back(now[k] + step / 2);
+      for (const std::size_t quarter : {1, 2, 3})
+        places.push_back(now[k] + std::max<std::size_t>(1, quarter * step / 4));
+    }
+    std::vector<std::size_t> different = places;
+    different.erase(std::ranges::unique(different).begin(), different.end());
+    make(different);
+    std::vector<char> wanted(places.size());
+    parallel_for(places.size(), [&](std::size_t k) { wanted[k] = off(base, places[k]) > kOff; });
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (wanted[k] != 0) kept_[middles[k / 3]] = true;
     bool any = std::ranges::find(wanted, 1) != wanted.end();
     if (any) even_out();
     return any;

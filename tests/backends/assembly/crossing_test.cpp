@@ -316,7 +316,7 @@ TEST(Crossing, OffsetsShowNothingThroughTheSideOfTheWing) {
       if (!(std::fabs(right - left) <= kEnd)) continue;  // here one surface ends above the other
       const double slope = (right - left) / (2.0 * kBeside);
       steep += std::fabs(slope) > 10.0 ? 1 : 0;
-      EXPECT_LE(std::fabs(height_at(*r.surface, {}, {x, y}) - z) / std::hypot(1.0, slope), 3e-6) << x << ' ' << y;
+      EXPECT_LE(std::fabs(height_at(*r.surface, {}, {x, y}) - z) / std::hypot(1.0, slope), 1e-5) << x << ' ' << y;
     }
   EXPECT_GT(steep, 100u) << "between the wing's top and the nose below it";
 }
