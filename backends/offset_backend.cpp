@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/backends/builtin.hpp"
-#include "treadmark/backends/sampling/touchable_slices.hpp"
+#include "treadmark/backends/following_base.hpp"
 #include "treadmark/backends/undamaged_base.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -19,26 +19,6 @@ namespace {
 double beyond(const Resampling& r) {
   constexpr double kBeyond = 8.0;
   return kBeyond * r.resolution() / (r.spec().body == Body::wheel ? r.spec().nominal_radius : 1.0);
-}
-
-/// A spline through sections far apart, for rails that move aside: offsets over it are small, and its sides are where
-/// the rail's are. Sides that no wheel can touch are left out: along them offsets would be large.
-std::shared_ptr<const Surface> following_base(Resampling& r) {
-  constexpr double kStationSteps = 40.0;
-  const double apart = kStationSteps * r.resolution();
-  r.limit_rail();
-  r.add_note(fmt::format("offsets over sections at least {:g} mm apart. ", 1e3 * apart));
-  SurfaceSpec base;
-  const auto* slices = std::get_if<SliceSet>(&r.spec().shape);
-  if (slices != nullptr && !slices->features.empty() && r.spec().defects.empty()) {
-    base.shape = sampling::thinned_slices(*slices, apart);
-  } else {
-    Region region = r.region();
-    region.u_min -= beyond(r) + r.resolution();
-    region.u_max += beyond(r) + r.resolution();
-    base.shape = sampling::touchable_slices(r.surface(), region, apart, r.resolution());
-  }
-  return make_natural(base);
 }
 
 std::shared_ptr<const Surface> as_offset(Resampling& r, offset::Interpolation interpolation, std::string backend) {

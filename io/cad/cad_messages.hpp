@@ -23,10 +23,14 @@ using Point = std::array<double, 3>;  ///< [m]
 
 inline constexpr int kMostFaces = 100'000;
 
+struct CadLine {
+  Point origin{}, direction{};  ///< [m]; a unit vector
+};
+
 /// Where a line meets a face.
 struct CadHit {
   double t = 0.0;           ///< along the line [m]
-  std::int64_t face = 0;    ///< counted from 0
+  std::int64_t face = -1;   ///< counted from 0; -1: it meets none
   double u = 0.0, v = 0.0;  ///< parameters of the face
 };
 
@@ -73,7 +77,7 @@ struct CadSheet {
 
 /// The questions; each is followed by what it is about, and answered.
 enum class Question : std::int64_t {
-  hits,          ///< origin, unit direction: the hits of the whole line with all faces, in the order of t
+  last_hits,     ///< least t [m], lines: of each the hit with the greatest t from there on
   points_on,     ///< face: some points inside of it
   edges_of,      ///< face: some points on each of its edges
   unchanging,    ///< face, whether turned: by its kind the same all round the y axis, or else all along x

@@ -145,13 +145,14 @@ CadShape::CadShape(std::unique_ptr<Channel> channel, const fs::path& file, bool 
   });
 }
 
-std::vector<CadHit> CadShape::hits(const Point& origin, const Point& direction) const {
+std::vector<CadHit> CadShape::last_hits(double least, const std::vector<CadLine>& lines) const {
   return ask([&](Channel& c) {
-    c.put(Question::hits);
-    c.put(origin);
-    c.put(direction);
+    c.put(Question::last_hits);
+    c.put(least);
+    c.put_list(lines);
     auto hits = c.take_list<std::vector<CadHit>>();
-    for (const CadHit& hit : hits) require(hit.face >= 0 && hit.face < faces_ && std::isfinite(hit.t));
+    require(hits.size() == lines.size());
+    for (const CadHit& hit : hits) require(hit.face >= -1 && hit.face < faces_ && std::isfinite(hit.t));
     return hits;
   });
 }

@@ -27,7 +27,7 @@ class CadShape {
   const Point& low() const { return low_; }  ///< of a box round it [m]
   const Point& high() const { return high_; }
   /// See Question.
-  std::vector<CadHit> hits(const Point& origin, const Point& direction) const;
+  std::vector<CadHit> last_hits(double least, const std::vector<CadLine>& lines) const;
   std::vector<Point> points_on(std::int64_t face) const;
   std::vector<CadEdgePoint> edges_of(std::int64_t face) const;
   bool unchanging(std::int64_t face, bool turned) const;

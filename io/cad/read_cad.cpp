@@ -57,14 +57,20 @@ class RunningSurface {
     bool is_there() const { return face >= 0; }
   };
 
-  Seen at(double u, double y) const {
-    const cad::Point direction = wheel_ ? cad::Point{std::sin(u), 0.0, std::cos(u)} : cad::Point{0.0, 0.0, 1.0};
-    const cad::Point origin = wheel_ ? cad::Point{0.0, y, 0.0} : cad::Point{u, y, 0.0};
-    const std::vector<cad::CadHit> hits = shape_.hits(origin, direction);
-    if (hits.empty()) return {};
-    const cad::CadHit& outer = wheel_ ? hits.back() : hits.front();
-    if (wheel_ && !(outer.t > 0.0)) return {};
-    return {outer.t, outer.face, outer.u, outer.v};
+  Seen at(double u, double y) const { return at(u, std::vector<double>{y}).front(); }
+  /// Many at once: a question takes longer than its answer.
+  std::vector<Seen> at(double u, const std::vector<double>& y) const {
+    constexpr double kAnywhere = -1e6;  // [m]
+    const cad::Point direction = wheel_ ? cad::Point{std::sin(u), 0.0, std::cos(u)} : cad::Point{0.0, 0.0, -1.0};
+    std::vector<cad::CadLine> lines;
+    lines.reserve(y.size());
+    for (const double across : y)
+      lines.push_back({wheel_ ? cad::Point{0.0, across, 0.0} : cad::Point{u, across, 0.0}, direction});
+    std::vector<Seen> out(y.size());
+    const std::vector<cad::CadHit> hits = shape_.last_hits(wheel_ ? 0.0 : kAnywhere, lines);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (hits[i].face >= 0) out[i] = {wheel_ ? hits[i].t : -hits[i].t, hits[i].face, hits[i].u, hits[i].v};
+    return out;
   }
 
   /// Whether a lies outside of b.
@@ -79,9 +85,9 @@ class RunningSurface {
   Section section(double u) const {
     const double from = low_[1] + 1e-9, to = high_[1] - 1e-9;
     const int n = std::max(8, static_cast<int>(std::ceil((to - from) / kScan)));
-    std::vector<Seen> seen;
-    seen.reserve(static_cast<std::size_t>(n) + 1);
-    for (int i = 0; i <= n; ++i) seen.push_back(at(u, from + (to - from) * i / n));
+    std::vector<double> across(static_cast<std::size_t>(n) + 1);
+    for (int i = 0; i <= n; ++i) across[static_cast<std::size_t>(i)] = from + (to - from) * i / n;
+    const std::vector<Seen> seen = at(u, across);
     int top = -1;
     for (int i = 0; i <= n; ++i)
       if (seen[static_cast<std::size_t>(i)].is_there() &&
@@ -129,8 +135,9 @@ class RunningSurface {
   std::vector<double> heights(double u, const std::vector<double>& y) const {
     constexpr std::size_t kOutermost = 4;
     std::vector<double> h(y.size());
+    const std::vector<Seen> all = at(u, y);
     for (std::size_t i = 0; i < y.size(); ++i) {
-      const Seen seen = at(u, y[i]);
+      const Seen& seen = all[i];
       if (!seen.is_there() && (i < kOutermost || i + kOutermost >= y.size())) {
         h[i] = kNaN;
         continue;
@@ -139,7 +146,7 @@ class RunningSurface {
         throw SidesMove{
             Error(ErrorKind::input_data,
                   fmt::format("at {} the surface has a hole or ends at y = {:.6g} mm, where it goes on elsewhere{}",
-                              place(u), 1e3 * y[i], beside(i > 0 ? at(u, y[i - 1]).face : seen.face)),
+                              place(u), 1e3 * y[i], beside(i > 0 ? all[i - 1].face : seen.face)),
                   {file_}, "close the hole, or give triangles (.stl)")};
       h[i] = seen.h;
     }
@@ -362,13 +369,21 @@ SliceSet slices_of(const RunningSurface& surface, Body body, double radius, cons
                   "give a part of it, or triangles (.stl)");
     return Slice{u, surface.heights(u, y)};
   };
+  // whether a shape changes shows at some of the points
+  constexpr std::size_t kEach = 8;
+  std::vector<double> some;
+  some.reserve(y.size() / kEach + 1);
+  for (std::size_t i = 0; i < y.size(); i += kEach) some.push_back(y[i]);
   const int n = std::max(4, static_cast<int>(std::ceil(scale * (to - from) / kCoarse)));
   const auto refine = [&](const auto& self, const Slice& a, const Slice& b) -> void {
     if (scale * (b.u - a.u) > 2.0 * kFine) {
-      Slice middle = slice(0.5 * (a.u + b.u));
+      const double halfway = 0.5 * (a.u + b.u);
+      const std::vector<double> h = surface.heights(halfway, some);
       double off = 0.0;
-      for (std::size_t i = 0; i < y.size(); ++i) off = std::fmax(off, std::fabs(middle.h[i] - 0.5 * (a.h[i] + b.h[i])));
+      for (std::size_t k = 0; k < some.size(); ++k)
+        off = std::fmax(off, std::fabs(h[k] - 0.5 * (a.h[kEach * k] + b.h[kEach * k])));
       if (off > kDeviation) {
+        Slice middle = slice(halfway);
         self(self, a, middle);
         all.push_back(middle);
         self(self, middle, b);

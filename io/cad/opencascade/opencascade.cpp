@@ -61,6 +61,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -113,22 +114,36 @@ class Shape {
   int faces() const { return faces_.Extent(); }
   Point low() const { return low_; }
   Point high() const { return high_; }
-  std::vector<CadHit> hits(const Point& origin, const Point& direction) const {
-    const gp_Lin line(to_mm(origin), gp_Dir(direction[0], direction[1], direction[2]));
-    std::vector<CadHit> out;
-    if (strips_.empty()) return out;
-    for (const std::size_t i : strips_[strip(kMillimetres * origin[1])]) {
-      if (boxes_[i].IsOut(line)) continue;
+  CadHit last_hit(double least, const CadLine& given) const {
+    const gp_Lin line(to_mm(given.origin), gp_Dir(given.direction[0], given.direction[1], given.direction[2]));
+    if (strips_.empty()) return {};
+    least *= kMillimetres;
+    // the line leaves a box after it leaves the face within
+    struct Left {
+      double t;
+      std::size_t face;
+    };
+    std::vector<Left> faces;
+    for (const std::size_t i : strips_[strip(kMillimetres * given.origin[1])])
+      if (const double t = leaves(boxes_[i], line); t >= least) faces.push_back({t, i});
+    std::sort(faces.begin(), faces.end(), [](const Left& a, const Left& b) { return a.t > b.t; });
+    CadHit out;
+    double last = least;
+    constexpr double kBeyond = 1.0;  // [mm]
+    for (const auto& [t, i] : faces) {
+      if (t < last) break;
       if (!meets_[i])
         meets_[i] =
             std::make_unique<IntCurvesFace_Intersector>(TopoDS::Face(faces_(static_cast<int>(i) + 1)), kTolerance);
-      meets_[i]->Perform(line, -1e9, 1e9);
-      if (!meets_[i]->IsDone()) continue;
-      for (int k = 1; k <= meets_[i]->NbPnt(); ++k)
-        out.push_back({meets_[i]->WParameter(k) / kMillimetres, static_cast<int>(i), meets_[i]->UParameter(k),
-                       meets_[i]->VParameter(k)});
+      IntCurvesFace_Intersector& meets = *meets_[i];
+      meets.Perform(line, last, t + kBeyond);
+      if (!meets.IsDone()) continue;
+      for (int k = 1; k <= meets.NbPnt(); ++k)
+        if (out.face < 0 || meets.WParameter(k) > last) {
+          last = meets.WParameter(k);
+          out = {last / kMillimetres, static_cast<int>(i), meets.UParameter(k), meets.VParameter(k)};
+        }
     }
-    std::sort(out.begin(), out.end(), [](const CadHit& a, const CadHit& b) { return a.t < b.t; });
     return out;
   }
   std::vector<Point> points_on(int face) const {
@@ -205,6 +220,24 @@ class Shape {
   mutable std::vector<std::unique_ptr<IntCurvesFace_Intersector>> meets_;
   Handle(XSControl_WorkSession) read_;
   Point low_{}, high_{};
+
+  /// Where a line leaves a box; -infinity: it passes by.
+  static double leaves(const Bnd_Box& box, const gp_Lin& line) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    double from = -kFar, to = kFar;
+    const gp_Pnt low = box.CornerMin(), high = box.CornerMax();
+    for (int k = 1; k <= 3; ++k) {
+      const double x = line.Location().Coord(k), d = line.Direction().Coord(k);
+      const double a = low.Coord(k) - kTolerance - x, b = high.Coord(k) + kTolerance - x;
+      if (d == 0.0) {
+        if (a > 0.0 || b < 0.0) return -kFar;
+        continue;
+      }
+      from = std::max(from, std::min(a / d, b / d));
+      to = std::min(to, std::max(a / d, b / d));
+    }
+    return from <= to ? to : -kFar;
+  }
 
   static constexpr std::size_t kStrips = 256;
   std::size_t strip(double y) const {
@@ -690,9 +723,12 @@ void answer(Channel& channel, const Shape& shape) {
   channel.put(shape.high());
   for (;;) {
     switch (channel.take<Question>()) {
-      case Question::hits: {
-        const auto origin = channel.take<Point>(), direction = channel.take<Point>();
-        channel.put_list(shape.hits(origin, direction));
+      case Question::last_hits: {
+        const auto least = channel.take<double>();
+        std::vector<CadHit> hits;
+        for (const CadLine& line : channel.take_list<std::vector<CadLine>>())
+          hits.push_back(shape.last_hit(least, line));
+        channel.put_list(hits);
         break;
       }
       case Question::points_on:

@@ -135,6 +135,39 @@ TEST(MovingSection, OffsetsOfAWingThatMovesFarAsideFollowIt) {
   }
 }
 
+/// Distance of a surface from the section of 60E1 where it lies at x, normal to that, from end to end; NaN: it is
+/// missing.
+double farthest_off(const Surface& moved, const Surface& section, const analytic::SectionOffset& at, double x) {
+  double most = 0.0;
+  for (double y = -0.03704; y < 0.03705; y += 0.13e-3) {
+    const double h = 1e-7, z = height_at(section, {}, {0.0, y});
+    const double slope = (height_at(section, {}, {0.0, y + h}) - height_at(section, {}, {0.0, y - h})) / (2.0 * h);
+    const double off = std::fabs(height_at(moved, {}, {x, y + at.y}) - at.z - z) / std::hypot(1.0, slope);
+    if (!(off <= most)) most = off;  // NaN stays
+    if (std::isnan(most)) return most;
+  }
+  return most;
+}
+
+TEST(MovingSection, OffsetsOfAWingReachDownItsSides) {
+  TREADMARK_NEEDS("openvdb");
+  const NaturalSurface natural = create_natural(moving(wing()));
+  const NaturalSurface section = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
+  Region region;
+  region.u_min = 0.0;
+  region.u_max = 0.5;
+  for (const std::string backend : {"offset", "offset-quadratic", "offset-bilinear"}) {
+    SCOPED_TRACE(backend);
+    const RepresentedSurface r = represent(natural, {backend, 0.5e-3, region});
+    for (double x = 0.0; x <= 0.5; x += 0.00331) {
+      // its sides stand at 1:20 down to 35 mm; at x = 0.45 m its motion ends in a kink
+      const bool kink = std::fabs(x - 0.45) < 0.02;
+      const double off = farthest_off(*r.surface, *section.surface, analytic::section_offset(wing(), x), x);
+      EXPECT_LE(off, kink ? 15e-6 : 0.3e-6) << x;
+    }
+  }
+}
+
 TEST(MovingSection, OffsetsKeepFeaturesThatEndBetweenSlices) {
   TREADMARK_NEEDS("openvdb");
   // two heads side by side; the second one ends between x = 0.1 m and 0.11 m
@@ -180,11 +213,12 @@ TEST(MovingSection, OffsetsKeepFeaturesThatEndBetweenSlices) {
   EXPECT_GT(absent, 2000u);
 }
 
+SurfacePart part(const MovingSection& m, const Vec3& offset, const char* backend) {
+  return {std::make_shared<const NaturalSurface>(create_natural(moving(m))), offset, backend, 1e-3};
+}
+
 TEST(Crossing, TheNoseTakesOverFromTheWing) {
   TREADMARK_NEEDS("embree");
-  const auto part = [](const MovingSection& m, const Vec3& offset, const char* backend) {
-    return SurfacePart{std::make_shared<const NaturalSurface>(create_natural(moving(m))), offset, backend, 1e-3};
-  };
   const NaturalSurface crossing =
       join_surfaces({part(nose(), {0.0, -0.02, 0.0}, ""), part(wing(), {0.0, 0.03, 0.0}, "")});
   const auto top = [&](const Surface& s, double x) {
@@ -263,6 +297,28 @@ TEST(Kinks, TheSurfaceTurnsSharplyAlongThem) {
   }
   EXPECT_LT(worst_sharp, 0.1 * worst_smooth);
   EXPECT_GT(worst_smooth, 2e-6);
+}
+
+TEST(Crossing, OffsetsShowNothingThroughTheSideOfTheWing) {
+  TREADMARK_NEEDS("openvdb");
+  const NaturalSurface crossing =
+      join_surfaces({part(nose(), {0.0, -0.02, 0.0}, ""), part(wing(), {0.0, 0.016, 0.0}, "")});
+  Region region;
+  region.u_min = -0.1;
+  region.u_max = 0.3;
+  const RepresentedSurface r = represent(crossing, {"offset", 0.5e-3, region});
+  constexpr double kBeside = 2e-6, kEnd = 1e-3;  // [m]
+  std::size_t steep = 0;
+  for (double x = -0.09; x < 0.29; x += 0.0062)
+    for (double y = -0.05; y < 0.06; y += 0.11e-3) {
+      const auto z_at = [&](double to_right) { return height_at(*crossing.surface, {}, {x, y + to_right}); };
+      const double z = z_at(0.0), left = z_at(-kBeside), right = z_at(kBeside);
+      if (!(std::fabs(right - left) <= kEnd)) continue;  // here one surface ends above the other
+      const double slope = (right - left) / (2.0 * kBeside);
+      steep += std::fabs(slope) > 10.0 ? 1 : 0;
+      EXPECT_LE(std::fabs(height_at(*r.surface, {}, {x, y}) - z) / std::hypot(1.0, slope), 1e-5) << x << ' ' << y;
+    }
+  EXPECT_GT(steep, 100u) << "between the wing's top and the nose below it";
 }
 
 }  // namespace
