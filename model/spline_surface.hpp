@@ -66,9 +66,12 @@ struct SplineSurface {
 /// at.
 void check(const SplineSurface& surface);
 
-/// Point and first derivatives by the first parameter s and the second one t [m].
+/// A point and its derivatives by the first parameter s and the second one t [m].
 struct SplineJet {
-  Vec3 p = Vec3::Zero(), ps = Vec3::Zero(), pt = Vec3::Zero(), pst = Vec3::Zero();
+  Vec3 p = Vec3::Zero();    ///< the point
+  Vec3 ps = Vec3::Zero();   ///< by s
+  Vec3 pt = Vec3::Zero();   ///< by t
+  Vec3 pst = Vec3::Zero();  ///< by both
 };
 /// Of a tensor spline; parameters are clamped to the surface (de Boor 1978; Piegl and Tiller 1997).
 SplineJet evaluate(const SplineSurface& tensor, double s, double t);

@@ -65,7 +65,7 @@ std::string_view trimmed(std::string_view text) {
 
 double CaseValue::number() const {
   if (const auto* integer_value = std::get_if<std::int64_t>(&data)) return static_cast<double>(*integer_value);
-  return std::get<double>(data);
+  return std::get<double>(data) + 0.0;  // -0 would be written as the integer 0
 }
 
 std::string_view CaseValue::kind() const {

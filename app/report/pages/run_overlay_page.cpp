@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -77,13 +78,15 @@ bool same_pose(const Matched& matched, double Case::*member) {
 Run common_cases(const Matched& matched) {
   Run out;
   out.cases.reserve(matched.size());
+  std::vector<PoseRow> agreed;
+  std::ranges::copy_if(kPose, std::back_inserter(agreed),
+                       [&](const PoseRow& pose) { return same_pose(matched, pose.member); });
   for (const auto& [number, row] : matched) {
     const Case& one = **std::ranges::find_if(row, [](const Case* c) { return c != nullptr; });
     Case common;
     common.number = number;
     common.has_wheelset = one.has_wheelset;
-    for (const PoseRow& pose : kPose)
-      if (same_pose(matched, pose.member)) common.*pose.member = one.*pose.member;
+    for (const PoseRow& pose : agreed) common.*pose.member = one.*pose.member;
     out.cases.push_back(std::move(common));
   }
   return out;

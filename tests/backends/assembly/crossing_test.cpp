@@ -213,8 +213,8 @@ TEST(MovingSection, OffsetsKeepFeaturesThatEndBetweenSlices) {
   EXPECT_GT(absent, 2000u);
 }
 
-SurfacePart part(const MovingSection& m, const Vec3& offset, const char* backend) {
-  return {std::make_shared<const NaturalSurface>(create_natural(moving(m))), offset, backend, 1e-3};
+SurfacePart part(const MovingSection& m, const Vec3& offset, const char* backend, double resolution = 1e-3) {
+  return {std::make_shared<const NaturalSurface>(create_natural(moving(m))), offset, backend, resolution};
 }
 
 TEST(Crossing, TheNoseTakesOverFromTheWing) {
@@ -302,12 +302,15 @@ TEST(Kinks, TheSurfaceTurnsSharplyAlongThem) {
 TEST(Crossing, OffsetsShowNothingThroughTheSideOfTheWing) {
   TREADMARK_NEEDS("openvdb");
   const NaturalSurface crossing =
-      join_surfaces({part(nose(), {0.0, -0.02, 0.0}, ""), part(wing(), {0.0, 0.016, 0.0}, "")});
+      join_surfaces({part(nose(), {0.0, -0.02, 0.0}, "", 0.0), part(wing(), {0.0, 0.016, 0.0}, "", 0.0)});
   Region region;
   region.u_min = -0.1;
   region.u_max = 0.3;
   const RepresentedSurface r = represent(crossing, {"offset", 0.5e-3, region});
   constexpr double kBeside = 2e-6, kEnd = 1e-3;  // [m]
+  // Where the corner of 13 mm becomes the side, curvature jumps: a spline of steps h errs by h^2 / 13 of the jump, 1.5
+  // um.
+  constexpr double kMost = 3e-6;
   std::size_t steep = 0;
   for (double x = -0.09; x < 0.29; x += 0.0062)
     for (double y = -0.05; y < 0.06; y += 0.11e-3) {
@@ -316,7 +319,7 @@ TEST(Crossing, OffsetsShowNothingThroughTheSideOfTheWing) {
       if (!(std::fabs(right - left) <= kEnd)) continue;  // here one surface ends above the other
       const double slope = (right - left) / (2.0 * kBeside);
       steep += std::fabs(slope) > 10.0 ? 1 : 0;
-      EXPECT_LE(std::fabs(height_at(*r.surface, {}, {x, y}) - z) / std::hypot(1.0, slope), 1e-5) << x << ' ' << y;
+      EXPECT_LE(std::fabs(height_at(*r.surface, {}, {x, y}) - z) / std::hypot(1.0, slope), kMost) << x << ' ' << y;
     }
   EXPECT_GT(steep, 100u) << "between the wing's top and the nose below it";
 }

@@ -14,7 +14,7 @@ TREADMARK_FUZZ_TARGET(fuzz_deviation_map) {
         io::scans::ByteBlocks bytes(text, "fuzz", block);
         io::scans::sniff_map(bytes);
         io::MapReadOptions options;
-        if (size % 2 == 1) options = {Body::wheel, 0.46, {}, {}, false, {}};
+        if (size % 2 == 1) options.body = Body::wheel, options.nominal_radius = 0.46;
         const OffsetMap map = parser(bytes, options);
         const Grid2& g = map.grid;
         bool sound = g.nx >= 2 && g.ny >= 2 && g.dx > 0.0 && g.dy > 0.0 && std::isfinite(g.x(g.nx)) &&

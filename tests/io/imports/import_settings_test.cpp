@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/error.hpp"
@@ -178,6 +180,12 @@ TEST(ImportSettings, ChangedValuesSurviveARoundTrip) {
       EXPECT_TRUE(c.has(read)) << c.key();
     }
   EXPECT_EQ(import_settings_toml(read), import_settings_toml(settings));
+}
+
+TEST(ImportSettings, ZeroHasNoSign) {
+  const ImportSettings read = from_text("[placement]\nup = [0, -0e-3, 1]\nzero_mm = -0.0\n");
+  EXPECT_EQ(import_settings_toml(from_text(import_settings_toml(read))), import_settings_toml(read));
+  EXPECT_FALSE(std::signbit(read.placement.up.at(1)));
 }
 
 TEST(ImportSettings, TextsOfAnyKindSurviveARoundTrip) {

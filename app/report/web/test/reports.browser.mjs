@@ -437,7 +437,7 @@ test("an interrupted run says so on top and shows what there is", async () => {
   const banner = tab.page.locator("main .banner").first();
   assert.match(await banner.textContent(), new RegExp(`Interrupted\\. ${json.cases.length} of 3000 cases`));
   assert.match(await banner.getAttribute("class"), /failed/);
-  assert.equal(await tab.page.locator("#table-cases tbody tr").count(), json.cases.length);
+  assert.equal(await tab.page.locator("#table-cases tbody tr").count(), Math.min(json.cases.length, 1000));
   await tab.close();
 });
 
