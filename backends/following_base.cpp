@@ -92,7 +92,7 @@ class Sections {
         places.push_back(now[k] + std::max<std::size_t>(1, quarter * step / 4));
     }
     std::vector<std::size_t> different = places;
-    different.erase(std::ranges::unique(different).begin(), different.end());
+    different.erase(std::unique(different.begin(), different.end()), different.end());
     make(different);
     std::vector<char> wanted(places.size());
     parallel_for(places.size(), [&](std::size_t k) { wanted[k] = off(base, places[k]) > kOff; });

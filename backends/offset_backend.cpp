@@ -43,9 +43,9 @@ std::shared_ptr<const Surface> as_offset(Resampling& r, offset::Interpolation in
   return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
 }
 
-Backend offset_row(std::string name, std::string how, double order, offset::Interpolation interpolation) {
+Backend offset_row(std::string name, const std::string& how, double order, offset::Interpolation interpolation) {
   const auto resample = [interpolation, name](Resampling& r) { return as_offset(r, interpolation, name); };
-  Backend row{name, "base plus sparse offsets, interpolated " + how, order, true, resample};
+  Backend row{std::move(name), "base plus sparse offsets, interpolated " + how, order, true, resample};
   row.part = "openvdb";
   return row;
 }

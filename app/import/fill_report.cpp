@@ -137,7 +137,8 @@ void fill_residuals(const ImportFindings& found, io::ImportReport& report) {
   constexpr std::size_t kBins = 80;
   report.residual_range = 6.0 * std::max(found.noise.typical, report.residual_rms);
   report.residual_histogram.assign(kBins, 0);
-  io::ImportReport::Residuals& residuals = report.residuals.emplace();
+  report.residuals = io::ImportReport::Residuals{};
+  io::ImportReport::Residuals& residuals = *report.residuals;
   std::vector<float> all;
   all.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -181,7 +181,7 @@ template <class File, class Part, class Fields>
 void optional(const File& file, const char* key, Part& part, Fields fields) {
   if constexpr (File::kReads) {
     if (!file.in.find(key)) return;
-    part.emplace();
+    part = typename Part::value_type{};
   } else if (!part) {
     file.value(key, nullptr);
     return;

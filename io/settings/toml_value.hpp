@@ -21,7 +21,7 @@ struct CaseEntry;
 using CaseTable = std::vector<CaseEntry>;
 
 /// A value of a file with its position, independent of the TOML library.
-struct CaseValue {
+struct CaseValue {  // NOLINT(bugprone-exception-escape): lists of themselves move without throwing
   SourcePosition where;
   std::variant<bool, std::int64_t, double, std::string, std::vector<CaseValue>, CaseTable, NeverHeld> data;
 
@@ -38,7 +38,7 @@ struct CaseValue {
   std::string_view kind() const;
 };
 
-struct CaseEntry {
+struct CaseEntry {  // NOLINT(bugprone-exception-escape)
   std::string key;
   SourcePosition key_where;
   CaseValue value;

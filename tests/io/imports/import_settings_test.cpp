@@ -2,14 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/imports/import_settings.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/error.hpp"
