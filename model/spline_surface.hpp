@@ -17,7 +17,7 @@ inline constexpr int kHighestDegree = 25, kHighestHierarchicalDegree = 3;
 
 /// The B-splines of one parameter: as many functions as there are knots, less degree and 1.
 struct SplineKnots {
-  int degree = 0;
+  int degree = 0;             ///< of the polynomials between knots
   std::vector<double> knots;  ///< not decreasing; functions begin at knot degree and end as many before the last
 
   /// How many there are.
