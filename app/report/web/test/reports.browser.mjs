@@ -730,6 +730,20 @@ test("nothing stands in the way of readers who use other means, in both themes",
     }
 });
 
+test("geometry, measures, checks and assessments are read whole by everybody", async () => {
+  for (const name of results.small()) {
+    const file = `${name}.html`;
+    await photograph(file, name);
+    await readWhole(file, name);
+    for (const theme of ["light", "dark"]) {
+      const tab = await Tab.open(file, { theme });
+      await tab.page.waitForTimeout(300);
+      assert.deepEqual(await barriers(tab.page), [], `${file}, ${theme}`);
+      await tab.close();
+    }
+  }
+});
+
 test("every page stays below 8 MB; how fast they open is told", async () => {
   const files = [...readdirSync(folder).filter((name) => name.endsWith(".html")), join("import", "report.html")];
   assert.ok(files.length >= 9, files.join(", "));

@@ -124,6 +124,17 @@ export class Results {
     return "simulation.html";
   }
 
+  /** Pages without steps: geometry, measures, a check, an assessment of the simulation. */
+  small() {
+    const wheel = this.path("wheel.csv");
+    this.treadmark(["geometry", "--wheel", "S1002", "--rail", "60E1", "--gauge-mm", "1435", "--cant", "1:40", "--gauges-mm", "1430:1440:2", "--report", this.path("geometry.html")]);
+    this.treadmark(["convert", "S1002", wheel]);
+    this.treadmark(["measure", "wheel", wheel, "--nominal", "S1002", "--report", this.path("measure.html")]);
+    this.treadmark(["check", join(this.examples, "wheel-flat.toml"), "--report", this.path("check.html")]);
+    this.treadmark(["assess", this.path("simulation"), "--report", this.path("assessment.html")]);
+    return ["geometry", "measure", "check", "assessment"];
+  }
+
   sweep() {
     this.input("swept.toml", "wheel-flat.toml", [["wheelset.pitch_deg = [-14, -10, -8, -6, -4, -2, 0, 2, 4, 6, 8, 10, 14]", "wheelset.pitch_deg = [-3, 0, 3]"], ["dx_mm = 0.5", "dx_mm = 1"]]);
     const study = join(this.examples, "study.toml");
