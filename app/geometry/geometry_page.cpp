@@ -101,7 +101,7 @@ ChartView functions_view(const std::vector<const Position*>& steps) {
                          })}});
   both("contact on the rails", "mm", kMilli, &geometry::Touch::rail_y);
   both("contact on the wheels", "mm", kMilli, &geometry::Touch::wheel_y);
-  both("contact angle", "deg", 180.0 / kPi, &geometry::Touch::angle);
+  both("contact angle", "°", 180.0 / kPi, &geometry::Touch::angle);
   view.panels.push_back({"lift", "mm", false, {series("", [](const Position& p) { return -kMilli * p.z; })}});
   return view;
 }
@@ -178,6 +178,8 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
   report::Timeline timeline{"shift"};
   report::Axis shift{"shift to the right", "mm"};
   for (const Position* p : steps) shift.values.push_back(kMilli * p->y);
+  timeline.start = static_cast<std::size_t>(
+      std::ranges::min_element(steps, {}, [](const Position* p) { return std::fabs(p->y); }) - steps.begin());
   timeline.axes.push_back(std::move(shift));
   page.timeline = std::move(timeline);
 

@@ -88,6 +88,10 @@ TEST(GeometryLoad, WritesTablesPicturesAndReport) {
   const std::string page = text_of("report.html");
   EXPECT_THAT(page, HasSubstr("largest pressure"));
   EXPECT_THAT(page, HasSubstr("axle load 200 kN"));
+  // The middle of the shifts is shown first.
+  const std::size_t at = page.find("\"start\":"), count = page.find("\"count\":");
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_EQ(2 * std::stoi(page.substr(at + 8)) + 1, std::stoi(page.substr(count + 8)));
 }
 
 TEST(GeometryLoad, TakesTheElasticConstantsOfACase) {
