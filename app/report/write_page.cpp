@@ -149,7 +149,7 @@ constexpr const char* kHead =
 std::string source_of(const std::string& text) { return fmt::format("'sha256-{}'", io::sha256_base64(text)); }
 
 constexpr const char* kWithoutScript =
-    "<noscript><div class=\"banner warning\"><strong>Scripts are switched off.</strong> Tables are complete; pictures "
+    "<noscript><div class=\"banner warning\"><strong>Scripts are switched off.</strong> Tables are here; pictures "
     "need scripts, or "
     "the command <code>treadmark report --static</code>.</div></noscript>\n";
 constexpr const char* kStatic =
