@@ -8,8 +8,8 @@ import { decode, type Decoded } from "../packed";
 import type { Store, Theme } from "../store";
 import { addControls, type ControlTarget } from "./controls";
 import type { Layers } from "./layers";
-import { distanceFor, millimetresPerPixel, outlook, pictureAxes, type Orbit, type ViewName } from "./orbit";
-import { drawCaption, drawDeviationBar, drawKey, drawMarker, drawScale, drawTriad, shortNumber } from "./overlay";
+import { distanceFor, type Orbit, type ViewName } from "./orbit";
+import { drawCaption, drawDeviationBar, drawKey, drawMarker, shortNumber, showAxes } from "./overlay";
 import { paletteOf, type Palette } from "./palette";
 import { startPanel, type Panel, type ViewButton } from "./panel";
 import type { Stage } from "./stage";
@@ -333,15 +333,7 @@ export class CloudViewer implements ControlTarget {
       drawKey(pen, palette, css(palette.removed), data.others, width - 16, height - 79),
     );
 
-    const { right, up } = pictureAxes(this.orbit);
-    const out = outlook(this.orbit);
-    const axes = [0, 1, 2].map((k) => [right[k]!, up[k]!, out[k]!] as const);
-    const scale = millimetresPerPixel(this.orbit, height);
-    layers.show("triad", { x: 0, y: height - 96, width: 96, height: 96 }, `${style} ${axes.flat().join(" ")}`, (pen) =>
-      drawTriad(pen, palette, axes, 46, height - 48),
-    );
-    // a narrow picture has its room for the bar
-    const room = width > 480 ? { x: 96, y: height - 40, width: 150, height: 36 } : null;
-    layers.show("scale", room, `${style} ${scale}`, (pen) => drawScale(pen, palette, scale, 104, height - 14, Math.min(120, 0.22 * width)));
+    // a narrow picture has the room of the scale for the bar
+    showAxes(layers, palette, this.orbit, style, width, height, width > 480);
   }
 }

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import { STATE_COLOURS, colourMap, css } from "../colours";
 import type { FieldInfo } from "../data";
+import type { Layers } from "./layers";
+import { millimetresPerPixel, outlook, pictureAxes, type Orbit } from "./orbit";
 import type { Palette } from "./palette";
 import type { Range } from "./ranges";
 
@@ -129,7 +131,7 @@ export function drawKey(pen: Pen, palette: Palette, colour: string, text: string
 }
 
 /** `axes`: of x, y and z in the picture, right, up and towards the eye. */
-export function drawTriad(pen: Pen, palette: Palette, axes: readonly (readonly [number, number, number])[], x: number, y: number): void {
+function drawTriad(pen: Pen, palette: Palette, axes: readonly (readonly [number, number, number])[], x: number, y: number): void {
   const reach = 26;
   const order = [0, 1, 2].sort((a, b) => axes[a]![2] - axes[b]![2]);
   pen.lineCap = "round";
@@ -162,9 +164,9 @@ export function drawTriad(pen: Pen, palette: Palette, axes: readonly (readonly [
   }
 }
 
-export function drawScale(pen: Pen, palette: Palette, millimetresPerPixel: number, x: number, y: number, most: number): void {
-  const span = roundLength(most * millimetresPerPixel);
-  const width = span / millimetresPerPixel;
+function drawScale(pen: Pen, palette: Palette, perPixel: number, x: number, y: number, most: number): void {
+  const span = roundLength(most * perPixel);
+  const width = span / perPixel;
   const text = span >= 1 ? `${shortNumber(span)} mm` : `${shortNumber(1000 * span)} µm`;
   pen.font = font(12);
   plate(pen, palette, x - 6, y - 20, Math.max(width, pen.measureText(text).width) + 12, 27);
@@ -227,4 +229,18 @@ export function drawCaption(pen: Pen, palette: Palette, lines: readonly string[]
     pen.fillStyle = k === 0 ? palette.text : palette.faint;
     pen.fillText(text, x, y + 20 * k + 0.5);
   });
+}
+
+/** The directions of the axes at the bottom left of a picture, and beside them its scale. */
+export function showAxes(layers: Layers, palette: Palette, orbit: Orbit, style: string, width: number, height: number, withScale: boolean): void {
+  const { right, up } = pictureAxes(orbit);
+  const out = outlook(orbit);
+  const axes = [0, 1, 2].map((k) => [right[k]!, up[k]!, out[k]!] as const);
+  layers.show("triad", { x: 0, y: height - 96, width: 96, height: 96 }, `${style} ${axes.flat().join(" ")}`, (pen) =>
+    drawTriad(pen, palette, axes, 46, height - 48),
+  );
+  const perPixel = millimetresPerPixel(orbit, height);
+  layers.show("scale", withScale ? { x: 96, y: height - 40, width: 150, height: 36 } : null, `${style} ${perPixel}`, (pen) =>
+    drawScale(pen, palette, perPixel, 104, height - 14, Math.min(120, 0.22 * width)),
+  );
 }

@@ -10,8 +10,8 @@ import { addControls, type ControlTarget } from "./controls";
 import { placeOf } from "./drape";
 import type { Layers } from "./layers";
 import { patchMaterial, rgbVector, sharedUniforms } from "./materials";
-import { eye, millimetresPerPixel, orbitOf, outlook, pictureAxes, presets, type Orbit, type ViewName } from "./orbit";
-import { drawCaption, drawColourBar, drawDeviationBar, drawMarker, drawScale, drawTriad, shortNumber, titleOf } from "./overlay";
+import { eye, millimetresPerPixel, orbitOf, outlook, presets, type Orbit, type ViewName } from "./orbit";
+import { drawCaption, drawColourBar, drawDeviationBar, drawMarker, shortNumber, showAxes, titleOf } from "./overlay";
 import { paletteOf, type Palette } from "./palette";
 import { makePanel, type Options, type Panel } from "./panel";
 import { elementCorners } from "./patch";
@@ -344,16 +344,7 @@ export class Viewer implements ControlTarget {
       drawDeviationBar(pen, palette, span, title, width - 12, height - 10, Math.min(210, 0.42 * width));
     });
 
-    const { right, up } = pictureAxes(this.orbit);
-    const out = outlook(this.orbit);
-    const axes = [0, 1, 2].map((k) => [right[k]!, up[k]!, out[k]!] as const);
-    const scale = millimetresPerPixel(this.orbit, height);
-    layers.show("triad", { x: 0, y: height - 96, width: 96, height: 96 }, `${style} ${axes.flat().join(" ")}`, (pen) =>
-      drawTriad(pen, palette, axes, 46, height - 48),
-    );
-    layers.show("scale", { x: 96, y: height - 40, width: 150, height: 36 }, `${style} ${scale}`, (pen) =>
-      drawScale(pen, palette, scale, 104, height - 14, Math.min(120, 0.22 * width)),
-    );
+    showAxes(layers, palette, this.orbit, style, width, height, true);
   }
 
   private caption(): string[] {
