@@ -41,10 +41,6 @@ struct StandardOutline {
 ProfileJudgement judge_profile(const SourcedProfile& profile, const ExpectedWheel& expected = {},
                                const std::vector<StandardOutline>& standards = {});
 
-/// Standard deviation of the points across the profile [m], from third differences over four successive points, scaled
-/// by their distances: the median of their size, so that edges do not count. 0 for fewer than 8 points.
-double profile_noise(const Profile& profile);
-
 /// How far a profile lies from a standard where both run level (within 25 mm of the middle of the head or tread) once
 /// it has been shifted and rolled upon it.
 struct StandardDeparture {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 #include "samples.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
@@ -221,22 +220,6 @@ TEST(Faults, ASecondProfileIsRefusedWithItsLine) {
   const int line = static_cast<int>(points.size()) + 1;
   points.insert(points.end(), second.begin(), second.end());
   TREADMARK_EXPECT_ERROR(read(points, Body::wheel), "a second profile begins here", line, 0);
-}
-
-TEST(Noise, IsFoundWhateverTheSpacing) {
-  std::mt19937 random(7);
-  std::normal_distribution<double> normal(0.0, 0.02);
-  for (const double step : {0.1, 0.5}) {
-    std::uniform_real_distribution<double> shift(-0.3 * step, 0.3 * step);
-    std::vector<Point> clean, noisy;
-    for (double y = -36.0; y <= 36.0; y += step) {
-      const double at = y + shift(random);
-      clean.push_back({at, at * at / 600.0});
-      noisy.push_back({at, at * at / 600.0 + normal(random)});
-    }
-    EXPECT_LT(profile_noise(read(clean, Body::rail).profile), 0.1e-6);
-    EXPECT_NEAR(profile_noise(read(noisy, Body::rail).profile), 20e-6, 7e-6) << step;
-  }
 }
 
 TEST(Departure, IsThatOfAKnownShift) {
