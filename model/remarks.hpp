@@ -32,6 +32,11 @@ enum class RemarkKind : std::uint8_t {
   no_contact_under_load,
   elements_enlarged,
   step_rule,
+  profile_doubtful,
+  gauge_unseen,
+  off_nominal_height,
+  on_flange_tip,
+  on_flange_back,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -84,6 +89,17 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::elements_enlarged, "elements_enlarged", false,
      "elements were enlarged to keep their number below max_elements"},
     {RemarkKind::step_rule, "step_rule", false, "a step of transient rolling is longer than dt = 2 dx / V"},
+    {RemarkKind::profile_doubtful, "profile_doubtful", true,
+     "what a profile means is in doubt: its orientation, its place, its unit; see treadmark check"},
+    {RemarkKind::gauge_unseen, "gauge_unseen", true,
+     "the rail's section ends above the height at which the gauge is measured: its lateral place is that of its end"},
+    {RemarkKind::off_nominal_height, "off_nominal_height", true,
+     "the wheel stands more than 5 mm off its nominal height on a rail placed by the gauge"},
+    {RemarkKind::on_flange_tip, "on_flange_tip", true,
+     "the wheel stands on the tip of its flange, 15 mm beyond the nominal radius, or its radius there is more than 45 mm "
+     "off the nominal one"},
+    {RemarkKind::on_flange_back, "on_flange_back", true,
+     "the back of the flange alone touches: without a check rail a wheel cannot be there"},
 };
 
 /// One remark on one result.

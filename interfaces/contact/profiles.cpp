@@ -52,6 +52,7 @@ io::ProfileOptions options_of(const Problem& p, std::span<const int> ints, std::
   constexpr double kUnitOfElement = 5e-4, kDegree = std::numbers::pi / 180.0, kLeastZigzag = std::numbers::pi / 4.0;
   io::ProfileOptions o;
   o.mirror_y = whole(2, 0) == 1 ? 1 : 0;
+  o.placement = io::ProfileOptions::Placement::reference;
   o.mirror_z = std::clamp(whole(3, 0), -1, 1);
   o.error_handling = whole(4, 0);
   o.scale = real(0, 1.0);
@@ -216,7 +217,7 @@ std::vector<double> in_columns(const std::vector<Vec2>& points) {
 
 std::vector<double> gauge_values(Problem& p) {
   const Track& t = p.given.wheel_rail.track;
-  const wheelrail::GaugePoint gauge = wheelrail::gauge_point(*p.rail.built->surface, t.cant, t.gauge_height);
+  const wheelrail::GaugePoint gauge = wheelrail::gauge_point(*p.rail.built->surface, t.cant, t);
   const Vec3 marker = placed(p, Body::rail).origin;
   const double l = p.units.length, z = gauge.z_top + t.gauge_height;
   return {gauge.y / l, z / l, marker.y() / l, marker.z() / l, gauge.y / l, z / l};

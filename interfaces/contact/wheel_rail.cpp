@@ -28,6 +28,7 @@ void set_placement(Problem& p, Values v) {
   Track& t = g.wheel_rail.track;
   const double l = p.units.length;
   t.gauge_based = v[0] > 0.0;
+  t.gauge_at_innermost = true;
   if (t.gauge_based) {
     t.gauge_height = v[0] * l;
     t.gauge_width = v[2] * l;

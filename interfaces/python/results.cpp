@@ -142,7 +142,7 @@ py::dict to_python(std::shared_ptr<const io::CaseResult> shared) {
   for (const io::PatchResult& patch : result.patches) patches.append(patch_to_python(patch, owner));
   py::dict d;
   d["number"] = result.number;
-  d["status"] = std::string(to_string(result.status));
+  d["status"] = std::string(io::status_word(result));
   d["message"] = result.message;
   d["remarks"] = remarks;
   d["seconds"] = result.seconds;

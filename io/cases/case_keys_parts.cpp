@@ -150,7 +150,7 @@ std::vector<Key> geometry_keys() {
   mirror.default_text = "false";
   keys.push_back(
       {mirror,
-       [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "mirror_y").options.mirror_y = v.flag() ? 1 : 0; },
+       [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "mirror_y").options.mirror_y = v.flag() ? 1 : -1; },
        {},
        [](const SurfaceSource& s) {
          const auto* given = std::get_if<GeometryFile>(&s.geometry);

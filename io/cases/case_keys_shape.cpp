@@ -218,11 +218,23 @@ class ShapeKeys {
   void add_file_options() {
     using Method = SmoothingOptions::Method;
     const ProfileOptions fresh;
-    KeyInfo mirror_y = info("mirror_y", KeyType::flag, "negate y of the file");
-    mirror_y.default_text = "false";
     option(
-        mirror_y, [](ProfileOptions& o, const CaseValue& v) { o.mirror_y = v.flag() ? 1 : 0; },
-        [](const ProfileOptions& o) { return o.mirror_y == 1 ? "true" : ""; });
+        info("mirror_y", KeyType::flag, "negate y of the file; without it a wheel is mirrored whose flange is on the side "
+                                        "of great y"),
+        [](ProfileOptions& o, const CaseValue& v) { o.mirror_y = v.flag() ? 1 : -1; },
+        [](const ProfileOptions& o) { return o.mirror_y == 0 ? "" : o.mirror_y == 1 ? "true" : "false"; });
+    using Placement = ProfileOptions::Placement;
+    KeyInfo placement = info("placement", KeyType::choice,
+                             "automatic: y = 0 of a wheel is put on the tape line, 70 mm from the back of its flange, and "
+                             "z = 0 on the tread there, where the points show that they count from elsewhere");
+    placement.choices = {"automatic", "as_in_file"};
+    placement.default_text = "\"automatic\"";
+    option(
+        placement,
+        [](ProfileOptions& o, const CaseValue& v) {
+          o.placement = v.text() == "as_in_file" ? Placement::as_in_file : Placement::automatic;
+        },
+        [](const ProfileOptions& o) { return o.placement == Placement::automatic ? "" : "\"as_in_file\""; });
     KeyInfo mirror_z = info("mirror_z", KeyType::choice, "negate z of the file; automatic: decide from the data");
     mirror_z.choices = {"automatic", "yes", "no"};
     mirror_z.default_text = "\"automatic\"";

@@ -24,8 +24,15 @@ namespace treadmark::io {
 
 /// Options on a profile line (MIRRORY, SCALE, SMOOTH ...).
 struct ProfileOptions {
-  int mirror_y = 0;    ///< 1 = negate y
+  /// Who says where the axes of the file lie.
+  enum class Placement {
+    automatic,   ///< the points: the tape line by the back of the flange, the tread at z = 0, the flange's side
+    as_in_file,  ///< the file; only which way z points may be decided from the points
+    reference,   ///< the file and the rules of the reference program, which takes z by the ends of the profile
+  };
+  int mirror_y = 0;    ///< 1 = negate y, -1 = no, 0 = decide from the data (automatic placement alone)
   int mirror_z = 0;    ///< 1 = negate z, -1 = no, 0 = decide from the data
+  Placement placement = Placement::automatic;
   double scale = 1.0;  ///< file units to mm (so 1000 for a file in metres)
   SmoothingOptions smoothing;
   double zigzag_threshold = 2.6179938779914944;  ///< [rad]

@@ -231,6 +231,7 @@ SurfaceSource read_profile(ContactReader& r, std::string_view body) {
   const long mirror_y = text.integer("MIRRORY");
   if (mirror_y < -1 || mirror_y > 1) text.fail("MIRRORY must be -1, 0 or 1");
   options.mirror_y = mirror_y == 1 ? 1 : 0;
+  options.placement = ProfileOptions::Placement::reference;
   options.scale = text.real("SCALE");
   constexpr double kSmallestScale = 1e-6;
   if (options.scale < kSmallestScale) text.fail(fmt::format("SCALE must be at least {}", kSmallestScale));

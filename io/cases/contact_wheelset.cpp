@@ -125,6 +125,7 @@ void read_placement(ContactReader& r) {
   text.begin_record("the track line GAUGHT");
   const double height = text.real("GAUGHT");
   t.gauge_based = height > 0.0;
+  t.gauge_at_innermost = true;
   if (t.gauge_based) {
     t.gauge_height = height * kMillimetre;
     const double which = text.real("GAUGSQ");

@@ -3,7 +3,11 @@
 #include "treadmark/io/points/text_lines.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/fields.hpp"
 
 namespace treadmark::io::points {
@@ -53,6 +57,47 @@ std::vector<std::string> names_in(std::string_view line, char separator) {
            text.find_first_of("])") == std::string_view::npos;
   }
   return names;
+}
+
+std::string plain_signs(std::string_view line) {
+  constexpr std::array<std::pair<std::string_view, char>, 8> kSigns{{{"\xE2\x88\x92", '-'},  // U+2212 minus
+                                                                     {"\xE2\x80\x93", '-'},  // en dash
+                                                                     {"\xE2\x80\x90", '-'},  // hyphen
+                                                                     {"\xEF\xBC\x8D", '-'},  // full width
+                                                                     {"\xC2\xA0", ' '},      // no-break space
+                                                                     {"\xE2\x80\xAF", ' '},  // narrow one
+                                                                     {"\xE2\x80\x89", ' '},  // thin space
+                                                                     {"\xE2\x80\x87", ' '}}};  // as wide as a digit
+  std::string plain;
+  bool changed = false;
+  for (std::size_t k = 0; k < line.size();) {
+    const auto sign = std::ranges::find_if(kSigns, [&](const auto& s) { return line.substr(k).starts_with(s.first); });
+    plain += sign == kSigns.end() ? line[k] : sign->second;
+    changed = changed || sign != kSigns.end();
+    k += sign == kSigns.end() ? 1 : sign->first.size();
+  }
+  for (std::size_t open = plain.find('('); open != std::string::npos; open = plain.find('(', open + 1)) {
+    const std::size_t close = plain.find(')', open);
+    if (close == std::string::npos) break;
+    double value = 0.0;
+    const std::string_view inside = std::string_view(plain).substr(open + 1, close - open - 1);
+    const bool apart = open == 0 || std::string_view(" \t;,").find(plain[open - 1]) != std::string_view::npos;
+    if (!apart || !parse_number(inside, true, value) || !(value >= 0.0)) continue;
+    plain[open] = '-', plain[close] = ' ';
+    changed = true;
+  }
+  return changed ? plain : std::string();
+}
+
+bool is_void_word(std::string_view word) {
+  constexpr std::array<std::string_view, 17> kVoid{"",     "nan",  "n/a",  "na",   "#n/a", "null", "none", "nil", "void",
+                                                   "inf",  "-inf", "-nan", "miss", "#value!", "#wert!", "nodata", "invalid"};
+  if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
+  const std::string plain = profiles::lower(word);
+  if (std::ranges::find(kVoid, plain) != kVoid.end()) return true;
+  if (std::ranges::all_of(plain, [](char c) { return c == '-' || c == '*' || c == '?' || c == '.'; })) return true;
+  double value = 0.0;
+  return parse_number(word, true, value) && !std::isfinite(value);
 }
 
 bool unquote_numbers(std::string_view line, std::string& plain) {

@@ -104,10 +104,15 @@ bool z_points_up(const RawPoints& p, Body body) {
 bool order_is_wrong(const RawPoints& p, Body body) {
   const std::size_t n = p.size();
   if (n < 2) return false;
+  const double wanted = body == Body::rail ? 1.0 : -1.0;
+  // at noisy points the direction at one place says little, that from end to end much
+  const auto [low, high] = std::minmax_element(p.y.begin(), p.y.end());
+  const double change = p.y.back() - p.y.front();
+  constexpr double kMostOfIt = 0.5;
+  if (std::fabs(change) > kMostOfIt * (*high - *low)) return wanted * change < 0.0;
   const auto extreme =
       body == Body::rail ? std::min_element(p.z.begin(), p.z.end()) : std::max_element(p.z.begin(), p.z.end());
   const auto i = static_cast<std::size_t>(extreme - p.z.begin());
-  const double wanted = body == Body::rail ? 1.0 : -1.0;
   const double before = i > 0 ? p.y[i] - p.y[i - 1] : 0.0;
   const double after = i + 1 < n ? p.y[i + 1] - p.y[i] : 0.0;
   if (before * after < 0.0) {
@@ -117,7 +122,7 @@ bool order_is_wrong(const RawPoints& p, Body body) {
   }
   const double direction = before + after;
   if (direction != 0.0 && before * after >= 0.0) return wanted * direction < 0.0;
-  return wanted * (p.y.back() - p.y.front()) < 0.0;
+  return wanted * change < 0.0;
 }
 
 double total_length(const RawPoints& p) {

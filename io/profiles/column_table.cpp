@@ -24,13 +24,18 @@ double number_of(const TextLine& line, const Word& word, bool decimal_comma) {
 
 struct KnownColumn {
   std::string_view name;  ///< small letters and digits only
-  char axis;
+  char axis;              ///< r: radius, d: diameter, which stand for z of a wheel
 };
 
 constexpr KnownColumn kKnownColumns[] = {
     {"x", 'x'},      {"xcoord", 'x'},      {"xcoordinate", 'x'}, {"xpos", 'x'},     {"y", 'y'},
     {"ycoord", 'y'}, {"ycoordinate", 'y'}, {"ypos", 'y'},        {"lateral", 'y'},  {"z", 'z'},
-    {"zcoord", 'z'}, {"zcoordinate", 'z'}, {"zpos", 'z'},        {"vertical", 'z'}, {"height", 'z'}};
+    {"zcoord", 'z'}, {"zcoordinate", 'z'}, {"zpos", 'z'},        {"vertical", 'z'}, {"height", 'z'},
+    {"r", 'r'},      {"radius", 'r'},      {"rollingradius", 'r'}, {"rayon", 'r'}, {"d", 'd'},
+    {"diameter", 'd'}, {"durchmesser", 'd'}, {"diametre", 'd'}};
+
+/// An empty field is one only where something separates; blanks in a row separate nothing.
+bool has_mark(std::string_view word, char separator) { return !word.empty() || separator != ' '; }
 
 char axis_of(std::string_view name) {
   std::string plain = lower(name);
@@ -43,6 +48,8 @@ char axis_of(std::string_view name) {
 }  // namespace
 
 std::string plain_line(std::string_view line) {
+  const std::string signs = points::plain_signs(line);
+  if (!signs.empty()) line = signs;
   std::string plain;
   if (line.find('"') == std::string_view::npos || !points::unquote_numbers(line, plain)) plain = line;
   const std::size_t start = plain.find_first_not_of(" \t\v\f");
@@ -59,7 +66,7 @@ std::string plain_line(std::string_view line) {
 }
 
 std::optional<ColumnRoles> roles_of(const std::vector<std::string>& names, const TextLine& line) {
-  int x = -1, y = -1, z = -1;
+  int x = -1, y = -1, z = -1, r = -1, d = -1;
   ColumnRoles roles;
   points::UnitFinder unit;
   std::optional<std::string> twice;
@@ -67,11 +74,20 @@ std::optional<ColumnRoles> roles_of(const std::vector<std::string>& names, const
     std::string_view name = names[k];
     const std::optional<LengthUnit> own_unit = points::take_unit(name);
     const char axis = axis_of(name);
-    int* const target = axis == 'x' ? &x : axis == 'y' ? &y : axis == 'z' ? &z : nullptr;
+    int* const target = axis == 'x'   ? &x
+                        : axis == 'y' ? &y
+                        : axis == 'z' ? &z
+                        : axis == 'r' ? &r
+                        : axis == 'd' ? &d
+                                      : nullptr;
     if (target == nullptr) continue;
     if (*target >= 0) twice = name;
     *target = static_cast<int>(k);
     unit.add(own_unit);
+  }
+  if (z < 0 && (x >= 0) != (y >= 0) && (r >= 0 || d >= 0)) {
+    roles.radius_factor = r >= 0 ? 1.0 : 0.5;
+    z = r >= 0 ? r : d;
   }
   if ((x >= 0) + (y >= 0) + (z >= 0) < 2) return std::nullopt;
   if (twice) line.fail("the column " + printable(*twice) + " is named twice", 1, "name the columns y and z once");
@@ -127,29 +143,84 @@ std::size_t ColumnTable::columns(char separator) const {
   return rows_.empty() ? 0 : points::fields_of(rows_.front().text, separator).size();
 }
 
-RawPoints ColumnTable::points(const ColumnRoles& roles, const points::FieldStyle& style, bool numbers_only) const {
+void ColumnTable::drop_count(std::vector<std::string>& notes) {
+  constexpr std::size_t kFewest = 4;
+  constexpr double kMostColumns = 20.0;
+  if (rows_.size() < kFewest) return;
+  std::string first = rows_.front().text;
+  std::ranges::replace_if(first, [](char c) { return c == ',' || c == ';' || c == '\t'; }, ' ');
+  const std::vector<points::Field> fields = points::fields_of(first, ' ');
+  double count = 0.0, columns = 0.0;
+  if (fields.empty() || fields.size() > 2 || !points::parse_number(fields[0].text, false, count)) return;
+  if (count != static_cast<double>(rows_.size() - 1)) return;
+  if (fields.size() == 2 && (!points::parse_number(fields[1].text, false, columns) || !points::is_whole(columns) ||
+                             columns < 1.0 || columns > kMostColumns))
+    return;
+  notes.push_back(fmt::format("line {} counts the points that follow: {}", rows_.front().line, printable(rows_.front().text)));
+  rows_.erase(rows_.begin());
+}
+
+void ColumnTable::turn_two_lines(const points::FieldStyle& style, std::vector<std::string>& notes) {
+  constexpr std::size_t kFewest = 10;
+  if (rows_.size() != 2 || columns(style.separator) < kFewest) return;
+  const std::vector<points::Field> y = points::fields_of(rows_[0].text, style.separator),
+                                   z = points::fields_of(rows_[1].text, style.separator);
+  if (y.size() != z.size()) return;
+  const char between = style.separator == ' ' ? ' ' : style.separator;
+  std::vector<Row> turned;
+  for (std::size_t k = 0; k < y.size(); ++k)
+    turned.push_back({rows_[0].line, fmt::format("{}{}{}", y[k].text, between, z[k].text)});
+  notes.push_back(fmt::format("two lines of {} numbers: the first holds y, the second z", y.size()));
+  rows_ = std::move(turned);
+}
+
+RawPoints ColumnTable::points(const ColumnRoles& roles, const points::FieldStyle& style, bool numbers_only,
+                              std::vector<std::string>& notes) const {
+  constexpr double kMostOfAll = 0.3;
   RawPoints out;
   out.file = file_;
+  int first_void = 0;
+  std::size_t voids = 0, pending = 0, within = 0;
   for (const Row& row : rows_) {
     const KeptLine line(file_, row.line, row.text);
     points::FieldScanner fields(line.line(), style.separator);
     std::optional<double> y, z;
+    bool nothing = false;
     int first = 0;
     points::Field field;
     for (int column = 0; fields.next(field); ++column) {
       if (first == 0) first = field.column;
-      if (column == roles.y)
-        y = number_of(line, field, style.decimal_comma);
-      else if (column == roles.z)
-        z = number_of(line, field, style.decimal_comma);
-      else if (numbers_only && !field.text.empty() && !looks_numeric(field.text))
-        number_of(line, field, style.decimal_comma);
+      if (column == roles.y || column == roles.z) {
+        if (points::is_void_word(field.text) && rows_.size() > 1 && has_mark(field.text, style.separator)) {
+          nothing = true;
+          continue;
+        }
+        (column == roles.y ? y : z) = number_of(line, field, style.decimal_comma);
+      } else if (numbers_only && !field.text.empty() && !looks_numeric(field.text)) {
+        if (!points::is_void_word(field.text)) number_of(line, field, style.decimal_comma);
+      }
+    }
+    if (nothing) {
+      if (first_void == 0) first_void = row.line;
+      ++voids;
+      if (out.size() > 0) ++pending;
+      continue;
     }
     if (!y || !z)
       line.fail("a point needs a lateral and a vertical position, the line has too few numbers", first,
                 "is the file truncated?");
+    within += pending;
+    pending = 0;
     out.add(*y, *z, row.line);
   }
+  if (static_cast<double>(within) > kMostOfAll * static_cast<double>(out.size() + within))
+    throw Error(ErrorKind::input_data,
+                fmt::format("{} of {} points between the first and the last one have no value", within,
+                            out.size() + within),
+                {file_, first_void, 0}, "measure again, or remove them");
+  if (voids > 0)
+    notes.push_back(fmt::format("{} point{} without a value {} left out (line {}{})", voids, voids == 1 ? "" : "s",
+                                voids == 1 ? "was" : "were", first_void, voids == 1 ? "" : " and on"));
   return out;
 }
 

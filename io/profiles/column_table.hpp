@@ -34,6 +34,7 @@ std::string plain_line(std::string_view line);
 struct ColumnRoles {
   int y = 0, z = 1;
   bool named = false;
+  double radius_factor = 0.0;  ///< z holds radii (1) or diameters (0.5); 0: heights
   std::optional<LengthUnit> unit;
   std::string in_words;  ///< of those that are not used
 };
@@ -51,15 +52,23 @@ class ColumnTable {
   explicit ColumnTable(std::string file) : file_(std::move(file)) {}
 
   void add(int line, std::string text) { rows_.push_back({line, std::move(text)}); }
+  /// Leaves out a first line that says how many lines (and columns) follow, with a note.
+  void drop_count(std::vector<std::string>& notes);
   bool empty() const { return rows_.empty(); }
   std::size_t size() const { return rows_.size(); }
+
+  /// Two long lines, all y and then all z, as lines of two numbers, with a note.
+  void turn_two_lines(const points::FieldStyle& style, std::vector<std::string>& notes);
 
   /// How numbers are told apart, judged by the first lines.
   points::FieldStyle style() const;
   std::size_t columns(char separator) const;  ///< of the first line
 
-  /// The points. numbers_only: nothing but numbers may stand in the other columns.
-  RawPoints points(const ColumnRoles& roles, const points::FieldStyle& style, bool numbers_only) const;
+  /// The points. numbers_only: nothing but numbers may stand in the other columns. Points of which y or z was not
+  /// measured are left out, with a note. Error(input_data) where more than three tenths of those between the first and
+  /// the last one are.
+  RawPoints points(const ColumnRoles& roles, const points::FieldStyle& style, bool numbers_only,
+                   std::vector<std::string>& notes) const;
 
   /// Error(input_data) where commas may separate numbers or be decimal, which names of the columns would tell.
   void refuse_ambiguous_commas(const points::FieldStyle& style) const;

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include "treadmark/core/error.hpp"
@@ -29,14 +30,44 @@ double distance_to_chord(const RawPoints& p, std::size_t i, std::size_t k, doubl
   return std::hypot(y - p.y[i] - t * dy, z - p.z[i] - t * dz);
 }
 
-/// Numbers that programs write for "nothing measured".
-bool is_sentinel(double value, double usual) {
-  constexpr std::array<double, 9> kSentinels{999.0, 999.9, 999.99, 999.25, 9999.0, 9999.9, 9999.99, 32767.0, 99999.0};
-  constexpr double kFar = 3.0;
-  const double size = std::fabs(value);
-  return size > kFar * usual &&
-         (size == 32768.0 || std::find(kSentinels.begin(), kSentinels.end(), size) != kSentinels.end());
-}
+/// Numbers that instruments write for "nothing measured" among values of one coordinate: far from all others, and
+/// nothing but nines (-99.999), a power of two or the number before it (-32768), or beyond all bodies.
+class VoidMarks {
+ public:
+  explicit VoidMarks(std::vector<double> values) {
+    std::vector<double> others;
+    std::ranges::copy_if(values, std::back_inserter(others), [](double v) { return !is_mark(std::fabs(v)); });
+    if (!others.empty()) values = std::move(others);
+    std::ranges::sort(values);
+    const auto at = [&](double share) { return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]; };
+    middle_ = at(0.5);
+    spread_ = at(0.75) - at(0.25);
+  }
+  bool hold(double value) const {
+    constexpr double kFar = 4.0;
+    return std::fabs(value - middle_) > kFar * spread_ && is_mark(std::fabs(value));
+  }
+
+ private:
+  static bool is_mark(double size) {
+    constexpr double kHuge = 1e9;
+    return size >= kHuge || is_power(size) || is_nines(size);
+  }
+  static bool is_nines(double size) {
+    const std::string digits = fmt::format("{:.10g}", size);
+    const auto nines = std::ranges::count(digits, '9');
+    // thousands of an instrument that counts in quarters
+    return size == 999.25 || (nines >= 3 && nines + std::ranges::count(digits, '.') == static_cast<std::ptrdiff_t>(digits.size()));
+  }
+  static bool is_power(double size) {
+    constexpr double kLeast = 16384.0, kMost = 4294967296.0;
+    if (!(size >= kLeast && size <= kMost) || size != std::floor(size)) return false;
+    const auto whole = static_cast<std::uint64_t>(size);
+    return (whole & (whole - 1)) == 0 || (whole & (whole + 1)) == 0;
+  }
+
+  double middle_ = 0.0, spread_ = 0.0;
+};
 
 template <class IsOut>
 void remove(RawPoints& p, const IsOut& is_out, const char* what, std::vector<std::string>& notes) {
@@ -51,7 +82,12 @@ void remove(RawPoints& p, const IsOut& is_out, const char* what, std::vector<std
       first = p.line[i];
   const std::size_t removed = p.size() - kept.size();
   if (removed == 0) return;
-  if (static_cast<double>(removed) > kMostOfAll * static_cast<double>(p.size()))
+  // at both ends an instrument may look beside the profile for as long as it likes
+  std::size_t before = 0, behind = 0;
+  while (before < p.size() && is_out(before)) ++before;
+  while (behind + before < p.size() && is_out(p.size() - 1 - behind)) ++behind;
+  const std::size_t within = removed - std::min(removed, before + behind);
+  if (static_cast<double>(within) > kMostOfAll * static_cast<double>(kept.size() + within) || kept.size() == 0)
     throw Error(ErrorKind::input_data, fmt::format("{} of {} points are {}", removed, p.size(), what),
                 {p.file, first, 0}, "measure again, or remove them");
   notes.push_back(fmt::format("{} point{} removed, {} (line {}{})", removed, removed == 1 ? " was" : "s were", what,
@@ -142,12 +178,9 @@ double median(std::vector<double> values) {
 
 void remove_drop_outs(RawPoints& p, std::vector<std::string>& notes) {
   if (p.size() < kFewestToJudge) return;
-  std::vector<double> sizes;
-  for (std::size_t i = 0; i < p.size(); ++i) sizes.push_back(std::max(std::fabs(p.y[i]), std::fabs(p.z[i])));
-  const double usual = median(sizes);
+  const VoidMarks in_y(p.y), in_z(p.z);
   remove(
-      p, [&](std::size_t i) { return is_sentinel(p.y[i], usual) || is_sentinel(p.z[i], usual); },
-      "marks of nothing measured", notes);
+      p, [&](std::size_t i) { return in_y.hold(p.y[i]) || in_z.hold(p.z[i]); }, "marks of nothing measured", notes);
   const std::vector<bool> zeros = zeros_beside(p);
   remove(
       p, [&](std::size_t i) { return zeros[i]; }, "drop-outs at 0 0", notes);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/measured/noise.hpp"
 
@@ -15,7 +14,6 @@ namespace treadmark::io {
 namespace {
 
 using profiles::median;
-using profiles::RawPoints;
 
 constexpr double kMm = 1e3;
 
@@ -86,6 +84,7 @@ class Judge {
   }
 
   void orientation() {
+    const measured::Understanding& seen = source_.understood;
     fact("turned", fmt::format("y {}, z {}, order of the points {}", source_.mirrored_y ? "mirrored" : "as in the file",
                                source_.mirrored_z ? "mirrored" : "as in the file",
                                source_.reversed ? "reversed" : "as in the file"));
@@ -94,59 +93,38 @@ class Judge {
       remark("exchanged", "z runs one way and y to and fro: are y and z exchanged? exchange the columns, or name them");
       return;
     }
-    RawPoints points;
-    points.y = p_.y, points.z = p_.z;
-    if (p_.body == Body::wheel ? flange_height(-1.0) > kFlange && flange_height(1.0) < 0.5 * kFlange
-                               : z_.size() > kFlange && profiles::z_points_up(points, p_.body)) {
-      lies_wrong_ = true;
-      remark("upside_down",
-             fmt::format("z seems to point up: set mirror_z = \"{}\"", source_.mirrored_z ? "no" : "yes"));
+    const auto evidence = [&](const char* axis, const measured::Readings& r) {
+      if (r.marked)
+        fact("evidence", fmt::format("{}: {} ({:.3g} against {:.3g} turned over)", axis, r.evidence,
+                                     kMm * r.as_it_is, kMm * r.turned));
+    };
+    evidence("z", seen.z);
+    evidence("y", seen.y);
+    for (const measured::Doubt& doubt : seen.doubts) {
+      if (doubt.name == "upside_down" || doubt.name == "flange_side") lies_wrong_ = true;
+      remark(doubt.name.c_str(), doubt.text);
     }
-  }
-
-  /// How far the flange reaches beyond the usual height of the tread, z times the sign.
-  double flange_height(double sign) const {
-    std::vector<double> heights;
-    for (const double z : p_.z) heights.push_back(sign * z);
-    return *std::max_element(heights.begin(), heights.end()) - median(heights);
   }
 
   void flange() {
-    if (flange_height(1.0) < kFlange) {
+    const measured::WheelMarks& marks = source_.understood.wheel;
+    if (!marks.tip_y) {
       fact("flange", "none");
       return;
     }
-    const auto tip = static_cast<std::size_t>(std::max_element(p_.z.begin(), p_.z.end()) - p_.z.begin());
-    const bool right_side = p_.y[tip] < 0.5 * (y_.low + y_.high);
-    fact("flange", fmt::format("tip at y = {:.2f} mm, z = {:.2f} mm, {}", kMm * p_.y[tip], kMm * p_.z[tip],
-                               right_side ? "on the side of small y as it should" : "on the side of great y"));
-    if (!right_side) {
-      remark("flange_side",
-             fmt::format("the flange is on the side of great y (tip at {:.4g} mm), that of a left wheel: "
-                         "set mirror_y = {}",
-                         kMm * p_.y[tip], source_.mirrored_y ? "false" : "true"));
-      return;
-    }
-    flange_back(tip);
-  }
-
-  /// The profile ends on a steep side behind the tip.
-  void flange_back(std::size_t tip) {
-    constexpr double kBelowTip = 5e-3, kLength = 3e-3, kSteep = 1.5, kFarOff = 3e-3;
-    const std::size_t end = p_.y.size() - 1;
-    std::size_t start = end;
-    while (start > tip && std::hypot(p_.y[start] - p_.y[end], p_.z[start] - p_.z[end]) < kLength) --start;
-    const bool there = p_.z[tip] - p_.z[end] > kBelowTip && start > tip &&
-                       std::fabs(p_.z[start] - p_.z[end]) > kSteep * std::fabs(p_.y[start] - p_.y[end]);
-    if (!there) {
+    fact("flange", fmt::format("tip at y = {:.2f} mm, z = {:.2f} mm{}", kMm * *marks.tip_y, kMm * *marks.tip_z,
+                               marks.second_flange ? "; another one on the other side" : ""));
+    if (marks.tape_z) fact("tape line", fmt::format("y = 0, z = {:.3f} mm", kMm * *marks.tape_z));
+    if (!marks.back_y) {
       fact("flange back", "not in the profile");
       return;
     }
-    fact("flange back", fmt::format("y = {:.2f} mm", kMm * y_.low));
-    if (!expected_.flange_back || std::fabs(*expected_.flange_back - y_.low) < kFarOff) return;
+    fact("flange back", fmt::format("y = {:.2f} mm", kMm * *marks.back_y));
+    constexpr double kFarOff = 3e-3;
+    if (!expected_.flange_back || std::fabs(*expected_.flange_back - *marks.back_y) < kFarOff) return;
     remark("flange_back", fmt::format("the back of the flange is at y = {:.2f} mm, the case puts it at {:.2f} mm: set "
                                       "wheelset.flange_back_position_mm (FBPOS) = {:.2f}",
-                                      kMm * y_.low, kMm * *expected_.flange_back, kMm * y_.low));
+                                      kMm * *marks.back_y, kMm * *expected_.flange_back, kMm * *marks.back_y));
   }
 
   /// 14 mm below the top on the side of small y, where the gauge is measured.
@@ -225,7 +203,6 @@ class Judge {
                      kMm * best.usual, names, kMm * best.largest, kMm * best.shift_y, kMm * best.roll));
   }
 
-  static constexpr double kFlange = 15e-3;  ///< what reaches so far beyond the tread is a flange
   const Profile& p_;
   const ProfileSource& source_;
   const ExpectedWheel& expected_;

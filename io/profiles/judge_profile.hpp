@@ -13,8 +13,8 @@ namespace treadmark::io {
 
 /// A doubt about a profile.
 struct ProfileRemark {
-  std::string name;  ///< "flange_side", "flange_back", "nominal_radius", "unit", "exchanged", "upside_down", "gap",
-                     ///< "gauge_side"
+  std::string name;  ///< "flange_back", "nominal_radius", "unit", "exchanged", "gap", "gauge_side", and those of
+                     ///< measured::Doubt
   std::string text;  ///< what is seen, where, and what to set
 };
 

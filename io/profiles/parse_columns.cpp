@@ -24,8 +24,66 @@ void check_title(const LineScanner& scanner, std::string_view line) {
     scanner.fail("profiles of VAMPIRE are not read: their format is not published", 1,
                  "export the points as two columns y z in mm");
   const Word word{line.substr(start, line.find_first_of(" \t\v\f,;", start) - start), static_cast<int>(start + 1)};
+  // figures without letters are a point whose numbers nobody can read
+  const auto is_figure = [](const points::Field& f) {
+    const bool digits = std::ranges::any_of(f.text, [](char c) { return c >= '0' && c <= '9'; });
+    return digits && f.text.find_first_of(":/") == std::string_view::npos &&
+           std::ranges::none_of(f.text, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }) &&
+           std::ranges::count(f.text, '-') < 2;
+  };
+  for (const char separator : {';', '\t', ',', ' '}) {
+    const std::vector<points::Field> fields = points::fields_of(line, separator);
+    if (fields.size() >= 2 && std::ranges::all_of(fields, is_figure))
+      scanner.fail("this looks like a point, but " + printable(fields.front().text) + " is no number", fields.front().column,
+                   "write numbers with '-' and '.', without brackets, units or blanks within");
+  }
   // no title: a number that went wrong
   if (!is_letter(line[start]) && line[start] != '[' && line[start] != '(') to_number(scanner, word);
+}
+
+/// Columns with names, of which others than those of the coordinates may hold words: labels, times.
+class NamedColumns {
+ public:
+  static std::optional<NamedColumns> in(const KeptLine& line) {
+    for (const char separator : {';', '\t', ','}) {
+      if (line.line().find(separator) == std::string_view::npos) continue;
+      const std::vector<std::string> names = points::names_in(line.line(), separator);
+      std::optional<ColumnRoles> roles = roles_of(names, line);
+      if (roles) return NamedColumns(*roles, separator, names.size());
+    }
+    return std::nullopt;
+  }
+
+  bool hold_for(std::string_view line) const {
+    const std::vector<points::Field> fields = points::fields_of(line, separator_);
+    const auto is_number = [&](int column) {
+      double value = 0.0;
+      return points::parse_number(fields[static_cast<std::size_t>(column)].text, separator_ != ',', value);
+    };
+    return fields.size() == count_ && is_number(roles_.y) && is_number(roles_.z);
+  }
+
+ private:
+  NamedColumns(ColumnRoles roles, char separator, std::size_t count)
+      : roles_(std::move(roles)), separator_(separator), count_(count) {}
+
+  ColumnRoles roles_;
+  char separator_;
+  std::size_t count_;
+};
+
+/// A row whose first value was not measured: a void word, and numbers or such words behind it.
+bool is_row_of_voids(const std::string& line) {
+  for (const char separator : {';', '\t', ',', ' '}) {
+    if (separator != ' ' && line.find(separator) == std::string::npos) continue;
+    const std::vector<points::Field> fields = points::fields_of(line, separator);
+    if (fields.size() < 2) return false;
+    return std::ranges::all_of(fields, [](const points::Field& f) {
+      double value = 0.0;
+      return points::is_void_word(f.text) || points::parse_number(f.text, true, value);
+    });
+  }
+  return false;
 }
 
 }  // namespace
@@ -36,9 +94,12 @@ ColumnContent parse_plain_columns(std::string_view text, const std::string& file
   ColumnTable table(file);
   std::vector<KeptLine> words, comments;
   points::UnitFinder unit;
+  std::optional<NamedColumns> names;
   while (scanner.next_line()) {
     const std::string line = plain_line(scanner.line());
-    const points::LineKind kind = points::kind_of_line(line);
+    points::LineKind kind = points::kind_of_line(line);
+    if (kind == points::LineKind::words && (is_row_of_voids(line) || (names && names->hold_for(line))))
+      kind = points::LineKind::numbers;
     if (kind == points::LineKind::numbers) {
       table.add(scanner.number(), line);
       continue;
@@ -58,6 +119,7 @@ ColumnContent parse_plain_columns(std::string_view text, const std::string& file
     }
     check_title(scanner, line);
     words.emplace_back(file, scanner.number(), line);
+    if (std::optional<NamedColumns> found = NamedColumns::in(words.back())) names = std::move(found);
   }
   ProfileSource& source = content.source;
   content.points.file = file;
@@ -67,22 +129,25 @@ ColumnContent parse_plain_columns(std::string_view text, const std::string& file
       words.front().fail("numbers are expected, this is " + printable(words.front().line()), 1, "is it a profile?");
     return content;
   }
+  table.drop_count(source.notes);
   const points::FieldStyle style = table.style();
+  table.turn_two_lines(style, source.notes);
   std::optional<ColumnRoles> roles;
-  const KeptLine* names = nullptr;
+  const KeptLine* header = nullptr;
   for (const std::vector<KeptLine>* lines : {&words, &comments})
     for (auto line = lines->rbegin(); line != lines->rend() && !roles; ++line) {
       roles = roles_in(*line, line->line(), style.separator, table.columns(style.separator));
-      if (roles) names = &*line;
+      if (roles) header = &*line;
     }
   for (const KeptLine& line : words)
-    if (&line != names)
+    if (&line != header)
       source.notes.push_back(fmt::format("line {} holds no point: {}", line.number(), printable(line.line())));
   if (!roles) roles = table.assume_roles(style, source.notes);
   if (!roles->in_words.empty()) source.notes.push_back("columns not used: " + roles->in_words);
   source.unit = roles->unit ? roles->unit : unit.unit();
   source.kind = fmt::format("columns y z {}, {}", roles->named ? "by their names" : "without names", style.in_words());
-  content.points = table.points(*roles, style, !roles->named);
+  content.radius_factor = roles->radius_factor;
+  content.points = table.points(*roles, style, !roles->named, source.notes);
   return content;
 }
 

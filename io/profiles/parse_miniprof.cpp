@@ -317,7 +317,7 @@ ColumnContent parse_miniprof(std::string_view text, const std::string& file, Bod
   if (!roles.in_words.empty()) content.source.notes.push_back("columns not used: " + roles.in_words);
   const points::FieldStyle style = chosen.table.style();
   if (!roles.named) chosen.table.refuse_ambiguous_commas(style);
-  content.points = chosen.table.points(roles, style, false);
+  content.points = chosen.table.points(roles, style, false, content.source.notes);
   return content;
 }
 

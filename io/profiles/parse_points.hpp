@@ -27,6 +27,7 @@ struct SimpackContent {
 struct ColumnContent {
   RawPoints points;  ///< file units
   double offset_y = 0.0, offset_z = 0.0;
+  double radius_factor = 0.0;  ///< z holds radii (1) or diameters (0.5); 0: heights
   ProfileSource source;
 };
 

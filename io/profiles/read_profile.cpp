@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
@@ -54,6 +55,11 @@ void reverse(RawPoints& points) {
   std::reverse(points.y.begin(), points.y.end());
   std::reverse(points.z.begin(), points.z.end());
   std::reverse(points.line.begin(), points.line.end());
+}
+
+void scale_to_metres(measured::SectionPoints& section) {
+  for (double& y : section.y) y *= kMillimetre;
+  for (double& z : section.z) z *= kMillimetre;
 }
 
 void check_count(const RawPoints& points) {
@@ -112,21 +118,55 @@ void check_crossing(const RawPoints& points) {
   if (!profiles::crosses_itself(points, first, second)) return;
   throw Error(ErrorKind::input_data,
               fmt::format("the profile crosses itself at y = {:.4g} mm, between the points of lines {} and {}",
-                          points.y[first], points.line[first], points.line[second]),
+                          kMilli * points.y[first], points.line[first], points.line[second]),
               {points.file, points.line[second], 0}, "repair the points");
 }
 
-/// From points in mm to a profile in metres.
-SourcedProfile finish(RawPoints&& points, Body body, bool inverted, const ProfileOptions& options,
+/// The head alone of a whole outline.
+void keep_head(RawPoints& points, Body body, std::vector<std::string>& notes) {
+  measured::SectionPoints section{body, points.y, points.z};
+  scale_to_metres(section);
+  const std::vector<std::size_t> kept = measured::head_of_outline(section);
+  if (kept.empty() || kept.size() == points.size()) return;
+  RawPoints head;
+  head.file = points.file;
+  for (const std::size_t i : kept) head.add(points.y[i], points.z[i], points.line[i]);
+  notes.push_back(fmt::format("the outline of a whole rail: its head is used, {} of {} points", head.size(), points.size()));
+  points = std::move(head);
+}
+
+measured::Words words_of(const ProfileOptions& options, const RawPoints& points, Body body, bool radii) {
+  using measured::Turn;
+  const auto turn = [](int key) { return key > 0 ? Turn::yes : key < 0 ? Turn::no : Turn::decide; };
+  measured::Words words{turn(options.mirror_y), turn(options.mirror_z),
+                        options.placement == ProfileOptions::Placement::automatic, radii};
+  if (options.placement == ProfileOptions::Placement::reference) {
+    if (options.mirror_z == 0) words.mirror_z = profiles::z_points_up(points, body) ? Turn::yes : Turn::no;
+    if (options.mirror_y == 0) words.mirror_y = Turn::no;
+  }
+  return words;
+}
+
+/// From points in mm to a profile in metres. own: what the file itself asks for has been done.
+SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, const ProfileOptions& options,
                       ProfileSource&& source) {
   check_count(points);
+  keep_head(points, body, source.notes);
   check_length(points, body, options.scale);
   profiles::refuse_faults(points);
+  measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};
+  scale_to_metres(section);
+  measured::Understanding& seen = source.understood;
+  points.y = section.y, points.z = section.z;  // the reference program's rule does not ask for the unit
+  seen = measured::understand(section, words_of(options, points, body, radii));
+  source.mirrored_y = source.mirrored_y != seen.mirrored_y;
+  source.mirrored_z = source.mirrored_z != seen.mirrored_z;
+  source.notes.insert(source.notes.end(), seen.notes.begin(), seen.notes.end());
+  points.y = std::move(section.y), points.z = std::move(section.z);
   source.reversed = inverted || profiles::order_is_wrong(points, body);
   if (source.reversed) reverse(points);
   check_direction(points, body);
   check_crossing(points);
-  scale(points, 1e-3);
   SourcedProfile out;
   out.profile.body = body;
   out.profile.y = std::move(points.y);
@@ -151,13 +191,16 @@ SourcedProfile simpack_profile(std::string_view text, const std::string& file, B
   shift(points.z, content.shift_z);
   profiles::delete_outside_y(points, content.y_min, content.y_max);
   profiles::clip_z(points, content.z_min, content.z_max);
-  source.mirrored_y = int{content.mirror_y} + options.mirror_y == 1;
-  source.mirrored_z = int{content.mirror_z} + options.mirror_z == 1;
+  source.mirrored_y = content.mirror_y;
+  source.mirrored_z = content.mirror_z;
   if (source.mirrored_y) negate(points.y);
   if (source.mirrored_z) negate(points.z);
   source.scale_to_mm = options.scale * 1000.0 / content.units_per_metre;
   scale(points, source.scale_to_mm);
-  return finish(std::move(points), body, content.inversion, options, std::move(source));
+  ProfileOptions further = options;
+  // the reference program takes the file's own word for it
+  if (options.placement == ProfileOptions::Placement::reference && options.mirror_z == 0) further.mirror_z = -1;
+  return finish(std::move(points), body, content.inversion, false, further, std::move(source));
 }
 
 /// To mm: the scale that is asked for, else the unit that the file states.
@@ -175,8 +218,8 @@ RawPoints column_points(profiles::ColumnContent& content, const ProfileOptions& 
   filter(points, kNearDistance_mm / source.scale_to_mm, options, source.notes);
   shift(points.y, content.offset_y);
   shift(points.z, content.offset_z);
-  source.mirrored_y = options.mirror_y == 1;
-  if (source.mirrored_y) negate(points.y);
+  if (content.radius_factor > 0.0)
+    for (double& z : points.z) z *= content.radius_factor;
   return points;
 }
 
@@ -187,17 +230,16 @@ SourcedProfile column_profile(profiles::ColumnContent&& content, Body body, cons
       std::abs(1e3 * metres_per(*source.unit) / options.scale - 1.0) > kSameScale)
     source.notes.push_back(fmt::format("the file says that its unit is {}, the scale of {:g} to mm is used instead",
                                        symbol(*source.unit), options.scale));
-  source.mirrored_z = options.mirror_z == 1 || (options.mirror_z == 0 && profiles::z_points_up(points, body));
-  if (source.mirrored_z) negate(points.z);
   scale(points, source.scale_to_mm);
-  return finish(std::move(points), body, false, options, std::move(source));
+  return finish(std::move(points), body, false, content.radius_factor > 0.0, options, std::move(source));
 }
 
 /// Wheel profiles of GENSYS: y to the middle of the track, z down.
 SourcedProfile gensys_profile(std::string_view text, const std::string& file, ProfileOptions options) {
   profiles::ColumnContent content = profiles::parse_plain_columns(text, file);
   content.source.kind = "GENSYS, " + content.source.kind;
-  options.mirror_y = options.mirror_y == 1 ? 0 : 1;
+  for (double& y : content.points.y) y = -y;
+  content.source.mirrored_y = true;
   if (options.mirror_z == 0) options.mirror_z = -1;
   return column_profile(std::move(content), Body::wheel, options);
 }
@@ -307,7 +349,11 @@ std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body bo
   profiles::ColumnContent content = format == ProfileFormat::miniprof
                                         ? profiles::parse_miniprof(text, named.file.string(), body, named.section)
                                         : profiles::parse_plain_columns(text, named.file.string());
-  return profiles::z_points_up(column_points(content, options), body);
+  RawPoints points = column_points(content, options);
+  if (options.placement == ProfileOptions::Placement::reference) return profiles::z_points_up(points, body);
+  scale(points, kMillimetre * content.source.scale_to_mm);
+  measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};
+  return measured::understand(section, {measured::Turn::no, measured::Turn::decide, false, false}).mirrored_z;
 }
 
 SourcedProfile read_sourced_profile(const std::filesystem::path& file, Body body, const ProfileOptions& options,

@@ -32,6 +32,10 @@ void check_surfaces(std::span<const SampledSurface> surfaces) {
   }
 }
 
+std::string_view status_word(const CaseResult& result) {
+  return result.status == Status::ok && any_grave(result.remarks) ? "doubtful" : to_string(result.status);
+}
+
 int surface_index(std::span<const SampledSurface> surfaces, const std::string& name) {
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (surfaces[i].name == name) return static_cast<int>(i);

@@ -203,6 +203,10 @@ struct CaseResult {
   std::vector<PatchResult> patches;
 };
 
+/// How a case ended, in result files and tables: "doubtful" where it is ok but a remark is grave, else the word of its
+/// status.
+std::string_view status_word(const CaseResult& result);
+
 /// A surface that took part in a run.
 struct SurfaceUse {
   std::string body;  ///< "wheel" or "rail"

@@ -117,7 +117,7 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
 
 std::string summary(const CaseResult& result) {
   Table table;
-  std::string heading = fmt::format("case {}: {}", result.number, to_string(result.status));
+  std::string heading = fmt::format("case {}: {}", result.number, status_word(result));
   if (!result.message.empty()) heading += " (" + result.message + ")";
   if (result.patches.size() > 1) heading += fmt::format(", {} patches", result.patches.size());
   const auto doubts = std::ranges::count_if(result.remarks, &Remark::grave);
@@ -138,7 +138,7 @@ std::string summary_list(std::span<const CaseResult> cases) {
                       posed ? "Fz [N]" : "Fn [N]", "pmax [MPa]", "slip");
   std::string said;
   for (const CaseResult& c : cases) {
-    text += fmt::format("{:>6}  {:<13}", c.number, to_string(c.status));
+    text += fmt::format("{:>6}  {:<13}", c.number, status_word(c));
     if (posed)
       text += fmt::format(kPose, four_decimals(1e3 * c.y), four_decimals(1e3 * c.z), four_decimals(c.pitch * kDegrees));
     text += fmt::format(" {:>7}", c.patches.size());

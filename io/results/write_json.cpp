@@ -101,7 +101,7 @@ Json patch_json(const PatchResult& patch) {
 Json case_json(const CaseResult& result) {
   Json out = Json::object();
   out["case"] = result.number;
-  out["status"] = std::string(to_string(result.status));
+  out["status"] = std::string(status_word(result));
   out["message"] = result.message;
   out["remarks"] = Json::array();
   for (const Remark& r : result.remarks)

@@ -90,7 +90,7 @@ LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T)
   return range;
 }
 
-GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height) {
+GaugePoint gauge_point(const Surface& rail, double cant, const Track& track) {
   // Frame with the rail's origin and the track's orientation; the rail is rolled by -cant in it.
   const Pose X_RT{Vec3::Zero(), rotation_x(cant)};
   const Section section = lateral_section(rail, X_RT, 0.0, box_range(rail, X_RT), kScanStep);
@@ -117,10 +117,26 @@ GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height) {
   }
 
   // Innermost point not lower than the gauge height: still going inward there, or the inner side itself.
-  const auto high_enough = [&](double z) { return z - point.z_top <= gauge_height; };
-  for (std::size_t i = 0; i <= top; ++i) {
-    if (!(section.z[i] - point.z_top <= gauge_height)) continue;
-    point.y = i > 0 ? boundary(rail, X_RT, 0.0, section.y[i], section.y[i - 1], high_enough) : section.y[i];
+  const auto high_enough = [&](double z) { return z - point.z_top <= track.gauge_height; };
+  // what is high enough in one piece: the head, and a keeper beside the groove of a tramway rail
+  std::size_t first = section.z.size(), widest = 0;
+  for (std::size_t i = 0; i < section.z.size(); ++i) {
+    if (!high_enough(section.z[i])) continue;
+    const std::size_t from = i;
+    while (i + 1 < section.z.size() && high_enough(section.z[i + 1])) ++i;
+    if (first < section.z.size() && (track.gauge_at_innermost || i - from < widest)) continue;
+    first = from;
+    widest = i - from;
+  }
+  if (first < section.z.size()) {
+    point.y = section.y[first];
+    if (first > 0) point.y = boundary(rail, X_RT, 0.0, section.y[first], section.y[first - 1], high_enough);
+    // an end that is as steep as the side of a head is one, seen from above
+    constexpr double kSteep = 5.0, kReached = 5e-5, kBeside = 5e-5;
+    const bool ends = first == 0 || std::isnan(section.z[first - 1]);
+    const Section end = lateral_section(rail, X_RT, 0.0, {point.y + 0.1 * kBeside, point.y + 1.1 * kBeside}, kBeside);
+    const double depth = end.z.front() - point.z_top, slope = (end.z.front() - end.z.back()) / (end.y.back() - end.y.front());
+    point.seen = !ends || !(depth < track.gauge_height - kReached) || !(slope < kSteep);
     return point;
   }
   throw Error(ErrorKind::configuration, "no gauge point found on the rail profile", {},
@@ -133,7 +149,8 @@ Placement place(const Geometry& geometry, const Problem& p) {
   const double cant = p.roller ? 0.0 : t.cant;
   placed.X_TR.rotation = rotation_x(-cant + t.roll);
   if (t.gauge_based) {
-    const GaugePoint gauge = gauge_point(*geometry.rail, cant, t.gauge_height);
+    const GaugePoint gauge = gauge_point(*geometry.rail, cant, t);
+    placed.gauge_seen = gauge.seen;
     // A roller's height is that of its nominal circle.
     placed.X_TR.origin = {0.0, 0.5 * t.gauge_width - gauge.y + t.dy, (p.roller ? 0.0 : -gauge.z_top) + t.dz};
   } else {

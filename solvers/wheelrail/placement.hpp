@@ -11,6 +11,7 @@ namespace treadmark::wheelrail {
 /// wheel surface A (origin on the axle, pitched).
 struct Placement {
   Pose X_TR, X_TS, X_TWs, X_TW, X_TA;
+  bool gauge_seen = true;  ///< false: the rail's section ends before it reaches down to where the gauge is measured
 };
 
 /// Places rail and wheelset by gauge, cant, flange-back distance and state.
@@ -20,9 +21,10 @@ Placement place(const Geometry& geometry, const Problem& right_hand_problem);
 /// Where a rail is held by the gauge: lateral position of the gauge point, height of the rail top.
 struct GaugePoint {
   double y = 0.0, z_top = 0.0;  ///< [m]
+  bool seen = true;             ///< false: the section ends before it reaches so deep, y is that of its end
 };
-/// In the rail frame turned to the track's orientation; gauge_height [m] below the top. Errors: as place.
-GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height);
+/// In the rail frame turned to the track's orientation. Errors: as place.
+GaugePoint gauge_point(const Surface& rail, double cant, const Track& track);
 
 /// From where to where a surface goes across the track.
 struct LateralRange {

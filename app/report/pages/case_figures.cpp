@@ -180,7 +180,7 @@ Table case_table(const io::RunResult& run) {
   table.columns.push_back({"message"});
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
     const Case& c = run.cases[i];
-    Table::Row row{{Number{static_cast<double>(c.number)}, std::string(to_string(c.status))}, static_cast<int>(i)};
+    Table::Row row{{Number{static_cast<double>(c.number)}, std::string(io::status_word(c))}, static_cast<int>(i)};
     for (std::size_t k = 0; k + 1 < axes.size(); ++k) row.cells.emplace_back(Number{axes[k].values[i]});
     row.cells.emplace_back(Number{static_cast<double>(c.patches.size())});
     row.cells.emplace_back(Number{kMega * largest(c, &io::PatchResult::pmax)});

@@ -165,7 +165,7 @@ class Case(_Named):
 
     numbers: dict[str, float]
     number: int = 1  #: in its input, from 1
-    status: str = "ok"  #: or "no_contact", "not_converged", "failed"
+    status: str = "ok"  #: or "doubtful", "no_contact", "not_converged", "failed"
     message: str = ""  #: why the status is not ok
     remarks: list[Remark] = dataclasses.field(default_factory=list)
     seconds: float = 0.0

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/measured/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "treadmark/core/constants.hpp"
+
+namespace treadmark::measured {
+namespace {
+
+constexpr double kBeyondRest = 15e-3;  ///< what reaches so far beyond the tread is a flange [m]
+constexpr double kTapeToBack = 70e-3;  ///< from the back of the flange to the tape line [m]
+constexpr double kStep = 0.25e-3;      ///< of an envelope [m]
+
+/// The outer side of a section: over y at equal steps the greatest of sign * z, NaN where nothing was measured. The
+/// upright faces at both ends are left out.
+struct Envelope {
+  double first = 0.0;
+  std::vector<double> height;
+
+  double y(std::size_t i) const { return first + kStep * static_cast<double>(i); }
+};
+
+Envelope envelope(const SectionPoints& p, double sign) {
+  constexpr double kFace = 1e-3;
+  Envelope e;
+  const auto [low, high] = std::minmax_element(p.y.begin(), p.y.end());
+  const double margin = std::min(kFace, 0.05 * (*high - *low));
+  e.first = *low + margin;
+  const double width = *high - *low - 2.0 * margin;
+  e.height.assign(static_cast<std::size_t>(std::max(0.0, width) / kStep) + 1, kNaN);
+  const auto last = static_cast<double>(e.height.size() - 1);
+  for (std::size_t i = 1; i < p.y.size(); ++i) {
+    double y0 = p.y[i - 1], y1 = p.y[i], z0 = sign * p.z[i - 1], z1 = sign * p.z[i];
+    if (y0 > y1) std::swap(y0, y1), std::swap(z0, z1);
+    const double from = std::ceil((y0 - e.first) / kStep), to = std::floor((y1 - e.first) / kStep);
+    for (double k = std::max(from, 0.0); k <= std::min(to, last); ++k) {
+      const double t = y1 > y0 ? (e.first + kStep * k - y0) / (y1 - y0) : 0.0;
+      double& height = e.height[static_cast<std::size_t>(k)];
+      height = std::fmax(height, z0 + t * (z1 - z0));
+    }
+  }
+  return e;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::erase_if(values, [](double v) { return std::isnan(v); });
+  if (values.empty()) return kNaN;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// What reaches beyond the rest: widest run, its middle, how far it reaches, and the same of another one beside it.
+struct Flange {
+  double width = 0.0, middle = 0.0, reach = 0.0, second_width = 0.0, second_middle = 0.0;
+};
+
+Flange flange_of(const Envelope& e) {
+  Flange f;
+  const double rest = quantile(e.height, 0.5);
+  std::size_t from = e.height.size();
+  const auto close = [&](std::size_t to) {
+    const double width = kStep * static_cast<double>(to - from), middle = 0.5 * (e.y(from) + e.y(to - 1));
+    if (width > f.width) {
+      f.second_width = f.width, f.second_middle = f.middle;
+      f.width = width, f.middle = middle;
+    } else if (width > f.second_width) {
+      f.second_width = width, f.second_middle = middle;
+    }
+    from = e.height.size();
+  };
+  for (std::size_t i = 0; i < e.height.size(); ++i) {
+    const double over = e.height[i] - rest;
+    if (over > f.reach) f.reach = over;
+    if (over > kBeyondRest && from == e.height.size()) from = i;
+    if (!(over > kBeyondRest) && from < e.height.size()) close(i);
+  }
+  if (from < e.height.size()) close(e.height.size());
+  return f;
+}
+
+/// Straight line through the envelope: how much it rises over its width.
+double rise_of(const Envelope& e) {
+  double n = 0.0, sy = 0.0, sz = 0.0, syy = 0.0, syz = 0.0;
+  for (std::size_t i = 0; i < e.height.size(); ++i) {
+    if (std::isnan(e.height[i])) continue;
+    const double y = e.y(i) - e.first;
+    n += 1.0, sy += y, sz += e.height[i], syy += y * y, syz += y * e.height[i];
+  }
+  const double square = n * syy - sy * sy;
+  return square > 0.0 ? (n * syz - sy * sz) / square * kStep * static_cast<double>(e.height.size()) : 0.0;
+}
+
+Readings wheel_z(const SectionPoints& p) {
+  constexpr double kLeastWidth = 3e-3;
+  const Envelope down = envelope(p, 1.0), up = envelope(p, -1.0);
+  const Flange as_it_is = flange_of(down), turned = flange_of(up);
+  if (std::max(as_it_is.width, turned.width) >= kLeastWidth) {
+    const Flange& best = turned.width > as_it_is.width ? turned : as_it_is;
+    return {as_it_is.width, turned.width,
+            fmt::format("a flange that reaches {:.1f} mm beyond the tread, {:.1f} mm wide there", kMilli * best.reach,
+                        kMilli * best.width),
+            true};
+  }
+  if (std::max(as_it_is.reach, turned.reach) >= kBeyondRest)
+    return {as_it_is.reach, turned.reach,
+            fmt::format("an end that reaches {:.1f} mm beyond the tread", kMilli * std::max(as_it_is.reach, turned.reach)),
+            true};
+  // no flange: a tread tapers off to the field side
+  const double rise = rise_of(down);
+  return {std::max(0.0, -rise), std::max(0.0, rise),
+          fmt::format("no flange; the tread {} by {:.2f} mm to the field side", rise > 0.0 ? "grows" : "tapers off",
+                      kMilli * std::fabs(rise)),
+          false};
+}
+
+/// How widely a section spreads just below its top, seen against sign * z; NaN heights do not count.
+double plateau_of(const Envelope& e) {
+  constexpr double kBelow = 5e-3;
+  double top = -kInfinity;
+  for (const double h : e.height)
+    if (h > top) top = h;
+  double width = 0.0;
+  for (const double h : e.height) width += h > top - kBelow ? kStep : 0.0;
+  return width;
+}
+
+/// Curvature of a parabola through the points, over its standard deviation.
+double bend_of(const Envelope& e) {
+  std::array<double, 5> m{};
+  std::array<double, 3> r{};
+  const double middle = e.y(e.height.size() / 2), half = std::max(0.5 * kStep * static_cast<double>(e.height.size()), kStep);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < e.height.size(); ++i) {
+    if (std::isnan(e.height[i])) continue;
+    const double t = (e.y(i) - middle) / half, h = e.height[i];
+    double power = 1.0;
+    for (std::size_t k = 0; k < m.size(); ++k, power *= t) {
+      m[k] += power;
+      if (k < r.size()) r[k] += power * h;
+    }
+    squares += h * h;
+  }
+  // Cramer's rule for the normal equations
+  const auto det = [](double a, double b, double c, double d, double f, double g, double h, double i, double j) {
+    return a * (f * j - g * i) - b * (d * j - g * h) + c * (d * i - f * h);
+  };
+  const double all = det(m[0], m[1], m[2], m[1], m[2], m[3], m[2], m[3], m[4]);
+  if (!(m[0] > 5.0) || !(std::fabs(all) > 0.0)) return 0.0;
+  const double c0 = det(r[0], m[1], m[2], r[1], m[2], m[3], r[2], m[3], m[4]) / all,
+               c1 = det(m[0], r[0], m[2], m[1], r[1], m[3], m[2], r[2], m[4]) / all,
+               c2 = det(m[0], m[1], r[0], m[1], m[2], r[1], m[2], m[3], r[2]) / all;
+  const double rest = std::max(0.0, squares - c0 * r[0] - c1 * r[1] - c2 * r[2]) / (m[0] - 3.0);
+  const double variance = rest * (m[0] * m[2] - m[1] * m[1]) / all;
+  constexpr double kLeast = 1e-9;  // [m] of exact parabolas
+  return c2 / std::max(std::sqrt(std::max(0.0, variance)), kLeast);
+}
+
+Readings rail_z(const SectionPoints& p) {
+  constexpr double kHigh = 10e-3;
+  const Envelope up = envelope(p, -1.0), down = envelope(p, 1.0);
+  const auto [low, high] = std::minmax_element(p.z.begin(), p.z.end());
+  if (*high - *low > kHigh) {
+    const double as_it_is = plateau_of(up), turned = plateau_of(down);
+    return {as_it_is, turned,
+            fmt::format("a head {:.1f} mm wide 5 mm below its top", kMilli * std::max(as_it_is, turned)),
+            true};
+  }
+  const double bend = bend_of(up);
+  return {std::max(0.0, -bend), std::max(0.0, bend),
+          fmt::format("a crown whose curvature is {:.2g} times its standard deviation", std::fabs(bend)),
+          true};
+}
+
+/// On which side the flange is: as_it_is on that of small y.
+Readings wheel_y(const SectionPoints& p, bool& second) {
+  constexpr double kLeastWidth = 3e-3, kAsWide = 0.5;
+  const Envelope e = envelope(p, 1.0);
+  const Flange f = flange_of(e);
+  const double middle = e.y(e.height.size() / 2);
+  second = f.second_width > kLeastWidth && f.second_width > kAsWide * f.width &&
+           (f.middle < middle) != (f.second_middle < middle);
+  if (second) return {1.0, 1.0, "a flange on both sides", true};
+  if (f.width >= kLeastWidth)
+    return {f.middle < middle ? f.width : 0.0, f.middle < middle ? 0.0 : f.width,
+            fmt::format("the flange at y = {:.1f} mm", kMilli * f.middle), true};
+  return {0.0, 0.0, "no flange", false};
+}
+
+void negate(std::vector<double>& values) {
+  for (double& v : values) v = -v;
+}
+
+void shift(std::vector<double>& values, double by) {
+  for (double& v : values) v += by;
+}
+
+/// Least squares line x = a + b t; its slope.
+double slope_of(const std::vector<double>& t, const std::vector<double>& x) {
+  double mt = 0.0, mx = 0.0, tt = 0.0, tx = 0.0;
+  const auto n = static_cast<double>(t.size());
+  for (std::size_t i = 0; i < t.size(); ++i) mt += t[i] / n, mx += x[i] / n;
+  for (std::size_t i = 0; i < t.size(); ++i) tt += (t[i] - mt) * (t[i] - mt), tx += (t[i] - mt) * (x[i] - mx);
+  return tt > 0.0 ? tx / tt : 0.0;
+}
+
+/// The back of the flange: where the section behind its tip runs upright.
+void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
+  constexpr double kBelowTip = 5e-3, kReach = 0.3e-3, kChord = 2e-3, kUpright = 6.0 * kPi / 180.0;
+  constexpr double kStraight = 6e-3, kFillet = 12e-3;
+  // the end of the section on the side of small y, whichever way it runs
+  const bool back_first = p.y.front() < p.y.back();
+  const auto at = [&](std::size_t k) { return back_first ? k : p.y.size() - 1 - k; };
+  const std::size_t count = back_first ? tip : p.y.size() - 1 - tip;
+  std::vector<double> y, z;
+  for (std::size_t k = 0; k < count; ++k)
+    if (p.z[tip] - p.z[at(k)] > kBelowTip && p.y[at(k)] < p.y[tip]) y.push_back(p.y[at(k)]), z.push_back(p.z[at(k)]);
+  if (y.size() < 3) return;
+  const double least = *std::min_element(y.begin(), y.end());
+  const auto farthest = static_cast<std::size_t>(std::min_element(y.begin(), y.end()) - y.begin());
+  std::vector<double> near_y, near_z;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (std::fabs(z[i] - z[farthest]) <= kChord) near_y.push_back(y[i]), near_z.push_back(z[i]);
+  if (near_y.size() < 3 || std::fabs(std::atan(slope_of(near_z, near_y))) > kUpright) return;
+  double sum = 0.0, n = 0.0;
+  for (std::size_t i = 0; i < near_y.size(); ++i)
+    if (near_y[i] < least + kReach && std::fabs(near_z[i] - z[farthest]) < 0.5 * kChord) sum += near_y[i], n += 1.0;
+  marks.back_y = n > 0.0 ? sum / n : least;
+  // above the fillet towards the tip it is straight
+  std::vector<double> straight_y, straight_z;
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (p.z[tip] - z[i] > kBelowTip + kFillet) straight_y.push_back(y[i]), straight_z.push_back(z[i]);
+  if (straight_z.size() < 6) return;
+  const auto [low, high] = std::minmax_element(straight_z.begin(), straight_z.end());
+  if (*high - *low > kStraight) marks.back_lean = -std::atan(slope_of(straight_z, straight_y));
+}
+
+/// Of the tread at y = 0: mean of what was measured within a millimetre beside it, sloped out.
+std::optional<double> tape_height(const SectionPoints& p) {
+  constexpr double kNear = 2e-3;
+  std::vector<double> y, z;
+  for (std::size_t i = 0; i < p.y.size(); ++i)
+    if (std::fabs(p.y[i]) <= kNear) y.push_back(p.y[i]), z.push_back(p.z[i]);
+  if (y.size() >= 5) {
+    const double slope = slope_of(y, z);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < y.size(); ++i) sum += z[i] - slope * y[i];
+    return sum / static_cast<double>(y.size());
+  }
+  for (std::size_t i = 1; i < p.y.size(); ++i)
+    if ((p.y[i - 1] <= 0.0) != (p.y[i] <= 0.0)) {
+      const double t = p.y[i - 1] / (p.y[i - 1] - p.y[i]);
+      return p.z[i - 1] + t * (p.z[i] - p.z[i - 1]);
+    }
+  return std::nullopt;
+}
+
+void find_marks(const SectionPoints& p, WheelMarks& marks) {
+  const Flange f = flange_of(envelope(p, 1.0));
+  marks.tape_z = tape_height(p);
+  if (f.width <= 0.0) return;
+  const auto tip = static_cast<std::size_t>(std::max_element(p.z.begin(), p.z.end()) - p.z.begin());
+  marks.tip_y = p.y[tip], marks.tip_z = p.z[tip];
+  find_back(p, tip, marks);
+}
+
+class Reader {
+ public:
+  Reader(SectionPoints& points, const Words& words) : p_(points), w_(words) {}
+
+  Understanding understand() {
+    if (p_.y.size() < 2) return std::move(u_);
+    turn_z();
+    turn_y();
+    if (p_.body == Body::wheel) {
+      find_marks(p_, u_.wheel);
+      if (w_.place || w_.z_is_radius) place_wheel();
+      judge_place();
+    }
+    return std::move(u_);
+  }
+
+ private:
+  void doubt(const char* name, std::string text) { u_.doubts.push_back({name, std::move(text)}); }
+
+  void turn_z() {
+    // radii grow outwards, which is down where a wheel stands on its rail
+    const Turn said = w_.z_is_radius ? Turn::no : w_.mirror_z;
+    if (said == Turn::yes) negate(p_.z);
+    u_.z = p_.body == Body::wheel ? wheel_z(p_) : rail_z(p_);
+    u_.mirrored_z = said == Turn::yes;
+    const bool wrong = u_.z.is_turned();
+    if (said == Turn::decide && wrong && u_.z.marked) {
+      negate(p_.z);
+      u_.mirrored_z = true;
+      if (!u_.z.sure())
+        doubt("upside_down", fmt::format("which way z points is not sure: turned over it shows {} (evidence {:.3g} "
+                                         "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
+                                         u_.z.evidence, kShown * u_.z.turned, kShown * u_.z.as_it_is));
+    } else if (wrong) {
+      const bool given = said != Turn::decide;
+      doubt("upside_down",
+            given ? fmt::format("z seems to point up, turned over it shows {}: set mirror_z = \"{}\"", u_.z.evidence,
+                                said == Turn::yes ? "no" : "yes")
+                  : fmt::format("nothing shows for certain which way y and z point: {}, as if z pointed up or the "
+                                "field side were on the side of small y; taken as in the file: set mirror_z or mirror_y",
+                                u_.z.evidence));
+    } else if (said == Turn::decide && !u_.z.sure() && has_evidence()) {
+      doubt("upside_down", fmt::format("which way z points is not sure: as in the file it shows {} (evidence {:.3g} "
+                                       "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
+                                       u_.z.evidence, kShown * u_.z.as_it_is, kShown * u_.z.turned));
+    }
+  }
+
+  /// Lengths are shown in mm.
+  static constexpr double kShown = 1e3;
+  /// A sketch of a few points or a piece of a tread shows nothing, and is taken as it is.
+  bool has_evidence() const { return p_.y.size() >= 10 && u_.z.marked; }
+
+  void turn_y() {
+    if (w_.mirror_y == Turn::yes) negate(p_.y);
+    u_.mirrored_y = w_.mirror_y == Turn::yes;
+    if (p_.body == Body::rail) return;
+    u_.y = wheel_y(p_, u_.wheel.second_flange);
+    if (!u_.y.is_turned()) return;
+    if (w_.mirror_y == Turn::decide && w_.place) {
+      negate(p_.y);
+      u_.mirrored_y = true;
+      u_.notes.push_back(fmt::format("{}, on the side of great y as that of a left wheel: y was mirrored", u_.y.evidence));
+      return;
+    }
+    doubt("flange_side", fmt::format("{}, on the side of great y, as that of a left wheel: set mirror_y = {}",
+                                     u_.y.evidence, u_.mirrored_y ? "false" : "true"));
+  }
+
+  void move(double dy, double dz) {
+    shift(p_.y, dy), shift(p_.z, dz);
+    u_.shift_y += dy, u_.shift_z += dz;
+    find_marks(p_, u_.wheel);
+  }
+
+  void place_wheel() {
+    constexpr double kSameY = 0.5e-3, kSameZ = 5e-3;
+    WheelMarks& m = u_.wheel;
+    bool moved = false;
+    if (w_.place && m.back_y && !m.second_flange && std::fabs(*m.back_y + kTapeToBack) > kSameY) {
+      const double back = *m.back_y;
+      move(-kTapeToBack - back, 0.0);
+      moved = true;
+      u_.notes.push_back(fmt::format("y counts from elsewhere: the back of the flange is at y = {:.2f} mm, so y = 0 was "
+                                     "put on the tape line, 70 mm from it",
+                                     kMilli * back));
+    }
+    if (!m.tape_z) return;
+    const double tape = *m.tape_z;
+    if (w_.z_is_radius)
+      u_.notes.push_back(fmt::format("the column of radii has {:.3f} mm at the tape line, where z = 0 was put",
+                                     kMilli * tape));
+    else if (std::fabs(tape) > kSameZ)
+      u_.notes.push_back(fmt::format("z counts from elsewhere: the tread lies at z = {:.2f} mm at the tape line, where "
+                                     "z = 0 was put: the nominal radius is that of the tape line",
+                                     kMilli * tape));
+    else if (!moved)
+      return;
+    if (tape != 0.0) move(0.0, -tape);
+  }
+
+  void judge_place() {
+    constexpr double kTipNew = -57e-3, kTipOff = 8e-3, kLowest = 20e-3, kHighest = 42e-3, kSameZ = 5e-3;
+    const WheelMarks& m = u_.wheel;
+    if (m.second_flange || !m.tip_y) return;
+    const double height = *m.tip_z - m.tape_z.value_or(0.0);
+    if (m.tape_z && (height < kLowest || height > kHighest))
+      doubt("flange_height",
+            fmt::format("the flange is {:.1f} mm high, 26 to 36 mm are usual: are the unit and the sense of z right{}?",
+                        kMilli * height, w_.z_is_radius ? " (radii, no diameters)" : ""));
+    if (!m.back_y && std::fabs(*m.tip_y - kTipNew) > kTipOff)
+      doubt("tape_line",
+            fmt::format("y = 0 seems not to be the tape line: the tip of the flange is at y = {:.1f} mm, where {:.0f} mm "
+                        "are usual, and the back of the flange is not in the section: measure it too, or shift y",
+                        kMilli * *m.tip_y, kMilli * kTipNew));
+    if (w_.place) return;
+    if (m.tape_z && std::fabs(*m.tape_z) > kSameZ)
+      doubt("wheel_height", fmt::format("the tread lies at z = {:.2f} mm at y = 0, where z = 0 is the nominal radius",
+                                        kMilli * *m.tape_z));
+  }
+
+  SectionPoints& p_;
+  const Words& w_;
+  Understanding u_;
+};
+
+}  // namespace
+
+bool Readings::sure() const {
+  constexpr double kTimes = 3.0;
+  return std::max(as_it_is, turned) >= kTimes * std::min(as_it_is, turned);
+}
+
+std::vector<std::size_t> head_of_outline(const SectionPoints& p) {
+  constexpr double kHigh = 90e-3, kEnd = 15e-3, kShoulder = 30e-3, kDeep = 10e-3, kInwards = 1e-3, kClosed = 5e-3;
+  const std::size_t n = p.y.size();
+  if (p.body != Body::rail || n < 20) return {};
+  const auto [low, high] = std::minmax_element(p.z.begin(), p.z.end());
+  if (*high - *low < kHigh) return {};
+  // the foot is wider than the head
+  const auto width = [&](double sign, double within) {
+    const double end = sign > 0.0 ? *low : *high;
+    double left = kInfinity, right = -kInfinity;
+    for (std::size_t i = 0; i < n; ++i)
+      if (sign * (p.z[i] - end) < within) left = std::min(left, p.y[i]), right = std::max(right, p.y[i]);
+    return std::pair{left, right};
+  };
+  const auto [l1, r1] = width(1.0, kEnd);
+  const auto [l2, r2] = width(-1.0, kEnd);
+  const double sign = r1 - l1 <= r2 - l2 ? 1.0 : -1.0;
+  const auto [left, right] = width(sign, kShoulder);
+  const double middle = 0.5 * (left + right);
+  const auto depth = [&](std::size_t i) { return sign * p.z[i] - (sign > 0.0 ? *low : -*high); };
+  const bool closed = std::hypot(p.y.front() - p.y.back(), p.z.front() - p.z.back()) < kClosed;
+  std::size_t top = 0;
+  for (std::size_t i = 1; i < n; ++i)
+    if (depth(i) < depth(top)) top = i;
+  // to both sides until the outline turns in under the head
+  const auto reach = [&](std::size_t step) {
+    std::size_t count = 0, best = 0;
+    double farthest = 0.0;
+    for (std::size_t i = top; count + 1 < n;) {
+      if (!closed && (step == 1 ? i + 1 == n : i == 0)) break;
+      i = (i + step) % n;
+      ++count;
+      const double out = std::fabs(p.y[i] - middle);
+      if (depth(i) > kDeep && out < farthest - kInwards) return best;
+      if (out >= farthest || depth(i) <= kDeep) best = count;
+      farthest = std::max(farthest, out);
+    }
+    return best;
+  };
+  const std::size_t after = reach(1), before = reach(n - 1);
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k <= before + after && k < n; ++k) kept.push_back((top + n - before + k) % n);
+  return kept;
+}
+
+Understanding understand(SectionPoints& points, const Words& words) { return Reader(points, words).understand(); }
+
+}  // namespace treadmark::measured

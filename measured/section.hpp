@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "treadmark/model/profile.hpp"
+
+namespace treadmark::measured {
+
+/// Points of one section of a wheel or rail in the order in which they were measured [m]; y and z of one size.
+struct SectionPoints {
+  Body body = Body::rail;
+  std::vector<double> y, z;
+};
+
+/// What the keys of a shape say of one of its axes.
+enum class Turn { decide, no, yes };
+
+/// What is said of a section besides its points.
+struct Words {
+  Turn mirror_y = Turn::decide, mirror_z = Turn::decide;
+  bool place = true;         ///< put y = 0 on the tape line and z = 0 on the tread where the points show where they are
+  bool z_is_radius = false;  ///< a column of radii stands in place of z
+};
+
+/// The two ways in which an axis can point, and what speaks for each of them.
+struct Readings {
+  double as_it_is = 0.0, turned = 0.0;  ///< evidence, of one kind; the larger one decides
+  std::string evidence;                 ///< what it is: "a flange that reaches 28.1 mm beyond the tread"
+  bool marked = false;                  ///< a mark shows it (flange, head, crown), not a trend alone
+
+  bool is_turned() const { return turned > as_it_is; }
+  /// Whether the better reading is at least three times as well founded as the other one.
+  bool sure() const;
+};
+
+/// A doubt about a section: its name, and what is seen, where, and what to set.
+struct Doubt {
+  std::string name;  ///< "upside_down", "flange_side", "gauge_side", "tape_line", "wheel_height", "flange_height"
+  std::string text;
+};
+
+/// The marks of a wheel's section, z down [m].
+struct WheelMarks {
+  std::optional<double> tip_y, tip_z;  ///< of the flange, where there is one
+  std::optional<double> back_y;        ///< of the flange, where the section reaches it
+  std::optional<double> back_lean;     ///< of its straight part against the upright, positive: rolled so that z grows
+                                       ///< with y [rad]; nothing where less than 6 mm of it are measured
+  bool second_flange = false;          ///< one on the other side too
+  std::optional<double> tape_z;        ///< of the tread at y = 0
+};
+
+/// What was understood of a section.
+struct Understanding {
+  Readings y, z;                        ///< which way the axes point
+  bool mirrored_y = false, mirrored_z = false;
+  double shift_y = 0.0, shift_z = 0.0;  ///< that were added after mirroring [m]
+  WheelMarks wheel;                     ///< of a wheel, after all that
+  std::vector<std::string> notes;       ///< what was done to the points
+  std::vector<Doubt> doubts;
+};
+
+/// Turns the points of a section into the axes of core/README.md (y to the right, z down) and puts a wheel's tape line
+/// at y = 0, 70 mm from the back of its flange, by what the points show. What reaches 15 mm beyond the rest of a wheel
+/// is its flange and points down; the head of a rail is what is widest near its top. Each decision comes with its
+/// evidence; where two readings are about as likely there is a doubt that names both. Never throws; thread-safe.
+Understanding understand(SectionPoints& points, const Words& words);
+
+/// Of the whole outline of a rail (more than 90 mm high, closed or not) the indices of its head in the order of the
+/// outline, down to where its sides turn under it. Empty for any other section. Thread-safe.
+std::vector<std::size_t> head_of_outline(const SectionPoints& points);
+
+}  // namespace treadmark::measured
