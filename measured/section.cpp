@@ -63,9 +63,39 @@ struct Flange {
   double width = 0.0, middle = 0.0, reach = 0.0, second_width = 0.0, second_middle = 0.0;
 };
 
+/// The line along which most of an envelope lies: level, or sloped as in a tilted frame (slope by Theil 1950, Sen
+/// 1968).
+struct Rest {
+  double height = 0.0, slope = 0.0;  ///< at the first place; per step
+  double at(std::size_t i) const { return height + slope * static_cast<double>(i); }
+};
+
+Rest rest_of(const Envelope& e) {
+  constexpr std::size_t kSamples = 64;
+  std::vector<std::size_t> at;
+  for (std::size_t k = 0; k < kSamples; ++k)
+    if (const std::size_t i = k * (e.height.size() - 1) / (kSamples - 1); !std::isnan(e.height[i]))
+      if (at.empty() || at.back() != i) at.push_back(i);
+  std::vector<double> slopes;
+  for (std::size_t a = 0; a < at.size(); ++a)
+    for (std::size_t b = a + 1; b < at.size(); ++b)
+      slopes.push_back((e.height[at[b]] - e.height[at[a]]) / static_cast<double>(at[b] - at[a]));
+  const auto on = [&](double slope) {
+    std::vector<double> rest;
+    for (const std::size_t i : at) rest.push_back(e.height[i] - slope * static_cast<double>(i));
+    const Rest line{quantile(rest, 0.5), slope};
+    for (double& r : rest) r = std::fabs(r - line.height);
+    return std::pair{line, quantile(std::move(rest), 0.5)};
+  };
+  const auto level = on(0.0);
+  if (slopes.empty()) return level.first;
+  const auto sloped = on(quantile(std::move(slopes), 0.5));
+  return sloped.second < level.second ? sloped.first : level.first;
+}
+
 Flange flange_of(const Envelope& e) {
   Flange f;
-  const double rest = quantile(e.height, 0.5);
+  const Rest rest = rest_of(e);
   std::size_t from = e.height.size();
   const auto close = [&](std::size_t to) {
     const double width = kStep * static_cast<double>(to - from), middle = 0.5 * (e.y(from) + e.y(to - 1));
@@ -78,7 +108,7 @@ Flange flange_of(const Envelope& e) {
     from = e.height.size();
   };
   for (std::size_t i = 0; i < e.height.size(); ++i) {
-    const double over = e.height[i] - rest;
+    const double over = e.height[i] - rest.at(i);
     if (over > f.reach) f.reach = over;
     if (over > kBeyondRest && from == e.height.size()) from = i;
     if (!(over > kBeyondRest) && from < e.height.size()) close(i);
@@ -105,39 +135,43 @@ Readings wheel_z(const SectionPoints& p) {
   const Flange as_it_is = flange_of(down), turned = flange_of(up);
   if (std::max(as_it_is.width, turned.width) >= kLeastWidth) {
     const Flange& best = turned.width > as_it_is.width ? turned : as_it_is;
-    return {as_it_is.width, turned.width,
+    return {kMilli * as_it_is.width, kMilli * turned.width,
             fmt::format("a flange that reaches {:.1f} mm beyond the tread, {:.1f} mm wide there", kMilli * best.reach,
                         kMilli * best.width),
             true};
   }
   if (std::max(as_it_is.reach, turned.reach) >= kBeyondRest)
-    return {as_it_is.reach, turned.reach,
-            fmt::format("an end that reaches {:.1f} mm beyond the tread", kMilli * std::max(as_it_is.reach, turned.reach)),
-            true};
+    return {
+        as_it_is.reach, turned.reach,
+        fmt::format("an end that reaches {:.1f} mm beyond the tread", kMilli * std::max(as_it_is.reach, turned.reach)),
+        true};
   // no flange: a tread tapers off to the field side
   const double rise = rise_of(down);
-  return {std::max(0.0, -rise), std::max(0.0, rise),
+  return {kMilli * std::max(0.0, -rise), kMilli * std::max(0.0, rise),
           fmt::format("no flange; the tread {} by {:.2f} mm to the field side", rise > 0.0 ? "grows" : "tapers off",
                       kMilli * std::fabs(rise)),
           false};
 }
 
-/// How widely a section spreads just below its top, seen against sign * z; NaN heights do not count.
-double plateau_of(const Envelope& e) {
-  constexpr double kBelow = 5e-3;
-  double top = -kInfinity;
-  for (const double h : e.height)
-    if (h > top) top = h;
-  double width = 0.0;
-  for (const double h : e.height) width += h > top - kBelow ? kStep : 0.0;
-  return width;
+/// How far both ends of an envelope lie beyond the rest, in the mean.
+double ends_of(const Envelope& e) {
+  constexpr std::size_t kEnd = 5;  // steps
+  const double middle = quantile(e.height, 0.5);
+  const auto mean = [&](std::size_t from) {
+    double sum = 0.0, n = 0.0;
+    for (std::size_t i = from; i < std::min(from + kEnd, e.height.size()); ++i)
+      if (!std::isnan(e.height[i])) sum += e.height[i], n += 1.0;
+    return n > 0.0 ? sum / n - middle : 0.0;
+  };
+  return 0.5 * (mean(0) + mean(e.height.size() - std::min(kEnd, e.height.size())));
 }
 
 /// Curvature of a parabola through the points, over its standard deviation.
 double bend_of(const Envelope& e) {
   std::array<double, 5> m{};
   std::array<double, 3> r{};
-  const double middle = e.y(e.height.size() / 2), half = std::max(0.5 * kStep * static_cast<double>(e.height.size()), kStep);
+  const double middle = e.y(e.height.size() / 2),
+               half = std::max(0.5 * kStep * static_cast<double>(e.height.size()), kStep);
   double squares = 0.0;
   for (std::size_t i = 0; i < e.height.size(); ++i) {
     if (std::isnan(e.height[i])) continue;
@@ -165,19 +199,16 @@ double bend_of(const Envelope& e) {
 }
 
 Readings rail_z(const SectionPoints& p) {
-  constexpr double kHigh = 10e-3;
+  constexpr double kSides = 3e-3;
   const Envelope up = envelope(p, -1.0), down = envelope(p, 1.0);
-  const auto [low, high] = std::minmax_element(p.z.begin(), p.z.end());
-  if (*high - *low > kHigh) {
-    const double as_it_is = plateau_of(up), turned = plateau_of(down);
-    return {as_it_is, turned,
-            fmt::format("a head {:.1f} mm wide 5 mm below its top", kMilli * std::max(as_it_is, turned)),
-            true};
-  }
+  // sides that fall away, seen from above and, were it turned over, from below
+  const double as_it_is = -ends_of(up), turned = -ends_of(down);
+  if (std::max(as_it_is, turned) > kSides)
+    return {kMilli * std::max(0.0, as_it_is), kMilli * std::max(0.0, turned),
+            fmt::format("sides that fall {:.1f} mm below the head", kMilli * std::max(as_it_is, turned)), true};
   const double bend = bend_of(up);
   return {std::max(0.0, -bend), std::max(0.0, bend),
-          fmt::format("a crown whose curvature is {:.2g} times its standard deviation", std::fabs(bend)),
-          true};
+          fmt::format("a crown whose curvature is {:.2g} times its standard deviation", std::fabs(bend)), true};
 }
 
 /// On which side the flange is: as_it_is on that of small y.
@@ -190,7 +221,7 @@ Readings wheel_y(const SectionPoints& p, bool& second) {
            (f.middle < middle) != (f.second_middle < middle);
   if (second) return {1.0, 1.0, "a flange on both sides", true};
   if (f.width >= kLeastWidth)
-    return {f.middle < middle ? f.width : 0.0, f.middle < middle ? 0.0 : f.width,
+    return {f.middle < middle ? kMilli * f.width : 0.0, f.middle < middle ? 0.0 : kMilli * f.width,
             fmt::format("the flange at y = {:.1f} mm", kMilli * f.middle), true};
   return {0.0, 0.0, "no flange", false};
 }
@@ -214,7 +245,7 @@ double slope_of(const std::vector<double>& t, const std::vector<double>& x) {
 
 /// The back of the flange: where the section behind its tip runs upright.
 void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
-  constexpr double kBelowTip = 5e-3, kReach = 0.3e-3, kChord = 2e-3, kUpright = 6.0 * kPi / 180.0;
+  constexpr double kBelowTip = 5e-3, kReach = 0.3e-3, kLeastChord = 2e-3, kUpright = 10.0 * kPi / 180.0;
   constexpr double kStraight = 6e-3, kFillet = 12e-3;
   // the end of the section on the side of small y, whichever way it runs
   const bool back_first = p.y.front() < p.y.back();
@@ -223,16 +254,20 @@ void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
   std::vector<double> y, z;
   for (std::size_t k = 0; k < count; ++k)
     if (p.z[tip] - p.z[at(k)] > kBelowTip && p.y[at(k)] < p.y[tip]) y.push_back(p.y[at(k)]), z.push_back(p.z[at(k)]);
-  if (y.size() < 3) return;
+  if (y.size() < 2) return;
+  double apart = 0.0;
+  for (std::size_t i = 1; i < y.size(); ++i)
+    apart += std::hypot(y[i] - y[i - 1], z[i] - z[i - 1]) / static_cast<double>(y.size() - 1);
+  const double chord = std::max(kLeastChord, 2.2 * apart);
   const double least = *std::min_element(y.begin(), y.end());
   const auto farthest = static_cast<std::size_t>(std::min_element(y.begin(), y.end()) - y.begin());
   std::vector<double> near_y, near_z;
   for (std::size_t i = 0; i < y.size(); ++i)
-    if (std::fabs(z[i] - z[farthest]) <= kChord) near_y.push_back(y[i]), near_z.push_back(z[i]);
-  if (near_y.size() < 3 || std::fabs(std::atan(slope_of(near_z, near_y))) > kUpright) return;
+    if (std::fabs(z[i] - z[farthest]) <= chord) near_y.push_back(y[i]), near_z.push_back(z[i]);
+  if (near_y.size() < 2 || std::fabs(std::atan(slope_of(near_z, near_y))) > kUpright) return;
   double sum = 0.0, n = 0.0;
   for (std::size_t i = 0; i < near_y.size(); ++i)
-    if (near_y[i] < least + kReach && std::fabs(near_z[i] - z[farthest]) < 0.5 * kChord) sum += near_y[i], n += 1.0;
+    if (near_y[i] < least + kReach && std::fabs(near_z[i] - z[farthest]) < 0.5 * chord) sum += near_y[i], n += 1.0;
   marks.back_y = n > 0.0 ? sum / n : least;
   // above the fillet towards the tip it is straight
   std::vector<double> straight_y, straight_z;
@@ -304,24 +339,23 @@ class Reader {
       if (!u_.z.sure())
         doubt("upside_down", fmt::format("which way z points is not sure: turned over it shows {} (evidence {:.3g} "
                                          "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
-                                         u_.z.evidence, kShown * u_.z.turned, kShown * u_.z.as_it_is));
+                                         u_.z.evidence, u_.z.turned, u_.z.as_it_is));
     } else if (wrong) {
       const bool given = said != Turn::decide;
       doubt("upside_down",
-            given ? fmt::format("z seems to point up, turned over it shows {}: set mirror_z = \"{}\"", u_.z.evidence,
-                                said == Turn::yes ? "no" : "yes")
-                  : fmt::format("nothing shows for certain which way y and z point: {}, as if z pointed up or the "
-                                "field side were on the side of small y; taken as in the file: set mirror_z or mirror_y",
-                                u_.z.evidence));
+            given
+                ? fmt::format("z seems to point up, turned over it shows {}: set mirror_z = \"{}\"", u_.z.evidence,
+                              said == Turn::yes ? "no" : "yes")
+                : fmt::format("nothing shows for certain which way y and z point: {}, as if z pointed up or the "
+                              "field side were on the side of small y; taken as in the file: set mirror_z or mirror_y",
+                              u_.z.evidence));
     } else if (said == Turn::decide && !u_.z.sure() && has_evidence()) {
       doubt("upside_down", fmt::format("which way z points is not sure: as in the file it shows {} (evidence {:.3g} "
                                        "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
-                                       u_.z.evidence, kShown * u_.z.as_it_is, kShown * u_.z.turned));
+                                       u_.z.evidence, u_.z.as_it_is, u_.z.turned));
     }
   }
 
-  /// Lengths are shown in mm.
-  static constexpr double kShown = 1e3;
   /// A sketch of a few points or a piece of a tread shows nothing, and is taken as it is.
   bool has_evidence() const { return p_.y.size() >= 10 && u_.z.marked; }
 
@@ -334,7 +368,8 @@ class Reader {
     if (w_.mirror_y == Turn::decide && w_.place) {
       negate(p_.y);
       u_.mirrored_y = true;
-      u_.notes.push_back(fmt::format("{}, on the side of great y as that of a left wheel: y was mirrored", u_.y.evidence));
+      u_.notes.push_back(
+          fmt::format("{}, on the side of great y as that of a left wheel: y was mirrored", u_.y.evidence));
       return;
     }
     doubt("flange_side", fmt::format("{}, on the side of great y, as that of a left wheel: set mirror_y = {}",
@@ -355,26 +390,28 @@ class Reader {
       const double back = *m.back_y;
       move(-kTapeToBack - back, 0.0);
       moved = true;
-      u_.notes.push_back(fmt::format("y counts from elsewhere: the back of the flange is at y = {:.2f} mm, so y = 0 was "
-                                     "put on the tape line, 70 mm from it",
-                                     kMilli * back));
+      u_.notes.push_back(
+          fmt::format("y counts from elsewhere: the back of the flange is at y = {:.2f} mm, so y = 0 was "
+                      "put on the tape line, 70 mm from it",
+                      kMilli * back));
     }
     if (!m.tape_z) return;
     const double tape = *m.tape_z;
     if (w_.z_is_radius)
-      u_.notes.push_back(fmt::format("the column of radii has {:.3f} mm at the tape line, where z = 0 was put",
-                                     kMilli * tape));
+      u_.notes.push_back(
+          fmt::format("the column of radii has {:.3f} mm at the tape line, where z = 0 was put", kMilli * tape));
     else if (std::fabs(tape) > kSameZ)
-      u_.notes.push_back(fmt::format("z counts from elsewhere: the tread lies at z = {:.2f} mm at the tape line, where "
-                                     "z = 0 was put: the nominal radius is that of the tape line",
-                                     kMilli * tape));
+      u_.notes.push_back(
+          fmt::format("z counts from elsewhere: the tread lies at z = {:.2f} mm at the tape line, where "
+                      "z = 0 was put: the nominal radius is that of the tape line",
+                      kMilli * tape));
     else if (!moved)
       return;
     if (tape != 0.0) move(0.0, -tape);
   }
 
   void judge_place() {
-    constexpr double kTipNew = -57e-3, kTipOff = 8e-3, kLowest = 20e-3, kHighest = 42e-3, kSameZ = 5e-3;
+    constexpr double kTipNew = -55e-3, kTipOff = 4e-3, kLowest = 20e-3, kHighest = 42e-3, kSameZ = 5e-3;
     const WheelMarks& m = u_.wheel;
     if (m.second_flange || !m.tip_y) return;
     const double height = *m.tip_z - m.tape_z.value_or(0.0);
@@ -383,10 +420,11 @@ class Reader {
             fmt::format("the flange is {:.1f} mm high, 26 to 36 mm are usual: are the unit and the sense of z right{}?",
                         kMilli * height, w_.z_is_radius ? " (radii, no diameters)" : ""));
     if (!m.back_y && std::fabs(*m.tip_y - kTipNew) > kTipOff)
-      doubt("tape_line",
-            fmt::format("y = 0 seems not to be the tape line: the tip of the flange is at y = {:.1f} mm, where {:.0f} mm "
-                        "are usual, and the back of the flange is not in the section: measure it too, or shift y",
-                        kMilli * *m.tip_y, kMilli * kTipNew));
+      doubt(
+          "tape_line",
+          fmt::format("y = 0 seems not to be the tape line: the tip of the flange is at y = {:.1f} mm, where {:.0f} mm "
+                      "are usual, and the back of the flange is not in the section: measure it too, or shift y",
+                      kMilli * *m.tip_y, kMilli * kTipNew));
     if (w_.place) return;
     if (m.tape_z && std::fabs(*m.tape_z) > kSameZ)
       doubt("wheel_height", fmt::format("the tread lies at z = {:.2f} mm at y = 0, where z = 0 is the nominal radius",

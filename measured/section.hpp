@@ -28,7 +28,7 @@ struct Words {
 
 /// The two ways in which an axis can point, and what speaks for each of them.
 struct Readings {
-  double as_it_is = 0.0, turned = 0.0;  ///< evidence, of one kind; the larger one decides
+  double as_it_is = 0.0, turned = 0.0;  ///< evidence [mm; of a crown: 1]; the larger one decides
   std::string evidence;                 ///< what it is: "a flange that reaches 28.1 mm beyond the tread"
   bool marked = false;                  ///< a mark shows it (flange, head, crown), not a trend alone
 
@@ -55,7 +55,7 @@ struct WheelMarks {
 
 /// What was understood of a section.
 struct Understanding {
-  Readings y, z;                        ///< which way the axes point
+  Readings y, z;  ///< which way the axes point
   bool mirrored_y = false, mirrored_z = false;
   double shift_y = 0.0, shift_z = 0.0;  ///< that were added after mirroring [m]
   WheelMarks wheel;                     ///< of a wheel, after all that

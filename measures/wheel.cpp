@@ -123,6 +123,7 @@ class WheelRuler {
     constexpr double kSame = 1e-3;
     if (back == back && std::fabs(back - s_.point(least).x()) > kSame) back = kUnknown;
     if (back == back && tip_.p.x() - back > kFarthest) back = kUnknown;
+    if (back != back && g_.back) back = *g_.back;
     out_.back_seen = back == back;
     if (!g_.from_flange_back || !out_.back_seen) {
       back_ = back;
@@ -155,7 +156,9 @@ class WheelRuler {
   }
 
   void flange() {
-    out_.flange_height = measured(tip_.p.y(), hypotenuse(tip_.error, error_z(tape_)));
+    const bool tip_seen = tip_.node > 0;  // else the section ends on the flange's face
+    const std::string no_tip = "the flange tip is not in the section";
+    out_.flange_height = tip_seen ? measured(tip_.p.y(), hypotenuse(tip_.error, error_z(tape_))) : missing(no_tip);
     const auto face_at = [&](double z) { return face_of(s_, tip_, z); };
     const auto face = face_at(g_.face_depth), upper = face_at(tip_.p.y() - g_.below_tip);
     const double z_error = error_z(tape_);
@@ -169,13 +172,13 @@ class WheelRuler {
       out_.flange_thickness = missing("the flange back is not in the section");
     else
       out_.flange_thickness = measured(face->p.x() - back_, hypotenuse(slope_error(*face), back_error_));
-    if (face && upper) {
+    if (face && upper && tip_seen) {
       const double tip_error =
           tip_.error * std::fabs(upper->tangent.x() / std::max(0.05, std::fabs(upper->tangent.y())));
       out_.flange_gradient =
           measured(face->p.x() - upper->p.x(), std::hypot(slope_error(*face), error_y(*upper), tip_error));
     } else if (face) {
-      out_.flange_gradient = missing("the flange tip is not in the section");
+      out_.flange_gradient = missing(no_tip);
     }
     // Inclination over chords of 1 mm, so that scatter does not count.
     double steepest = kUnknown, error = 0.0;
@@ -249,6 +252,11 @@ class WheelRuler {
     const Section& nominal = nominals.front().section;
     WheelRuler nominal_ruler(nominal, g_);
     const WheelMeasures fresh = nominal_ruler.measure(0.0, {});
+    if (!out_.flange_height.known()) {
+      out_.tread_wear = out_.flange_wear = out_.area_lost = out_.area_gained = out_.diameter_lost =
+          missing(out_.flange_height.reason);
+      return;
+    }
     out_.tread_wear = measured(tip_.p.y() - fresh.flange_height.value, out_.flange_height.uncertainty / kTwoSided);
     if (!out_.back_seen && g_.from_flange_back && !g_.placed) return;
     // both faces at one depth below the tip, since a worn tread alone makes a flange thicker 10 mm below it

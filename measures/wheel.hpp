@@ -18,6 +18,7 @@ struct WheelGauge {
   double field_end = 55e-3;      ///< how far to the field side of the tape line the tread is looked at [m]
   bool placed = false;           ///< y = 0 of the section is the tape line where the flange back is not seen
   bool from_flange_back = true;  ///< y counts from the flange back; else it is that of the section
+  std::optional<double> back;  ///< y of the flange back where it is known and the section does not show it for sure [m]
 };
 
 /// What one section of a wheel says. SI.

@@ -16,7 +16,7 @@ enum class Side { left, right };
 
 /// Where the rail lies on the track and how it moves.
 struct Track {
-  bool gauge_based = true;                 ///< else rail_y0, rail_z0 place the rail's profile origin
+  bool gauge_based = true;  ///< else rail_y0, rail_z0 place the rail's profile origin
   /// The innermost point of all that lies high enough counts, as in the reference program; else that of the head
   /// alone, without a keeper beside a groove.
   bool gauge_at_innermost = false;

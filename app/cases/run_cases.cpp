@@ -11,6 +11,7 @@
 #include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/app/version.hpp"
@@ -69,6 +70,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
         geometries[i] = geometry_of(*input, store, regions);
     }
     run = solve_cases(file, geometries, progress);
+    add_profile_doubts(file, run);
   } catch (const Cancelled&) {  // what is finished is whole
     run = head_of(file);
   }

@@ -69,6 +69,12 @@ void add_profile(const app::CheckedProfile& profile, CheckedInput& to) {
   to.profiles.emplace_back(profile.name, profile.judgement);
 }
 
+std::size_t doubts_of(const CheckedInput& input) {
+  std::size_t count = 0;
+  for (const auto& [name, judgement] : input.profiles) count += judgement.remarks.size();
+  return count;
+}
+
 void check_profile_file(const CheckOptions& options, CheckedInput& input) {
   if (!options.overrides.empty())
     throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {input.file},
@@ -93,7 +99,9 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
       write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number), input.positions[k].second);
   }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
-  input.outcome = fmt::format("{}{}, no errors", file.cases.size(), file.cases.size() == 1 ? " case" : " cases");
+  const std::size_t doubts = doubts_of(input);
+  input.outcome = fmt::format("{}{}, no errors{}", file.cases.size(), file.cases.size() == 1 ? " case" : " cases",
+                              doubts == 0 ? "" : fmt::format(", {} doubt{}", doubts, doubts == 1 ? "" : "s"));
   std::cout << input.file << ": " << input.outcome << '\n';
 }
 
@@ -142,7 +150,7 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
       check_case_file(options, pictures[name], input);
   }
   write_report_file(options.report_file, [&] { return app::report::check_page(inputs); });
-  return kOk;
+  return std::ranges::any_of(inputs, [](const CheckedInput& input) { return doubts_of(input) > 0; }) ? kFailed : kOk;
 }
 
 }  // namespace

@@ -104,7 +104,8 @@ int geometry_command(const GeometryOptions& options, const CommonOptions& common
   std::optional<app::GaugeSweep> sweep;
   if (!options.gauges_mm.empty()) sweep = app::sweep_gauge(result, app::parse_lengths_mm(options.gauges_mm));
   print_notes(result.notes, common.quiet);
-  print_notes(app::profile_doubts(result.request), common.quiet);
+  const std::vector<std::string> doubts = app::profile_doubts(result.request);
+  for (const std::string& doubt : doubts) std::cerr << "doubt: " << doubt << '\n';
 
   const auto json = [&] { return app::geometry_json(result, sweep ? &*sweep : nullptr); };
   print_results(options.json_file, json,
@@ -113,7 +114,7 @@ int geometry_command(const GeometryOptions& options, const CommonOptions& common
   if (!options.csv_file.empty()) write_file(options.csv_file, app::functions_csv(result));
   if (!options.folder.empty()) app::write_geometry_folder(options.folder, result, sweep ? &*sweep : nullptr);
   write_report_file(options.report_file, [&] { return app::geometry_page(result, sweep ? &*sweep : nullptr); });
-  return kOk;
+  return doubts.empty() ? kOk : kFailed;
 }
 
 }  // namespace

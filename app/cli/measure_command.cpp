@@ -74,7 +74,7 @@ int measure_command(const MeasureOptions& options, const CommonOptions& common) 
     if (!outputs.hdf5.empty()) app::write_list_store(outputs.hdf5, app::list_of(file, request));
     write_report_file(outputs.report, [&] { return app::measure_page(file, request); });
     if (outputs.csv != "-") print_results(options.json, json, [&] { return app::measure_text(file, request); });
-    return kOk;
+    return file.doubtful ? kFailed : kOk;
   }
   const std::optional<app::ResultList> list =
       make_list(outputs, common, [&](const std::filesystem::path& kept, const Progress& progress) {

@@ -62,25 +62,10 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
   return named_surface(name, said);
 }
 
-/// How far the tape line lies from y = 0 in a profile of a wheel that begins beside it: instruments count y from the
-/// flange back. Nothing where the back is not in the profile [m].
-std::optional<double> tape_line_of(const std::string& name, double scale_to_mm) {
-  io::ProfileOptions options;
-  options.scale = scale_to_mm;
-  try {
-    const measures::Section points(io::read_profile(name, Body::wheel, options));
-    const measures::WheelMeasures found = measures::measure_wheel(points);
-    if (found.back_seen) return -found.shift_y;
-  } catch (const Error&) {
-    // whoever takes it as it is says what is wrong with it
-  }
-  return std::nullopt;
-}
-
-/// from_back: set where the tape line of a wheel was found from its flange back.
 geometry::Section section_of(const GeometryRequest& request, const std::string& name, Body body, double cant,
-                             bool& from_back) {
+                             std::string& note) {
   const NaturalSurface natural = surface_of(request, name, body);
+  note = natural.note;
   std::shared_ptr<const Surface> surface = natural.surface;
   if (!request.backend.empty()) {
     constexpr double kHalfLength = 5e-3, kHalfAngle = 0.03;  // what is sampled round the section [m], [rad]
@@ -89,15 +74,8 @@ geometry::Section section_of(const GeometryRequest& request, const std::string& 
     wanted.region.u_max = body == Body::wheel ? request.pitch + kHalfAngle : request.x + kHalfLength;
     surface = represent(natural, wanted).surface;
   }
-  geometry::Section section = body == Body::wheel ? geometry::wheel_section(*surface, request.pitch)
-                                                  : geometry::rail_section(*surface, cant, request.x);
-  // a flange and y = 0 at the tape line need more room on the flange's side
-  constexpr double kLeastBeside = 45e-3;
-  if (body == Body::wheel && section.first() > -kLeastBeside && is_profile_file(name))
-    if (const std::optional<double> tape = tape_line_of(name, request.scale_to_mm)) {
-      section = section.shifted(-*tape);
-      from_back = true;
-    }
+  const geometry::Section section = body == Body::wheel ? geometry::wheel_section(*surface, request.pitch)
+                                                        : geometry::rail_section(*surface, cant, request.x);
   if (const std::string why = geometry::wrong_body(section); !why.empty())
     throw Error(ErrorKind::input_data, fmt::format("this is no {}: {}", body_name(body), why), {name},
                 fmt::format("give the profile of a {} here", body_name(body)));
@@ -211,18 +189,19 @@ std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest
     const std::lock_guard lock(mutex_);
     if (const auto found = sections_.find(key); found != sections_.end()) return found->second;
   }
-  bool from_back = false;
-  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, from_back));
+  std::string note;
+  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, note));
   constexpr std::size_t kMost = 2000;  // of long lists whose files come once
   const std::lock_guard lock(mutex_);
-  if (from_back) from_back_.insert(name);
+  if (!note.empty()) notes_[name] = note;
   if (sections_.size() >= kMost) sections_.clear();
   return sections_.try_emplace(key, std::move(section)).first->second;
 }
 
-bool SectionStore::counts_from_back(const std::string& wheel) {
+std::string SectionStore::note_of(const std::string& name) {
   const std::lock_guard lock(mutex_);
-  return from_back_.contains(wheel);
+  const auto found = notes_.find(name);
+  return found == notes_.end() ? std::string() : found->second;
 }
 
 geometry::PairPlacement placement_of(const io::WheelRailCase& input) {
@@ -282,9 +261,8 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
   out.right = side(r.wheel, r.rail, r.diameter);
   out.left = side(wheel_left, rail_left, r.diameter_left ? r.diameter_left : r.diameter);
   if (out.left.radius == out.right.radius && wheel_left == r.wheel) out.left.wheel = out.right.wheel;
-  for (const std::string& wheel : std::set<std::string>{r.wheel, wheel_left})
-    if (store.counts_from_back(wheel))
-      out.notes.push_back("y of " + wheel + " counts from its flange back: the tape line is taken 70 mm from it");
+  for (const std::string& name : std::set<std::string>{r.wheel, wheel_left, r.rail, rail_left})
+    if (const std::string note = store.note_of(name); !note.empty()) out.notes.push_back(name + ": " + note);
   return out;
 }
 
@@ -320,7 +298,8 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request) {
     seen.push_back(name);
     const CheckedProfile checked = check_profile(name, body);
     for (const io::ProfileRemark& remark : checked.judgement.remarks)
-      out.push_back(fmt::format("{}: {}: {}", checked.name, remark.name, remark.text));
+      if (remark.name != "gauge_point")  // refused where it is needed
+        out.push_back(fmt::format("{}: {}: {}", checked.name, remark.name, remark.text));
   }
   return out;
 }

@@ -45,12 +45,12 @@ class SectionStore {
   /// for a wheel given as a rail or the reverse.
   std::shared_ptr<const geometry::Section> get(const GeometryRequest& request, const std::string& name, Body body,
                                                double cant);
-  /// Whether y of the wheel, which was asked for before, counts from its flange back in its file.
-  bool counts_from_back(const std::string& wheel);
+  /// What reading a wheel or rail changed in it, which was asked for before; empty: nothing.
+  std::string note_of(const std::string& name);
 
  private:
   std::mutex mutex_;
-  std::set<std::string> from_back_;
+  std::map<std::string, std::string> notes_;
   std::map<std::string, std::shared_ptr<const geometry::Section>> sections_;
 };
 

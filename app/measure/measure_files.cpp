@@ -125,6 +125,7 @@ class WheelFile {
     measures::WheelGauge gauge;
     gauge.from_flange_back = request_.from_flange_back;
     gauge.placed = read_.placed;
+    gauge.back = read_.flange_back;
     WheelNumbers n;
     static_cast<measures::WheelMeasures&>(n) =
         measures::measure_wheel(section, gauge, read_.nominal_radius, nominals_.wheels);
@@ -457,6 +458,7 @@ MeasuredFile measure_with(const std::string& name, const MeasureRequest& request
   const ReadMeasured read = read_measured(name, request);
   out.kind = read.kind;
   out.notes = read.notes;
+  out.doubtful = read.doubtful;
   out.said = read.said;
   try {
     if (request.body == Body::wheel)

@@ -46,6 +46,7 @@ struct MeasuredFile {
   std::string kind;   ///< "profile", "library profile", "surface", "scan"
   std::string error;  ///< why nothing was measured; empty: it was
   std::vector<std::string> notes;
+  bool doubtful = false;                                  ///< among the notes are doubts about what the points mean
   std::vector<std::pair<std::string, std::string>> said;  ///< by the file itself
   double noise = measures::kUnknown;                      ///< of its points [m]
   std::variant<WheelNumbers, RailNumbers> numbers;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
@@ -44,13 +46,19 @@ bool is_library_name(const std::string& name) { return library_body_of(name).has
 ReadMeasured read_points(const std::string& name, const MeasureRequest& request) {
   io::ProfileOptions options;
   options.scale = request.scale_to_mm;
+  if (!request.from_flange_back) options.placement = io::ProfileOptions::Placement::as_in_file;
   io::SourcedProfile read = io::read_sourced_profile(name, request.body, options);
   ReadMeasured out;
   out.kind = "profile";
+  out.notes = read.source.notes;
+  for (const io::ProfileRemark& doubt : doubts_of(read)) {
+    out.notes.push_back(fmt::format("doubt: {}: {}", doubt.name, doubt.text));
+    out.doubtful = true;
+  }
+  out.flange_back = read.source.understood.wheel.back_y;
   out.points = std::move(read.profile);
   out.nominal_radius = request.nominal_radius > 0.0 ? request.nominal_radius : read.source.nominal_radius.value_or(0.0);
   out.said = std::move(read.source.said);
-  out.notes = std::move(read.source.notes);
   return out;
 }
 

@@ -10,80 +10,172 @@
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/backends/profile_library.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/measured/nominal.hpp"
+#include "treadmark/measures/rail.hpp"
+#include "treadmark/measures/wheel.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
 
-/// The standard profiles of a body as points.
-std::vector<io::StandardOutline> outlines(Body body) {
-  constexpr double kFarthest = 0.15, kStep = 0.1e-3, kAnyRadius = 0.5;
-  std::vector<io::StandardOutline> list;
+constexpr double kLibraryPoints = 0.25e-3;  // [m]
+
+/// A standard profile: as a section to measure by, and as an outline to lay others upon.
+struct Standard {
+  std::string name;
+  measures::Section section;
+  measured::NominalOutline outline;
+};
+
+std::vector<Standard> standards_of(Body body) {
+  std::vector<Standard> list;
   for (const std::string_view name : standard_profile_names()) {
-    SurfaceSpec spec;
-    spec.body = body;
-    spec.shape = StandardProfile{std::string(name)};
-    spec.nominal_radius = body == Body::wheel ? kAnyRadius : 0.0;
-    NaturalSurface natural;
-    try {
-      natural = create_natural(spec);
-    } catch (const Error&) {
-      continue;  // of the other body
-    }
-    std::vector<double> y, z;
-    for (double at = -kFarthest; at <= kFarthest; at += kStep) y.push_back(at);
-    z.resize(y.size());
-    HeightsOut out;
-    out.z = z;
-    section_heights(*natural.surface, body, 0.0, y, out);
-    io::StandardOutline outline;
-    outline.name = name;
-    for (std::size_t k = 0; k < y.size(); ++k)
-      if (!std::isnan(z[k])) {
-        outline.y.push_back(y[k]);
-        outline.z.push_back(z[k] - spec.nominal_radius);
-      }
-    list.push_back(std::move(outline));
+    if (library_body(name) != body) continue;
+    const std::vector<Vec2> outline = library_outline(name, kLibraryPoints);
+    Profile points;
+    points.body = body;
+    for (const Vec2& p : outline) points.y.push_back(p.x()), points.z.push_back(p.y());
+    list.push_back({std::string(name), measures::Section(points, 0.0),
+                    measured::nominal_outline(std::string(name), body, outline)});
   }
   return list;
 }
 
-const std::vector<io::StandardOutline>& standards(Body body) {
-  static const std::vector<io::StandardOutline> rails = outlines(Body::rail), wheels = outlines(Body::wheel);
+const std::vector<Standard>& standards(Body body) {
+  static const std::vector<Standard> rails = standards_of(Body::rail), wheels = standards_of(Body::wheel);
   return body == Body::wheel ? wheels : rails;
 }
 
-enum class Standards { no, yes };
+/// What lies between a section and a standard one [m^2]: metal that is missing, and metal that should not be there,
+/// which no wear explains.
+struct Nearness {
+  double lost = 0.0, gained = 0.0;
+  std::string wear;
+  double badness() const { return lost + 20.0 * gained; }
+};
+
+std::string in_mm(const measures::Measure& m) {
+  return m.known() ? fmt::format("{:.3f} mm", kMilli * m.value) : "unknown";
+}
+
+Nearness nearness(const measures::Section& section, const Standard& standard) {
+  if (section.body() == Body::wheel) {
+    measures::WheelGauge gauge;
+    gauge.placed = true;
+    const measures::WheelMeasures m = measures::measure_wheel(section, gauge, 0.0, {{standard.name, standard.section}});
+    return {m.area_lost.value, m.area_gained.value,
+            fmt::format("wear {} at the tape line, {} of the flange", in_mm(m.tread_wear), in_mm(m.flange_wear))};
+  }
+  measures::RailGauge gauge;
+  const auto by = [&](measures::RailAlignment alignment) {
+    gauge.alignment = alignment;
+    const measures::RailMeasures m = measures::measure_rail(section, &standard.section, gauge);
+    return Nearness{m.loss.value, m.lip.value,
+                    fmt::format("wear W1 {}, W2 {}, laid upon it {}", in_mm(m.w1), in_mm(m.w2),
+                                alignment == measures::RailAlignment::unworn ? "by what does not wear"
+                                : alignment == measures::RailAlignment::none ? "as in the file"
+                                                                             : "by its top, which hides wear there")};
+  };
+  try {
+    return by(measures::RailAlignment::unworn);
+  } catch (const Error&) {
+    // a head alone has not enough of it
+  }
+  constexpr double kHeadBeside = 10e-3, kWorn = 20e-3;
+  const bool in_its_axes =
+      std::fabs(section.y_min() + section.y_max()) < kHeadBeside && std::fabs(section.z_min()) < kWorn;
+  return by(in_its_axes ? measures::RailAlignment::none : measures::RailAlignment::top);
+}
+
+/// The standard profile that a section may have been, with its wear as `measure` finds it.
+void add_nearest(const Profile& profile, io::ProfileJudgement& to) {
+  constexpr double kAlike = 1e-9;  // [m^2]
+  constexpr std::size_t kNamed = 6;
+  std::vector<std::pair<Nearness, std::string>> all;
+  try {
+    const measures::Section section(profile);
+    for (const Standard& standard : standards(profile.body)) {
+      try {
+        if (Nearness one = nearness(section, standard); one.badness() == one.badness())
+          all.emplace_back(std::move(one), standard.name);
+      } catch (const Error&) {
+        // they have too little in common
+      }
+    }
+  } catch (const Error&) {
+    // too few points
+  }
+  if (all.empty()) return;
+  const auto badness = [](const auto& row) { return row.first.badness(); };
+  const Nearness best = std::ranges::min_element(all, {}, badness)->first;
+  std::string names;
+  std::size_t count = 0;
+  for (const auto& [one, name] : all)
+    if (one.badness() <= best.badness() + kAlike && ++count <= kNamed) names += (count > 1 ? ", " : "") + name;
+  if (count > kNamed) names += fmt::format(" and {} more", count - kNamed);
+  to.facts.emplace_back("standard", fmt::format("nearest to {}: {}; {:.3g} mm2 lost, {:.3g} mm2 beyond", names,
+                                                best.wear, kMicro * best.lost, kMicro * best.gained));
+}
+
+/// A section that fits a nominal one much better when it is rolled was measured in a frame that is tilted; a rail that
+/// is worn on the side of great y alone shows the gauge side there.
+void judge_against_nominal(const io::SourcedProfile& sourced, io::ProfileJudgement& to) {
+  constexpr double kTimesBetter = 3.0, kBadUpright = 0.05e-3, kWorn = 1e-3, kAsNew = 0.3e-3;
+  const Profile& profile = sourced.profile;
+  std::vector<measured::NominalOutline> outlines;
+  for (const Standard& standard : standards(profile.body)) outlines.push_back(standard.outline);
+  const std::optional<measured::Lean> lean = measured::lean_of(profile, outlines);
+  if (!lean) return;
+  if (std::fabs(lean->roll) > measured::kUsualRoll && lean->upright > kBadUpright &&
+      lean->upright > kTimesBetter * lean->residual)
+    to.remarks.push_back(
+        {"rolled",
+         fmt::format("the section is rolled by {:.0f} mrad ({:.1f} degrees) against {}: {:.2g} mm off it when "
+                     "rolled back, {:.2g} mm as it is; was the measuring frame upright? turn the points",
+                     kMilli * lean->roll, lean->roll * 180.0 / kPi, lean->name, kMilli * lean->residual,
+                     kMilli * lean->upright)});
+  if (profile.body == Body::rail && !sourced.source.mirrored_y && lean->lost_high > kWorn && lean->lost_low < kAsNew)
+    to.remarks.push_back(
+        {"gauge_side",
+         fmt::format("the side of great y is worn by {:.2g} mm against {} and that of small y, where the gauge "
+                     "is measured, by {:.2g} mm: is the gauge side there? set mirror_y = true",
+                     kMilli * lean->lost_high, lean->name, kMilli * lean->lost_low)});
+}
+
+enum class Nearest { no, yes };
 
 CheckedProfile checked(const io::SourcedProfile& profile, const std::filesystem::path& file,
-                       const io::ExpectedWheel& expected, Standards compare) {
-  const Body body = profile.profile.body;
-  return {fmt::format("{} profile {}", body == Body::wheel ? "wheel" : "rail", file.string()),
-          io::judge_profile(profile, expected,
-                            compare == Standards::no ? std::vector<io::StandardOutline>() : standards(body))};
+                       const io::ExpectedProfile& expected, Nearest nearest) {
+  CheckedProfile out{fmt::format("{} profile {}", body_name(profile.profile.body), file.string()),
+                     io::judge_profile(profile, expected)};
+  judge_against_nominal(profile, out.judgement);
+  if (nearest == Nearest::yes) add_nearest(profile.profile, out.judgement);
+  return out;
 }
 
 /// One use of a file: the same file may be turned or scaled otherwise elsewhere.
 struct ProfileUse {
   io::GeometryFile file;
   Body body;
-  io::ExpectedWheel expected;
+  io::ExpectedProfile expected;
   SourcePosition where;
 
   bool same_as(const ProfileUse& other) const {
     return file.file == other.file.file && file.options == other.file.options && body == other.body &&
            expected.flange_back == other.expected.flange_back &&
-           expected.nominal_radius == other.expected.nominal_radius;
+           expected.nominal_radius == other.expected.nominal_radius && expected.by_gauge == other.expected.by_gauge;
   }
 };
 
-void collect(const io::SurfaceSource& source, Body body, const io::ExpectedWheel& expected,
+void collect(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected,
              std::vector<ProfileUse>& uses) {
   for (const io::SurfaceSource& part : source.parts) collect(part, body, expected, uses);
   const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
@@ -96,20 +188,26 @@ void collect(const io::SurfaceSource& source, Body body, const io::ExpectedWheel
     uses.push_back(std::move(use));
 }
 
-std::vector<CheckedProfile> checked_profiles(const io::CaseFile& file, Standards compare) {
+std::vector<ProfileUse> uses_of(const io::Case& c) {
   std::vector<ProfileUse> uses;
-  for (const io::Case& c : file.cases) {
-    const auto* input = std::get_if<io::WheelRailCase>(&c.content);
-    if (input == nullptr) continue;
-    collect(input->rail, Body::rail, {}, uses);
-    collect(input->wheel, Body::wheel, {input->wheelset.flange_back_position, profile_radius(*input, Body::wheel)},
-            uses);
-  }
-  std::vector<CheckedProfile> out;
-  out.reserve(uses.size());
-  for (const ProfileUse& use : uses)
-    out.push_back(checked(io::read_sourced_profile(use.file.file, use.body, use.file.options, use.where), use.file.file,
-                          use.expected, compare));
+  const auto* input = std::get_if<io::WheelRailCase>(&c.content);
+  if (input == nullptr) return uses;
+  collect(input->rail, Body::rail, {{}, {}, input->track.gauge_based}, uses);
+  collect(input->wheel, Body::wheel, {input->wheelset.flange_back_position, profile_radius(*input, Body::wheel), true},
+          uses);
+  return uses;
+}
+
+/// Every profile of the cases once.
+std::vector<std::pair<ProfileUse, CheckedProfile>> checked_uses(const io::CaseFile& file, Nearest nearest) {
+  std::vector<std::pair<ProfileUse, CheckedProfile>> out;
+  for (const io::Case& c : file.cases)
+    for (ProfileUse& use : uses_of(c)) {
+      if (std::ranges::any_of(out, [&](const auto& known) { return known.first.same_as(use); })) continue;
+      CheckedProfile one = checked(io::read_sourced_profile(use.file.file, use.body, use.file.options, use.where),
+                                   use.file.file, use.expected, nearest);
+      out.emplace_back(std::move(use), std::move(one));
+    }
   return out;
 }
 
@@ -125,7 +223,7 @@ bool is_profile_file(const std::filesystem::path& file) {
 
 CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body) {
   if (!body) body = io::profile_body(file);
-  if (body) return checked(io::read_sourced_profile(file, *body, {}, {}), file, {}, Standards::yes);
+  if (body) return checked(io::read_sourced_profile(file, *body, {}, {}), file, {}, Nearest::yes);
   // as rails are half as wide as wheels, and few files can be read as both
   std::optional<io::SourcedProfile> rail, wheel;
   std::optional<Error> trouble;
@@ -142,18 +240,42 @@ CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Bo
   const std::vector<double>& y = (rail ? rail : wheel)->profile.y;
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   const bool is_wheel = !rail || (wheel && *high - *low > kWidestHead);
-  CheckedProfile out = checked(is_wheel ? *wheel : *rail, file, {}, Standards::yes);
+  CheckedProfile out = checked(is_wheel ? *wheel : *rail, file, {}, Nearest::yes);
   out.judgement.notes.insert(
       out.judgement.notes.begin(),
       fmt::format("taken for a {} by its shape: say --body if it is none", is_wheel ? "wheel" : "rail"));
   return out;
 }
 
-std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) { return checked_profiles(file, Standards::yes); }
+std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile) {
+  return checked(profile, {}, {{}, {}, false}, Nearest::no).judgement.remarks;
+}
+
+std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) {
+  std::vector<CheckedProfile> out;
+  for (auto& [use, profile] : checked_uses(file, Nearest::yes)) out.push_back(std::move(profile));
+  return out;
+}
+
+void add_profile_doubts(const io::CaseFile& file, io::RunResult& run) {
+  const auto known = checked_uses(file, Nearest::no);
+  for (io::CaseResult& result : run.cases) {
+    const auto given = std::ranges::find(file.cases, result.number, &io::Case::number);
+    if (given == file.cases.end()) continue;
+    for (const ProfileUse& use : uses_of(*given))
+      for (const auto& [same, profile] : known) {
+        if (!same.same_as(use)) continue;
+        for (const io::ProfileRemark& remark : profile.judgement.remarks)
+          if (remark.name != "gauge_point")
+            result.remarks.push_back(
+                {RemarkKind::profile_doubtful, 0, fmt::format("{}: {}: {}", profile.name, remark.name, remark.text)});
+      }
+  }
+}
 
 std::vector<std::string> profile_doubts(const io::CaseFile& file) {
   std::vector<std::string> doubts;
-  for (const CheckedProfile& profile : checked_profiles(file, Standards::no)) {
+  for (const auto& [use, profile] : checked_uses(file, Nearest::no)) {
     for (const io::ProfileRemark& remark : profile.judgement.remarks)
       doubts.push_back(fmt::format("{}: {}: {}", profile.name, remark.name, remark.text));
     for (const std::string& note : profile.judgement.notes) doubts.push_back(fmt::format("{}: {}", profile.name, note));

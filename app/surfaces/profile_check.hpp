@@ -9,6 +9,7 @@
 
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/profiles/judge_profile.hpp"
+#include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::app {
 
@@ -24,10 +25,17 @@ bool is_profile_file(const std::filesystem::path& file);
 /// Error(configuration) where the file could be either.
 CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body);
 
+/// What is doubtful about a profile by itself, wherever it is to be placed. Never throws; thread-safe.
+std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile);
+
 /// The same for every profile file that the cases of a file use, each once. Errors as read_profile.
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file);
 
-/// The doubts of check_profiles as notes of a run.
+/// The doubts and notes of check_profiles as notes of a run.
 std::vector<std::string> profile_doubts(const io::CaseFile& file);
+
+/// The doubts of check_profiles as remarks on the cases of a run in which the profiles are used; those that a contact
+/// has remarks of its own for are left to it.
+void add_profile_doubts(const io::CaseFile& file, io::RunResult& run);
 
 }  // namespace treadmark::app

@@ -66,6 +66,13 @@ decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body bod
   return std::visit([](auto& shape) -> decltype(SurfaceSpec::shape) { return std::move(shape); }, cad.shape);
 }
 
+/// note: what was done to its points.
+Profile placed_profile(const io::GeometryFile& file, Body body, const SourcePosition& where, std::string& note) {
+  io::SourcedProfile read = io::read_sourced_profile(file.file, body, file.options, where);
+  for (const std::string& done : read.source.understood.notes) note += (note.empty() ? "" : "; ") + done;
+  return std::move(read.profile);
+}
+
 /// One surface, or a body of several.
 NaturalSurface read_spline_file(const io::GeometryFile& file, const io::SurfaceSource& source, Body body,
                                 double radius) {
@@ -151,7 +158,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
     else if (io::is_slices_file(file->file))
       spec.shape = slices_of(*file, body, source.where);
     else
-      spec.shape = io::read_profile(file->file, body, file->options, source.where);
+      spec.shape = placed_profile(*file, body, source.where, note);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
     if (!library_body(standard->name))
       throw Error(ErrorKind::configuration, fmt::format("there is no standard profile '{}'", standard->name),

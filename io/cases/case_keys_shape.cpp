@@ -219,14 +219,18 @@ class ShapeKeys {
     using Method = SmoothingOptions::Method;
     const ProfileOptions fresh;
     option(
-        info("mirror_y", KeyType::flag, "negate y of the file; without it a wheel is mirrored whose flange is on the side "
-                                        "of great y"),
+        info("mirror_y", KeyType::flag,
+             "negate y of the file; without it a wheel is mirrored whose flange is on the side "
+             "of great y"),
         [](ProfileOptions& o, const CaseValue& v) { o.mirror_y = v.flag() ? 1 : -1; },
-        [](const ProfileOptions& o) { return o.mirror_y == 0 ? "" : o.mirror_y == 1 ? "true" : "false"; });
+        [](const ProfileOptions& o) { return o.mirror_y == 0   ? ""
+                                             : o.mirror_y == 1 ? "true"
+                                                               : "false"; });
     using Placement = ProfileOptions::Placement;
-    KeyInfo placement = info("placement", KeyType::choice,
-                             "automatic: y = 0 of a wheel is put on the tape line, 70 mm from the back of its flange, and "
-                             "z = 0 on the tread there, where the points show that they count from elsewhere");
+    KeyInfo placement =
+        info("placement", KeyType::choice,
+             "automatic: y = 0 of a wheel is put on the tape line, 70 mm from the back of its flange, and "
+             "z = 0 on the tread there, where the points show that they count from elsewhere");
     placement.choices = {"automatic", "as_in_file"};
     placement.default_text = "\"automatic\"";
     option(

@@ -60,13 +60,13 @@ std::vector<std::string> names_in(std::string_view line, char separator) {
 }
 
 std::string plain_signs(std::string_view line) {
-  constexpr std::array<std::pair<std::string_view, char>, 8> kSigns{{{"\xE2\x88\x92", '-'},  // U+2212 minus
-                                                                     {"\xE2\x80\x93", '-'},  // en dash
-                                                                     {"\xE2\x80\x90", '-'},  // hyphen
-                                                                     {"\xEF\xBC\x8D", '-'},  // full width
-                                                                     {"\xC2\xA0", ' '},      // no-break space
-                                                                     {"\xE2\x80\xAF", ' '},  // narrow one
-                                                                     {"\xE2\x80\x89", ' '},  // thin space
+  constexpr std::array<std::pair<std::string_view, char>, 8> kSigns{{{"\xE2\x88\x92", '-'},    // U+2212 minus
+                                                                     {"\xE2\x80\x93", '-'},    // en dash
+                                                                     {"\xE2\x80\x90", '-'},    // hyphen
+                                                                     {"\xEF\xBC\x8D", '-'},    // full width
+                                                                     {"\xC2\xA0", ' '},        // no-break space
+                                                                     {"\xE2\x80\xAF", ' '},    // narrow one
+                                                                     {"\xE2\x80\x89", ' '},    // thin space
                                                                      {"\xE2\x80\x87", ' '}}};  // as wide as a digit
   std::string plain;
   bool changed = false;
@@ -90,8 +90,9 @@ std::string plain_signs(std::string_view line) {
 }
 
 bool is_void_word(std::string_view word) {
-  constexpr std::array<std::string_view, 17> kVoid{"",     "nan",  "n/a",  "na",   "#n/a", "null", "none", "nil", "void",
-                                                   "inf",  "-inf", "-nan", "miss", "#value!", "#wert!", "nodata", "invalid"};
+  constexpr std::array<std::string_view, 17> kVoid{"",     "nan",     "n/a",    "na",     "#n/a",   "null",
+                                                   "none", "nil",     "void",   "inf",    "-inf",   "-nan",
+                                                   "miss", "#value!", "#wert!", "nodata", "invalid"};
   if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
   const std::string plain = profiles::lower(word);
   if (std::ranges::find(kVoid, plain) != kVoid.end()) return true;

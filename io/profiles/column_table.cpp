@@ -28,10 +28,10 @@ struct KnownColumn {
 };
 
 constexpr KnownColumn kKnownColumns[] = {
-    {"x", 'x'},      {"xcoord", 'x'},      {"xcoordinate", 'x'}, {"xpos", 'x'},     {"y", 'y'},
-    {"ycoord", 'y'}, {"ycoordinate", 'y'}, {"ypos", 'y'},        {"lateral", 'y'},  {"z", 'z'},
-    {"zcoord", 'z'}, {"zcoordinate", 'z'}, {"zpos", 'z'},        {"vertical", 'z'}, {"height", 'z'},
-    {"r", 'r'},      {"radius", 'r'},      {"rollingradius", 'r'}, {"rayon", 'r'}, {"d", 'd'},
+    {"x", 'x'},        {"xcoord", 'x'},      {"xcoordinate", 'x'},   {"xpos", 'x'},     {"y", 'y'},
+    {"ycoord", 'y'},   {"ycoordinate", 'y'}, {"ypos", 'y'},          {"lateral", 'y'},  {"z", 'z'},
+    {"zcoord", 'z'},   {"zcoordinate", 'z'}, {"zpos", 'z'},          {"vertical", 'z'}, {"height", 'z'},
+    {"r", 'r'},        {"radius", 'r'},      {"rollingradius", 'r'}, {"rayon", 'r'},    {"d", 'd'},
     {"diameter", 'd'}, {"durchmesser", 'd'}, {"diametre", 'd'}};
 
 /// An empty field is one only where something separates; blanks in a row separate nothing.
@@ -148,7 +148,8 @@ void ColumnTable::drop_count(std::vector<std::string>& notes) {
   constexpr double kMostColumns = 20.0;
   if (rows_.size() < kFewest) return;
   std::string first = rows_.front().text;
-  std::ranges::replace_if(first, [](char c) { return c == ',' || c == ';' || c == '\t'; }, ' ');
+  std::ranges::replace_if(
+      first, [](char c) { return c == ',' || c == ';' || c == '\t'; }, ' ');
   const std::vector<points::Field> fields = points::fields_of(first, ' ');
   double count = 0.0, columns = 0.0;
   if (fields.empty() || fields.size() > 2 || !points::parse_number(fields[0].text, false, count)) return;
@@ -156,7 +157,8 @@ void ColumnTable::drop_count(std::vector<std::string>& notes) {
   if (fields.size() == 2 && (!points::parse_number(fields[1].text, false, columns) || !points::is_whole(columns) ||
                              columns < 1.0 || columns > kMostColumns))
     return;
-  notes.push_back(fmt::format("line {} counts the points that follow: {}", rows_.front().line, printable(rows_.front().text)));
+  notes.push_back(
+      fmt::format("line {} counts the points that follow: {}", rows_.front().line, printable(rows_.front().text)));
   rows_.erase(rows_.begin());
 }
 
@@ -214,10 +216,10 @@ RawPoints ColumnTable::points(const ColumnRoles& roles, const points::FieldStyle
     out.add(*y, *z, row.line);
   }
   if (static_cast<double>(within) > kMostOfAll * static_cast<double>(out.size() + within))
-    throw Error(ErrorKind::input_data,
-                fmt::format("{} of {} points between the first and the last one have no value", within,
-                            out.size() + within),
-                {file_, first_void, 0}, "measure again, or remove them");
+    throw Error(
+        ErrorKind::input_data,
+        fmt::format("{} of {} points between the first and the last one have no value", within, out.size() + within),
+        {file_, first_void, 0}, "measure again, or remove them");
   if (voids > 0)
     notes.push_back(fmt::format("{} point{} without a value {} left out (line {}{})", voids, voids == 1 ? "" : "s",
                                 voids == 1 ? "was" : "were", first_void, voids == 1 ? "" : " and on"));

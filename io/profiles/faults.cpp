@@ -39,7 +39,9 @@ class VoidMarks {
     std::ranges::copy_if(values, std::back_inserter(others), [](double v) { return !is_mark(std::fabs(v)); });
     if (!others.empty()) values = std::move(others);
     std::ranges::sort(values);
-    const auto at = [&](double share) { return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]; };
+    const auto at = [&](double share) {
+      return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+    };
     middle_ = at(0.5);
     spread_ = at(0.75) - at(0.25);
   }
@@ -57,7 +59,8 @@ class VoidMarks {
     const std::string digits = fmt::format("{:.10g}", size);
     const auto nines = std::ranges::count(digits, '9');
     // thousands of an instrument that counts in quarters
-    return size == 999.25 || (nines >= 3 && nines + std::ranges::count(digits, '.') == static_cast<std::ptrdiff_t>(digits.size()));
+    return size == 999.25 ||
+           (nines >= 3 && nines + std::ranges::count(digits, '.') == static_cast<std::ptrdiff_t>(digits.size()));
   }
   static bool is_power(double size) {
     constexpr double kLeast = 16384.0, kMost = 4294967296.0;
@@ -129,6 +132,7 @@ void refuse_spikes(const RawPoints& p) {
   constexpr double kHighest_mm = 1.0;  // what dirt and burrs reach
   constexpr double kWidest_mm = 10.0;  // a flange is thicker
   constexpr double kJump = 0.5;        // of the height, in one step
+  constexpr double kSharp = 0.7;       // height over width: sharper than the edge of a rim
   for (std::size_t i = 0; i + 2 < p.size(); ++i)
     for (std::size_t k = i + 2; k <= std::min(i + kMostPoints + 1, p.size() - 1); ++k) {
       const double width = distance(p, i, k);
@@ -137,7 +141,7 @@ void refuse_spikes(const RawPoints& p) {
       std::size_t top = i;
       for (std::size_t j = i + 1; j < k; ++j)
         if (const double d = distance_to_chord(p, i, k, p.y[j], p.z[j]); d > height) height = d, top = j;
-      if (height < std::max(kHighest_mm, width)) continue;
+      if (height < std::max(kHighest_mm, kSharp * width)) continue;
       if (distance(p, i, i + 1) < kJump * height || distance(p, k - 1, k) < kJump * height) continue;
       throw Error(ErrorKind::input_data,
                   fmt::format("a spike of {:.3g} mm at y = {:.4g} mm, z = {:.4g} mm", height, p.y[top], p.z[top]),

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "treadmark/io/profiles/faults.hpp"
+#include "treadmark/measured/lumps.hpp"
 #include "treadmark/measured/noise.hpp"
 
 namespace treadmark::io {
@@ -29,8 +30,8 @@ Range range_of(const std::vector<double>& values) {
 
 class Judge {
  public:
-  Judge(const SourcedProfile& sourced, const ExpectedWheel& expected, const std::vector<StandardOutline>& standards)
-      : p_(sourced.profile), source_(sourced.source), expected_(expected), standards_(standards) {}
+  Judge(const SourcedProfile& sourced, const ExpectedProfile& expected)
+      : p_(sourced.profile), source_(sourced.source), expected_(expected) {}
 
   ProfileJudgement judge() {
     out_.notes = source_.notes;
@@ -47,8 +48,8 @@ class Judge {
     }
     radius();
     steps();
+    lump();
     fact("noise", fmt::format("{:.2g} mm", kMm * measured::profile_noise(p_)));
-    standard();
     return std::move(out_);
   }
 
@@ -95,8 +96,8 @@ class Judge {
     }
     const auto evidence = [&](const char* axis, const measured::Readings& r) {
       if (r.marked)
-        fact("evidence", fmt::format("{}: {} ({:.3g} against {:.3g} turned over)", axis, r.evidence,
-                                     kMm * r.as_it_is, kMm * r.turned));
+        fact("evidence",
+             fmt::format("{}: {} ({:.3g} against {:.3g} turned over)", axis, r.evidence, r.as_it_is, r.turned));
     };
     evidence("z", seen.z);
     evidence("y", seen.y);
@@ -138,6 +139,12 @@ class Judge {
     const bool reaches_left = p_.z[left] >= depth, reaches_right = p_.z[right] >= depth;
     if (!reaches_left) {
       fact("gauge point", "not in the profile: it ends less than 14 mm below the top");
+      if (expected_.by_gauge)
+        remark("gauge_point",
+               fmt::format(
+                   "on the side of small y the profile ends {:.1f} mm below its top, and the gauge is measured 14 mm "
+                   "below it: measure deeper, or place the rail by track.rail_y_mm",
+                   kMm * (p_.z.front() - p_.z[top])));
       if (reaches_right && p_.y[top] - y_.low < y_.high - p_.y[top] - kNear)
         remark(
             "gauge_side",
@@ -162,6 +169,26 @@ class Judge {
                                            kMm * *source_.nominal_radius, kMm * *expected_.nominal_radius));
   }
 
+  /// Dirt that is no spike.
+  void lump() {
+    const std::optional<measured::Lump> found = measured::highest_lump(p_, measured::profile_noise(p_));
+    if (!found) return;
+    remark("lump",
+           fmt::format(
+               "{} of {:.2g} mm at y = {:.2f} mm ({}), {}: dirt or damage? where it touches, the pressure is "
+               "that of it; clean the profile, or remove the points",
+               found->height > 0.0 ? "a lump" : "a notch", kMm * std::fabs(found->height), kMm * p_.y[found->first],
+               where(found->first, found->last),
+               found->first == found->last ? "one point" : fmt::format("{} points", found->last - found->first + 1)));
+  }
+
+  /// Lines of the file that points come from.
+  std::string where(std::size_t a, std::size_t b) const {
+    if (source_.lines.size() != p_.y.size()) return "no line known";
+    const auto [low, high] = std::minmax(source_.lines[a], source_.lines[b]);
+    return low == high ? fmt::format("line {}", low) : fmt::format("lines {} to {}", low, high);
+  }
+
   void steps() {
     constexpr double kGap = 10e-3, kTimes = 10.0;
     std::vector<double> steps;
@@ -169,110 +196,28 @@ class Judge {
       steps.push_back(std::hypot(p_.y[i] - p_.y[i - 1], p_.z[i] - p_.z[i - 1]));
     const auto largest = static_cast<std::size_t>(std::max_element(steps.begin(), steps.end()) - steps.begin());
     const double usual = median(steps);
-    const std::string where =
-        source_.lines.size() == p_.y.size()
-            ? fmt::format("lines {} to {}", std::min(source_.lines[largest], source_.lines[largest + 1]),
-                          std::max(source_.lines[largest], source_.lines[largest + 1]))
-            : std::string("no line known");
+    const std::string lines = where(largest, largest + 1);
     fact("steps", fmt::format("{:.3g} mm, largest {:.3g} mm at y = {:.2f} mm ({})", kMm * usual, kMm * steps[largest],
-                              kMm * p_.y[largest], where));
+                              kMm * p_.y[largest], lines));
     if (steps[largest] > kGap && steps[largest] > kTimes * usual)
       remark("gap",
              fmt::format("a gap of {:.3g} mm at y = {:.2f} to {:.2f} mm ({}) is bridged: measure the missing part, "
                          "or keep contact away from it",
-                         kMm * steps[largest], kMm * p_.y[largest], kMm * p_.y[largest + 1], where));
-  }
-
-  /// Several profiles share a head: all that are as near as the nearest are named.
-  void standard() {
-    constexpr double kAlike = 1e-6;  // [m] finer than any gauge
-    constexpr std::size_t kNamed = 6;
-    std::vector<std::pair<StandardDeparture, std::string>> all;
-    for (const StandardOutline& standard : standards_)
-      if (const auto departure = departure_from(p_, standard)) all.emplace_back(*departure, standard.name);
-    if (all.empty()) return;
-    const auto usual = [](const auto& row) { return row.first.usual; };
-    const StandardDeparture best = std::ranges::min_element(all, {}, usual)->first;
-    std::string names;
-    std::size_t count = 0;
-    for (const auto& [departure, name] : all)
-      if (departure.usual <= best.usual + kAlike && ++count <= kNamed) names += (count > 1 ? ", " : "") + name;
-    if (count > kNamed) names += fmt::format(" and {} more", count - kNamed);
-    fact("standard",
-         fmt::format("{:.3g} mm from {} (largest {:.3g} mm) when shifted by {:.2f} mm and rolled by {:.2f} mrad",
-                     kMm * best.usual, names, kMm * best.largest, kMm * best.shift_y, kMm * best.roll));
+                         kMm * steps[largest], kMm * p_.y[largest], kMm * p_.y[largest + 1], lines));
   }
 
   const Profile& p_;
   const ProfileSource& source_;
-  const ExpectedWheel& expected_;
-  const std::vector<StandardOutline>& standards_;
+  const ExpectedProfile& expected_;
   ProfileJudgement out_;
   Range y_, z_;
   bool lies_wrong_ = false;  ///< upside down or exchanged: sides mean nothing
 };
 
-/// z of the outline at y, NaN outside.
-double height_at(const StandardOutline& outline, double y) {
-  const auto after = std::upper_bound(outline.y.begin(), outline.y.end(), y);
-  if (after == outline.y.begin() || after == outline.y.end()) return NAN;
-  const auto k = static_cast<std::size_t>(after - outline.y.begin());
-  const double t = (y - outline.y[k - 1]) / (outline.y[k] - outline.y[k - 1]);
-  return outline.z[k - 1] + t * (outline.z[k] - outline.z[k - 1]);
-}
-
 }  // namespace
 
-std::optional<StandardDeparture> departure_from(const Profile& profile, const StandardOutline& standard) {
-  constexpr double kHalf = 25e-3, kLeast = 20e-3, kFar = 0.16, kCoarse = 1e-3, kFine = 0.02e-3;
-  constexpr double kFewest = 8;
-  if (standard.y.empty()) return std::nullopt;
-  // the level part of a rail is round its top, that of a wheel round the tape line 70 mm from the back of the flange
-  const auto fit = [&](double shift) -> std::optional<StandardDeparture> {
-    std::vector<double> y, d;
-    for (std::size_t i = 0; i < profile.y.size(); ++i) {
-      const double at = profile.y[i] + shift;
-      const double z = std::fabs(at) <= kHalf ? height_at(standard, at) : NAN;
-      if (std::isnan(z)) continue;
-      y.push_back(at);
-      d.push_back(z - profile.z[i]);
-    }
-    const auto n = static_cast<double>(y.size());
-    if (n < kFewest || range_of(y).size() < kLeast) return std::nullopt;
-    double my = 0.0, md = 0.0, yy = 0.0, yd = 0.0;
-    for (std::size_t i = 0; i < y.size(); ++i) my += y[i] / n, md += d[i] / n;
-    for (std::size_t i = 0; i < y.size(); ++i) yy += (y[i] - my) * (y[i] - my), yd += (y[i] - my) * (d[i] - md);
-    const double slope = yd / yy;
-    std::vector<double> rest;
-    for (std::size_t i = 0; i < y.size(); ++i) rest.push_back(std::fabs(d[i] - md - slope * (y[i] - my)));
-    StandardDeparture out;
-    out.largest = *std::max_element(rest.begin(), rest.end());
-    out.usual = median(std::move(rest));
-    out.shift_y = shift;
-    out.roll = slope;
-    return out;
-  };
-  // a shift that leaves out part of the level middle would fit anything: all of it must be there, or as much as ever is
-  const Range y = range_of(profile.y);
-  const auto common = [&](double shift) { return std::min(kHalf, y.high + shift) - std::max(-kHalf, y.low + shift); };
-  double most = 0.0;
-  for (double shift = -kFar; shift <= kFar; shift += kCoarse) most = std::max(most, common(shift));
-  std::optional<StandardDeparture> best;
-  const auto search = [&](double from, double to, double step) {
-    for (double shift = from; shift <= to; shift += step) {
-      if (common(shift) < most - kCoarse) continue;
-      const auto found = fit(shift);
-      if (found && (!best || found->largest < best->largest)) best = found;
-    }
-  };
-  search(-kFar, kFar, kCoarse);
-  if (best) search(best->shift_y - kCoarse, best->shift_y + kCoarse, kFine);
-  return best;
-}
-
-ProfileJudgement judge_profile(const SourcedProfile& profile, const ExpectedWheel& expected,
-                               const std::vector<StandardOutline>& standards) {
-  return Judge(profile, expected, standards).judge();
+ProfileJudgement judge_profile(const SourcedProfile& profile, const ExpectedProfile& expected) {
+  return Judge(profile, expected).judge();
 }
 
 }  // namespace treadmark::io

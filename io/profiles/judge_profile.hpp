@@ -25,31 +25,14 @@ struct ProfileJudgement {
   std::vector<std::string> notes;  ///< of the reader: repairs, keys that were not used
 };
 
-/// What the case says about the wheel; nothing: it is not known.
-struct ExpectedWheel {
+/// What the case says about a wheel or rail; nothing: it is not known.
+struct ExpectedProfile {
   std::optional<double> flange_back;     ///< y in the profile's coordinates [m]
   std::optional<double> nominal_radius;  ///< [m]
+  bool by_gauge = true;                  ///< whether a rail is placed by the gauge
 };
 
-/// A known profile to compare with: points (y, z), y increasing [m].
-struct StandardOutline {
-  std::string name;          ///< "S1002"
-  std::vector<double> y, z;  ///< [m]
-};
-
-/// Facts and doubts about a profile that has been read. standards: of the same body. Never throws; thread-safe.
-ProfileJudgement judge_profile(const SourcedProfile& profile, const ExpectedWheel& expected = {},
-                               const std::vector<StandardOutline>& standards = {});
-
-/// How far a profile lies from a standard where both run level (within 25 mm of the middle of the head or tread) once
-/// it has been shifted and rolled upon it.
-struct StandardDeparture {
-  double usual = 0.0;    ///< median of the vertical distance [m]
-  double largest = 0.0;  ///< [m]
-  double shift_y = 0.0;  ///< of the profile to lie on the standard [m]
-  double roll = 0.0;     ///< likewise [rad]
-};
-/// Nothing where they have less than 20 mm in common.
-std::optional<StandardDeparture> departure_from(const Profile& profile, const StandardOutline& standard);
+/// Facts and doubts about a profile that has been read. Never throws; thread-safe.
+ProfileJudgement judge_profile(const SourcedProfile& profile, const ExpectedProfile& expected = {});
 
 }  // namespace treadmark::io

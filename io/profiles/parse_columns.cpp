@@ -34,8 +34,8 @@ void check_title(const LineScanner& scanner, std::string_view line) {
   for (const char separator : {';', '\t', ',', ' '}) {
     const std::vector<points::Field> fields = points::fields_of(line, separator);
     if (fields.size() >= 2 && std::ranges::all_of(fields, is_figure))
-      scanner.fail("this looks like a point, but " + printable(fields.front().text) + " is no number", fields.front().column,
-                   "write numbers with '-' and '.', without brackets, units or blanks within");
+      scanner.fail("this looks like a point, but " + printable(fields.front().text) + " is no number",
+                   fields.front().column, "write numbers with '-' and '.', without brackets, units or blanks within");
   }
   // no title: a number that went wrong
   if (!is_letter(line[start]) && line[start] != '[' && line[start] != '(') to_number(scanner, word);

@@ -21,10 +21,10 @@ struct ProfileSource {
   std::vector<std::string> notes;                         ///< repairs, and what was not used
   std::size_t points_in_file = 0;                         ///< before repairs
   double scale_to_mm = 1.0;                               ///< from numbers of the file to mm
-  bool mirrored_y = false, mirrored_z = false;  ///< in all, with what the file's own flags ask for
-  bool reversed = false;                        ///< the order of the points
-  measured::Understanding understood;           ///< of the points; y of the back counts after placing
-  std::vector<int> lines;  ///< where in the file each point of the profile stands
+  bool mirrored_y = false, mirrored_z = false;            ///< in all, with what the file's own flags ask for
+  bool reversed = false;                                  ///< the order of the points
+  measured::Understanding understood;                     ///< of the points; y of the back counts after placing
+  std::vector<int> lines;                                 ///< where in the file each point of the profile stands
 };
 
 }  // namespace treadmark::io

@@ -131,7 +131,8 @@ void keep_head(RawPoints& points, Body body, std::vector<std::string>& notes) {
   RawPoints head;
   head.file = points.file;
   for (const std::size_t i : kept) head.add(points.y[i], points.z[i], points.line[i]);
-  notes.push_back(fmt::format("the outline of a whole rail: its head is used, {} of {} points", head.size(), points.size()));
+  notes.push_back(
+      fmt::format("the outline of a whole rail: its head is used, {} of {} points", head.size(), points.size()));
   points = std::move(head);
 }
 
@@ -152,6 +153,7 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
                       ProfileSource&& source) {
   check_count(points);
   keep_head(points, body, source.notes);
+  profiles::remove_near_points(points, kNearDistance_mm);  // where a closed outline met itself
   check_length(points, body, options.scale);
   profiles::refuse_faults(points);
   measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};

@@ -135,7 +135,8 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track) {
     constexpr double kSteep = 5.0, kReached = 5e-5, kBeside = 5e-5;
     const bool ends = first == 0 || std::isnan(section.z[first - 1]);
     const Section end = lateral_section(rail, X_RT, 0.0, {point.y + 0.1 * kBeside, point.y + 1.1 * kBeside}, kBeside);
-    const double depth = end.z.front() - point.z_top, slope = (end.z.front() - end.z.back()) / (end.y.back() - end.y.front());
+    const double depth = end.z.front() - point.z_top,
+                 slope = (end.z.front() - end.z.back()) / (end.y.back() - end.y.front());
     point.seen = !ends || !(depth < track.gauge_height - kReached) || !(slope < kSteep);
     return point;
   }

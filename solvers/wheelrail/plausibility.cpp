@@ -133,30 +133,33 @@ void judge_place(const Geometry& geometry, const Problem& p, PairSolution& solut
   const auto add = [&](RemarkKind kind, std::string text) { solution.remarks.push_back({kind, 0, std::move(text)}); };
   if (p.track.gauge_based && !solution.placement.gauge_seen)
     add(RemarkKind::gauge_unseen,
-        fmt::format("the rail's section ends less than {:.3g} mm below its top, where the gauge is measured: the rail was "
-                    "placed by its end; measure deeper, or set track.rail_y_mm",
-                    kMilli * p.track.gauge_height));
+        fmt::format(
+            "the rail's section ends less than {:.3g} mm below its top, where the gauge is measured: the rail was "
+            "placed by its end; measure deeper, or set track.rail_y_mm",
+            kMilli * p.track.gauge_height));
   // a crossing lifts the wheel, a roller has its own height
   if (p.track.gauge_based && !p.roller && geometry.prismatic_rail) {
     const double off = solution.z + p.state.wheel_offset.z - p.track.dz;
     if (std::fabs(off) > kOffHeight)
       add(RemarkKind::off_nominal_height,
-          fmt::format("the wheel stands {:.4g} mm {} its nominal height: is y = 0 of its profile the tape line, and z = 0 "
-                      "the nominal radius?",
-                      kMilli * std::fabs(off), off > 0.0 ? "below" : "above"));
+          fmt::format(
+              "the wheel stands {:.4g} mm {} its nominal height: is y = 0 of its profile the tape line, and z = 0 "
+              "the nominal radius?",
+              kMilli * std::fabs(off), off > 0.0 ? "below" : "above"));
   }
   bool back_alone = true;
   for (const PatchSolution& s : solution.patches) {
     const double z = s.reference_wheel.z(), angle = s.angle_wheel;
     if ((z > kFlange && std::fabs(angle) < kLevel) || std::fabs(z) > kOtherRadius)
-      add(RemarkKind::on_flange_tip,
-          fmt::format("the wheel touches at y = {:.4g} mm, z = {:.4g} mm of its profile: {}",
-                      kMilli * s.reference_wheel.y(), kMilli * z,
-                      std::fabs(z) > kOtherRadius ? "are z = 0 and the nominal radius right?" : "the tip of its flange"));
+      add(RemarkKind::on_flange_tip, fmt::format("the wheel touches at y = {:.4g} mm, z = {:.4g} mm of its profile: {}",
+                                                 kMilli * s.reference_wheel.y(), kMilli * z,
+                                                 std::fabs(z) > kOtherRadius ? "are z = 0 and the nominal radius right?"
+                                                                             : "the tip of its flange"));
     back_alone = back_alone && z > 0.0 && angle > kLevel;
   }
   if (back_alone)
-    add(RemarkKind::on_flange_back, "the back of the flange alone touches: without a check rail a wheel cannot be there");
+    add(RemarkKind::on_flange_back,
+        "the back of the flange alone touches: without a check rail a wheel cannot be there");
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ template <class T>
 void put_one(ByteWriter& out, const std::vector<T>& values);
 
 void put_one(ByteWriter& out, const Track& track) {
-  const auto& [by_gauge, innermost, gauge_height, gauge_width, y0, z0, cant, curvature, dy, dz, roll, vy, vz, vroll] = track;
+  const auto& [by_gauge, innermost, gauge_height, gauge_width, y0, z0, cant, curvature, dy, dz, roll, vy, vz, vroll] =
+      track;
   put_all(out, by_gauge, innermost, gauge_height, gauge_width, y0, z0, cant, curvature, dy, dz, roll, vy, vz, vroll);
 }
 void put_one(ByteWriter& out, const WheelsetDimensions& wheelset) {

@@ -60,7 +60,7 @@ TEST(GeometryRun, ProfilesOfInstrumentsCountFromTheFlangeBack) {
   const auto noted = [&](const char* file) {
     return run_geometry(standard_pair((folder.path() / file).string(), "60E1", 1.0 / 40.0, 1435.0), store).notes;
   };
-  EXPECT_THAT(noted("back.txt"), ::testing::ElementsAre(HasSubstr("back.txt counts from its flange back")));
+  EXPECT_THAT(noted("back.txt"), ::testing::ElementsAre(HasSubstr("y = 0 was put on the tape line")));
   EXPECT_THAT(noted("tape.txt"), ::testing::IsEmpty());
 }
 

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/measured/nominal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <Eigen/Dense>
+
+#include "treadmark/core/constants.hpp"
+
+namespace treadmark::measured {
+namespace {
+
+constexpr double kOutlineStep = 0.25e-3;  ///< [m]
+
+struct Place {
+  double dy = 0.0, dz = 0.0, roll = 0.0;
+};
+
+struct Fit {
+  Place place;
+  double rms = kInfinity;
+};
+
+/// Points about a millimetre apart.
+std::vector<Vec2> thinned(const Profile& p) {
+  constexpr double kApart = 1e-3;
+  std::vector<Vec2> out;
+  for (std::size_t i = 0; i < p.y.size(); ++i) {
+    const Vec2 q(p.y[i], p.z[i]);
+    if (out.empty() || (q - out.back()).norm() >= kApart) out.push_back(q);
+  }
+  return out;
+}
+
+/// Middle and height of where a section begins to be looked at: the tip of a flange, the top of a head.
+Vec2 mark_of(Body body, const std::vector<Vec2>& points) {
+  const double sign = body == Body::wheel ? 1.0 : -1.0;
+  double best = -kInfinity;
+  for (const Vec2& p : points) best = std::max(best, sign * p.y());
+  constexpr double kDeep = 12e-3;
+  double low = kInfinity, high = -kInfinity, at = 0.0;
+  for (const Vec2& p : points) {
+    if (sign * p.y() == best) at = p.x();
+    if (sign * p.y() > best - kDeep) low = std::min(low, p.x()), high = std::max(high, p.x());
+  }
+  return {body == Body::wheel ? at : 0.5 * (low + high), sign * best};
+}
+
+std::vector<Vec2> points_of(const NominalOutline& n) {
+  std::vector<Vec2> out;
+  for (std::size_t i = 0; i < n.z.size(); ++i)
+    if (!std::isnan(n.z[i])) out.emplace_back(n.first + n.step * static_cast<double>(i), n.z[i]);
+  return out;
+}
+
+/// Gauss-Newton on the better six tenths of the points.
+Fit fitted(const std::vector<Vec2>& points, const NominalOutline& n, Place place, double most_roll) {
+  constexpr int kSteps = 12;
+  constexpr double kKept = 0.6, kInRange = 0.7;
+  Fit out;
+  struct Row {
+    double r, by_y, by_z, by_roll;
+  };
+  std::vector<Row> rows;
+  for (int step = 0; step <= kSteps; ++step) {
+    rows.clear();
+    const double c = std::cos(place.roll), s = std::sin(place.roll);
+    for (const Vec2& p : points) {
+      const double y = c * p.x() - s * p.y() + place.dy, z = s * p.x() + c * p.y() + place.dz;
+      const double t = (y - n.first) / n.step;
+      if (!(t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) continue;
+      const auto i = static_cast<std::size_t>(t);
+      const double slope = (n.z[i + 1] - n.z[i]) / n.step;
+      if (std::isnan(slope)) continue;
+      const double across = 1.0 / std::sqrt(1.0 + slope * slope);
+      const double r = across * (z - n.z[i] - slope * (y - n.first - n.step * static_cast<double>(i)));
+      const double y_by_roll = -(s * p.x() + c * p.y()), z_by_roll = c * p.x() - s * p.y();
+      rows.push_back({r, -across * slope, across, across * (z_by_roll - slope * y_by_roll)});
+    }
+    if (static_cast<double>(rows.size()) < kInRange * static_cast<double>(points.size())) return out;
+    const auto kept = static_cast<std::ptrdiff_t>(kKept * static_cast<double>(rows.size()));
+    std::nth_element(rows.begin(), rows.begin() + kept, rows.end(),
+                     [](const Row& a, const Row& b) { return std::fabs(a.r) < std::fabs(b.r); });
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    double squares = 0.0;
+    for (auto row = rows.begin(); row != rows.begin() + kept; ++row) {
+      const Eigen::Vector3d g(row->by_y, row->by_z, row->by_roll);
+      normal += g * g.transpose();
+      right -= g * row->r;
+      squares += row->r * row->r;
+    }
+    const double rms = std::sqrt(squares / static_cast<double>(kept));
+    if (rms < out.rms) out = {place, rms};
+    normal.diagonal() += Eigen::Vector3d(1e-9, 1e-9, 1e-12) * static_cast<double>(kept);
+    const Eigen::Vector3d d = normal.ldlt().solve(right);
+    if (!d.allFinite()) return out;
+    place.dy += d[0], place.dz += d[1];
+    place.roll = std::clamp(place.roll + d[2], -most_roll, most_roll);
+  }
+  return out;
+}
+
+/// Rolled about the mark, so that this stays where it is.
+Place start_at(const Vec2& mark, const Vec2& nominal_mark, double roll) {
+  const double c = std::cos(roll), s = std::sin(roll);
+  return {nominal_mark.x() - (c * mark.x() - s * mark.y()), nominal_mark.y() - (s * mark.x() + c * mark.y()), roll};
+}
+
+/// Mean distance inside the nominal section on one flank (side -1: small y).
+double lost_on(const std::vector<Vec2>& points, const NominalOutline& n, const Place& place, double side) {
+  constexpr double kFrom = 4e-3, kTo = 13e-3;
+  double top = kInfinity, sum = 0.0, count = 0.0;
+  for (const double z : n.z)
+    if (z < top) top = z;
+  const double c = std::cos(place.roll), s = std::sin(place.roll);
+  for (const Vec2& p : points) {
+    const double y = c * p.x() - s * p.y() + place.dy, z = s * p.x() + c * p.y() + place.dz;
+    const double t = (y - n.first) / n.step;
+    if (!(side * y > 0.0) || !(t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) continue;
+    const auto i = static_cast<std::size_t>(t);
+    const double slope = (n.z[i + 1] - n.z[i]) / n.step;
+    if (!(n.z[i] - top > kFrom && n.z[i] - top < kTo) || std::isnan(slope)) continue;
+    sum += (z - n.z[i]) / std::sqrt(1.0 + slope * slope);
+    count += 1.0;
+  }
+  return count > 2.0 ? sum / count : kNaN;
+}
+
+}  // namespace
+
+NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2> outline) {
+  NominalOutline out;
+  out.name = std::move(name);
+  out.step = kOutlineStep;
+  if (outline.size() < 2) return out;
+  const auto [low, high] =
+      std::minmax_element(outline.begin(), outline.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+  out.first = low->x();
+  out.z.assign(static_cast<std::size_t>((high->x() - low->x()) / out.step) + 1, kNaN);
+  const double sign = body == Body::wheel ? 1.0 : -1.0;
+  for (std::size_t i = 1; i < outline.size(); ++i) {
+    Vec2 a = outline[i - 1], b = outline[i];
+    if (a.x() > b.x()) std::swap(a, b);
+    if (!(b.x() > a.x())) continue;
+    const double last = static_cast<double>(out.z.size()) - 1.0;
+    for (double k = std::max(0.0, std::ceil((a.x() - out.first) / out.step));
+         k <= std::min(last, std::floor((b.x() - out.first) / out.step)); ++k) {
+      const double z = a.y() + (out.first + k * out.step - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+      double& kept = out.z[static_cast<std::size_t>(k)];
+      if (std::isnan(kept) || sign * z > sign * kept) kept = z;
+    }
+  }
+  return out;
+}
+
+std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutline> nominals) {
+  constexpr std::size_t kFewest = 20;
+  constexpr std::array<double, 5> kStarts{0.0, 0.1, -0.1, 0.2, -0.2};
+  constexpr double kMostRoll = 0.5;
+  const std::vector<Vec2> points = thinned(profile);
+  if (points.size() < kFewest) return std::nullopt;
+  const Vec2 mark = mark_of(profile.body, points);
+  Lean out;
+  out.residual = out.upright = kInfinity;
+  for (const NominalOutline& n : nominals) {
+    const std::vector<Vec2> outline = points_of(n);
+    if (outline.empty()) continue;
+    const Vec2 nominal_mark = mark_of(profile.body, outline);
+    out.upright = std::min(out.upright, fitted(points, n, start_at(mark, nominal_mark, 0.0), kUsualRoll).rms);
+    for (const double roll : kStarts)
+      if (const Fit fit = fitted(points, n, start_at(mark, nominal_mark, roll), kMostRoll); fit.rms < out.residual) {
+        out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll;
+        out.lost_low = lost_on(points, n, fit.place, -1.0), out.lost_high = lost_on(points, n, fit.place, 1.0);
+      }
+  }
+  if (!(out.upright < kInfinity) && !(out.residual < kInfinity)) return std::nullopt;
+  return out;
+}
+
+}  // namespace treadmark::measured

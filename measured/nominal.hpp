@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "treadmark/core/pose.hpp"
+#include "treadmark/model/profile.hpp"
+
+namespace treadmark::measured {
+
+/// A nominal section for looking up: the outer side of its outline, z down over y at equal steps [m]; NaN beside it.
+struct NominalOutline {
+  std::string name;  ///< "S1002"
+  double first = 0.0, step = 0.0;
+  std::vector<double> z;
+};
+/// outline: points (y, z) in their order [m].
+NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2> outline);
+
+/// How a section is rolled against the nominal one that fits it best.
+struct Lean {
+  std::string name;       ///< of the nominal section
+  double roll = 0.0;      ///< of the measured section, y towards z [rad]
+  double residual = 0.0;  ///< rms of the better six tenths of the points, rolled back so [m]
+  double upright = 0.0;   ///< the least such rms that any nominal section reaches within kUsualRoll [m]
+  /// Metal that is missing on the flanks of a rail, 4 to 13 mm below its top, on the side of small and of great y: mean
+  /// across the nominal section [m].
+  double lost_low = 0.0, lost_high = 0.0;
+};
+
+/// An axis of a measuring frame may be off by so much, and a rail may be inclined by 1:20 [rad].
+inline constexpr double kUsualRoll = 3.0 * 3.14159265358979323846 / 180.0;
+
+/// Least trimmed squares (Rousseeuw 1984) of the section upon each nominal one, by shift and roll: worn parts are
+/// among what is left out. Nothing where fewer than 20 mm of the section can be compared. Thread-safe.
+std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutline> nominals);
+
+}  // namespace treadmark::measured
