@@ -10,8 +10,8 @@ namespace treadmark::app {
 /// Reads the geometry of a wheel or rail, whatever its kind (profile, slices, triangles, offsets, a shape given in the
 /// case), and builds the surface in its natural representation, with its defects. Several parts become one body. radius
 /// [m]: nominal radius of a wheel; of a roller in place of a rail (SurfaceSpec::roller_radius), 0 = it is a rail.
-/// Errors of the readers and backends; Error(configuration) for defects on a file of offsets or on a body of parts, and
-/// for a roller from a file of offsets.
+/// Errors of the readers and backends; Error(configuration) for keys of the shape that do nothing on its kind, for
+/// defects on a file of offsets or on a body of parts, and for a roller from a file of offsets.
 NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius);
 
 /// The motion of a section that a crossing asks for.

@@ -159,7 +159,8 @@ std::vector<LibraryProfile> make_library() {
   wheel("S1002", "", variants, "EN 13715", kFlange, kWidth);
   wheel("1:40", "1/40", variants, "EN 13715", kFlange, kWidth);
   wheel("EPS", "", variants, "EN 13715", kFlange, kWidth);
-  wheel("cone 1:20", "", "1:N, any N, -1:N opens outwards, 60 mm to both sides, no flange", "a cone", 0.0, 120e-3).family = true;
+  wheel("cone 1:20", "", "1:N, any N, -1:N opens outwards, 60 mm to both sides, no flange", "a cone", 0.0, 120e-3)
+      .family = true;
   wheel("hollow R330", "", "any radius in mm, 30 mm to both sides, no flange", "a circle", 0.0, 60e-3).family = true;
   return all;
 }
