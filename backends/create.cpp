@@ -67,6 +67,7 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
   NaturalSurface natural;
   natural.surface = offset::make_offset_surface(make_natural(content.base), content.offsets,
                                                 offset::Interpolation::bicubic, "offset");
+  natural.note = content.remark;
   // what lies below is known, but not what was added: it is resampled from the surface
   natural.spec.body = content.base.body;
   natural.spec.nominal_radius = content.base.nominal_radius;
