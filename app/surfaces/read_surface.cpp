@@ -17,6 +17,7 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/backends/spline/spline_gaps.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/cases/shape_keys.hpp"
@@ -233,6 +234,21 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
 }
 
 }  // namespace
+
+std::optional<std::pair<double, double>> measured_range(const NaturalSurface& surface,
+                                                        const io::SurfaceSource& source) {
+  const auto* slices = std::get_if<SliceSet>(&surface.spec.shape);
+  if (slices == nullptr || slices->u.size() < 2 || source.crossing.part != io::CrossingInput::Part::none)
+    return std::nullopt;
+  const std::vector<double>& u = slices->u;
+  if (surface.spec.body == Body::wheel) {
+    constexpr double kWidestGap = 1.5;  // of the steps between slices: closed beyond the last one
+    double widest = 0.0;
+    for (std::size_t i = 1; i < u.size(); ++i) widest = std::max(widest, u[i] - u[i - 1]);
+    if (2.0 * kPi - (u.back() - u.front()) <= kWidestGap * widest) return std::nullopt;
+  }
+  return std::pair{u.front(), u.back()};
+}
 
 NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
   NaturalSurface shape = read_shape(source, body, radius);

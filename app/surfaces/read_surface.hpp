@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
+#include <utility>
+
 #include "treadmark/backends/create.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 
@@ -16,6 +19,11 @@ NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double r
 
 /// The motion of a section that a crossing asks for.
 MovingSection motion_of(const io::CrossingInput& crossing);
+
+/// From the first to the last section of a surface given by slices, beyond which it only goes on as it ends: x of a
+/// rail [m], theta of a wheel [rad]. Nothing for other surfaces, for slices all round a wheel, and for sections that a
+/// key moves along the track, which go on by design.
+std::optional<std::pair<double, double>> measured_range(const NaturalSurface& surface, const io::SurfaceSource& source);
 
 /// Whether the name ends like a file of offsets: .vdb.
 bool is_offset_file(const std::filesystem::path& file);

@@ -13,7 +13,8 @@ struct Placement {
   Pose X_TR, X_TS, X_TWs, X_TW, X_TA;
 };
 
-/// Places rail and wheelset by gauge, cant, flange-back distance and state.
+/// Places rail and wheelset by gauge, cant, flange-back distance and state. The gauge is taken at x = 0 of the rail,
+/// and at the wheelset's place where the rail has no section there.
 /// Errors: Error(configuration) if the gauge point cannot be found (profile too low, or gauge height too large).
 Placement place(const Geometry& geometry, const Problem& right_hand_problem);
 
@@ -21,8 +22,9 @@ Placement place(const Geometry& geometry, const Problem& right_hand_problem);
 struct GaugePoint {
   double y = 0.0, z_top = 0.0;  ///< [m]
 };
-/// In the rail frame turned to the track's orientation; gauge_height [m] below the top. Errors: as place.
-GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height);
+/// Of the section at x [m], in the rail frame turned to the track's orientation; gauge_height [m] below the top.
+/// Errors: as place.
+GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height, double x = 0.0);
 
 /// From where to where a surface goes across the track.
 struct LateralRange {
