@@ -21,6 +21,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/cases/shape_keys.hpp"
+#include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
@@ -208,6 +209,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
   spec.defects = source.defects;
   std::string note;
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
+    io::refuse_foreign_file(file->file, source.where);
     if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
     if (io::is_spline_file(file->file)) return read_spline_file(*file, source, body, radius);
     if (io::is_mesh_file(file->file))
