@@ -78,8 +78,8 @@ constexpr ShapeKind kCad{"a file of CAD", is_crossing,
                          "them to triangles, which are mirrored and scaled"};
 constexpr ShapeKind kSlices{"a file of slices", [](std::string_view key) { return !is_crossing(key); },
                             "only one section can move along the track"};
-constexpr ShapeKind kPoints{"a profile", [](std::string_view key) { return key != "open_seam"; },
-                            "it belongs to slices all round a wheel (.slcw)"};
+constexpr ShapeKind kProfileShape{"a profile", [](std::string_view key) { return key != "open_seam"; },
+                                  "it belongs to slices all round a wheel (.slcw)"};
 constexpr ShapeKind kFormula{"a shape without a file",
                              [](std::string_view key) { return is_crossing(key) || key.starts_with("start_"); },
                              "they belong to a shape given by a file"};
@@ -94,7 +94,7 @@ ShapeKind kind_of(const io::SurfaceSource& source) {
   if (io::is_spline_file(file->file)) return kSplines;
   if (io::is_mesh_file(file->file)) return kTriangles;
   if (io::is_cad_file(file->file)) return kCad;
-  return io::is_slices_file(file->file) ? kSlices : kPoints;
+  return io::is_slices_file(file->file) ? kSlices : kProfileShape;
 }
 
 /// A key that would do nothing is an error.
@@ -116,7 +116,7 @@ void refuse_idle_keys(const io::SurfaceSource& source, Body body) {
 }
 
 /// As the keys mirror_y and mirror_z say; the outside stays outside.
-TriangleMesh mirrored(TriangleMesh mesh, const io::ProfileOptions& how) {
+TriangleMesh mirrored_mesh(TriangleMesh mesh, const io::ProfileOptions& how) {
   const bool y = how.mirror_y == 1, z = how.mirror_z == 1;
   for (Vec3& v : mesh.vertices) v = {v.x(), y ? -v.y() : v.y(), z ? -v.z() : v.z()};
   if (y != z)
@@ -213,7 +213,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
     if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
     if (io::is_spline_file(file->file)) return read_spline_file(*file, source, body, radius);
     if (io::is_mesh_file(file->file))
-      spec.shape = mirrored(io::read_mesh(file->file, file->options.scale, source.where), file->options);
+      spec.shape = mirrored_mesh(io::read_mesh(file->file, file->options.scale, source.where), file->options);
     else if (io::is_cad_file(file->file))
       spec.shape = shape_of_cad(*file, body, radius, source.where, note);
     else if (io::is_slices_file(file->file))

@@ -66,7 +66,7 @@ void for_each_on(std::string_view mask, Visit visit) {
 }
 
 /// The beginning of a name, which may be long, for a message.
-std::string shown(std::string name) {
+std::string short_name(std::string name) {
   constexpr std::size_t kMost = 30;
   if (name.size() > kMost) name.replace(kMost, std::string::npos, "...");
   return name;
@@ -126,7 +126,7 @@ class SheetReader {
     std::string name, type;
     std::size_t begin = 0, end = 0;
     std::map<std::string, std::string> metadata;
-    std::string title() const { return '\'' + shown(name) + '\''; }
+    std::string title() const { return '\'' + short_name(name) + '\''; }
   };
   static constexpr const char* kWay = "offsets come from treadmark convert or import, as .vdb";
 
@@ -201,12 +201,12 @@ class SheetReader {
 
   SheetFile sheet_of(const Descriptor& grid) {
     if (const auto kind = grid.metadata.find("class"); kind != grid.metadata.end() && kind->second != "unknown")
-      refuse(fmt::format("the grid {} of the VDB file is a {}, not offsets", grid.title(), shown(kind->second)),
+      refuse(fmt::format("the grid {} of the VDB file is a {}, not offsets", grid.title(), short_name(kind->second)),
              "its class must be unknown");
     half_ = grid.type == "Tree_float_5_4_3_HalfFloat";
     if (!half_ && grid.type != "Tree_float_5_4_3")
       refuse(
-          fmt::format("the offsets of a VDB file must be single or half precision numbers, not {}", shown(grid.type)));
+          fmt::format("the offsets of a VDB file must be single or half precision numbers, not {}", short_name(grid.type)));
     at_ = grid.begin;
     compression_ = number<std::uint32_t>();
     if (compression_ > (kZip | kActiveMask | kBlosc)) refuse("the VDB file is compressed in an unknown way");
