@@ -224,8 +224,9 @@ class PartsKind final : public NaturalKind {
   }
   /// What is wanted of the whole, of a part.
   Representation own(const SurfacePart& part, const Representation& wanted) const {
-    Representation out{part.backend.empty() ? wanted.backend : part.backend,
-                       part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
+    Representation out{part.backend.empty() ? wanted.backend : part.backend, part.resolution, wanted.region};
+    const bool sampled = !out.backend.empty() && backend_of(out.backend).resample;
+    if (out.resolution == 0.0 && sampled) out.resolution = wanted.resolution;
     out.region.u_min -= along_of(part);
     out.region.u_max -= along_of(part);
     out.region.y_min -= part.offset.y();

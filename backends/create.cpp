@@ -67,6 +67,7 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
   NaturalSurface natural;
   natural.surface = offset::make_offset_surface(make_natural(content.base), content.offsets,
                                                 offset::Interpolation::bicubic, "offset");
+  natural.note = content.remark;
   // what lies below is known, but not what was added: it is resampled from the surface
   natural.spec.body = content.base.body;
   natural.spec.nominal_radius = content.base.nominal_radius;
@@ -75,7 +76,14 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
 }
 
 RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted) {
-  return natural.kind->represent(natural, wanted);
+  RepresentedSurface out = natural.kind->represent(natural, wanted);
+  if (wanted.resolution > 0.0 && !out.resampled) refuse_idle_resolution();
+  return out;
+}
+
+void refuse_idle_resolution(const SourcePosition& where) {
+  throw Error(ErrorKind::configuration, "a resolution does nothing here: the surface is taken as it is, not sampled",
+              where, "name a backend that samples it, or leave the resolution out");
 }
 
 SurfaceDifference fit_error(const NaturalSurface& natural, const RepresentedSurface& represented) {

@@ -94,8 +94,8 @@ struct RepresentedSurface {
 /// rail. Errors: Error(configuration) for another shape, or a motion that makes no sense.
 SliceSet move_section(const SurfaceSpec& section, const MovingSection& motion);
 
-/// Turns a surface into a representation. Errors: Error(configuration) for an unknown backend or one that cannot
-/// represent the shape; those of sampling and of the backends.
+/// Turns a surface into a representation. Errors: Error(configuration) for an unknown backend, one that cannot
+/// represent the shape, or a resolution where nothing is sampled; those of sampling and of the backends.
 RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted);
 
 /// How far the representation lies from what it was sampled from, over its region.

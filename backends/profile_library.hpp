@@ -13,7 +13,7 @@
 namespace treadmark {
 
 /// A row of the profiles that StandardProfile::name may name. Capital and small letters, blanks, underscores and
-/// hyphens make no difference.
+/// hyphens between words make no difference; before a number a hyphen is its sign ("cone -1:20").
 struct LibraryProfile {
   std::string name;   ///< "60E1"; of a family with a placeholder: "cone 1:N"
   std::string also;   ///< other names, with commas between them; may be empty

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/backends/resampling.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/model/surface_spec.hpp"
 
@@ -74,5 +75,8 @@ struct BackendChoice {
 std::vector<BackendChoice> backend_choices(const std::vector<std::string>& names,
                                            const std::vector<double>& resolutions,
                                            const std::vector<const NaturalSurface*>& surfaces);
+
+/// The error of represent for a resolution where nothing is sampled.
+[[noreturn]] void refuse_idle_resolution(const SourcePosition& where = {});
 
 }  // namespace treadmark

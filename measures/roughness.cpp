@@ -186,7 +186,8 @@ RoughnessMeasures measure_roughness(std::span<const double> height, double step,
     const double low = 1.0 / ends.longest, high = 1.0 / ends.shortest, line = spectra.front().line;
     const auto first = static_cast<std::size_t>(std::ceil(low / line)),
                last = static_cast<std::size_t>(std::ceil(high / line));
-    constexpr double kFewestWaves = 3.0;  // in a segment
+    // in a segment: with fewer a band is narrower than what the window makes of one sine, which its neighbours get
+    constexpr double kFewestWaves = 8.0;
     if (last > first && last <= spectra.front().power.size() &&
         ends.longest * kFewestWaves < step * static_cast<double>(size)) {
       std::vector<double> power;

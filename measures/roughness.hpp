@@ -20,7 +20,7 @@ struct RoughnessGauge {
 /// A one-third octave of the roughness.
 struct RoughnessBand {
   double wavelength = 0.0;   ///< nominal middle [m]
-  double level = kUnknown;   ///< [dB re 1 um]; NaN: the record is too short or too coarse for the band
+  double level = kUnknown;   ///< [dB re 1 um]; NaN: a segment has fewer than 8 waves, or is too coarse for the band
   double spread = kUnknown;  ///< standard deviation of the level over the segments [dB]; NaN: one segment
   double limit = kUnknown;   ///< [dB]; NaN: none
   double floor = kUnknown;   ///< level of the samples' noise in the band [dB]; NaN: none

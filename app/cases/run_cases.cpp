@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/app/cases/case_sequence.hpp"
+#include "treadmark/app/cases/data_ends.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
@@ -71,6 +72,12 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
     }
     run = solve_cases(file, geometries, progress);
     add_profile_doubts(file, run);
+    auto c = file.cases.begin();
+    for (io::CaseResult& result : run.cases) {
+      while (c->number != result.number) ++c;
+      if (const auto* input = std::get_if<io::WheelRailCase>(&c->content))
+        doubt_contact_beyond_data(*input, store, result);
+    }
   } catch (const Cancelled&) {  // what is finished is whole
     run = head_of(file);
   }

@@ -15,11 +15,13 @@
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/check_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/app/surfaces/surface_check.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/pictures/section_picture.hpp"
 
 namespace treadmark::cli {
@@ -75,13 +77,15 @@ std::size_t doubts_of(const CheckedInput& input) {
   return count;
 }
 
-void check_profile_file(const CheckOptions& options, CheckedInput& input) {
+void check_geometry_file(const CheckOptions& options, CheckedInput& input) {
   if (!options.overrides.empty())
     throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {input.file},
                 "leave it out");
   std::optional<Body> body;
   if (!options.body.empty()) body = options.body == "wheel" ? Body::wheel : Body::rail;
-  add_profile(app::check_profile(input.file, body), input);
+  add_profile(
+      app::is_surface_file(input.file) ? app::check_surface(input.file, body) : app::check_profile(input.file, body),
+      input);
 }
 
 /// pictures: the folder for them; empty: none.
@@ -99,6 +103,7 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
       write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number), input.positions[k].second);
   }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
+  for (const app::CheckedProfile& surface : app::check_surfaces(file)) add_profile(surface, input);
   const std::size_t doubts = doubts_of(input);
   input.outcome = fmt::format("{}{}, no errors{}", file.cases.size(), file.cases.size() == 1 ? " case" : " cases",
                               doubts == 0 ? "" : fmt::format(", {} doubt{}", doubts, doubts == 1 ? "" : "s"));
@@ -115,9 +120,11 @@ constexpr PlainKind kPlainKinds[] = {
     {io::FileKind::simulation, check_simulation_file}, {io::FileKind::vehicle, check_vehicle_file},
     {io::FileKind::track, check_track_file},           {io::FileKind::import, check_import_file}};
 
-/// Null for profiles and cases.
+bool is_geometry_file(const std::string& name) { return app::is_profile_file(name) || app::is_surface_file(name); }
+
+/// Null for profiles, surfaces and cases.
 const PlainKind* plain_kind_of(const std::string& name) {
-  if (app::is_profile_file(name)) return nullptr;
+  if (is_geometry_file(name)) return nullptr;
   const auto found = std::ranges::find(kPlainKinds, io::file_kind(name), &PlainKind::kind);
   return found == std::end(kPlainKinds) ? nullptr : &*found;
 }
@@ -127,7 +134,7 @@ std::map<std::string, std::filesystem::path> picture_folders(const CheckOptions&
   if (options.output_folder.empty()) return {};
   std::vector<std::string> names;
   std::ranges::copy_if(options.cases, std::back_inserter(names), [](const std::string& name) {
-    return !app::is_profile_file(name) && plain_kind_of(name) == nullptr;
+    return !is_geometry_file(name) && plain_kind_of(name) == nullptr;
   });
   const std::vector<std::filesystem::path> folders = output_folders(options.output_folder, names);
   std::map<std::string, std::filesystem::path> by_name;
@@ -142,8 +149,9 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
   for (const std::string& name : options.cases) {
     CheckedInput& input = inputs.emplace_back();
     input.file = name;
-    if (app::is_profile_file(name))
-      check_profile_file(options, input);
+    io::refuse_foreign_file(name);
+    if (is_geometry_file(name))
+      check_geometry_file(options, input);
     else if (const PlainKind* kind = plain_kind_of(name))
       kind->check(name, options.overrides);
     else

@@ -38,6 +38,7 @@ struct ConvertOptions {
   double resolution_mm = 0.0;
   double nominal_radius_mm = 0.0;
   double scale_to_mm = 1.0;
+  double tolerance_um = 0.0;
   std::vector<double> range_mm, range_deg;  ///< along the track, round the wheel: two numbers or none
   std::optional<double> at;                 ///< of the results of a simulation [s]
   std::string simulation;                   ///< its file; empty: to be looked for
@@ -104,6 +105,7 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   settings.backend = options.backend;
   settings.nominal_radius = 1e-3 * options.nominal_radius_mm;
   settings.scale_to_mm = options.scale_to_mm;
+  settings.tolerance = 1e-6 * options.tolerance_um;
   settings.overrides = options.overrides;
   settings.offsets = {
       options.offsets, length_unit(options.offsets_unit), length_unit(options.deviation_unit), options.offsets_deg, {}};
@@ -156,6 +158,12 @@ Command add_convert(CLI::App& verb) {
   verb.add_option("--nominal-radius", options->nominal_radius_mm, "Wheel radius at profile z = 0 [mm]")
       ->check(CLI::PositiveNumber)
       ->type_name("MM");
+  verb.add_option(
+          "--tolerance-um", options->tolerance_um,
+          "How far the file, read again, may lie from the input; default 10 um, with --resolution what a radius "
+          "of 10 mm rises over it")
+      ->check(CLI::PositiveNumber)
+      ->type_name("UM");
   verb.add_option("--scale", options->scale_to_mm, "Factor from units of the file to mm (1000 for a file in m)")
       ->check(CLI::PositiveNumber);
   verb.add_option("--range-mm", options->range_mm, "Part of a rail: from, to along the track")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -12,6 +13,7 @@
 #include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
@@ -34,6 +36,12 @@ struct RunOptions {
   bool bodies = false;                 ///< wheel and rail of every case for ParaView
 };
 
+/// Whether a resolution means something to it.
+bool is_sampled(const io::SurfaceSource& source) {
+  return (!source.backend.empty() && backend_of(source.backend).resample) ||
+         std::ranges::any_of(source.parts, is_sampled);
+}
+
 void choose_backends(io::CaseFile& file, const RunOptions& options) {
   constexpr double kMetres = 1e-3;
   const std::string& wheel = options.wheel_backend.empty() ? options.backend : options.wheel_backend;
@@ -42,8 +50,13 @@ void choose_backends(io::CaseFile& file, const RunOptions& options) {
     if (auto* input = std::get_if<io::WheelRailCase>(&c.content)) {
       if (!wheel.empty()) input->wheel.backend = wheel;
       if (!rail.empty()) input->rail.backend = rail;
-      if (options.resolution_mm > 0.0)
-        input->wheel.resolution = input->rail.resolution = kMetres * options.resolution_mm;
+      bool idle = options.resolution_mm > 0.0;
+      for (io::SurfaceSource* source : {&input->wheel, &input->rail})
+        if (options.resolution_mm > 0.0 && is_sampled(*source)) {
+          source->resolution = kMetres * options.resolution_mm;
+          idle = false;
+        }
+      if (idle) refuse_idle_resolution({file.path.string()});
     }
 }
 

@@ -74,7 +74,8 @@ io::CaseFile with(io::CaseFile file, const Choice& choice) {
     if (input == nullptr) continue;
     const auto apply = [&](io::SurfaceSource& source, const std::optional<std::string>& backend) {
       source.backend = backend.value_or("");
-      source.resolution = source.backend.empty() ? 0.0 : choice.resolution;
+      const bool sampled = !source.backend.empty() && backend_of(source.backend).resample;
+      source.resolution = sampled ? choice.resolution : 0.0;
     };
     apply(input->wheel, choice.wheel);
     apply(input->rail, choice.rail);

@@ -16,6 +16,7 @@
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -67,6 +68,7 @@ geometry::Section section_of(const GeometryRequest& request, const std::string& 
   const NaturalSurface natural = surface_of(request, name, body);
   note = natural.note;
   std::shared_ptr<const Surface> surface = natural.surface;
+  if (request.backend.empty() && request.resolution > 0.0) refuse_idle_resolution();
   if (!request.backend.empty()) {
     constexpr double kHalfLength = 5e-3, kHalfAngle = 0.03;  // what is sampled round the section [m], [rad]
     Representation wanted{request.backend, request.resolution, {}};

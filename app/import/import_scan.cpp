@@ -15,6 +15,7 @@
 #include "treadmark/app/import/read_map.hpp"
 #include "treadmark/app/import/truth.hpp"
 #include "treadmark/app/import/write_outputs.hpp"
+#include "treadmark/app/surfaces/written_surface.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"

@@ -304,17 +304,6 @@ void check_holes(const std::filesystem::path& file, const FittedScan& fit) {
   if (is_offset_file(file)) refuse_holes(fit, file, "offsets");
 }
 
-std::filesystem::path StagedOutputs::place(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-  if (io::is_slices_file(file)) slices_.push_back(file);
-  return folders_.try_emplace(folder, folder, OutputFolder::Old::kept).first->second.path() / file.filename();
-}
-
-void StagedOutputs::commit() {
-  for (auto& [name, folder] : folders_) folder.move_into();
-  for (const std::filesystem::path& file : slices_) io::remove_other_slices(file);
-}
-
 io::ImportReport::Output write_output(const std::filesystem::path& file, const std::filesystem::path& place,
                                       const FittedScan& fit, const io::ImportSettings& settings,
                                       const std::vector<std::string>& summary) {

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "treadmark/app/import/find_place.hpp"
-#include "treadmark/core/output_file.hpp"
 #include "treadmark/scans/cleaning/coverage.hpp"
 #include "treadmark/scans/fit/band_surface.hpp"
 
@@ -29,21 +27,6 @@ void check_outputs(const ImportRequest& request);
 
 /// Refuses slices and offsets of a surface with holes that stay open. Errors: Error(configuration).
 void check_holes(const std::filesystem::path& file, const FittedScan& fit);
-
-/// Surfaces on the way to their names: written into a hidden folder of the folder where they shall lie, which is gone
-/// with this object. One thread.
-class StagedOutputs {
- public:
-  /// Where to write what shall become `file`. Errors: Error(configuration) where no folder can be made.
-  std::filesystem::path place(const std::filesystem::path& file);
-
-  /// Gives all of them their names. Errors: Error(configuration) naming the file.
-  void commit();
-
- private:
-  std::map<std::filesystem::path, OutputFolder> folders_;
-  std::vector<std::filesystem::path> slices_;  ///< whose earlier folders go at last
-};
 
 /// Writes one surface to `place` that shall become `file`, reads it back and compares it with the fitted one. summary:
 /// lines that go into the file. Errors: those of check_holes, writers and CGAL; Error(input_data) for a surface that

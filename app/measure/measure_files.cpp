@@ -417,6 +417,13 @@ class RailFile {
       worst.reason = error.message();
       return;
     }
+    double untold = 0.0;  // shortest wavelength beyond those that the line tells
+    for (const measures::RoughnessBand& band : out_.roughness->bands)
+      if (std::isnan(band.level) && band.limit == band.limit && band.wavelength > 8.0 * request_.line_step)
+        untold = untold == 0.0 ? band.wavelength : std::min(untold, band.wavelength);
+    if (untold > 0.0)
+      out_.notes.push_back(fmt::format("the line of {:.2f} m is too short for roughness with waves of {:g} mm and more",
+                                       out_.roughness->length, 1e3 * untold));
     for (const measures::RoughnessBand& band : out_.roughness->bands)
       if (const double over = band.level - band.limit; over == over && !(over <= worst.value)) worst.value = over;
     if (!worst.known()) worst.reason = "no band with a limit can be told from so short a line";

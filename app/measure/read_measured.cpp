@@ -76,6 +76,8 @@ ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& req
   out.placed = true;
   const Box3 box = natural.surface->bounds();
   out.x_min = box.min.x(), out.x_max = box.max.x();
+  if (const auto known = measured_range(natural, {}); known && request.body == Body::rail)
+    out.x_min = known->first, out.x_max = known->second;
   if (!natural.note.empty()) out.notes.push_back(natural.note);
   return out;
 }

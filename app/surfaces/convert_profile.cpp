@@ -9,9 +9,12 @@
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/app/surfaces/written_surface.hpp"
 #include "treadmark/backends/builtin.hpp"
 #include "treadmark/backends/resampling.hpp"
 #include "treadmark/backends/spline/fit_profile.hpp"
+#include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 
@@ -21,8 +24,13 @@ namespace {
 constexpr double kAnyRadius = 0.46;  // [m]
 constexpr double kStep = 0.25e-3;    // [m] between points of arcs, as where formulas become splines
 
-Profile input_profile(const std::filesystem::path& input, const std::filesystem::path& output,
-                      const ConvertSettings& settings) {
+struct InputProfile {
+  Profile profile;                        ///< whose points are written
+  std::optional<NaturalSurface> surface;  ///< that they were sampled from
+};
+
+InputProfile input_profile(const std::filesystem::path& input, const std::filesystem::path& output,
+                           const ConvertSettings& settings) {
   const auto refuse = [&](const char* what, const char* advice) {
     throw Error(ErrorKind::configuration, what, {input.string()}, advice);
   };
@@ -36,7 +44,7 @@ Profile input_profile(const std::filesystem::path& input, const std::filesystem:
     if (!body) refuse("the file does not tell whether it is a wheel or a rail", "say --body wheel or --body rail");
     io::ProfileOptions options;
     options.scale = settings.scale_to_mm;
-    return io::read_profile(input, *body, options, {});
+    return {io::read_profile(input, *body, options, {}), {}};
   }
   const std::optional<Body> body = settings.body ? settings.body : io::profile_body(output);
   // A section is the same at any radius; library names of wheels have none.
@@ -47,24 +55,54 @@ Profile input_profile(const std::filesystem::path& input, const std::filesystem:
   if (!natural.constant_profile())
     refuse("the section is not the same everywhere, and one profile is written", "write triangles, slices or offsets");
   const auto* profile = std::get_if<Profile>(&natural.spec.shape);
-  if (profile != nullptr && settings.resolution == 0.0) return *profile;
+  if (profile != nullptr && settings.resolution == 0.0) return {*profile, {}};
   const double step = settings.resolution > 0.0 ? settings.resolution : kStep;
+  std::optional<NaturalSurface> straight;  // a roller is written as the rail that its section would be
+  if (natural.spec.roller_radius == 0.0) straight = natural;
   // Formulas by their length, so that steep sides have as many points.
   if (natural.spec.defects.empty())
-    if (const std::optional<Profile> formula = sampled_formula(natural.spec, step)) return *formula;
+    if (const std::optional<Profile> formula = sampled_formula(natural.spec, step)) return {*formula, straight};
   const Representation wanted{"", step, {}};
-  return Resampling(natural, wanted).section();
+  return {Resampling(natural, wanted).section(), straight};
+}
+
+/// The surface of points of a profile, at any radius.
+NaturalSurface surface_of_points(const Profile& profile) {
+  return create_natural({profile.body, profile.body == Body::wheel ? kAnyRadius : 0.0, profile, {}});
+}
+
+/// Writes it where it is read again as what it was made from, at the place to see that.
+void write_checked(const std::filesystem::path& output, const Profile& profile,
+                   const io::ProfileDerivatives* derivatives, const NaturalSurface& meant, double tolerance) {
+  std::optional<OutputFolder> own;
+  StagedOutputs staged;
+  if (is_stream(output)) own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
+  const std::filesystem::path place = own ? own->path() / output.filename() : staged.place(output);
+  const SurfaceDifference difference = naming(output, place, [&] {
+    io::write_profile(place, profile, derivatives);
+    io::SurfaceSource again;
+    again.geometry = io::GeometryFile{place, {}};
+    again.where = {place.string(), 0, 0};
+    const NaturalSurface back = read_surface(again, profile.body, meant.spec.nominal_radius);
+    return fit_error(meant, {back.surface, true, 0.0, {}, 0.0, {}});
+  });
+  require_as_written(output, "the points", profile.body, difference, tolerance);
+  if (own)
+    copy_bytes(place, output);
+  else
+    staged.commit();
 }
 
 }  // namespace
 
 std::string convert_profile(const std::filesystem::path& input, const std::filesystem::path& output,
                             const ConvertSettings& settings, const ProfileConversion& how) {
-  Profile profile = input_profile(input, output, settings);
+  auto [profile, surface] = input_profile(input, output, settings);
   using Method = SmoothingOptions::Method;
   if (how.lambda_mm3 > 0.0) profile.smoothing = {Method::spline, 1e-9 * how.lambda_mm3};
   if (how.wavelength_mm > 0.0) profile.smoothing = {Method::weighted_spline, 1e-3 * how.wavelength_mm};
   const bool smoothed = profile.smoothing.strength > 0.0;
+  if (smoothed || !surface) surface = surface_of_points(profile);
   io::ProfileDerivatives derivatives;
   if (smoothed || how.derivatives) {
     const std::vector<double> s = spline::arc_length(profile);
@@ -78,7 +116,7 @@ std::string convert_profile(const std::filesystem::path& input, const std::files
     }
     derivatives.s = s;
   }
-  io::write_profile(output, profile, how.derivatives ? &derivatives : nullptr);
+  write_checked(output, profile, how.derivatives ? &derivatives : nullptr, *surface, tolerance_of(settings));
   return fmt::format("{} profile, {} points{}", profile.body == Body::wheel ? "wheel" : "rail", profile.y.size(),
                      smoothed ? ", smoothed" : "");
 }

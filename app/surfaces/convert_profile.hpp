@@ -17,7 +17,8 @@ struct ProfileConversion {
 
 /// Reads a profile (a file, or the wheel or rail of the first case of a case file) and writes it as a profile, see
 /// io::write_profile. The points stay where they are unless smoothing is asked for. Returns what was written, in words.
-/// Errors: those of readers and writers; Error(configuration) where the input is no profile.
+/// The file appears only where it is read again as what it was made from. Errors: those of readers, writers and
+/// require_as_written; Error(configuration) where the input is no profile.
 std::string convert_profile(const std::filesystem::path& input, const std::filesystem::path& output,
                             const ConvertSettings& settings, const ProfileConversion& how);
 

@@ -12,6 +12,7 @@
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/app/surfaces/written_surface.hpp"
 #include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/spline/spline_gaps.hpp"
 #include "treadmark/backends/tensor_fit.hpp"
@@ -61,6 +62,10 @@ io::CadContent to_cad(const NaturalSurface& natural, const Representation& wante
 
 }  // namespace
 
+double tolerance_of(const ConvertSettings& settings) {
+  return settings.tolerance > 0.0 ? settings.tolerance : sampled_tolerance(settings.resolution);
+}
+
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
                           const ConvertSettings& settings) {
   const std::string extension = io::profiles::lower(output.extension().string());
@@ -91,44 +96,57 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   Sampled sampled;
   // What a pipe, a device or ParaView takes cannot be read again: it gets what a file has.
   std::optional<OutputFolder> own;
+  StagedOutputs staged;
   if ((is_stream(output) && !slices) || view)
     own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
-  std::filesystem::path place = own ? own->path() / output.filename() : output;
+  std::filesystem::path place = own ? own->path() / output.filename() : staged.place(output);
   if (view) place.replace_extension(".ply");
-  const auto start = Clock::now();
-  if (cad) {
-    out.kind = "CAD";
-    io::write_cad(place, to_cad(out.source, wanted, sampled));
-  } else if (splines) {
-    out.kind = "splines";
-    const std::vector<SplineSurface> told = to_splines(out.source, wanted, &sampled);
-    std::vector<SplineInterface> met;
-    if (told.size() > 1) spline::spline_gaps(told, {}, &met);
-    io::write_splines(place, told, met);
-  } else if (triangles) {
-    out.kind = "triangles";
-    const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);
-    io::write_mesh(place, mesh);
-    if (view) write_file(output, io::triangles_to_vtp(mesh));
-  } else if (slices) {
-    out.kind = "slices";
-    io::write_slices(output, to_slices(out.source, wanted, &sampled));
-  } else {
-    out.kind = "offsets";
-    if (table)
-      write_added_offsets(place, below, *table, wanted);
-    else
-      write_offsets(place, out.source, wanted, &sampled);
-  }
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  // measured on the surface that a reader of the file gets
-  io::SurfaceSource again;
-  again.geometry = io::GeometryFile{place, {}};
-  again.where = {place.string(), 0, 0};
-  const NaturalSurface back = read_surface(again, out.body, out.source.spec.nominal_radius);
-  out.written = {back.surface, true, sampled.resolution, sampled.region, seconds, sampled.note + back.note};
+  std::string to_view;
+  const auto write = [&] {
+    if (cad) {
+      out.kind = "CAD";
+      io::write_cad(place, to_cad(out.source, wanted, sampled));
+    } else if (splines) {
+      out.kind = "splines";
+      const std::vector<SplineSurface> told = to_splines(out.source, wanted, &sampled);
+      std::vector<SplineInterface> met;
+      if (told.size() > 1) spline::spline_gaps(told, {}, &met);
+      io::write_splines(place, told, met);
+    } else if (triangles) {
+      out.kind = "triangles";
+      const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);
+      io::write_mesh(place, mesh);
+      if (view) to_view = io::triangles_to_vtp(mesh);
+    } else if (slices) {
+      out.kind = "slices";
+      io::write_slices(place, to_slices(out.source, wanted, &sampled));
+    } else {
+      out.kind = "offsets";
+      if (table)
+        write_added_offsets(place, below, *table, wanted);
+      else
+        write_offsets(place, out.source, wanted, &sampled);
+    }
+  };
+  naming(output, place, [&] {
+    const auto start = Clock::now();
+    write();
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    // measured on the surface that a reader of the file gets
+    io::SurfaceSource again;
+    again.geometry = io::GeometryFile{place, {}};
+    again.where = {place.string(), 0, 0};
+    const NaturalSurface back = read_surface(again, out.body, out.source.spec.nominal_radius);
+    out.written = {back.surface, true, sampled.resolution, sampled.region, seconds, sampled.note + back.note};
+  });
   out.fit = fit_error(out.source, out.written);
-  if (own && !view) copy_bytes(place, output);
+  require_as_written(output, out.kind, out.body, out.fit, tolerance_of(settings));
+  if (view)
+    write_file(output, to_view);
+  else if (own)
+    copy_bytes(place, output);
+  else
+    staged.commit();
   return out;
 }
 

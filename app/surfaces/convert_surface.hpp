@@ -23,7 +23,13 @@ struct ConvertSettings {
   std::optional<std::pair<double, double>> range_x, range_theta;
   std::vector<std::string> overrides;  ///< of a case
   io::OffsetsInput offsets;            ///< a table of deviations that is added
+  /// How far the file, read again, may lie from the input [m]; 0: kWrittenTolerance, of samples whose resolution is
+  /// given sampled_tolerance() of it.
+  double tolerance = 0.0;
 };
+
+/// What is meant by settings.tolerance.
+double tolerance_of(const ConvertSettings& settings);
 
 struct Converted {
   NaturalSurface source;
@@ -36,8 +42,8 @@ struct Converted {
 /// Reads any geometry (profile, slices, triangles, offsets, or the wheel or rail of the first case of a case file) and
 /// writes it as triangles (.ply .stl .obj .off), slices (.slcs .slcw), offsets over the undamaged section (.vdb), CAD
 /// (.step) or splines (.xml).
-/// Errors: those of readers, backends and writers; Error(configuration) if the body is not known or the extension means
-/// nothing.
+/// The file appears only where it was read again and lies near enough to the input. Errors: those of readers, backends,
+/// writers and require_as_written; Error(configuration) if the body is not known or the extension means nothing.
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
                           const ConvertSettings& settings);
 

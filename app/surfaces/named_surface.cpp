@@ -11,6 +11,7 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/model/body_name.hpp"
 
@@ -39,6 +40,7 @@ std::optional<Body> library_body_of(const std::filesystem::path& file) {
 }
 
 NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said) {
+  io::refuse_foreign_file(file);
   const std::string extension = extension_of(file);
   io::SurfaceSource source;
   double radius = said.nominal_radius;

@@ -5,17 +5,23 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/profile_library.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/backends/spline/spline_gaps.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
+#include "treadmark/io/cases/shape_keys.hpp"
+#include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
@@ -23,6 +29,11 @@
 #include "treadmark/io/splines/read_splines.hpp"
 
 namespace treadmark::app {
+
+bool is_offset_file(const std::filesystem::path& file) {
+  return io::profiles::lower(file.extension().string()) == ".vdb";
+}
+
 namespace {
 
 NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSource& source, Body body,
@@ -46,23 +57,85 @@ NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSourc
   return natural;
 }
 
+bool is_crossing(std::string_view key) { return key.starts_with("crossing"); }
+
+/// What a shape is given by, and the keys of [rail.shape] and [wheel.shape] beside it that act on such.
+struct ShapeKind {
+  const char* name;
+  bool (*takes)(std::string_view key);
+  const char* advice;
+};
+constexpr ShapeKind kOffsets{"a file of offsets", [](std::string_view) { return false; },
+                             "offsets are in metres over a base of their own: change what they are written from"};
+constexpr ShapeKind kSplines{"a file of splines", [](std::string_view key) { return key == "scale_to_mm"; },
+                             "of the keys beside shape.file only scale_to_mm belongs to it"};
+constexpr ShapeKind kTriangles{
+    "a file of triangles",
+    [](std::string_view key) { return key == "mirror_y" || key == "mirror_z" || key == "scale_to_mm"; },
+    "triangles are mirrored and scaled, no more; measured points are smoothed by treadmark import"};
+constexpr ShapeKind kCad{"a file of CAD", is_crossing,
+                         "CAD files have units and axes of their own and exact shapes: change them there, or convert "
+                         "them to triangles, which are mirrored and scaled"};
+constexpr ShapeKind kSlices{"a file of slices", [](std::string_view key) { return !is_crossing(key); },
+                            "only one section can move along the track"};
+constexpr ShapeKind kProfileShape{"a profile", [](std::string_view key) { return key != "open_seam"; },
+                                  "it belongs to slices all round a wheel (.slcw)"};
+constexpr ShapeKind kFormula{"a shape without a file",
+                             [](std::string_view key) { return is_crossing(key) || key.starts_with("start_"); },
+                             "they belong to a shape given by a file"};
+
+constexpr ShapeKind kParts{"a rail made of parts", [](std::string_view) { return false; }, "give them in the parts"};
+
+ShapeKind kind_of(const io::SurfaceSource& source) {
+  if (!source.parts.empty()) return kParts;
+  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  if (file == nullptr) return kFormula;
+  if (is_offset_file(file->file)) return kOffsets;
+  if (io::is_spline_file(file->file)) return kSplines;
+  if (io::is_mesh_file(file->file)) return kTriangles;
+  if (io::is_cad_file(file->file)) return kCad;
+  return io::is_slices_file(file->file) ? kSlices : kProfileShape;
+}
+
+/// A key that would do nothing is an error.
+void refuse_idle_keys(const io::SurfaceSource& source, Body body) {
+  const ShapeKind kind = kind_of(source);
+  const bool moves = source.crossing.part != io::CrossingInput::Part::none;
+  std::vector<std::string> idle;
+  for (const std::string& key : io::given_shape_keys(source, body)) {
+    if (kind.takes(key) && is_crossing(key) && !moves)
+      throw Error(ErrorKind::configuration, key + " does nothing: the section does not move along the track",
+                  source.where, "say crossing = \"nose\" or \"wing\", or leave it out");
+    if (!kind.takes(key)) idle.push_back(key);
+  }
+  if (!idle.empty())
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("{} {} not belong to {}", fmt::join(idle, ", "), idle.size() == 1 ? "does" : "do", kind.name),
+        source.where, kind.advice);
+}
+
+/// As the keys mirror_y and mirror_z say; the outside stays outside.
+TriangleMesh mirrored_mesh(TriangleMesh mesh, const io::ProfileOptions& how) {
+  const bool y = how.mirror_y == 1, z = how.mirror_z == 1;
+  for (Vec3& v : mesh.vertices) v = {v.x(), y ? -v.y() : v.y(), z ? -v.z() : v.z()};
+  if (y != z)
+    for (auto& corners : mesh.triangles) std::swap(corners[1], corners[2]);
+  return mesh;
+}
+
 SliceSet slices_of(const io::GeometryFile& file, Body body, const SourcePosition& where) {
   SliceSet slices = io::read_slices(file.file, body, file.options, where);
   slices.open_seam = file.open_seam;
   return slices;
 }
 
-/// Its units are its own: another scale is a mistake.
 decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body body, double radius,
                                           const SourcePosition& where, std::string& note) {
-  if (file.options.scale != 1.0)
-    throw Error(ErrorKind::configuration, "files of CAD have units of their own", where, "leave out scale_to_mm");
   if (body == Body::rail && radius != 0.0)
     throw Error(ErrorKind::configuration, "a file of CAD cannot become a roller", where, "use a profile or slices");
   io::CadSurface cad = io::read_cad(file.file, body, radius, where);
   note = std::move(cad.note);
-  if (auto* profile = std::get_if<Profile>(&cad.shape)) profile->smoothing = file.options.smoothing;
-  if (auto* slices = std::get_if<SliceSet>(&cad.shape)) slices->open_seam = file.open_seam;
   return std::visit([](auto& shape) -> decltype(SurfaceSpec::shape) { return std::move(shape); }, cad.shape);
 }
 
@@ -76,11 +149,6 @@ Profile placed_profile(const io::GeometryFile& file, Body body, const SourcePosi
 /// One surface, or a body of several.
 NaturalSurface read_spline_file(const io::GeometryFile& file, const io::SurfaceSource& source, Body body,
                                 double radius) {
-  io::ProfileOptions scale_alone;
-  scale_alone.scale = file.options.scale;
-  if (!(file.options == scale_alone) || file.open_seam)
-    throw Error(ErrorKind::configuration, "a file of splines is taken as it is", source.where,
-                "of the keys beside shape.file only scale_to_mm belongs to it");
   io::SplineFile read = io::read_splines(file.file, file.options.scale, source.where);
   if (read.surfaces.size() > 1 && !source.defects.empty())
     throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
@@ -115,17 +183,15 @@ NaturalSurface read_parts(const io::SurfaceSource& source, Body body, double rad
   if (!source.defects.empty())
     throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
   std::vector<SurfacePart> parts;
-  for (const io::SurfaceSource& part : source.parts)
+  for (const io::SurfaceSource& part : source.parts) {
+    if (part.resolution > 0.0 && part.backend.empty() && source.backend.empty()) refuse_idle_resolution(part.where);
     parts.push_back({std::make_shared<const NaturalSurface>(read_surface(part, body, radius)), part.offset,
                      part.backend, part.resolution});
+  }
   return join_surfaces(std::move(parts));
 }
 
 }  // namespace
-
-bool is_offset_file(const std::filesystem::path& file) {
-  return io::profiles::lower(file.extension().string()) == ".vdb";
-}
 
 MovingSection motion_of(const io::CrossingInput& c) {
   MovingSection m;
@@ -142,6 +208,7 @@ MovingSection motion_of(const io::CrossingInput& c) {
 namespace {
 
 NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double radius) {
+  refuse_idle_keys(source, body);
   if (!source.parts.empty()) return read_parts(source, body, radius);
   SurfaceSpec spec;
   spec.body = body;
@@ -149,10 +216,11 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
   spec.defects = source.defects;
   std::string note;
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
+    io::refuse_foreign_file(file->file, source.where);
     if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
     if (io::is_spline_file(file->file)) return read_spline_file(*file, source, body, radius);
     if (io::is_mesh_file(file->file))
-      spec.shape = io::read_mesh(file->file, file->options.scale, source.where);
+      spec.shape = mirrored_mesh(io::read_mesh(file->file, file->options.scale, source.where), file->options);
     else if (io::is_cad_file(file->file))
       spec.shape = shape_of_cad(*file, body, radius, source.where, note);
     else if (io::is_slices_file(file->file))
@@ -175,6 +243,21 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
 }
 
 }  // namespace
+
+std::optional<std::pair<double, double>> measured_range(const NaturalSurface& surface,
+                                                        const io::SurfaceSource& source) {
+  const auto* slices = std::get_if<SliceSet>(&surface.spec.shape);
+  if (slices == nullptr || slices->u.size() < 2 || source.crossing.part != io::CrossingInput::Part::none)
+    return std::nullopt;
+  const std::vector<double>& u = slices->u;
+  if (surface.spec.body == Body::wheel) {
+    constexpr double kWidestGap = 1.5;  // of the steps between slices: closed beyond the last one
+    double widest = 0.0;
+    for (std::size_t i = 1; i < u.size(); ++i) widest = std::max(widest, u[i] - u[i - 1]);
+    if (2.0 * kPi - (u.back() - u.front()) <= kWidestGap * widest) return std::nullopt;
+  }
+  return std::pair{u.front(), u.back()};
+}
 
 NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
   NaturalSurface shape = read_shape(source, body, radius);

@@ -24,12 +24,39 @@ namespace {
 
 using Curve = std::variant<ArcChain, GraphCurve>;
 
-/// As names are compared: capital letters, no blanks and the like.
-std::string plain(std::string_view name) {
+bool is_blank(char c) { return c == ' ' || c == '_'; }
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+/// As names are compared: capital letters, no blanks and underscores, and no hyphens for which skip(name, at) holds.
+template <class Skip>
+std::string capitals(std::string_view name, const Skip& skip) {
   std::string out;
-  for (const char c : name)
-    if (c != ' ' && c != '_' && c != '-') out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  for (std::size_t i = 0; i < name.size(); ++i)
+    if (!is_blank(name[i]) && !(name[i] == '-' && skip(name, i)))
+      out += static_cast<char>(std::toupper(static_cast<unsigned char>(name[i])));
   return out;
+}
+
+/// Names without numbers of one's own: every hyphen but a leading one is a joint.
+std::string plain(std::string_view name) {
+  return capitals(name, [](std::string_view, std::size_t at) { return at > 0; });
+}
+
+/// "circle-R300", but not "circle R-300" nor "circle -R300", where it looks like a sign.
+bool joins_letter(std::string_view name, std::size_t at) {
+  const std::size_t next = name.find_first_not_of(" _", at + 1);
+  return at > 0 && next != std::string_view::npos && is_letter(name[next]) &&
+         is_blank(name[at - 1]) == is_blank(name[at + 1]);
+}
+
+std::string family_name(std::string_view name) { return capitals(name, joins_letter); }
+
+/// "EN-13715 S-1002/h30": before the dimensions hyphens after letters are joints, too.
+std::optional<WheelSection> named_section(std::string_view said) {
+  return wheel_section(capitals(said, [](std::string_view name, std::size_t at) {
+    const bool dimension = name.substr(0, at).find_first_of(":/") != std::string_view::npos;
+    return joins_letter(name, at) || (at > 0 && is_letter(name[at - 1]) && !dimension);
+  }));
 }
 
 /// Rail A of UIC 519 lies inclined in its own axes: three numbers fitted to its printed points (0.4 um rms).
@@ -59,6 +86,20 @@ double in_range(double value, double low, double high, std::string_view what) {
               fmt::format("{} must lie between {:g} and {:g}, not {:g}", what, low, high, value));
 }
 
+/// The slope of "cone 1:N", positive where the radius falls towards the field side. The sign stands before 1 or N.
+std::optional<double> slope_of_cone(std::string_view said) {
+  const std::string name = family_name(said);
+  const bool turned = name.starts_with("CONE-");
+  const auto n = number_after(name, turned ? "CONE-1:" : "CONE1:");
+  if (!n) return std::nullopt;
+  const std::size_t minus = said.find('-');
+  if (turned && (*n < 0.0 || !is_blank(said[minus - 1]) || is_blank(said[minus + 1])))
+    throw Error(ErrorKind::configuration, fmt::format("'{}' does not tell which way the cone runs", said), {},
+                "write 'cone 1:20', or 'cone -1:20' for one whose radius grows towards the field side");
+  const double size = in_range(std::fabs(*n), 1.0, 1e6, "the cone's 1:N");
+  return (turned || *n < 0.0 ? -1.0 : 1.0) / size;
+}
+
 std::string_view without_railway(std::string_view legacy) {
   return legacy.starts_with("DIN ") ? legacy.substr(4) : legacy;
 }
@@ -73,12 +114,13 @@ std::optional<Curve> find_curve(std::string_view said) {
                                                                   name == plain(without_railway(section.legacy_name)))))
       return head_chain(section);
   if (name == "S1002") return s1002_curve();
-  if (const auto wheel = wheel_section(name)) return wheel_curve(*wheel);
-  if (const auto n = number_after(name, "CONE1:")) return cone_curve(1.0 / in_range(*n, 1.0, 1e6, "the cone's 1:N"));
+  if (const auto wheel = named_section(said)) return wheel_curve(*wheel);
+  if (const auto slope = slope_of_cone(said)) return cone_curve(*slope);
   constexpr double kAngle = 1.2;
-  if (const auto r = number_after(name, "CIRCLER"))
+  const std::string family = family_name(said);
+  if (const auto r = number_after(family, "CIRCLER"))
     return cylinder_chain(1e-3 * in_range(*r, 5.0, 1e5, "the radius in mm"), std::min(kAngle, 36.0 / *r));
-  if (const auto r = number_after(name, "HOLLOWR")) return hollow_curve(in_range(*r, 35.0, 1e5, "the radius in mm"));
+  if (const auto r = number_after(family, "HOLLOWR")) return hollow_curve(in_range(*r, 35.0, 1e5, "the radius in mm"));
   return std::nullopt;
 }
 
@@ -117,7 +159,8 @@ std::vector<LibraryProfile> make_library() {
   wheel("S1002", "", variants, "EN 13715", kFlange, kWidth);
   wheel("1:40", "1/40", variants, "EN 13715", kFlange, kWidth);
   wheel("EPS", "", variants, "EN 13715", kFlange, kWidth);
-  wheel("cone 1:20", "", "1:N, any N, 60 mm to both sides, no flange", "a cone", 0.0, 120e-3).family = true;
+  wheel("cone 1:20", "", "1:N, any N, -1:N opens outwards, 60 mm to both sides, no flange", "a cone", 0.0, 120e-3)
+      .family = true;
   wheel("hollow R330", "", "any radius in mm, 30 mm to both sides, no flange", "a circle", 0.0, 60e-3).family = true;
   return all;
 }
@@ -161,7 +204,7 @@ std::optional<Body> library_body(std::string_view name) {
 
 std::vector<std::string> thinner_flanges(const std::string& name) {
   std::vector<std::string> all{name};
-  const auto section = analytic::wheel_section(analytic::plain(name));
+  const auto section = analytic::named_section(name);
   if (!section) return all;
   constexpr double kThinnest = 28.5, kStep = 0.5;
   const char* const tread = section->tread == analytic::WheelSection::Tread::s1002     ? "S1002"

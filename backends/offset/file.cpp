@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -83,14 +84,39 @@ std::string_view require_sound(const std::vector<char>& data, const fs::path& fi
     refuse("this is not a VDB file", "offsets are read from files written by write_vdb");
   const char* trailer = data.data() + data.size() - kTrailer;
   if (data.size() < kTrailer + kVdbMagic.size() || !std::equal(kMark.begin(), kMark.end(), trailer))
-    refuse("the VDB file is cut off, or was written by another program",
-           "offsets are read from files written by write_vdb");
+    return {data.data(), data.size()};  // OpenVDB wrote it again
   std::uint64_t size = 0, sum = 0;
   std::memcpy(&size, trailer + 8, sizeof(size));
   std::memcpy(&sum, trailer + 16, sizeof(sum));
   if (size != data.size() - kTrailer || sum != sum_of(data.data(), data.size() - kTrailer))
     refuse("the VDB file is damaged: its check sum does not fit", "write or copy it again");
   return {data.data(), data.size() - kTrailer};
+}
+
+/// The transform may have been changed by another program since the entry 'frame' was written. Returns what was
+/// changed, in words.
+std::string take_transform(const SheetFile& sheet, SheetFrame& f, const fs::path& file) {
+  const auto near = [](double a, double b) { return std::fabs(a - b) <= 1e-12 * (std::fabs(a) + std::fabs(b)); };
+  if (near(f.u0, sheet.u0) && near(f.y0, sheet.y0) && near(f.du, sheet.du) && near(f.dy, sheet.dy)) return {};
+  const auto refuse = [&](const char* why, const char* advice) {
+    throw Error(ErrorKind::input_data, why, {file.string()}, advice);
+  };
+  constexpr double kMostScaled = 3.0;
+  const double along = sheet.du / f.du, across = sheet.dy / f.dy;
+  if (std::max({along, across, 1.0 / along, 1.0 / across}) > kMostScaled)
+    refuse("the transform of the offsets in the VDB file was scaled by more than 3 since they were written",
+           "their places are in metres or radians: undo the change of units");
+  if (f.turn > 0 && std::fabs(along - 1.0) > 1e-9)
+    refuse("the transform of the offsets in the VDB file was scaled along the wheel, which they no longer go round",
+           "scale it along y only");
+  const std::string moved = f.body == Body::wheel ? fmt::format("{:.6g} rad", sheet.u0 - f.u0)
+                                                  : fmt::format("{:.6g} mm", 1e3 * (sheet.u0 - f.u0));
+  std::string remark = fmt::format(
+      "the transform of the offsets in {} was changed since they were written: moved by "
+      "{} along and {:.6g} mm across, steps times {:.6g} and {:.6g}. ",
+      file.filename().string(), moved, 1e3 * (sheet.y0 - f.y0), along, across);
+  f.u0 = sheet.u0, f.y0 = sheet.y0, f.du = sheet.du, f.dy = sheet.dy;
+  return remark;
 }
 
 }  // namespace
@@ -115,11 +141,8 @@ OffsetFile read_vdb(const fs::path& file) {
   const auto offsets = std::make_shared<SparseOffsets>();
   OffsetFile result;
   from_metadata(sheet.metadata, *offsets, result.base, file.string());
-  const SheetFrame& f = offsets->frame;
-  const auto near = [](double a, double b) { return std::fabs(a - b) <= 1e-12 * (std::fabs(a) + std::fabs(b)); };
-  if (!near(f.u0, sheet.u0) || !near(f.y0, sheet.y0) || !near(f.du, sheet.du) || !near(f.dy, sheet.dy))
-    throw Error(ErrorKind::input_data, "transform and entry 'frame' of the VDB file contradict each other",
-                {file.string()});
+  SheetFrame& f = offsets->frame;
+  result.remark = take_transform(sheet, f, file);
   for (const SheetGrid::Entry& b : sheet.grid.blocks()) {
     for (int k = 0; k < kBlockI * kBlockJ; ++k)
       if (std::fabs(b.values[k]) > kAbsurd)
@@ -134,8 +157,6 @@ OffsetFile read_vdb(const fs::path& file) {
 }
 
 namespace {
-
-constexpr const char* kFormat = "treadmark offsets 1";
 
 std::string number(double v) { return fmt::format("{:.17g}", v); }
 std::string list(const std::vector<double>& v) { return fmt::format("{:.17g}", fmt::join(v, " ")); }
@@ -239,7 +260,7 @@ Metadata to_metadata(const SparseOffsets& offsets, const SurfaceSpec& base) {
   if (base.body != f.body) throw Error(ErrorKind::configuration, "the base of the offsets belongs to the other body");
   const bool wheel = f.body == Body::wheel;
   Metadata m;
-  m.emplace("format", kFormat);
+  m.emplace("format", kOffsetFormat);
   m.emplace("units", "m");
   m.emplace("axes", wheel ? "i: theta [rad], j: y [m], value: radius [m]" : "i: x [m], j: y [m], value: z [m], down");
   m.emplace("body", wheel ? "wheel" : "rail");
@@ -260,7 +281,7 @@ Metadata to_metadata(const SparseOffsets& offsets, const SurfaceSpec& base) {
 
 void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec& base, const std::string& file) {
   const Reader in(metadata, file);
-  in.require("format", kFormat);
+  in.require("format", kOffsetFormat);
   in.require("units", "m");
   const bool wheel = in.text("body") == "wheel";
   if (!wheel) in.require("body", "rail");

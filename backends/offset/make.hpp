@@ -61,11 +61,14 @@ std::size_t active_count(const SparseOffsets& offsets);
 /// nominal radius and the base (a constant section: standard profile, arcs or points).
 struct OffsetFile {
   std::shared_ptr<const SparseOffsets> offsets;
-  SurfaceSpec base;     ///< without defects
-  std::string notes{};  ///< for people: kept in the file as its entry 'notes'; not read back
+  SurfaceSpec base;      ///< without defects
+  std::string notes{};   ///< for people: kept in the file as its entry 'notes'; not read back
+  std::string remark{};  ///< of reading: a sentence about what another program changed; may be empty
 };
-/// Errors: Error(input_data) for a file that is missing, empty, damaged, not VDB, or not written for this purpose;
-/// Error(configuration) for a base that is not a constant section, or a file that cannot be written.
+/// What OpenVDB wrote again is read too: other names of the grid, half precision, packed values, other grids beside it,
+/// a transform that was moved or scaled. Errors: Error(input_data) for a file that is missing, empty, damaged, not VDB,
+/// or holds no offsets, saying what it holds; Error(configuration) for a base that is not a constant section, or a file
+/// that cannot be written.
 void write_vdb(const std::filesystem::path& file, const OffsetFile& content);
 OffsetFile read_vdb(const std::filesystem::path& file);
 

@@ -27,5 +27,7 @@ struct SheetEntry {
 
 /// Name of the grid in a file.
 constexpr const char* kGridName = "treadmark_offsets";
+/// Its entry 'format', by which it is known whatever it is called.
+constexpr const char* kOffsetFormat = "treadmark offsets 1";
 
 }  // namespace treadmark::offset

@@ -148,8 +148,14 @@ int steps_along(double length, double spacing) {
   return std::max(3, static_cast<int>(std::ceil(length / spacing - 1e-9)));
 }
 
+void refuse_empty_range() {
+  throw Error(ErrorKind::configuration,
+              "there is no surface in the range to be sampled, or none that all its sections have", {},
+              "leave out ends that are ragged: --range-mm FROM,TO of a rail, --range-deg FROM,TO of a wheel");
+}
+
 void LateralArc::require_room() const {
-  if (y.empty()) throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
+  if (y.empty()) refuse_empty_range();
   if (!has_room()) throw Error(ErrorKind::configuration, "the surface is too narrow for samples at this spacing");
 }
 

@@ -27,6 +27,9 @@ struct LateralArc {
   std::vector<double> nodes(int steps) const;
 };
 
+/// Error(configuration): nothing to be sampled.
+[[noreturn]] void refuse_empty_range();
+
 /// That of the sections at the given stations from the first to the last y in [y_min, y_max] at which one has a surface
 /// (common: all of them), fine enough for steps of the given length [m]. Errors: Error(configuration) if the spacing is
 /// not positive, or if nothing limits y.

@@ -110,7 +110,7 @@ std::vector<double> stations(const Surface& surface, Body body, double nominal_r
     if (!std::isfinite(from) || !std::isfinite(to))
       throw Error(ErrorKind::configuration, "a rail without ends needs a range along the track to be sampled in");
   }
-  if (!(to > from)) throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
+  if (!(to > from)) refuse_empty_range();
   const double count = std::max(closed ? 8.0 : 3.0, std::ceil((to - from) / step - 1e-9));
   if (!(count < kMostPoints))
     throw Error(ErrorKind::configuration, "the spacing of samples is too small for the range");

@@ -17,6 +17,7 @@
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 
 namespace treadmark::contact {
@@ -82,7 +83,7 @@ void give_file(Problem& p, const std::string& name, std::span<const int> ints, s
   io::GeometryFile file;
   file.file = io::resolve_name(folders().work, name);
   file.options = options_of(p, ints, reals);
-  file.open_seam = true;  // as in the reference program
+  file.open_seam = io::is_slices_file(file.file);  // as in the reference program
   io::SurfaceSource source;
   const Body body = body_of_file(file.file, ints);
   source.geometry = std::move(file);

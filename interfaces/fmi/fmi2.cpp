@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -29,7 +31,9 @@ int digit(char c) {
 
 /// The path of a URI of scheme file; a path by itself is one, too. Empty: neither.
 std::string path_of(std::string_view uri) {
-  if (uri.starts_with("file:")) {
+  constexpr std::string_view kScheme = "file:";  // in any letters
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  if (uri.size() >= kScheme.size() && std::ranges::equal(uri.substr(0, kScheme.size()), kScheme, same)) {
     uri.remove_prefix(5);
     if (uri.starts_with("//")) {
       uri.remove_prefix(2);

@@ -155,13 +155,27 @@ std::span<const CaseKey> case_keys() {
   return keys;
 }
 
+namespace {
+
+/// A value that is refused has its limit in the message; here what is meant by one that is often tried.
+void check_meant(const KeyInfo& key, const CaseValue& value) {
+  const bool zero = (std::holds_alternative<double>(value.data) || std::holds_alternative<std::int64_t>(value.data)) &&
+                    value.number() == 0.0;
+  if (key.path == "friction.coefficient" && zero)
+    fail(fmt::format("{} = 0 must be at least {}", key.path, *key.at_least), value.where,
+         "contact without friction is case.regime = \"none\"");
+  check_value(key, value);
+}
+
+}  // namespace
+
 void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder) {
   std::vector<Assignment> assignments;
   collect(table, "", assignments);
   ChosenKeys chosen;
   for (const Assignment& a : assignments) {
     check_scope(target, a.key->info, a.where);
-    check_value(a.key->info, *a.value);
+    check_meant(a.key->info, *a.value);
     check_exclusive(a.key->info, a.where, chosen);
   }
   check_exclusive_sections(assignments);
@@ -177,7 +191,7 @@ void apply_assignment(Case& target, const CaseOverride& assignment, const std::f
     check_scope(target, found->second->info, where);
     const KeyInfo& key = found->second->info;
     const CaseValue value = meant_value(key, assignment);
-    check_value(key, value);
+    check_meant(key, value);
     found->second->set(target, value, folder);
     return;
   }

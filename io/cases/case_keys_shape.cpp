@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/cases/shape_keys.hpp"
 #include "treadmark/io/cases/shared_keys.hpp"
 
 namespace treadmark::io {
@@ -375,6 +376,20 @@ void add_shape_keys(KeyList& list) {
   ShapeKeys(list, "rail", &W::rail).add();
   add_part_keys(list);
   ShapeKeys(list, "wheel", &W::wheel).add();
+}
+
+std::vector<std::string> given_shape_keys(const SurfaceSource& source, Body body) {
+  const std::string prefix = body == Body::wheel ? "wheel.shape." : "rail.shape.";
+  const Case fresh;
+  Case given;
+  (body == Body::wheel ? content_of<W>(given).wheel : content_of<W>(given).rail) = source;
+  const auto value = [](const CaseKey& key, const Case& c) { return key.written ? key.written(c, {}) : key.text(c); };
+  std::vector<std::string> names;
+  for (const CaseKey& key : case_keys())
+    if (key.info.path.starts_with(prefix) && key.info.group != prefix)
+      if (const std::string text = value(key, given); !text.empty() && text != value(key, fresh))
+        names.push_back(key.info.path.substr(prefix.size()));
+  return names;
 }
 
 }  // namespace treadmark::io

@@ -10,6 +10,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
 
 namespace treadmark::io {
 
@@ -275,7 +276,7 @@ SurfaceSource read_profile(ContactReader& r, std::string_view body) {
   smoothing.strength = strength * (wavelength ? kMillimetre : kMillimetre * kMillimetre * kMillimetre);
 
   SurfaceSource surface;
-  source.open_seam = true;  // as in the reference program
+  source.open_seam = is_slices_file(source.file);  // as in the reference program
   surface.geometry = source;
   surface.where = where;
   return surface;

@@ -26,11 +26,11 @@ class Checker {
 
   void surface(const SurfaceSource& s, Body which, double nominal_radius) const {
     const std::string body = which == Body::rail ? "rail" : "wheel";
-    if (!s.parts.empty()) return parts(s);
-    shape(s, body);
     const OffsetsInput& o = s.offsets;
     require(!o.file.empty() || (!o.unit && !o.deviation_unit && !o.angles_deg),
             body + ".offsets says how a table is meant, but names none", body + ".offsets.file is missing");
+    if (!s.parts.empty()) return parts(s);
+    shape(s, body);
     for (const WheelFlat& flat : s.defects.flats)
       require(flat.shape == WheelFlat::Shape::fresh || flat.depth > 0.0, "wheel.flats: a rounded flat needs depth_mm");
     try {

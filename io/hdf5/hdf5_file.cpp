@@ -3,12 +3,16 @@
 
 #include "treadmark/io/hdf5/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <hdf5.h>
+#include <sys/file.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -289,10 +293,25 @@ Hdf5Id open_in_memory(const std::string& name, Hdf5Image& image) {
   return written(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
 }
 
+/// Whether a program holds the lock that HDF5 takes of files that it writes.
+bool is_locked(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return locked;
+}
+
 Hdf5Id open_to_read(const std::filesystem::path& file) {
-  if (!text_heaps_sound(file)) cannot_read(file.string(), "the file: it is damaged");
+  const auto refuse = [&](const char* what) {
+    if (is_locked(file))
+      throw Error(ErrorKind::input_data, "HDF5: another program has the file open for writing", {file.string()},
+                  "close it there first");
+    cannot_read(file.string(), what);
+  };
+  if (!text_heaps_sound(file)) refuse("the file: it is damaged");
   Hdf5Id id(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
-  if (id.get() < 0) cannot_read(file.string(), "the file");
+  if (id.get() < 0) refuse("the file");
   return id;
 }
 

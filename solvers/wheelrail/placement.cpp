@@ -7,6 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::wheelrail {
@@ -72,6 +75,16 @@ double boundary(const Surface& surface, const Pose& X_ST, double x_T, double hol
 
 constexpr double kScanStep = 2e-4;
 
+[[noreturn]] void refuse_without_surface(const Surface& rail, double x) {
+  const Box3 box = rail.bounds();
+  throw Error(
+      ErrorKind::configuration,
+      fmt::format("the rail has no surface seen from above at x = {:.6g} mm, where the gauge is taken: it reaches "
+                  "from x = {:.6g} to {:.6g} mm",
+                  kMilli * x, kMilli * box.min.x(), kMilli * box.max.x()),
+      {}, "set wheelset.s_mm to a place on it, or place it by track.rail_y_mm");
+}
+
 }  // namespace
 
 LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T) {
@@ -90,15 +103,15 @@ LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T)
   return range;
 }
 
-GaugePoint gauge_point(const Surface& rail, double cant, const Track& track) {
+GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, double x) {
   // Frame with the rail's origin and the track's orientation; the rail is rolled by -cant in it.
   const Pose X_RT{Vec3::Zero(), rotation_x(cant)};
-  const Section section = lateral_section(rail, X_RT, 0.0, box_range(rail, X_RT), kScanStep);
+  const Section section = lateral_section(rail, X_RT, x, box_range(rail, X_RT), kScanStep);
 
   std::size_t top = section.z.size();
   for (std::size_t i = 0; i < section.z.size(); ++i)
     if (!std::isnan(section.z[i]) && (top == section.z.size() || section.z[i] < section.z[top])) top = i;
-  if (top == section.z.size()) throw Error(ErrorKind::configuration, "the rail has no surface seen from above");
+  if (top == section.z.size()) refuse_without_surface(rail, x);
 
   // Top of the rail: ever finer sections around the least height.
   GaugePoint point;
@@ -107,7 +120,7 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track) {
   constexpr double kFlat = 1e-9;     // the height changes with the square of this [m]
   constexpr int kMostSections = 60;  // far from y = 0 the last bits of y are coarser than that
   for (int left = kMostSections; left > 0 && around.y_max - around.y_min > kFlat; --left) {
-    const Section fine = lateral_section(rail, X_RT, 0.0, around, (around.y_max - around.y_min) / kSections);
+    const Section fine = lateral_section(rail, X_RT, x, around, (around.y_max - around.y_min) / kSections);
     std::size_t least = 0;
     for (std::size_t i = 1; i < fine.z.size(); ++i)
       if (!(fine.z[least] <= fine.z[i]) && !std::isnan(fine.z[i])) least = i;
@@ -130,11 +143,11 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track) {
   }
   if (first < section.z.size()) {
     point.y = section.y[first];
-    if (first > 0) point.y = boundary(rail, X_RT, 0.0, section.y[first], section.y[first - 1], high_enough);
+    if (first > 0) point.y = boundary(rail, X_RT, x, section.y[first], section.y[first - 1], high_enough);
     // an end that is as steep as the side of a head is one, seen from above
     constexpr double kSteep = 5.0, kReached = 5e-5, kBeside = 5e-5;
     const bool ends = first == 0 || std::isnan(section.z[first - 1]);
-    const Section end = lateral_section(rail, X_RT, 0.0, {point.y + 0.1 * kBeside, point.y + 1.1 * kBeside}, kBeside);
+    const Section end = lateral_section(rail, X_RT, x, {point.y + 0.1 * kBeside, point.y + 1.1 * kBeside}, kBeside);
     const double depth = end.z.front() - point.z_top,
                  slope = (end.z.front() - end.z.back()) / (end.y.back() - end.y.front());
     point.seen = !ends || !(depth < track.gauge_height - kReached) || !(slope < kSteep);
@@ -150,7 +163,10 @@ Placement place(const Geometry& geometry, const Problem& p) {
   const double cant = p.roller ? 0.0 : t.cant;
   placed.X_TR.rotation = rotation_x(-cant + t.roll);
   if (t.gauge_based) {
-    const GaugePoint gauge = gauge_point(*geometry.rail, cant, t);
+    // A rail without a section at x = 0 is held where the wheelset is.
+    const Box3 box = geometry.rail->bounds();
+    const bool at_zero = p.roller || (box.min.x() <= 0.0 && box.max.x() >= 0.0);
+    const GaugePoint gauge = gauge_point(*geometry.rail, cant, t, at_zero ? 0.0 : p.state.position.x);
     placed.gauge_seen = gauge.seen;
     // A roller's height is that of its nominal circle.
     placed.X_TR.origin = {0.0, 0.5 * t.gauge_width - gauge.y + t.dy, (p.roller ? 0.0 : -gauge.z_top) + t.dz};

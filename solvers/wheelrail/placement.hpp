@@ -14,7 +14,8 @@ struct Placement {
   bool gauge_seen = true;  ///< false: the rail's section ends before it reaches down to where the gauge is measured
 };
 
-/// Places rail and wheelset by gauge, cant, flange-back distance and state.
+/// Places rail and wheelset by gauge, cant, flange-back distance and state. The gauge is taken at x = 0 of the rail,
+/// and at the wheelset's place where the rail has no section there.
 /// Errors: Error(configuration) if the gauge point cannot be found (profile too low, or gauge height too large).
 Placement place(const Geometry& geometry, const Problem& right_hand_problem);
 
@@ -23,8 +24,8 @@ struct GaugePoint {
   double y = 0.0, z_top = 0.0;  ///< [m]
   bool seen = true;             ///< false: the section ends before it reaches so deep, y is that of its end
 };
-/// In the rail frame turned to the track's orientation. Errors: as place.
-GaugePoint gauge_point(const Surface& rail, double cant, const Track& track);
+/// Of the section at x [m], in the rail frame turned to the track's orientation. Errors: as place.
+GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, double x = 0.0);
 
 /// From where to where a surface goes across the track.
 struct LateralRange {

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/Compression.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
@@ -105,10 +106,23 @@ SheetFault write_sheet(std::string& bytes, const std::vector<SheetEntry>& blocks
   return {};
 }
 
+bool unpack(bool blosc, std::string_view stored, char* to, std::size_t size) {
+  try {
+    std::istringstream from(std::string(stored), std::ios::binary);
+    if (blosc)
+      openvdb::io::bloscFromStream(from, to, size);
+    else
+      openvdb::io::unzipFromStream(from, to, size);
+    return !from.fail();
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 extern "C" const SheetLibrary* treadmark_sheet_library() {
-  static const SheetLibrary library{TREADMARK_MODULE_VERSION, make_storage, write_sheet};
+  static const SheetLibrary library{TREADMARK_MODULE_VERSION, make_storage, write_sheet, unpack};
   return &library;
 }
 

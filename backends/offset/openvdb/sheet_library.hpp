@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/backends/offset/sheet_types.hpp"
@@ -44,6 +45,8 @@ struct SheetLibrary {
   const char* version;  ///< of Treadmark; another one is not used
   std::unique_ptr<SheetStorage> (*make_storage)();
   SheetFault (*write)(std::string& bytes, const std::vector<SheetEntry>& blocks, const SheetFrameAndData& sheet);
+  /// Values as they are stored after their length, by Blosc or zlib; whether they are this many bytes.
+  bool (*unpack)(bool blosc, std::string_view stored, char* to, std::size_t size);
 };
 
 /// Its one symbol, "treadmark_sheet_library".

@@ -150,6 +150,24 @@ TEST(ProfileLibrary, NamesAreTakenAsTheyAreWritten) {
   }
 }
 
+TEST(ProfileLibrary, SignsOfNumbersAreMeantOrRefused) {
+  for (const char* name : {"cone -1:20", "cone 1:-20", "CONE_-1:20", "Cone  1 : -20"}) {
+    const auto cone = std::get<GraphCurve>(standard_curve(name));
+    EXPECT_NEAR(cone.height(0.02, 0), 1e-3, 1e-15) << name;
+  }
+  for (const char* name : {"cone-1:20", "cone - 1:20", "cone -1:-20", "cone -1:0.5", "circle R-300", "circle-R-300",
+                           "hollow R-330", "S1002/h30/e31/-10%", "S1002/h-30", "S1002/e-31", "1:40/e-30"})
+    EXPECT_THROW(library_body(name), Error) << name;
+  for (const char* name : {"1:-40", "-1:40", "1/-40", "-1/40", "circle -R300", "hollow -R330", "-S1002", "-60E1",
+                           "S1002/-h30", "cone 1:--20", "cone --1:20", "cone 1:20-", "S1002/h30-e31", "circle R+300"})
+    EXPECT_FALSE(library_body(name)) << name;
+  // hyphens that join
+  for (const char* name : {"UIC-60", "60-E1", "S-49", "54E1-AHC", "50EB-T", "circle-R300"})
+    EXPECT_EQ(library_body(name), Body::rail) << name;
+  for (const char* name : {"EN-13715-S1002/h30", "S-1002", "EN 13715 - EPS", "hollow-R330"})
+    EXPECT_EQ(library_body(name), Body::wheel) << name;
+}
+
 TEST(ProfileLibrary, EveryRowCanBeUsed) {
   for (const LibraryProfile& row : profile_library()) {
     ASSERT_EQ(library_body(row.name), row.body) << row.name;

@@ -203,8 +203,8 @@ TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {
   for (const auto& [from, to] :
        {Pair{"wheel", "whale"}, Pair{"wheel", "rail\n"}, Pair{"0.46000000000000002", "-.46000000000000002"},
         Pair{"0.46000000000000002", "nan0000000000000000"}, Pair{"standard", "standart"},
-        Pair{"treadmark offsets 1", "treadmark offsets 2"}, Pair{"treadmark_offsets", "treadmark_offzets"},
-        Pair{"tolerance", "tolerante"}, Pair{one_metre, one_mile}}) {
+        Pair{"treadmark offsets 1", "treadmark offsets 2"}, Pair{"tolerance", "tolerante"},
+        Pair{one_metre, one_mile}}) {
     put(edited(good, from, to));
     EXPECT_EQ(kind(), kInputData) << from << " to " << to;
   }

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Files of offsets that OpenVDB's own writer has written again, as other programs leave them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <openvdb/io/File.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/LevelSetSphere.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "treadmark/backends/offset/make.hpp"
+#include "treadmark/backends/offset/sparse_offsets.hpp"
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using openvdb::FloatGrid;
+using openvdb::GridBase;
+using ::testing::HasSubstr;
+
+constexpr std::uint32_t kMask = openvdb::io::COMPRESS_ACTIVE_MASK, kZip = openvdb::io::COMPRESS_ZIP,
+                        kBlosc = openvdb::io::COMPRESS_BLOSC;
+
+class OpenVdbFiles : public ::testing::Test {
+ protected:
+  OpenVdbFiles()
+      : path_(std::filesystem::path(::testing::TempDir()) / ("openvdb_" + std::to_string(getpid()) + ".vdb")) {
+    openvdb::initialize();
+    std::vector<float> values(31 * 41);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1e-4f * std::sin(0.1f * static_cast<float>(i % 977));
+    const OffsetMap map{"map", {-0.1, -0.02, 0.01, 0.001, 31, 41}, values};
+    given_ = offset::offsets_from_map(map, Body::rail, 1e-9).offsets;
+    offset::write_vdb(path_, {given_, {Body::rail, 0.0, StandardProfile{"60E1"}, {}}});
+    openvdb::io::File in(path_.string());
+    in.open(/*delayLoad=*/false);
+    grid_ = openvdb::gridPtrCast<FloatGrid>(in.readGrid("treadmark_offsets"));
+  }
+  ~OpenVdbFiles() override { std::filesystem::remove(path_); }
+
+  void write(const openvdb::GridPtrVec& grids, std::uint32_t compression = kMask | kBlosc) const {
+    openvdb::io::File out(path_.string());
+    out.setCompression(compression);
+    out.write(grids);
+    out.close();
+  }
+  std::string refusal() const {
+    try {
+      offset::read_vdb(path_);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input_data);
+      return error.what();
+    }
+    return "";
+  }
+  /// tolerance: a share of each value.
+  void expect_the_same(float tolerance = 0.0f) const {
+    const offset::OffsetFile read = offset::read_vdb(path_);
+    EXPECT_EQ(read.remark, "");
+    EXPECT_EQ(read.offsets->grid.active_count(), given_->grid.active_count());
+    for (int i = 0; i < 31; ++i)
+      for (int j = 0; j < 41; ++j)
+        EXPECT_NEAR(read.offsets->grid.value(i, j), given_->grid.value(i, j),
+                    tolerance * std::fabs(given_->grid.value(i, j)));
+  }
+
+  std::filesystem::path path_;
+  std::shared_ptr<const offset::SparseOffsets> given_;
+  FloatGrid::Ptr grid_;
+};
+
+TEST_F(OpenVdbFiles, AreReadHoweverTheirValuesArePacked) {
+  constexpr float kHalf = 1.0f / 2048.0f;
+  for (const std::uint32_t packed : {0u, kMask, kZip, kBlosc, kZip | kMask, kBlosc | kMask})
+    for (const bool half : {false, true}) {
+      SCOPED_TRACE(packed);
+      grid_->setSaveFloatAsHalf(half);
+      write({grid_}, packed);
+      expect_the_same(half ? kHalf : 0.0f);
+    }
+}
+
+TEST_F(OpenVdbFiles, AreFoundUnderAnyNameAndBesideOtherGrids) {
+  const GridBase::Ptr density = FloatGrid::create(0.0f), mask = openvdb::BoolGrid::create(false);
+  density->setName("density");
+  mask->setName("mask");
+  for (const char* name : {"worn rail", "", "treadmark_offsets"}) {
+    grid_->setName(name);
+    for (const openvdb::GridPtrVec& grids :
+         {openvdb::GridPtrVec{grid_}, {density, grid_}, {grid_, mask}, {mask, grid_, density}}) {
+      write(grids);
+      expect_the_same();
+    }
+  }
+}
+
+TEST_F(OpenVdbFiles, LieWhereTheirTransformSays) {
+  grid_->setTransform(grid_->transform().copy());
+  grid_->transform().postTranslate({0.005, -0.002, 0.0});
+  write({grid_});
+  const offset::OffsetFile moved = offset::read_vdb(path_);
+  EXPECT_NEAR(moved.offsets->frame.u0, given_->frame.u0 + 0.005, 1e-15);
+  EXPECT_NEAR(moved.offsets->frame.y0, given_->frame.y0 - 0.002, 1e-15);
+  EXPECT_THAT(moved.remark, HasSubstr("moved by 5 mm along and -2 mm across"));
+  grid_->transform().preScale(openvdb::Vec3d(1.5, 1.0, 1.0));
+  write({grid_});
+  EXPECT_NEAR(offset::read_vdb(path_).offsets->frame.du, 1.5 * given_->frame.du, 1e-15);
+  grid_->transform().postScale(1000.0);
+  write({grid_});
+  EXPECT_THAT(refusal(), HasSubstr("scaled"));
+  grid_->transform().postScale(0.001);
+  grid_->transform().postRotate(0.1, openvdb::math::Z_AXIS);
+  write({grid_});
+  EXPECT_THAT(refusal(), HasSubstr("rotate"));
+}
+
+TEST_F(OpenVdbFiles, OfOtherKindsAreNamed) {
+  const auto sphere = openvdb::tools::createLevelSetSphere<FloatGrid>(1.0f, openvdb::Vec3f(0.0f), 0.2f);
+  write({sphere});
+  EXPECT_THAT(refusal(), HasSubstr("a level set"));
+  grid_->setGridClass(openvdb::GRID_FOG_VOLUME);
+  write({grid_});
+  EXPECT_THAT(refusal(), HasSubstr("a fog volume"));
+  const FloatGrid::Ptr plain = FloatGrid::create(0.0f);
+  plain->setName("mine");
+  write({plain});
+  EXPECT_THAT(refusal(), HasSubstr("'mine' without the entries that say over which base"));
+  grid_->setGridClass(openvdb::GRID_UNKNOWN);
+  write({grid_, grid_->deepCopyGrid()});
+  EXPECT_THAT(refusal(), HasSubstr("several grids of offsets"));
+  write({});
+  EXPECT_THAT(refusal(), HasSubstr("no grid"));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
