@@ -479,15 +479,15 @@ class RecordingReader {
     return !mark;
   }
 
-  std::optional<double> number(const LineScanner& line, const Cell& cell) {
+  /// NaN for a mark of nothing.
+  double number(const LineScanner& line, const Cell& cell) {
     double value = 0.0;
     if (points::parse_number(cell.text, header_.separator != ',' || cell.quoted, value) && std::isfinite(value))
       return value;
-    if (is_mark(cell.text) || std::isnan(value) || std::isinf(value)) {
-      count_mark(cell.text);
-      return std::nullopt;
-    }
-    line.fail("a number is expected, this is " + profiles::printable(cell.text), cell.column);
+    if (!is_mark(cell.text) && std::isfinite(value))
+      line.fail("a number is expected, this is " + profiles::printable(cell.text), cell.column);
+    count_mark(cell.text);
+    return kNaN;
   }
 
   void count_mark(std::string_view text) {
@@ -501,9 +501,7 @@ class RecordingReader {
       plus_ = true;
       return feet ? *metres * kFeet : *metres;
     }
-    const std::optional<double> value = number(line, cell);
-    if (!value) return kNaN;
-    const double metres = *value * (column.meaning.unit == 0.0 ? 1.0 : column.meaning.unit);
+    const double metres = number(line, cell) * (column.meaning.unit == 0.0 ? 1.0 : column.meaning.unit);
     if (std::abs(metres) > kFarthest) line.fail("no track is a million kilometres long", cell.column);
     return metres;
   }
@@ -515,18 +513,18 @@ class RecordingReader {
     for (std::size_t s = 0; s < signals_.size(); ++s) {
       const Column& column = signals_[s];
       const Cell& cell = cells[column.cell];
-      std::optional<double> value = number(line, cell);
-      if (value && is_mark(cell.text, *value)) {
+      double value = number(line, cell);
+      if (is_mark(cell.text, value)) {
         count_mark(cell.text);
-        value.reset();
+        value = kNaN;
       }
-      const double unit = column.meaning.unit == 0.0 ? 1.0 : column.meaning.unit;
-      if (value && column.meaning.what != Recorded::gauge && column.meaning.unit != 0.0 &&
-          std::abs(*value * unit) > kLargestIrregularity)
-        line.fail(fmt::format("{} = {:.6g} mm is more than {:g} mm", function_name(column), *value * unit * kMilli,
+      value *= column.meaning.unit == 0.0 ? 1.0 : column.meaning.unit;
+      if (column.meaning.what != Recorded::gauge && column.meaning.unit != 0.0 &&
+          std::abs(value) > kLargestIrregularity)
+        line.fail(fmt::format("{} = {:.6g} mm is more than {:g} mm", function_name(column), value * kMilli,
                               kLargestIrregularity * kMilli),
                   cell.column, "look at the unit in the name of the column");
-      rows_.signals[s].push_back(value ? *value * unit : kNaN);
+      rows_.signals[s].push_back(value);
       if (column.meaning.what == Recorded::gauge) gauge_places_.push_back(cell.column);
     }
   }
