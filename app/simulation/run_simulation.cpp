@@ -102,7 +102,7 @@ class Run {
       throw Error(ErrorKind::numerical, e.report.message, {},
                   built_.vehicle.line && built_.vehicle.line->setup().path
                       ? "let the vehicle start on a straight in front of the curve (layout.start_m)"
-                      : "check the loads, the gauge and where the wheels stand at the start");
+                      : vehicle::kNoEquilibriumAdvice);
     result_.message = e.report.message;
     return e;
   }

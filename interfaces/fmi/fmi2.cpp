@@ -55,6 +55,17 @@ std::string path_of(std::string_view uri) {
   return path;
 }
 
+/// A text as the format of printf that prints it, for importers that show the format itself. '#' would begin a
+/// reference to a variable.
+std::string as_format(std::string_view text) {
+  std::string format;
+  for (const char c : text) {
+    format += c;
+    if (c == '%' || c == '#') format += c;
+  }
+  return format;
+}
+
 std::vector<std::uint32_t> elements(const Instance& i, const fmi2ValueReference* vr, std::size_t count,
                                     const void* values) {
   require(values != nullptr || count == 0, "the values are null");
@@ -88,7 +99,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2Str
     if (functions->logger != nullptr)
       logger = [call_back = functions->logger, environment = functions->componentEnvironment,
                 name = std::string(instanceName)](Outcome outcome, const char* category, const char* message) {
-        call_back(environment, name.c_str(), static_cast<fmi2Status>(outcome), category, "%s", message);
+        call_back(environment, name.c_str(), static_cast<fmi2Status>(outcome), category, as_format(message).c_str());
       };
     const std::string resources = fmuResourceLocation == nullptr ? std::string() : path_of(fmuResourceLocation);
     if (fmuType != fmi2CoSimulation || resources.empty()) {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char *kErrorCategory = kCategories[0].name, *kDiscardCategory = kCategories[1].name,
                      *kAllCategory = kCategories[2].name;
-constexpr std::uint32_t kStateFormat = 1;
+constexpr std::uint32_t kStateFormat = 2;
 
 /// The message of the exception that is being handled, to the logger. Nothing gets past it.
 void tell(const Logger& logger, const char* function) noexcept {
@@ -89,6 +89,7 @@ void Instance::set_up(double start_time, const double* stop_time) {
   require(stop_time == nullptr || (std::isfinite(*stop_time) && *stop_time >= start_time),
           "the stop time lies before the start time");
   time_ = start_time;
+  stop_time_ = stop_time == nullptr ? std::numeric_limits<double>::infinity() : *stop_time;
 }
 
 void Instance::compute_start() {
@@ -107,6 +108,7 @@ void Instance::reset() {
   model_->reset();
   mode_ = kInstantiated;
   time_ = 0.0;
+  stop_time_ = std::numeric_limits<double>::infinity();
   computed_ = false;
 }
 
@@ -174,6 +176,8 @@ Outcome Instance::step(double from, double length) {
   const double tolerance = 1e-9 * std::max({1.0, std::abs(from), std::abs(time_)});
   if (std::abs(from - time_) > tolerance)
     throw BadCall{fmt::format("the step starts at {}, but this FMU stands at {}", from, time_)};
+  if (from + length > stop_time_ + tolerance)
+    throw BadCall{fmt::format("the step ends at {}, behind the stop time {}", from + length, stop_time_)};
   const Report report = model_->step(time_, from + length);
   if (report.status != Status::ok) {
     log(Outcome::discard, kDiscardCategory, report.message);
@@ -189,6 +193,7 @@ SavedState Instance::save() const {
   out.put(token_);
   out.put(mode_);
   out.put(time_);
+  out.put(stop_time_);
   out.put(computed_);
   model_->save(out);
   return {out.bytes()};
@@ -209,10 +214,10 @@ void Instance::restore(const SavedState& state) {
   std::string token;
   in.get(token);
   const auto mode = in.get<Mode>();
-  const double time = in.get<double>();
+  const double time = in.get<double>(), stop_time = in.get<double>();
   const bool computed = in.get<bool>();
   if ((mode != kInstantiated && mode != kInitialization && mode != kStep && mode != kTerminated) ||
-      !std::isfinite(time))
+      !std::isfinite(time) || std::isnan(stop_time))
     refuse_saved_state("it is of no mode or time");
   const SavedState before = save();
   try {
@@ -223,11 +228,12 @@ void Instance::restore(const SavedState& state) {
     back.get(token);
     back.get<Mode>();
     back.get<double>();
+    back.get<double>();
     back.get<bool>();
     model_->restore(back);
     throw;
   }
-  mode_ = mode, time_ = time, computed_ = computed;
+  mode_ = mode, time_ = time, stop_time_ = stop_time, computed_ = computed;
 }
 
 Outcome call(void* instance, const char* function, unsigned modes, Outcome (*body)(Instance&, void*),

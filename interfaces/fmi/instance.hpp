@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -92,7 +93,8 @@ class Instance {
   bool tells_all_ = false;
   Mode mode_ = kInstantiated;
   double time_ = 0.0;
-  bool computed_ = false;  ///< outputs belong to the inputs
+  double stop_time_ = std::numeric_limits<double>::infinity();  ///< behind which there are no steps
+  bool computed_ = false;                                       ///< outputs belong to the inputs
 };
 
 /// Runs the body of a call; what it throws becomes a message and an error. body: Instance& -> void or Outcome.

@@ -43,6 +43,11 @@ std::vector<double> Model::derivative(std::span<const std::uint32_t>, std::span<
 
 double Model::end() const { return std::numeric_limits<double>::infinity(); }
 
+double Model::usual_step() const {
+  constexpr double kUsual = 1e-3;
+  return std::min(kUsual, end());
+}
+
 void Model::save(ByteWriter& out) const {
   out.put(values_);
   save_state(out);

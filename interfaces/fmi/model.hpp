@@ -40,6 +40,8 @@ class Model {
                                          std::span<const double> seed);
   /// The last instant that can be reached from a start at 0 [s]; infinity: there is none.
   virtual double end() const;
+  /// A communication step that can be taken from the start values on [s].
+  virtual double usual_step() const;
 
   void save(ByteWriter& out) const;
   /// Of a model of the same files. Errors: Error(input_data).

@@ -188,7 +188,7 @@ std::string middle(const Model& model) {
                        attribute("description", category.description));
   out += "  </LogCategories>\n  <DefaultExperiment startTime=\"0\"";
   if (std::isfinite(model.end())) out += attribute("stopTime", model.end());
-  return out + " stepSize=\"0.001\"/>\n";
+  return out + attribute("stepSize", model.usual_step()) + "/>\n";
 }
 
 }  // namespace

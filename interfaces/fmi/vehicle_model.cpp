@@ -18,8 +18,7 @@ namespace {
 vehicle::SystemState equilibrium_of(const app::BuiltVehicle& built) {
   const vehicle::Equilibrium found = vehicle::find_equilibrium(built.vehicle);
   if (found.report.status != Status::ok)
-    throw Error(ErrorKind::numerical, found.report.message, {},
-                "check the loads, the gauge and where the wheels stand at the start");
+    throw Error(ErrorKind::numerical, found.report.message, {}, vehicle::kNoEquilibriumAdvice);
   return found.state;
 }
 

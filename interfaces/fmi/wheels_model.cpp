@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/interfaces/fmi/model.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 
@@ -220,6 +222,16 @@ class WheelsModel final : public Model {
     return solve(values_, rolled, true, true);
   }
 
+  /// In transient rolling that of one element.
+  double usual_step() const override {
+    double step = Model::usual_step();
+    for (const Wheel& wheel : wheels_)
+      if (const double speed = std::abs(wheel.problem.state.velocity.x);
+          wheel.problem.regime == Regime::transient && speed > 0.0)
+        step = std::min(step, wheel.problem.discretisation.dx / speed);
+    return io::twelve_digits(step);
+  }
+
   bool differentiable() const override { return true; }
 
   std::vector<double> derivative(std::span<const std::uint32_t> outputs, std::span<const std::uint32_t> inputs,
@@ -383,6 +395,41 @@ class WheelsModel final : public Model {
     return p;
   }
 
+  /// A wheel that carries nothing: just above where it would touch its rail.
+  static wheelrail::PairSolution solve_unloaded(wheelrail::Pair& pair, Problem problem) {
+    constexpr double kFarAbove = 0.02, kClearance = 1e-9;  // [m]
+    problem.vertical_force.reset();
+    problem.longitudinal_force.reset();
+    problem.state.position.z = -kFarAbove;
+    const auto before = pair.save();
+    wheelrail::PairSolution solution = pair.solve(problem);
+    if (!std::isfinite(solution.least_gap)) return solution;
+    pair.restore(before);
+    problem.state.position.z += solution.least_gap - kClearance;
+    return pair.solve(problem);
+  }
+
+  /// Whether the balance of a load was sought in vain above nothing but no contact.
+  static bool less_than_an_element(const wheelrail::PairSolution& solution, double load) {
+    constexpr double kAbove = 1.1;  // balances that fail otherwise have come nearer
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [z, force] : solution.force_iterations)
+      if (force > 0.0) least = std::min(least, force);
+    return solution.status == Status::not_converged && std::isfinite(least) && least > kAbove * load;
+  }
+
+  /// Loads of nothing, or less than a single element in contact carries, are a loss of contact.
+  static wheelrail::PairSolution solve_pair(wheelrail::Pair& pair, const Problem& problem) {
+    constexpr double kNothing = 1.0;  // [N]
+    if (!problem.vertical_force) return pair.solve(problem);
+    if (*problem.vertical_force <= kNothing) return solve_unloaded(pair, problem);
+    const auto before = pair.save();
+    wheelrail::PairSolution solution = pair.solve(problem);
+    if (!less_than_an_element(solution, *problem.vertical_force)) return solution;
+    pair.restore(before);
+    return solve_unloaded(pair, problem);
+  }
+
   /// Outputs into values, which may be the model's own. on: from the last accepted instant. keep: else all stays as it
   /// was.
   Report solve(std::vector<double>& values, double rolled, bool on, bool keep) {
@@ -396,7 +443,7 @@ class WheelsModel final : public Model {
       parallel_for(wheels_.size(), [&](std::size_t i) {
         const Problem problem = problem_of(i, values, rolled, on && started_);
         if (!keep) wheels_[i].pair->restore(wheels_[i].before);
-        solutions[i] = wheels_[i].pair->solve(problem);
+        solutions[i] = solve_pair(*wheels_[i].pair, problem);
       });
     } catch (...) {
       back();

@@ -543,6 +543,16 @@ const TableKeys& irregularity_keys() {
     TableKeys list{
         key_info("file", KeyType::path, "measured ones, as text with named columns; this or `spectra` is required"),
         with_default("0", key_info("offset_m", KeyType::number, "added to the distances of the file")),
+        key_info("nominal_gauge_mm", KeyType::number,
+                 "from which a gauge such as 1436.2 mm in the file is counted; without it what the file states, the "
+                 "gauge of the track, or the nearest one in use",
+                 kPositive),
+        key_info("sampling_m", KeyType::number,
+                 "way between two rows of the file, where its distances do not tell (broken chains)", kPositive),
+        with_default("false", key_info("as_stated", KeyType::flag,
+                                       "distances of the file are used as they stand, also where they jump")),
+        with_default("false", key_info("seen_backwards", KeyType::flag,
+                                       "left, right and signs of the file are as seen along falling distances")),
         key_info("begin_m", KeyType::number, "from here on they grow; without it from in front of the vehicle"),
         with_default("20",
                      key_info("wind_up_m", KeyType::number, "length over which they grow from zero", kNotNegative)),

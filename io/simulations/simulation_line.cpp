@@ -146,11 +146,26 @@ void read_measured(const TableReader& table, const std::filesystem::path& folder
     if (table.find(key) != nullptr) table.exclude("file", key);
   const FileText text = named_text(table, "file", folder);
   IrregularitySpec& spec = *out.irregularities;
-  spec.table = parse_irregularity_text(text.text, text.file.path.string(), &out.notes);
+  RecordingSettings recording;
+  recording.nominal_gauge = table.number_or("nominal_gauge_mm", 0.0);
+  recording.track_gauge = out.contact.track.gauge_based ? out.contact.track.gauge_width : out.rail_gauge;
+  recording.sampling = table.number_or("sampling_m", 0.0);
+  recording.as_stated = table.flag_or("as_stated", false);
+  recording.seen_backwards = table.flag_or("seen_backwards", false);
+  if (recording.as_stated && recording.sampling > 0.0) table.exclude("as_stated", "sampling_m");
+  spec.table = parse_irregularity_text(text.text, text.file.path.string(), &out.notes, recording);
   spec.offset = table.number_or("offset_m", 0.0);
   out.irregularity_file = text.file;
-  const double last = spec.table->distance.back() + spec.offset;
-  if (const double end = end_of_run(out); last < end)
+  const double first = spec.table->distance.front() + spec.offset, last = spec.table->distance.back() + spec.offset,
+               end = end_of_run(out);
+  if (first > end)
+    throw Error(ErrorKind::configuration,
+                fmt::format("the irregularities of {} begin at {:.10g} m, behind the end of the run at {:.6g} m",
+                            text.file.path.filename().string(), first, end),
+                table.need("file").where,
+                fmt::format("move them by offset_m, to the start of the run by {:.10g}",
+                            out.start - spec.table->distance.front()));
+  if (last < end)
     throw Error(ErrorKind::configuration,
                 fmt::format("the irregularities of {} end at {:.6g} m, the run at {:.6g} m",
                             text.file.path.filename().string(), last, end),
@@ -208,7 +223,7 @@ void read_irregularities(const TableReader& table, const std::filesystem::path& 
     read_measured(table, folder, out);
     spec.begin = std::max(spec.begin, spec.table->distance.front() + spec.offset);
   } else {
-    if (table.find("offset_m") != nullptr) refuse_keys_of(table, {"offset_m"}, "spectrum");
+    refuse_keys_of(table, {"offset_m", "nominal_gauge_mm", "sampling_m", "as_stated", "seen_backwards"}, "spectrum");
     read_spectra(table, spec.spectral);
     if (table.tables("spectra").empty())
       table.fail("there are neither measured irregularities nor spectra",

@@ -225,7 +225,7 @@ std::vector<ContactTableColumn> connected(const std::vector<Attempt>& attempts, 
   if (!attempts[centre].solved)
     throw Error(ErrorKind::numerical,
                 "wheel and rail have no contact in their central position: " + attempts[centre].message, {},
-                "check gauge, flange-back distance and profiles");
+                "check gauge, flange-back distance and profiles; smooth those that were measured");
   std::size_t first = centre, last = centre;
   while (first > 0 && attempts[first - 1].solved) --first;
   while (last + 1 < attempts.size() && attempts[last + 1].solved) ++last;

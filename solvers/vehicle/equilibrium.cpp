@@ -9,8 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 #include "treadmark/solvers/vehicle/wheel_loop.hpp"
+#include "treadmark/solvers/wheelrail/root_search.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -109,18 +111,43 @@ class Balance {
     return true;
   }
 
-  double measure(const Vector& r) const {
-    double most = 0.0;
-    for (Eigen::Index i = 0; i < r.size(); ++i)
-      most = std::max(most, std::abs(r[i]) / (scale_ * system_.coordinates[static_cast<std::size_t>(i)].arm));
-    return most;
-  }
+  /// The coordinate that is farthest from its balance.
+  const std::string& most(const Vector& r) const { return system_.coordinates[worst(r)].name; }
+  double measure(const Vector& r) const { return share(r, worst(r)); }
 
   /// Derivative of -imbalance by the unknowns.
   Matrix jacobian(const SystemState& state, double coarseness) const {
     LinearSystem system = linearised_system(vehicle_, state, coarseness);
     for (const int c : rolling_) system.stiffness.col(c) = system.damping.col(c);
     return system.stiffness;
+  }
+
+  /// Gives every wheelset, held where it is, the rate at which no moment turns it. Wheels that touch far from their
+  /// nominal circle slip so much at the nominal rate that their forces hardly change with it, and Newton's method finds
+  /// no way. False: a wheel does not touch.
+  bool let_roll(SystemState& state) const {
+    constexpr double kFirst = 1e-3, kReach = 0.2, kResolution = 1e-9;  // of the nominal rate
+    constexpr double kBalanced = 1e-4;                                 // of the wheelset's load
+    for (const Multibody::Wheelset& w : system_.wheelsets) {
+      const int c = w.coordinate[4];
+      if (c < 0) continue;
+      const double rate = vehicle_.speed / w.nominal_radius;
+      wheelrail::RootSearch search(
+          {.tolerance = kBalanced * scale_ * system_.coordinates[static_cast<std::size_t>(c)].arm,
+           .first_step = kFirst * rate,
+           .reach = kReach * rate,
+           .resolution = kResolution * rate});
+      for (;;) {
+        Vector r;
+        std::vector<ContactReaction> reactions;
+        std::string why;
+        if (!imbalance(state, r, reactions, why)) return false;
+        // a wheelset that turns too fast is slowed down
+        if (search.add(state.v[c], -r[c]) != wheelrail::RootSearch::State::search) break;
+        state.v[c] = search.next();
+      }
+    }
+    return true;
   }
 
   /// Of a state in motion what the balance is sought from.
@@ -146,6 +173,16 @@ class Balance {
   }
 
  private:
+  double share(const Vector& r, std::size_t i) const {
+    return std::abs(r[static_cast<Eigen::Index>(i)]) / (scale_ * system_.coordinates[i].arm);
+  }
+  std::size_t worst(const Vector& r) const {
+    std::size_t most = 0;
+    for (std::size_t i = 1; i < system_.coordinates.size(); ++i)
+      if (share(r, i) > share(r, most)) most = i;
+    return most;
+  }
+
   Vector without_contact(const SystemState& state) const {
     Vector r = system_.weight - system_.stiffness * state.q - system_.damping * state.v;
     r += vehicle_.other_forces(state, line_);
@@ -325,6 +362,30 @@ void run_in(const VehicleOnTrack& vehicle, const Balance& balance, const Equilib
   }
 }
 
+/// From wheelsets that turn freely where they stand.
+void start_rolling(const Balance& balance, const EquilibriumSettings& settings, Equilibrium& found, std::string& why) {
+  Equilibrium now;
+  now.state = balance.start();
+  if (!balance.let_roll(now.state)) return;
+  now.iterations = found.iterations;
+  iterate(balance, settings, now, why);
+  found.iterations = now.iterations;
+  if (now.residual < found.residual) found = std::move(now);
+}
+
+/// What is known of a balance that was not found.
+std::string what_remains(const VehicleOnTrack& vehicle, const Balance& balance, const Equilibrium& found) {
+  Vector r;
+  std::vector<ContactReaction> reactions;
+  std::string why;
+  if (!balance.imbalance(found.state, r, reactions, why)) return {};
+  std::string text = ", most along " + balance.most(r);
+  for (std::size_t i = 0; i < reactions.size(); ++i)
+    text += fmt::format("{} {} touches at y = {:.4g} mm", i == 0 ? ";" : ",", vehicle.wheels[i].name,
+                        reactions[i].contact_y * kMilli);
+  return text;
+}
+
 }  // namespace
 
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
@@ -340,11 +401,12 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
   iterate(balance, settings, found, why);
   if (found.residual > settings.acceptable && vehicle.line && vehicle.line->setup().path)
     run_in(vehicle, balance, settings, found, why);
+  if (found.residual > settings.doubtful) start_rolling(balance, settings, found, why);
   if (found.residual > settings.doubtful)
     found.report = {
         Status::not_converged, found.iterations, found.residual,
-        fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}",
-                    found.residual, why.empty() ? "" : "; ", why)};
+        fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}{}",
+                    found.residual, what_remains(vehicle, balance, found), why.empty() ? "" : "; ", why)};
   else if (found.residual > settings.acceptable)
     found.report.message = fmt::format(
         "in the static equilibrium forces of {:.2g} of a wheelset's load remain out of balance: those of contacts jump "

@@ -15,6 +15,11 @@ struct EquilibriumSettings {
   int max_iterations = 60;   ///< of Newton's method
 };
 
+/// What to do where there is no equilibrium on straight track.
+inline constexpr const char* kNoEquilibriumAdvice =
+    "check the loads, the gauge and where the wheels stand at the start; smooth profiles that were measured "
+    "(shape.smoothing_wavelength_mm)";
+
 /// Steady running as it was found, or why not.
 struct Equilibrium {
   Report report;
@@ -27,8 +32,9 @@ struct Equilibrium {
 /// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces,
 /// contact included, are in balance. Newton's method, contact linearised by differences, steps halved until the
 /// imbalance falls; then, as forces of rough wheels jump with the elements, steps by slopes over wide differences; on
-/// curved lines then the same from where the vehicle has come after some running in at its place. A state that is only
-/// doubtful has status ok and a message. Leaves the elements as they were.
+/// curved lines then the same from where the vehicle has come after some running in at its place; last from wheelsets
+/// that turn where they stand so that no moment acts on them, as wheels that touch far from their nominal circle need.
+/// A state that is only doubtful has status ok and a message. Leaves the elements as they were.
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
 
 /// Forces of everything, linear about a state: -K d(coordinates) - C d(rates).

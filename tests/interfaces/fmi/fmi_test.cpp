@@ -369,6 +369,75 @@ TEST_P(Versions, LossOfContactIsNoEvent) {
   EXPECT_THAT(it->get("force_on_wheelset"), ElementsAre(0.0, 0.0, 0.0));
 }
 
+TEST_P(Versions, ALoadOfNothingIsLossOfContact) {
+  for (const bool transient : {false, true}) {
+    const Fmu fmu(case_text("y_mm = 2.0\nvertical_force_N = 80e3\n", transient ? "transient" : "steady"), GetParam());
+    const auto it = fmu.open();
+    ASSERT_EQ(it->initialize(), kOk) << it->messages();
+    const double loaded = it->number("z");
+    double time = 0.0;
+    const double step = 1e-4;
+    const auto go_on = [&](double force) {
+      EXPECT_EQ(it->set("vertical_force", force), kOk);
+      EXPECT_EQ(it->set("wheelset.s", 20.0 * (time + step)), kOk);
+      EXPECT_EQ(it->step(time, step), kOk) << force << ' ' << it->messages();
+      time += step;
+    };
+    for (const double force : {0.0, -5e4, 0.1, 1e-300, 2.0}) {
+      go_on(force);
+      EXPECT_EQ(it->number("status"), 1.0) << force;
+      EXPECT_EQ(it->number("patches"), 0.0) << force;
+      EXPECT_EQ(it->number("doubts"), 0.0) << force;
+      EXPECT_THAT(it->get("force_on_rail"), ElementsAre(0.0, 0.0, 0.0)) << force;
+      EXPECT_NEAR(it->number("least_gap"), 0.0, 1e-8) << force;
+      EXPECT_LT(it->number("z"), loaded) << force;
+      EXPECT_NEAR(it->number("z"), loaded, 0.2e-3) << force;  // some tenth of a millimetre of approach
+      go_on(80e3);
+      EXPECT_EQ(it->number("status"), 0.0) << force;
+      EXPECT_NEAR(it->get("force_on_rail")[2], 80e3, 80.0) << force;
+    }
+  }
+}
+
+TEST_P(Versions, TheStopTimeOfTheMasterEndsTheRun) {
+  const Fmu fmu(kPressed, GetParam());
+  const auto it = fmu.open();
+  ASSERT_EQ(it->initialize(1.0, 1.0 + 3.0 * kStep), kOk);
+  void* saved = nullptr;
+  ASSERT_EQ(it->save(&saved), kOk);
+  EXPECT_EQ(it->step(1.0, 4.0 * kStep), kError);
+  EXPECT_THAT(it->messages(), HasSubstr("behind the stop time 1.003"));
+  EXPECT_EQ(it->number("time"), 1.0);
+  double time = 1.0;
+  for (int i = 0; i < 3; ++i, time += kStep) EXPECT_EQ(it->step(time, kStep), kOk);
+  EXPECT_EQ(it->step(time, kStep), kError);
+  // A state holds it, and without one there is no end.
+  const auto other = fmu.open();
+  ASSERT_EQ(other->restore(saved), kOk);
+  EXPECT_EQ(other->step(1.0, 4.0 * kStep), kError);
+  it->free_state(&saved);
+  ASSERT_EQ(it->reset(), kOk);
+  ASSERT_EQ(it->initialize(), kOk);
+  EXPECT_EQ(it->step(0.0, 100.0), kOk);
+}
+
+TEST_P(Versions, TheStepOfTheDescriptionCanBeTaken) {
+  for (const char* regime : {"steady", "transient"})
+    for (const bool wheelset : {false, true}) {
+      const Fmu fmu(case_text("y_mm = 2.0\nz_mm = 0.9\n", regime), GetParam(), wheelset);
+      const double step = std::stod(fmu.unpacked().attribute("stepSize"));
+      EXPECT_GT(step, 0.0);
+      if (std::string(regime) == "transient") EXPECT_LE(step, 2.0 * 2e-3 / 20.0);
+      const auto it = fmu.open();
+      ASSERT_EQ(it->initialize(), kOk);
+      double time = 0.0;
+      for (int i = 0; i < 3; ++i, time += step) {
+        ASSERT_EQ(it->set("wheelset.s", 20.0 * (time + step)), kOk);
+        EXPECT_EQ(it->step(time, step), kOk) << it->messages();
+      }
+    }
+}
+
 TEST_P(Versions, InstancesWorkAtOnce) {
   const Fmu fmu(kPressed, GetParam());
   const auto history = [&](double y0) {

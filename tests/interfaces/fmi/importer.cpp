@@ -28,7 +28,9 @@ Function* symbol(void* library, const char* name) {
   return reinterpret_cast<Function*>(found);
 }
 
+/// Many importers show the format itself: it has to be the whole message.
 void log2(fmi2ComponentEnvironment to, fmi2String, fmi2Status, fmi2String, fmi2String format, ...) {
+  EXPECT_STRNE(format, "%s");
   char text[4096];
   va_list arguments;
   va_start(arguments, format);
@@ -66,8 +68,9 @@ class Importer2 final : public Importer {
   }
   ~Importer2() override { fmi2FreeInstance(instance); }
 
-  int enter_initialization(double start_time) override {
-    const int status = fmi2SetupExperiment(instance, fmi2False, 0.0, start_time, fmi2False, 0.0);
+  int enter_initialization(double start_time, std::optional<double> stop_time) override {
+    const int status = fmi2SetupExperiment(instance, fmi2False, 0.0, start_time, stop_time ? fmi2True : fmi2False,
+                                           stop_time.value_or(0.0));
     return status == fmi2OK ? fmi2EnterInitializationMode(instance) : status;
   }
   int exit_initialization() override { return fmi2ExitInitializationMode(instance); }
@@ -171,8 +174,9 @@ class Importer3 final : public Importer {
   }
   ~Importer3() override { fmi3FreeInstance(instance); }
 
-  int enter_initialization(double start_time) override {
-    return fmi3EnterInitializationMode(instance, fmi3False, 0.0, start_time, fmi3False, 0.0);
+  int enter_initialization(double start_time, std::optional<double> stop_time) override {
+    return fmi3EnterInitializationMode(instance, fmi3False, 0.0, start_time, stop_time.has_value(),
+                                       stop_time.value_or(0.0));
   }
   int exit_initialization() override { return fmi3ExitInitializationMode(instance); }
   int step(double from, double length) override {
@@ -304,8 +308,8 @@ std::vector<double> Importer::get(const std::string& name) {
   return values;
 }
 
-int Importer::initialize(double start_time) {
-  const int status = enter_initialization(start_time);
+int Importer::initialize(double start_time, std::optional<double> stop_time) {
+  const int status = enter_initialization(start_time, stop_time);
   return status == kOk ? exit_initialization() : status;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,9 +44,9 @@ class Importer {
   int set(const std::string& name, double value);
   std::vector<double> get(const std::string& name);
   double number(const std::string& name) { return get(name).at(0); }
-  int initialize(double start_time = 0.0);
+  int initialize(double start_time = 0.0, std::optional<double> stop_time = {});
 
-  virtual int enter_initialization(double start_time) = 0;
+  virtual int enter_initialization(double start_time, std::optional<double> stop_time = {}) = 0;
   virtual int exit_initialization() = 0;
   virtual int step(double from, double length) = 0;
   virtual int terminate() = 0;
