@@ -323,7 +323,7 @@ const std::vector<BaseShape>& base_shapes() {
       rail("flat head",
            [] {
              return changed(standard("60E1"), [](const Vec2& p) {
-               return Vec2(0.0, 0.5 * (1.0 - p.y() + std::hypot(p.y() - 1.0, 0.3)));
+               return Vec2(0.0, 0.5 * (1.0 - p.y() + std::hypot(p.y() - 1.0, 1.2)));
              });
            }),
       rail("grooved", grooved, "60E1"),
