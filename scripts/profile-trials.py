@@ -726,7 +726,7 @@ def allowance(c):
     """Relative tolerance of pressure, of places [mm], angles [rad], measures [mm]."""
     rough = c["noise"] > 0.01 or c["rounded"] > 0.01
     some = c["noise"] > 0.001 or c["rounded"] > 0.001 or c["step"] > 0.5 or c["spike"] != "none"
-    return (0.15 if rough else 0.05, 2.0 if rough else 1.0 if some else 0.5, 0.02 if rough else 0.01 if some else 0.005, 0.15 if rough else 0.08 if some else 0.03)
+    return (0.15 if rough else 0.08 if c["step"] > 0.5 else 0.05, 2.0 if rough else 1.0 if some else 0.5, 0.02 if rough else 0.01 if some else 0.005, 0.15 if rough else 0.08 if some else 0.03)
 
 
 def run_right(c, answer, true):

@@ -144,7 +144,7 @@ Points measured(const BaseShape& base, const Disguise& how, Random& random) {
 }
 
 std::string number(double value, const Disguise& how) {
-  const int digits = how.in_mm > 100.0 ? 7 : how.in_mm > 1.0 ? 6 : how.in_mm < 1.0 ? 1 : 4;
+  const int digits = how.in_mm > 100.0 ? 9 : how.in_mm > 1.0 ? 7 : how.in_mm < 1.0 ? 3 : 6;
   std::string text = fmt::format("{:.{}f}", std::fabs(value), digits);
   if (how.decimal_comma) std::replace(text.begin(), text.end(), '.', ',');
   if (value >= 0.0) return text;

@@ -85,6 +85,7 @@ fs::path said_file(const TemporaryFolder& folder, const BaseShape& base, double 
   plain.reader = Disguise::Reader::simpack;
   plain.unit_said = true;
   plain.step = 0.1;
+  plain.rounded = 1e-6;
   plain.tilt_deg = tilt_deg;
   const DisguisedFile file = disguised(base, plain, 0);
   return folder.write("true" + file.ending, file.bytes);
@@ -122,7 +123,8 @@ struct Allowance {
 
 Allowance allowance(const Disguise& how) {
   if (how.noise > 10e-3 || how.rounded > 10e-3) return {0.15, 2e-3, 0.02, 0.15e-3};
-  if (how.noise > 1e-3 || how.rounded > 1e-3 || how.step > 0.5 || how.spike != 0.0) return {0.05, 1e-3, 0.01, 0.08e-3};
+  if (how.step > 0.5) return {0.08, 1e-3, 0.01, 0.08e-3};
+  if (how.noise > 1e-3 || how.rounded > 1e-3 || how.spike != 0.0) return {0.05, 1e-3, 0.01, 0.08e-3};
   return {0.05, 0.5e-3, 0.005, 0.03e-3};
 }
 

@@ -26,7 +26,8 @@ Told told_by_run(const std::filesystem::path& file, const std::vector<std::strin
   for (const std::string& key : keys) arguments.insert(arguments.end(), {"--set", key});
   Told told = told_by(arguments);
   if (told.refused() || told.out.empty()) return told;
-  for (const nlohmann::json& c : nlohmann::json::parse(told.out)["cases"]) {
+  const nlohmann::json result = nlohmann::json::parse(told.out);
+  for (const nlohmann::json& c : result["cases"]) {
     ToldCase& one = told.cases.emplace_back();
     one.status = c["status"];
     double most = -1.0;
