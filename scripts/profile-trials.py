@@ -216,7 +216,7 @@ CHOICES = {
     "step": [0.2, 0.05, 0.1, 0.3, 0.5, 1.0],
     "sampled": ["by length", "by y"],
     "gap": ["none", "3 mm", "12 mm"],
-    "frame": ["tape", "back", "axle", "anywhere"],
+    "frame": ["tape", "back", "axle", "anywhere", "4 mm off"],
     "height": ["nominal", "anywhere", "axle", "radius", "diameter"],
     "tilt": [0, 1, -1, 2, -2, 4, -4, 6, -6, 8, -8, 10, -10],
     "cut": ["none", "back", "field", "both", "flange"],
@@ -398,7 +398,7 @@ def measured(c, rng):
         if 0 <= k < len(points):
             points[k] = (points[k][0], points[k][1] + (by if wheel else -by))
     points = turned(points, c["tilt"])
-    dy = {"tape": 0.0, "back": 70.0 if wheel else 36.0, "axle": 750.0, "anywhere": round(rng.uniform(-200, 200), 2)}[c["frame"]]
+    dy = {"tape": 0.0, "back": 70.0 if wheel else 36.0, "axle": 750.0, "anywhere": round(rng.uniform(-200, 200), 2), "4 mm off": 4.0}[c["frame"]]
     dz = {"nominal": 0.0, "anywhere": round(rng.uniform(-40, 40), 2), "axle": RADIUS if wheel else -172.0, "radius": RADIUS, "diameter": RADIUS}[c["height"]]
     points = [(y + dy, z + dz) for y, z in points]
     if c["height"] == "diameter":
