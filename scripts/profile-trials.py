@@ -3,13 +3,15 @@
 # SPDX-FileCopyrightText: Treadmark contributors
 """Does a measured profile mean the same however it is written? Wheels and rails of known shape go through every reader and verb in many disguises.
 
-usage: profile-trials.py [--program PROGRAM] [--count N] [--seed S] [--jobs J] [--keep FOLDER] [--only WORDS] [--table FILE]
+usage: profile-trials.py [--program PROGRAM] [--count N] [--seed S] [--jobs J] [--keep FOLDER] [--only CHOICES] [--classes N]
 
 Each trial draws a base (new, hollow, side-worn ... , a formula of this script), a verb, a reader and disguises: unit, order, mirror, header, encoding,
 spacing, frame, tilt, cut ends, noise, rounding, spikes, marks of nothing. First every pair of choices, then random ones. The answer must be that of the
 base, which is given to the program in plain columns with every key said, within 5 % (noise of 30 um: 15 %); or be doubted; or be refused. What is none of
-these is a wrong number that nobody is told of: its disguises are taken off one by one as long as it stays wrong, its files lie in FOLDER/wrong.
-Prints tables in Markdown by kind; exit status 1 where anything was wrong in silence. --only verb=run,base=new: trials with these choices alone.
+these is a wrong number that nobody is told of: its disguises are taken off one by one as long as it stays wrong, its files lie in FOLDER/wrong. `noted`:
+wrong, exit status 0, but a note names the doubt.
+Prints a table by kind for docs/verification.md, then all choices, classes of wrong answers and what refusals said; exit status 1 where anything was wrong
+in silence. --only "verb=run,base=new;60E1": trials with these choices alone.
 """
 import argparse
 import bisect
@@ -955,6 +957,13 @@ def trial(job):
 KINDS = ("right", "doubted", "noted", "refused", "wrong")
 
 
+IN_WORDS = [("worn or cut shapes", ("base",)), ("MiniProf, Simpack, GENSYS, slices", ("reader",)), ("unit", ("unit",)), ("order, doubled points", ("order",)),
+            ("mirrored, upside down", ("mirror", "z")), ("headers, counts, further columns, last lines", ("header", "count", "extra", "tail", "said")),
+            ("separators, decimal commas, minus signs, styles", ("delimiter", "decimal", "minus", "style", "layout")), ("encoding, ends of lines", ("encoding", "lines")),
+            ("spacing, gaps", ("step", "sampled", "gap")), ("frame", ("frame", "height")), ("tilt of 1 to 10 degrees", ("tilt",)), ("cut ends", ("cut",)),
+            ("noise of 1 to 30 um", ("noise",)), ("rounded to 1 to 50 um", ("rounded",)), ("dirt, spikes", ("spike",)), ("marks of nothing", ("nothing",))]
+
+
 def named(choice, value):
     return f"tilt {'+' if value > 0 else '-'}" if choice == "tilt" else f"{choice}={value}"
 
@@ -1004,7 +1013,12 @@ def main():
                 if len(results) % 200 == 0 and sys.stderr.isatty():
                     print(f"\r{len(results)} of {len(jobs)}", end="", file=sys.stderr)
     all_kinds = collections.Counter(kind for _, kind, _, _ in results)
-    table("all", [("all", all_kinds)])
+    rows = [("all", all_kinds)]
+    for words, choices in IN_WORDS:
+        rows.append((words, collections.Counter(kind for index, kind, _, _ in results if any(chosen[index][n] not in (PLAIN[n], "60E1") for n in choices))))
+    for verb in CHOICES["verb"]:
+        rows.append((f"`{verb}`", collections.Counter(kind for index, kind, _, _ in results if chosen[index]["verb"] == verb)))
+    table("disguise", rows)
     for name in CHOICES:
         counts = {value: collections.Counter() for value in CHOICES[name]}
         for index, kind, _, _ in results:
