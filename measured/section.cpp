@@ -340,15 +340,15 @@ class Reader {
         doubt("upside_down", fmt::format("which way z points is not sure: turned over it shows {} (evidence {:.3g} "
                                          "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
                                          u_.z.evidence, u_.z.turned, u_.z.as_it_is));
-    } else if (wrong) {
-      const bool given = said != Turn::decide;
+    } else if (wrong && u_.z.marked) {
+      doubt("upside_down", fmt::format("z seems to point up, turned over it shows {}: set mirror_z = \"{}\"",
+                                       u_.z.evidence, said == Turn::yes ? "no" : "yes"));
+    } else if (wrong && said == Turn::decide && w_.place && p_.y.size() >= kFewest) {
       doubt("upside_down",
-            given
-                ? fmt::format("z seems to point up, turned over it shows {}: set mirror_z = \"{}\"", u_.z.evidence,
-                              said == Turn::yes ? "no" : "yes")
-                : fmt::format("nothing shows for certain which way y and z point: {}, as if z pointed up or the "
-                              "field side were on the side of small y; taken as in the file: set mirror_z or mirror_y",
-                              u_.z.evidence));
+            fmt::format(
+                "nothing shows for certain which way y and z point: {}, as if z pointed up or the field side were "
+                "on the side of small y; taken as in the file: set mirror_z or mirror_y",
+                u_.z.evidence));
     } else if (said == Turn::decide && !u_.z.sure() && has_evidence()) {
       doubt("upside_down", fmt::format("which way z points is not sure: as in the file it shows {} (evidence {:.3g} "
                                        "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
@@ -356,8 +356,9 @@ class Reader {
     }
   }
 
-  /// A sketch of a few points or a piece of a tread shows nothing, and is taken as it is.
-  bool has_evidence() const { return p_.y.size() >= 10 && u_.z.marked; }
+  /// A sketch of fewer points or a piece of a tread shows nothing, and is taken as it is.
+  static constexpr std::size_t kFewest = 10;
+  bool has_evidence() const { return p_.y.size() >= kFewest && u_.z.marked; }
 
   void turn_y() {
     if (w_.mirror_y == Turn::yes) negate(p_.y);

@@ -14,6 +14,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/surfaces/convert_profile.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -23,6 +24,7 @@
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
@@ -89,6 +91,25 @@ int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
   return kOk;
 }
 
+/// What reading a profile changed or could not be sure of; the exit status that follows.
+int tell_doubts(const ConvertOptions& options, const app::ConvertSettings& settings) {
+  std::error_code ignored;
+  if (!app::is_profile_file(options.input) || !std::filesystem::exists(io::profile_file(options.input), ignored))
+    return kOk;
+  io::ProfileOptions how;
+  how.scale = settings.scale_to_mm;
+  const std::optional<Body> body = settings.body ? settings.body : io::profile_body(options.output);
+  const io::ProfileJudgement judged = app::check_profile(options.input, body, how).judgement;
+  print_notes(judged.notes, false);
+  int status = kOk;
+  for (const io::ProfileRemark& doubt : judged.remarks) {
+    if (doubt.name == "gauge_point") continue;  // it is asked for where the rail is placed
+    std::cerr << "doubt: " << doubt.name << ": " << doubt.text << '\n';
+    status = kFailed;
+  }
+  return status;
+}
+
 int convert_command(const ConvertOptions& options, const CommonOptions& common) {
   if (!options.backend.empty() && !io::is_spline_file(options.output))
     throw Error(ErrorKind::configuration, "--backend belongs to files of splines", {options.output},
@@ -120,7 +141,7 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
                   "write triangles, slices or offsets: .ply .stl .obj .off .slcs .slcw .vdb");
     std::cout << options.output << ": "
               << app::convert_profile(options.input, options.output, settings, options.profile) << '\n';
-    return kOk;
+    return tell_doubts(options, settings);
   }
   if (options.profile.derivatives || options.profile.lambda_mm3 > 0.0 || options.profile.wavelength_mm > 0.0)
     throw Error(ErrorKind::configuration, "--smooth, --wavelength and --derivatives belong to profiles",

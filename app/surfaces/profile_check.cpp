@@ -221,15 +221,16 @@ bool is_profile_file(const std::filesystem::path& file) {
   return false;
 }
 
-CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body) {
+CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body,
+                             const io::ProfileOptions& options) {
   if (!body) body = io::profile_body(file);
-  if (body) return checked(io::read_sourced_profile(file, *body, {}, {}), file, {}, Nearest::yes);
+  if (body) return checked(io::read_sourced_profile(file, *body, options, {}), file, {}, Nearest::yes);
   // as rails are half as wide as wheels, and few files can be read as both
   std::optional<io::SourcedProfile> rail, wheel;
   std::optional<Error> trouble;
   for (const Body b : {Body::rail, Body::wheel}) {
     try {
-      (b == Body::rail ? rail : wheel) = io::read_sourced_profile(file, b, {}, {});
+      (b == Body::rail ? rail : wheel) = io::read_sourced_profile(file, b, options, {});
     } catch (const Error& error) {
       // a file that names its body tells more when it is read as that
       if (!trouble || trouble->message().find("profile is expected") != std::string::npos) trouble = error;

@@ -23,7 +23,8 @@ bool is_profile_file(const std::filesystem::path& file);
 
 /// Reads and judges one file. Without a body it is judged by extension, then by shape. Errors as read_profile;
 /// Error(configuration) where the file could be either.
-CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body);
+CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body,
+                             const io::ProfileOptions& options = {});
 
 /// What is doubtful about a profile by itself, wherever it is to be placed. Never throws; thread-safe.
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile);

@@ -144,6 +144,18 @@ void refuse_steps(const std::vector<CaseOverride>& changes) {
 
 }  // namespace
 
+/// Where the case says where a wheel's file has the back of the flange, the file is not moved.
+void take_as_told(Case& c) {
+  constexpr double kSame = 1e-6;
+  auto* input = std::get_if<WheelRailCase>(&c.content);
+  if (input == nullptr ||
+      std::fabs(input->wheelset.flange_back_position - WheelsetDimensions{}.flange_back_position) < kSame)
+    return;
+  if (auto* file = std::get_if<GeometryFile>(&input->wheel.geometry))
+    if (file->options.placement == ProfileOptions::Placement::automatic)
+      file->options.placement = ProfileOptions::Placement::as_in_file;
+}
+
 CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name,
                       std::span<const std::string> overrides) {
   CaseFile result;
@@ -189,6 +201,7 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   int number = 0;
   for (Case& c : result.cases) {
     c.number = ++number;
+    take_as_told(c);
     validate_case(c);
   }
   settle_sequences(result.cases, &result.notes);
@@ -212,6 +225,7 @@ void apply_overrides(CaseFile& target, std::span<const std::string> overrides) {
   std::vector<Case> changed = target.cases;
   for (Case& c : changed) {
     for (const CaseOverride& change : changes) apply_assignment(c, change, target.path.parent_path());
+    take_as_told(c);
     validate_case(c);
   }
   settle_sequences(changed);
@@ -227,6 +241,7 @@ void apply_override(Case& target, std::string_view assignment) {
   refuse_steps({change});
   Case changed = target;
   apply_assignment(changed, change, std::filesystem::path(target.where.file).parent_path());
+  take_as_told(changed);
   validate_case(changed);
   target = std::move(changed);
 }
