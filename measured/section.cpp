@@ -343,7 +343,7 @@ class Reader {
     } else if (wrong && u_.z.marked) {
       doubt("upside_down", fmt::format("z seems to point up, turned over it shows {}: set mirror_z = \"{}\"",
                                        u_.z.evidence, said == Turn::yes ? "no" : "yes"));
-    } else if (wrong && said == Turn::decide && w_.place && p_.y.size() >= kFewest) {
+    } else if (said == Turn::decide && w_.place && u_.z.turned > kRise && p_.y.size() >= kFewest) {
       doubt("upside_down",
             fmt::format(
                 "nothing shows for certain which way y and z point: {}, as if z pointed up or the field side were "
@@ -358,6 +358,7 @@ class Reader {
 
   /// A sketch of fewer points or a piece of a tread shows nothing, and is taken as it is.
   static constexpr std::size_t kFewest = 10;
+  static constexpr double kRise = 1.0;  ///< of a tread that speaks for the other sense [mm]
   bool has_evidence() const { return p_.y.size() >= kFewest && u_.z.marked; }
 
   void turn_y() {
@@ -412,24 +413,20 @@ class Reader {
   }
 
   void judge_place() {
-    constexpr double kTipNew = -55e-3, kTipOff = 4e-3, kLowest = 20e-3, kHighest = 42e-3, kSameZ = 5e-3;
+    constexpr double kTipNew = -55e-3, kTipOff = 4e-3, kLowest = 20e-3, kHighest = 42e-3;
     const WheelMarks& m = u_.wheel;
-    if (m.second_flange || !m.tip_y) return;
+    if (!w_.place || m.second_flange || !m.tip_y) return;
     const double height = *m.tip_z - m.tape_z.value_or(0.0);
     if (m.tape_z && (height < kLowest || height > kHighest))
       doubt("flange_height",
             fmt::format("the flange is {:.1f} mm high, 26 to 36 mm are usual: are the unit and the sense of z right{}?",
                         kMilli * height, w_.z_is_radius ? " (radii, no diameters)" : ""));
-    if (!m.back_y && std::fabs(*m.tip_y - kTipNew) > kTipOff)
+    if (!m.back_y && !u_.y.is_turned() && std::fabs(*m.tip_y - kTipNew) > kTipOff)
       doubt(
           "tape_line",
           fmt::format("y = 0 seems not to be the tape line: the tip of the flange is at y = {:.1f} mm, where {:.0f} mm "
                       "are usual, and the back of the flange is not in the section: measure it too, or shift y",
                       kMilli * *m.tip_y, kMilli * kTipNew));
-    if (w_.place) return;
-    if (m.tape_z && std::fabs(*m.tape_z) > kSameZ)
-      doubt("wheel_height", fmt::format("the tread lies at z = {:.2f} mm at y = 0, where z = 0 is the nominal radius",
-                                        kMilli * *m.tape_z));
   }
 
   SectionPoints& p_;

@@ -39,7 +39,7 @@ struct Readings {
 
 /// A doubt about a section: its name, and what is seen, where, and what to set.
 struct Doubt {
-  std::string name;  ///< "upside_down", "flange_side", "gauge_side", "tape_line", "wheel_height", "flange_height"
+  std::string name;  ///< "upside_down", "flange_side", "gauge_side", "tape_line", "flange_height"
   std::string text;
 };
 

@@ -133,6 +133,7 @@ void refuse_spikes(const RawPoints& p) {
   constexpr double kWidest_mm = 10.0;  // a flange is thicker
   constexpr double kJump = 0.5;        // of the height, in one step
   constexpr double kSharp = 0.7;       // height over width: sharper than the edge of a rim
+  constexpr double kNarrow_mm = 4.0;   // the tip of a coarse flange is wider
   for (std::size_t i = 0; i + 2 < p.size(); ++i)
     for (std::size_t k = i + 2; k <= std::min(i + kMostPoints + 1, p.size() - 1); ++k) {
       const double width = distance(p, i, k);
@@ -141,7 +142,7 @@ void refuse_spikes(const RawPoints& p) {
       std::size_t top = i;
       for (std::size_t j = i + 1; j < k; ++j)
         if (const double d = distance_to_chord(p, i, k, p.y[j], p.z[j]); d > height) height = d, top = j;
-      if (height < std::max(kHighest_mm, kSharp * width)) continue;
+      if (height < std::max(kHighest_mm, (width < kNarrow_mm ? kSharp : 1.0) * width)) continue;
       if (distance(p, i, i + 1) < kJump * height || distance(p, k - 1, k) < kJump * height) continue;
       throw Error(ErrorKind::input_data,
                   fmt::format("a spike of {:.3g} mm at y = {:.4g} mm, z = {:.4g} mm", height, p.y[top], p.z[top]),

@@ -133,6 +133,7 @@ void keep_head(RawPoints& points, Body body, std::vector<std::string>& notes) {
   for (const std::size_t i : kept) head.add(points.y[i], points.z[i], points.line[i]);
   notes.push_back(
       fmt::format("the outline of a whole rail: its head is used, {} of {} points", head.size(), points.size()));
+  profiles::remove_near_points(head, kNearDistance_mm);  // where a closed outline met itself
   points = std::move(head);
 }
 
@@ -153,7 +154,6 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
                       ProfileSource&& source) {
   check_count(points);
   keep_head(points, body, source.notes);
-  profiles::remove_near_points(points, kNearDistance_mm);  // where a closed outline met itself
   check_length(points, body, options.scale);
   profiles::refuse_faults(points);
   measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};
@@ -193,16 +193,20 @@ SourcedProfile simpack_profile(std::string_view text, const std::string& file, B
   shift(points.z, content.shift_z);
   profiles::delete_outside_y(points, content.y_min, content.y_max);
   profiles::clip_z(points, content.z_min, content.z_max);
-  source.mirrored_y = content.mirror_y;
-  source.mirrored_z = content.mirror_z;
+  source.mirrored_y = int{content.mirror_y} + options.mirror_y == 1;
+  source.mirrored_z = int{content.mirror_z} + options.mirror_z == 1;
   if (source.mirrored_y) negate(points.y);
   if (source.mirrored_z) negate(points.z);
   source.scale_to_mm = options.scale * 1000.0 / content.units_per_metre;
   scale(points, source.scale_to_mm);
-  ProfileOptions further = options;
-  // the reference program takes the file's own word for it
-  if (options.placement == ProfileOptions::Placement::reference && options.mirror_z == 0) further.mirror_z = -1;
-  return finish(std::move(points), body, content.inversion, false, further, std::move(source));
+  const bool reference = options.placement == ProfileOptions::Placement::reference;
+  ProfileOptions further = options;  // what the keys say has been done
+  if (options.mirror_y != 0) further.mirror_y = -1;
+  // the file has its own word for it, which only a flange is surer than
+  if (options.mirror_z != 0 || reference || body == Body::rail) further.mirror_z = -1;
+  SourcedProfile out = finish(std::move(points), body, content.inversion, false, further, std::move(source));
+  if (reference) out.source.understood.doubts.clear();
+  return out;
 }
 
 /// To mm: the scale that is asked for, else the unit that the file states.

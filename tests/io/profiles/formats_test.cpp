@@ -123,7 +123,7 @@ TEST(ProfileText, RefusesWhatMayMeanTwoThings) {
   TREADMARK_EXPECT_ERROR(parse("only words\n", Body::rail), "numbers are expected", 1, 1);
   TREADMARK_EXPECT_ERROR(parse("VAMPIRE wheel profile\n-10 1\n0 0\n10 1\n", Body::rail), "VAMPIRE", 1, 1);
   TREADMARK_EXPECT_ERROR(parse("1x0 2\n-10 1\n0 0\n10 1\n", Body::rail), "this is '1x0'", 1, 1);
-  TREADMARK_EXPECT_ERROR(parse("-10 1.#QNAN\n0 0\n10 1\n", Body::rail), "1.#QNAN", 1, 5);
+  TREADMARK_EXPECT_ERROR(parse("-10 1.#QNAX\n0 0\n10 1\n", Body::rail), "1.#QNAX", 1, 5);
 }
 
 TEST(ProfileText, AColumnThatCountsIsNoPosition) {
@@ -299,7 +299,9 @@ TEST(RealFieldProfiles, AreReadOrRefusedAsStated) {
       continue;
     }
     Profile p;
-    ASSERT_NO_THROW(p = read_profile(folder / o.file, o.body, {}));
+    ProfileOptions as_in_file;
+    as_in_file.placement = ProfileOptions::Placement::as_in_file;
+    ASSERT_NO_THROW(p = read_profile(folder / o.file, o.body, as_in_file));
     EXPECT_EQ(p.y.size(), o.points);
     constexpr double kNear = 0.1e-3;  // m, of the rounded numbers above
     EXPECT_NEAR(*std::min_element(p.y.begin(), p.y.end()), 1e-3 * o.y_low, kNear);

@@ -102,7 +102,11 @@ TEST(ReadSlices, TurnsAllSlicesOverOrNone) {
   write("whole_up.txt", testing::columns(negative(whole)));
   write("flat_up.txt", testing::columns(negative(flat)));
   EXPECT_EQ(looks_upside_down(folder.path() / "whole.txt", Body::wheel, {}), false);
-  EXPECT_EQ(looks_upside_down(folder.path() / "flat.txt", Body::wheel, {}), true);
+  EXPECT_EQ(looks_upside_down(folder.path() / "flat.txt", Body::wheel, {}), false);
+  // the reference program judges by the ends
+  ProfileOptions reference;
+  reference.placement = ProfileOptions::Placement::reference;
+  EXPECT_EQ(looks_upside_down(folder.path() / "flat.txt", Body::wheel, reference), true);
   for (const std::string end : {"", "_up"}) {
     std::string list = "0 0.1\n5\n0 0 0\n1\n";
     for (int k = 0; k < 5; ++k) list += std::to_string(k) + " '" + (k == 2 ? "flat" : "whole") + end + ".txt'\n";
