@@ -235,6 +235,7 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
   report.body = found.scan.body;
   report.X_CS = found.scan.placement.X_CS;
   report.nominal_radius = found.scan.body == Body::wheel ? found.scan.placement.nominal_radius : 0.0;
+  report.radius_error = found.scan.placement.radius_error;
   report.axis_position_error = found.scan.placement.position_error;
   report.axis_direction_error = found.scan.placement.direction_error;
   report.scatter = found.scan.placement.scatter;

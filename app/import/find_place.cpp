@@ -9,6 +9,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/profile_library.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
@@ -86,6 +87,26 @@ std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, c
   return keep;
 }
 
+/// What the points leave open about the place, with its numbers.
+void add_doubts(const PlacedScan& scan, io::ImportReport& report) {
+  const scans::Placement& placement = scan.placement;
+  constexpr double kRadius = 0.05e-3, kDirection = 1e-3, kSymmetric = 0.05e-3;
+  if (placement.radius_error > kRadius || placement.direction_error > kDirection)
+    report.warnings.push_back(
+        fmt::format("the axle is not known well: {:.0f} degrees of the circumference leave the radius uncertain by "
+                    "{:.2g} mm and the direction of the axle by {:.2g} mrad (standard errors); {}",
+                    placement.arc * 180.0 / kPi, kMilli * placement.radius_error, kMilli * placement.direction_error,
+                    scans::kKnowMore));
+  if (!placement.match || !placement.match->ways) return;
+  const scans::SectionMatch::Ways& ways = *placement.match->ways;
+  if (!ways.clear && ways.asymmetry > kSymmetric)
+    report.warnings.push_back(fmt::format(
+        "which side of the rail is its gauge side is not clear: its points lie {:.3f} mm from {} on average, "
+        "turned round {:.3f} mm; its sides differ by {:.2f} mm. x of the rail was taken to run as the axis of "
+        "the scan does that is nearest; say placement.forward, with the gauge side to the left, to settle it",
+        kMilli * ways.here, report.nominal, kMilli * ways.turned, kMilli * ways.asymmetry));
+}
+
 scans::PlaceSettings place_settings(const PlacedScan& scan, const io::ImportSettings& settings) {
   scans::PlaceSettings out;
   out.body = scan.body;
@@ -108,6 +129,46 @@ Body body_of(const ImportRequest& request) {
   throw Error(ErrorKind::configuration, "nothing says whether the scan is that of a wheel or a rail",
               {request.scans.front().string()}, "say --body wheel or --body rail");
 }
+
+namespace {
+
+/// More points of a rail's nominal section (y, z) where it is steep, and on to its ends, so that they are some half
+/// millimetre apart along its flanks too.
+void resolve_flanks(const Surface& surface, std::vector<Vec2>& points) {
+  constexpr double kApart = 0.5e-3, kFinest = 1e-7;
+  const auto height = [&](double y) {
+    double z = 0.0;
+    HeightsOut out;
+    out.z = {&z, 1};
+    section_heights(surface, Body::rail, 0.0, {&y, 1}, out);
+    return z;
+  };
+  // the ends, between the last place with a height and the next without
+  const double step = points[1].x() - points[0].x();
+  for (const double way : {-1.0, 1.0}) {
+    Vec2 end = way < 0.0 ? points.front() : points.back();
+    for (double reach = 0.5 * step; reach > kFinest; reach *= 0.5)
+      if (const double z = height(end.x() + way * reach); !std::isnan(z)) end = {end.x() + way * reach, z};
+    points.insert(way < 0.0 ? points.begin() : points.end(), end);
+  }
+  std::vector<Vec2> out{points.front()};
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    std::vector<Vec2> ahead{points[k]};
+    while (!ahead.empty()) {
+      const Vec2 from = out.back(), to = ahead.back();
+      if ((to - from).norm() <= kApart || to.x() - from.x() <= 2.0 * kFinest) {
+        if (to.x() > from.x()) out.push_back(to);
+        ahead.pop_back();
+        continue;
+      }
+      const double y = 0.5 * (from.x() + to.x());
+      ahead.emplace_back(y, height(y));
+    }
+  }
+  points = std::move(out);
+}
+
+}  // namespace
 
 void read_nominal(const ImportRequest& request, PlacedScan& scan) {
   std::string name = request.settings.placement.nominal;
@@ -132,6 +193,7 @@ void read_nominal(const ImportRequest& request, PlacedScan& scan) {
   section_heights(*natural.surface, scan.body, 0.0, y, out);
   for (std::size_t k = 0; k < y.size(); ++k)
     if (!std::isnan(h[k])) scan.nominal.emplace_back(y[k], h[k] - spec.nominal_radius);
+  if (scan.body == Body::rail) resolve_flanks(*natural.surface, scan.nominal);
   scan.nominal_spec = spec;
 }
 
@@ -199,7 +261,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
     if (!scans::have_cgal())
       throw Error(ErrorKind::configuration, left_out_message("cgal", "the search for stray points"), {},
                   left_out_advice("cgal") + "; or say --set clean.strays=false for a clean scan");
-    scan.keep = keep_without_strays(scan.points, scans::find_elements(scan.points), settings, report);
+    scan.keep = keep_without_strays(scan.points, scans::look_for_elements(scan.points), settings, report);
   }
 
   clock.begin("placement");
@@ -241,6 +303,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
       scan.placement = scans::place(scan.points, scan.keep, rough, how);
     }
   }
+  add_doubts(scan, report);
   // files and cases must agree on a radius: one that people write down
   constexpr double kRound = 0.01e-3;
   if (scan.body == Body::wheel)

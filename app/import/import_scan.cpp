@@ -32,22 +32,54 @@ namespace {
 constexpr double kFinest = 0.5e-3;  // knots that are worth having [m]
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+/// The axis of the scan that lies across an axle: of a wheel all round the one most nearly so, and of two about equal
+/// ones the first; of a part of a wheel the one, either way, that is nearest to its middle.
+Vec3 scan_axis_across(const Pose& X_CS, const std::optional<double>& middle, std::string& name) {
+  Vec3 best = Vec3::Zero();
+  double least = 1e300;
+  constexpr double kAlike = 0.05;
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (const double way : {1.0, -1.0}) {
+      if (!middle && way < 0.0) continue;
+      const Vec3 in_S = X_CS.rotation.transpose() * (way * Vec3::Unit(axis));
+      double off = std::fabs(in_S.y());
+      if (middle) off = std::acos(std::clamp(in_S.dot(Vec3(std::sin(*middle), 0.0, std::cos(*middle))), -1.0, 1.0));
+      if (off > least - kAlike) continue;
+      least = off;
+      best = way * Vec3::Unit(axis);
+      name = fmt::format("{}{}", way < 0.0 ? "-" : "", "xyz"[axis]);
+    }
+  return best;
+}
+
 /// The station of the band that becomes u = 0, with words for it.
 double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vector<scans::Damage>& damage,
                const io::ImportSettings& settings, io::ImportReport& report) {
-  const bool wheel = scan.body == Body::wheel;
+  const bool wheel = scan.body == Body::wheel, part = wheel && !band.closed;
   const double wanted = wheel ? kDegree * settings.placement.zero_deg : 1e-3 * settings.placement.zero_mm;
   const std::string at = wheel ? fmt::format("theta = {:g} degrees", settings.placement.zero_deg)
                                : fmt::format("x = {:g} mm", settings.placement.zero_mm);
   std::string zero = settings.placement.zero;
-  if (zero == "defect" && damage.empty()) {
+  const double middle = 0.5 * (band.a_min + band.a_max) / band.radius;
+  // files hold angles from -180 to 180 degrees: the part as a whole, if it may be anywhere
+  const auto fits = [&](double u_zero) {
+    return std::fabs(wrap_angle(middle - u_zero)) + 0.5 * band.length() / band.radius <= std::numbers::pi;
+  };
+  if (zero == "defect" && !damage.empty()) {
+    const double u_zero = (band.a_min + damage.front().a) / band.radius - wanted;
+    if (!part || fits(u_zero)) {
+      report.zero = fmt::format("the middle of the largest defect is at {}", at);
+      return u_zero;
+    }
+  }
+  if (zero == "defect" && part) {
+    report.zero = fmt::format("the middle of the scanned part is at {}", at);
+    return middle - wanted;
+  }
+  if (zero == "defect") {
     report.warnings.push_back("no damage stands out; positions along the " + std::string(wheel ? "wheel" : "rail") +
                               " are counted from the axes of the scan");
     zero = "scan";
-  }
-  if (zero == "defect") {
-    report.zero = fmt::format("the middle of the largest defect is at {}", at);
-    return (band.a_min + damage.front().a) / band.radius - wanted;
   }
   const Pose& X_CS = scan.placement.X_CS;
   if (!wheel) {
@@ -65,26 +97,27 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
     direction = {list[0], list[1], list[2]};
     report.zero = fmt::format("the direction ({:g}, {:g}, {:g}) of the scan is at {}", list[0], list[1], list[2], at);
   } else {
-    // the axis of the scan that is most nearly perpendicular to the axle
-    Eigen::Index axis = 0;
-    X_CS.rotation.col(1).cwiseAbs().minCoeff(&axis);
-    direction = Vec3::Unit(axis);
-    report.zero = fmt::format("the {} axis of the scan is at {}", "xyz"[axis], at);
+    std::string name;
+    direction = scan_axis_across(X_CS, part ? std::optional(middle) : std::nullopt, name);
+    report.zero = fmt::format("the {} axis of the scan is at {}", name, at);
   }
   const Vec3 in_S = X_CS.rotation.transpose() * direction.normalized();
   if (std::hypot(in_S.x(), in_S.z()) < 0.1)
     throw Error(ErrorKind::configuration, "the direction for the angular zero runs along the axle", {},
                 "choose one across it");
-  return std::atan2(in_S.x(), in_S.z()) - wanted;
+  const double u_zero = std::atan2(in_S.x(), in_S.z()) - wanted;
+  // the turn that has the part about zero
+  return part ? middle - wrap_angle(middle - u_zero) : u_zero;
 }
 
-/// The nominal profile where there is one, as wide as the scan; else what the placement found.
+/// The nominal profile where there is one, as wide as the scan of a wheel; of a rail with its flanks, which no look from
+/// above would find. Else what the placement found.
 scans::Section start_section(const PlacedScan& scan) {
   if (scan.nominal.empty()) return scan.placement.section;
   const bool wheel = scan.body == Body::wheel;
   std::vector<Vec2> points;
   for (const Vec2& p : scan.nominal)
-    if (p.x() >= scan.placement.section.y_min() && p.x() <= scan.placement.section.y_max())
+    if (!wheel || (p.x() >= scan.placement.section.y_min() && p.x() <= scan.placement.section.y_max()))
       points.emplace_back(p.x(), wheel ? p.y() + scan.placement.nominal_radius : -p.y());
   constexpr std::size_t kFewest = 20;
   return points.size() < kFewest ? scan.placement.section : scans::Section(points);
@@ -146,7 +179,8 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   io::ImportReport report;
   report.version = version();
   report.settings_toml = io::import_settings_toml(settings);
-  const bool map = request.scans.size() == 1 && io::is_deviation_map(request.scans.front());
+  const bool map =
+      request.scans.size() == 1 && settings.map.values == "deviations" && io::is_deviation_map(request.scans.front());
   constexpr std::size_t kSteps = 6, kOfPlacing = 2;  // a map has neither stray points nor a placement
   StepClock clock(report, progress, (map ? kSteps : kSteps + kOfPlacing) + (request.truth.empty() ? 0 : 1));
   const CancellationScope scope(progress.stop);

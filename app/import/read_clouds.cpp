@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
@@ -36,10 +37,25 @@ struct FarEnd {
   }
 };
 
-/// Leaves out points whose coordinate says that there is none: many share it, and it is far from all others.
+/// Whether a number is one that instruments write for nothing: nines, or the end of the range of whole numbers,
+/// wherever the decimal point stands.
+bool is_void_mark(double value) {
+  std::string digits = fmt::format("{}", std::fabs(value));
+  if (digits.find('e') != std::string::npos) return false;
+  if (digits.find('.') != std::string::npos) digits.erase(digits.find_last_not_of('0') + 1);
+  std::erase(digits, '.');
+  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size()));
+  constexpr std::array<std::string_view, 6> kMarks{"32768", "32767", "65535", "524288", "524287", "2147483648"};
+  constexpr std::size_t kFewestNines = 3;
+  return (digits.size() >= kFewestNines && digits.find_first_not_of('9') == std::string::npos) ||
+         std::find(kMarks.begin(), kMarks.end(), digits) != kMarks.end();
+}
+
+/// Leaves out points whose coordinate says that there is none: many share it, and it is far from all others. What is
+/// written for nothing need not be that far.
 void drop_no_data(PointCloud& cloud, io::ImportReport& report) {
   constexpr std::size_t kMostValues = 6;
-  constexpr double kFewest = 10.0, kLeastShare = 1e-4, kFar = 10.0;
+  constexpr double kFewest = 10.0, kLeastShare = 1e-4, kFar = 10.0, kFarOfMark = 0.1;
   std::vector<Vec3>& points = cloud.points;
   for (std::size_t round = 0; round < kMostValues; ++round) {
     std::array<FarEnd, 3> low, high;
@@ -51,8 +67,10 @@ void drop_no_data(PointCloud& cloud, io::ImportReport& report) {
       }
     const auto no_data = [&](const FarEnd& end, const FarEnd& other) {
       const double rest = -other.first - end.second;
-      return static_cast<double>(end.count) >= std::max(kFewest, kLeastShare * static_cast<double>(points.size())) &&
-             std::isfinite(end.second) && rest > 0.0 && end.second - end.first > kFar * rest;
+      const bool mark = is_void_mark(end.first);
+      const double fewest = std::max(kFewest, kLeastShare * static_cast<double>(points.size()));
+      return static_cast<double>(end.count) >= (mark ? 2.0 : fewest) && std::isfinite(end.second) && rest > 0.0 &&
+             end.second - end.first > (mark ? kFarOfMark : kFar) * rest;
     };
     std::optional<std::pair<std::size_t, double>> found;
     for (std::size_t axis = 0; axis < 3 && !found; ++axis) {
@@ -78,6 +96,44 @@ void drop_no_data(PointCloud& cloud, io::ImportReport& report) {
   }
 }
 
+/// The points of a matrix of heights.
+io::Scan heights_of(const std::filesystem::path& file, const io::ImportSettings& settings) {
+  io::MapReadOptions how;  // a rail: its places are lengths
+  if (settings.scan.unit != "auto") how.unit = length_unit(settings.scan.unit);
+  if (settings.map.height_unit != "auto") how.height_unit = length_unit(settings.map.height_unit);
+  how.asked_by = {file.string()};
+  const OffsetMap map = io::read_deviation_map(file, how);
+  io::Scan out;
+  out.unit = LengthUnit::metre;
+  out.format = fmt::format("matrix of {} x {} heights", map.grid.nx, map.grid.ny);
+  out.points_in_file = map.offset.size();
+  for (int iy = 0; iy < map.grid.ny; ++iy)
+    for (int ix = 0; ix < map.grid.nx; ++ix) {
+      const double z = map.offset[static_cast<std::size_t>(ix) +
+                                  static_cast<std::size_t>(map.grid.nx) * static_cast<std::size_t>(iy)];
+      if (std::isnan(z)) {
+        ++out.not_finite;
+        continue;
+      }
+      out.cloud.points.emplace_back(map.grid.x0 + map.grid.dx * ix, map.grid.y0 + map.grid.dy * iy, z);
+    }
+  return out;
+}
+
+/// A cloud, or what else means points: rows of heights, and a matrix of heights at places.
+io::Scan read_one(const std::filesystem::path& file, const io::ImportSettings& settings,
+                  const io::ScanReadOptions& options, const Progress& progress) {
+  const LengthUnit unit = settings.scan.unit == "auto" ? LengthUnit::millimetre : *length_unit(settings.scan.unit);
+  const auto in_file = [&](double mm) { return kMillimetre * mm / metres_per(unit); };
+  if (auto rows = io::read_height_rows(file, {in_file(settings.map.across_mm), in_file(settings.map.along_mm)}, options,
+                                       progress)) {
+    rows->unit = unit;
+    return std::move(*rows);
+  }
+  if (settings.map.values == "heights" && io::is_deviation_map(file)) return heights_of(file, settings);
+  return io::read_scan(file, options, progress);
+}
+
 }  // namespace
 
 Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const Progress& progress) {
@@ -89,7 +145,7 @@ Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const
   for (std::size_t file = 0; file < request.scans.size(); ++file) {
     io::ScanReadOptions options;
     options.asked_by = {request.scans[file].string()};
-    io::Scan scan = io::read_scan(request.scans[file], options, quiet);
+    io::Scan scan = read_one(request.scans[file], request.settings, options, quiet);
     report.inputs.push_back({request.scans[file].filename().string(), io::sha256_file(request.scans[file]), scan.format,
                              scan.points_in_file, scan.not_finite});
     not_finite += scan.not_finite;

@@ -3,6 +3,7 @@
 #include "treadmark/app/import/read_map.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,47 @@
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::app {
+
+namespace {
+
+/// How well deviations, averaged along the band, follow the section itself: correlation and slope over the section's
+/// heights, that is of -z of a rail and of the radius of a wheel.
+struct LikeSection {
+  double correlation = 0.0, slope = 0.0;
+};
+LikeSection like_section(const OffsetMap& map, const scans::Section& section) {
+  std::vector<Vec2> means;  // height of the section, mean deviation
+  for (int iy = 0; iy < map.grid.ny; ++iy) {
+    const double y = map.grid.y0 + map.grid.dy * iy;
+    if (y < section.y_min() || y > section.y_max()) continue;
+    double sum = 0.0, count = 0.0;
+    for (int ix = 0; ix < map.grid.nx; ++ix) {
+      const double value = map.offset[static_cast<std::size_t>(ix) +
+                                      static_cast<std::size_t>(map.grid.nx) * static_cast<std::size_t>(iy)];
+      if (std::isnan(value)) continue;
+      sum += value;
+      count += 1.0;
+    }
+    if (count > 0.0) means.emplace_back(section.v_at(y), sum / count);
+  }
+  LikeSection out;
+  constexpr std::size_t kFewest = 8;
+  if (means.size() < kFewest) return out;
+  Vec2 mean = Vec2::Zero();
+  for (const Vec2& p : means) mean += p;
+  mean /= static_cast<double>(means.size());
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (const Vec2& p : means) {
+    const Vec2 d = p - mean;
+    xx += d.x() * d.x();
+    xy += d.x() * d.y();
+    yy += d.y() * d.y();
+  }
+  if (!(xx > 0.0) || !(yy > 0.0)) return out;
+  return {xy / std::sqrt(xx * yy), xy / xx};
+}
+
+}  // namespace
 
 PlacedScan read_map(const ImportRequest& request, io::ImportReport& report) {
   const io::ImportSettings& settings = request.settings;
@@ -43,6 +85,13 @@ PlacedScan read_map(const ImportRequest& request, io::ImportReport& report) {
   for (const Vec2& p : scan.nominal) curve.emplace_back(p.x(), wheel ? p.y() + radius : -p.y());
   scan.placement.section = scans::Section(curve);
   scan.placement.nominal_radius = radius;
+  constexpr double kAlike = 0.95, kLeastSlope = 0.3;
+  if (const LikeSection like = like_section(map, scan.placement.section);
+      std::fabs(like.correlation) > kAlike && std::fabs(like.slope) > kLeastSlope)
+    report.warnings.push_back(fmt::format(
+        "the deviations follow the section itself (correlation {:.3f}, {:.2g} times its heights): are these "
+        "heights? say map.values = heights then",
+        like.correlation, like.slope));
   const Grid2& g = map.grid;
   std::size_t missing = 0, beside = 0;
   for (int iy = 0; iy < g.ny; ++iy)

@@ -13,6 +13,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/mesh/make.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
@@ -350,6 +351,13 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const s
                     ? "what fills a large hole may fold: lower clean.hole_limit_mm, or write triangles (.ply)"
                     : "raise fit.significance or fit.resolution_mm, or write triangles (.ply)");
   }
+  if (!(kMicro * out.height_max <= settings.fit.written_um))
+    throw Error(
+        ErrorKind::input_data,
+        fmt::format("{} read again lie up to {:.3g} mm beside the fitted surface, more than {:g} um ({:.3g} mm rms)",
+                    out.kind, kMilli * out.height_max, settings.fit.written_um, kMilli * out.height_rms),
+        {file.string()},
+        "lower fit.resolution_mm, write another kind of file, or raise fit.written_um if that is near enough");
   return out;
 }
 

@@ -131,6 +131,11 @@ void frame(const File& file, Report& report) {
   }
   file.value("nominal_profile", report.nominal);
   file.number("nominal_radius_mm", report.nominal_radius, kMilli);
+  if constexpr (File::kReads) {
+    if (file.in.find("nominal_radius_error_mm")) file.number("nominal_radius_error_mm", report.radius_error, kMilli);
+  } else {
+    file.number("nominal_radius_error_mm", report.radius_error, kMilli);
+  }
   file.number("axis_position_error_mm", report.axis_position_error, kMilli);
   file.number("axis_direction_error_mrad", report.axis_direction_error, kMilli);
   file.number("scatter_mm", report.scatter, kMilli);

@@ -110,7 +110,7 @@ struct ImportReport {
   // placement
   std::string nominal;  ///< name of the nominal profile or "none"
   Pose X_CS;            ///< surface frame in the cloud's [m]
-  double nominal_radius = 0.0;
+  double nominal_radius = 0.0, radius_error = 0.0;               ///< of a wheel, with its standard error [m]
   double axis_position_error = 0.0, axis_direction_error = 0.0;  ///< standard errors [m], [rad]
   double scatter = 0.0, undamaged = 0.0;  ///< of the points about the section [m]; part of them that fixed the axis
   double match_residual = 0.0, match_agreeing = 0.0;  ///< of the section with the nominal profile [m]; part of it

@@ -109,6 +109,9 @@ std::vector<ImportKey> listed_keys() {
   list.number("fit.decimate_um", kNotNegative,
               "leave out nodes that triangles do not need to this tolerance; 0: keep all",
               at(&S::fit, &S::Fit::decimate_um));
+  list.number("fit.written_um", kPositive,
+              "a surface that is written, read again, farther from the fitted one is an error",
+              at(&S::fit, &S::Fit::written_um));
 
   list.number("damage.threshold_mm", kNotNegative, "depth from which damage is listed; 0: from the noise",
               at(&S::damage, &S::Damage::threshold_mm));
@@ -118,6 +121,14 @@ std::vector<ImportKey> listed_keys() {
             at(&S::map, &S::Map::height_unit));
   list.flag("map.angles_deg", "positions of a gridded map round the wheel are degrees, not lengths",
             at(&S::map, &S::Map::angles_deg));
+  list.word("map.values", {"deviations", "heights"},
+            "what a matrix with positions holds: deviations from the nominal profile, or heights, up",
+            at(&S::map, &S::Map::values));
+  list.number("map.across_mm", kNotNegative, "distance of the heights in a row of a line scanner",
+              at(&S::map, &S::Map::across_mm));
+  list.number("map.along_mm", kNotNegative,
+              "distance of such rows; 0: their first column, if it grows or falls, says where they are",
+              at(&S::map, &S::Map::along_mm));
   return std::move(list.keys);
 }
 

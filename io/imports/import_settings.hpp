@@ -48,6 +48,7 @@ struct ImportSettings {
     std::string base = "fitted";
     std::string mesh = "band";
     double decimate_um = 0.0;
+    double written_um = 10.0;
   } fit;
   struct Damage {
     double threshold_mm = 0.0;
@@ -55,6 +56,8 @@ struct ImportSettings {
   struct Map {
     std::string height_unit = "auto";
     bool angles_deg = false;
+    std::string values = "deviations";
+    double across_mm = 0.0, along_mm = 0.0;
   } map;
 };
 

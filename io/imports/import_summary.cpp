@@ -91,7 +91,10 @@ void add_placement(Page& page, const ImportReport& report) {
   page.row("origin in the cloud",
            fmt::format("{}, {}, {} mm", decimals(origin.x(), 3), decimals(origin.y(), 3), decimals(origin.z(), 3)));
   if (report.body == Body::wheel) {
-    page.row("nominal radius", decimals(1e3 * report.nominal_radius, 3) + " mm");
+    page.row("nominal radius",
+             decimals(1e3 * report.nominal_radius, 3) + " mm" +
+                 (report.radius_error > 0.0 ? ", known to " + length_text(report.radius_error) + " (standard error)"
+                                            : std::string()));
     page.row("axis known to", fmt::format("{} and {} mrad (standard errors), from {} of the points",
                                           length_text(report.axis_position_error),
                                           decimals(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));

@@ -32,6 +32,18 @@ struct Head {
   UnitFinder unit;
 };
 
+/// What stands between two signs that may separate.
+std::vector<std::string_view> pieces_of(std::string_view line) {
+  std::vector<std::string_view> out;
+  constexpr std::string_view kSeparators = " \t\v\f,;";
+  for (std::size_t at = line.find_first_not_of(kSeparators); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kSeparators, at), line.size());
+    out.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(kSeparators, end);
+  }
+  return out;
+}
+
 bool is_count(std::string_view line) {
   const std::vector<Field> fields = fields_of(line, ' ');
   return fields.size() == 1 && fields[0].text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -55,6 +67,7 @@ Head look(ByteBlocks& bytes) {
         if (head.points.empty()) head.comments.push_back({std::string(comment_text(line)), lines.number()});
         break;
       case LineKind::words:
+        if (is_lost_row(line)) break;
         if (!head.points.empty()) return head;  // the reader stops there with an error
         head.words.push_back({std::string(line), lines.number()});
         break;
@@ -89,10 +102,41 @@ bool are_normals(const std::vector<std::string>& lines, const FieldStyle& style,
   return any;
 }
 
-/// The roles of columns without names.
+/// Which columns of lines hold numbers, but for marks of nothing.
+class NumberColumns {
+ public:
+  NumberColumns(const FieldStyle& style, std::size_t columns) : style_(style), what_(columns, kNothing) {}
+
+  void add(std::string_view line) {
+    const std::vector<Field> fields = fields_of(line, style_.separator);
+    for (std::size_t k = 0; k < std::min(what_.size(), fields.size()); ++k) {
+      double value = 0.0;
+      if (what_[k] == kText || is_nothing(fields[k].text)) continue;
+      what_[k] = parse_number(fields[k].text, style_.decimal_comma, value) ? kNumber : kText;
+    }
+  }
+  std::vector<std::size_t> columns() const {
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < what_.size(); ++k)
+      if (what_[k] == kNumber) out.push_back(k);
+    return out;
+  }
+
+ private:
+  enum What : std::uint8_t { kNothing, kNumber, kText };
+  FieldStyle style_;
+  std::vector<What> what_;
+};
+
+/// The roles of columns without names: the first three with numbers are x y z.
 void assume_columns(ColumnLayout& layout, std::size_t columns, const std::vector<std::string>& points) {
   layout.value.assign(columns, -1);
-  for (int k = 0; k < 3; ++k) layout.value[static_cast<std::size_t>(k)] = k;
+  NumberColumns of_sample(layout.style, columns);
+  for (const std::string& line : points) of_sample.add(line);
+  std::vector<std::size_t> numbers = of_sample.columns();
+  constexpr std::size_t kCoordinates = 3;
+  if (numbers.size() < kCoordinates) numbers = {0, 1, 2};  // the reader says what is no number
+  for (std::size_t k = 0; k < kCoordinates; ++k) layout.value[numbers[k]] = static_cast<int>(k);
   if (columns == 6 && are_normals(points, layout.style, 3)) {
     for (int k = 3; k < 6; ++k) layout.value[static_cast<std::size_t>(k)] = k;
     layout.normals = true;
@@ -166,10 +210,59 @@ std::optional<ColumnNames> names_of(const Head& head, char separator, std::size_
   return std::nullopt;
 }
 
+/// Lines that begin with text, such as labels or times, and hold three numbers or more in the same columns, all of
+/// them: they are the points then. False if there are none.
+bool take_rows_with_text(Head& head, FieldStyle& style) {
+  constexpr std::size_t kFewestLines = 2, kFewestColumns = 4;
+  if (!head.points.empty() || head.words.size() < kFewestLines) return false;
+  for (const char separator : {';', '\t', ',', ' '})
+    for (const bool decimal_comma : {false, true}) {
+      if (decimal_comma && separator == ',') continue;
+      const FieldStyle tried{separator, decimal_comma};
+      const std::size_t columns = fields_of(head.words.back().text, separator).size();
+      if (columns < kFewestColumns) continue;
+      // back to where the lines are of another kind
+      std::size_t first = head.words.size();
+      NumberColumns numbers(tried, columns);
+      while (first > 0 && fields_of(head.words[first - 1].text, separator).size() == columns) {
+        numbers.add(head.words[first - 1].text);
+        if (numbers.columns().size() < kFewestColumns - 1) break;
+        --first;
+      }
+      if (head.words.size() - first < kFewestLines) continue;
+      for (std::size_t k = first; k < std::min(head.words.size(), first + kSampleLines); ++k)
+        head.points.push_back(head.words[k].text);
+      head.first_points = head.words[first].number;
+      head.words.resize(first);
+      style = tried;
+      return true;
+    }
+  return false;
+}
+
 }  // namespace
 
+bool is_nothing(std::string_view text) {
+  constexpr std::string_view kMarks[] = {"",    "-",    "--",      "---",    "n/a", "na", "#n/a", "null", "none",
+                                         "nil", "void", "invalid", "nodata", "*",   "**", "***",  "?"};
+  const std::string small = profiles::lower(text);
+  return std::find(std::begin(kMarks), std::end(kMarks), small) != std::end(kMarks);
+}
+
+bool is_lost_row(std::string_view line) {
+  const std::vector<std::string_view> pieces = pieces_of(line);
+  constexpr std::size_t kFewest = 3;
+  if (pieces.size() < kFewest || !is_nothing(pieces.front())) return false;
+  return std::all_of(pieces.begin(), pieces.end(), [](std::string_view piece) {
+    double value = 0.0;
+    return is_nothing(piece) || parse_number(piece, false, value);
+  });
+}
+
 ColumnLayout find_layout(ByteBlocks& bytes) {
-  const Head head = look(bytes);
+  Head head = look(bytes);
+  ColumnLayout layout;
+  layout.text_first = take_rows_with_text(head, layout.style);
   const std::string& file = bytes.file();
   if (head.points.empty()) {
     if (!head.words.empty())
@@ -177,8 +270,7 @@ ColumnLayout find_layout(ByteBlocks& bytes) {
                   {file, head.words.front().number, 1}, "is it a file of points?");
     throw Error(ErrorKind::input_data, "the file holds no points", {file, 0, 0}, "is it the right file?");
   }
-  ColumnLayout layout;
-  layout.style = find_style(head.points);
+  if (!layout.text_first) layout.style = find_style(head.points);
   const std::string& first = head.points.front();
   const std::size_t columns = fields_of(first, layout.style.separator).size();
   const auto with_empty =

@@ -25,6 +25,7 @@ struct ColumnLayout {
   bool normals = false, pass = false;
   bool loose_pass =
       false;  ///< the column may hold something else (numbers of lines): ignored where it cannot be a pass
+  bool text_first = false;   ///< lines of points begin with text: all from first_points on are such lines
   bool count_first = false;  ///< the first line is the number of points
   int first_points = 0;      ///< number of the first line of points (or of that count)
   std::optional<LengthUnit> unit;
@@ -41,6 +42,12 @@ struct ColumnNames {
   bool has_xyz = false, has_normals = false, twice = false;
 };
 ColumnNames find_names(const std::vector<std::string>& names);
+
+/// What exports write where there is no number: "N/A", "--", "null" ...; nothing at all is one, too.
+bool is_nothing(std::string_view text);
+
+/// A line of such marks, or of them and numbers, that begins with one.
+bool is_lost_row(std::string_view line);
 
 /// Looks at the first lines. Error(input_data) at the line that makes no sense.
 ColumnLayout find_layout(ByteBlocks& bytes);

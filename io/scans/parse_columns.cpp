@@ -32,9 +32,10 @@ class RowReader {
       if (!fields.next(field) || begins_comment(field.text)) return std::max<std::size_t>(k, 1);
       const int value = layout_.value[k];
       if (value < 0) continue;
-      values[static_cast<std::size_t>(value)] = field.text.empty()
-                                                    ? std::numeric_limits<double>::quiet_NaN()
-                                                    : number_in(lines_, field, layout_.style.decimal_comma);
+      double& number = values[static_cast<std::size_t>(value)];
+      if (!parse_number(field.text, layout_.style.decimal_comma, number))
+        number = is_nothing(field.text) ? std::numeric_limits<double>::quiet_NaN()
+                                        : number_in(lines_, field, layout_.style.decimal_comma);
     }
     while (fields.next(field)) {
       if (begins_comment(field.text)) return 0;
@@ -70,8 +71,13 @@ Scan parse_columns(ByteBlocks& bytes, const ScanReadOptions& options) {
     // after the first point most lines show by their first character what they are
     const bool plain =
         builder.scan().points_in_file > 0 && !line.empty() && ((line[0] >= '0' && line[0] <= '9') || line[0] == '-');
-    const LineKind kind = plain ? LineKind::numbers : kind_of_line(line);
+    LineKind kind = plain ? LineKind::numbers : kind_of_line(line);
     if (kind == LineKind::empty || kind == LineKind::comment) continue;
+    if (kind == LineKind::words && layout.text_first && lines.number() >= layout.first_points) kind = LineKind::numbers;
+    if (kind == LineKind::words && is_lost_row(line)) {
+      builder.add_lost();
+      continue;
+    }
     if (kind == LineKind::words) {
       if (lines.number() < layout.first_points || builder.scan().points_in_file == 0) continue;  // looked at before
       const std::size_t start = line.find_first_not_of(" \t\v\f");

@@ -64,4 +64,13 @@ Scan read_scan(const std::filesystem::path& file, const ScanReadOptions& options
   return parser(bytes, options);
 }
 
+std::optional<Scan> read_height_rows(const std::filesystem::path& file, const HeightRowOptions& how,
+                                     const ScanReadOptions& options, const Progress& progress) {
+  if (parser_of(file) != scans::parse_columns) return std::nullopt;
+  scans::ByteBlocks bytes(file, options.asked_by, progress);
+  const std::optional<scans::HeightRows> rows = scans::sniff_height_rows(bytes);
+  if (!rows) return std::nullopt;
+  return scans::parse_height_rows(bytes, *rows, how, options);
+}
+
 }  // namespace treadmark::io

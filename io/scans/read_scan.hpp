@@ -66,6 +66,18 @@ bool is_scan_file(const std::filesystem::path& file);
 /// when stopped.
 Scan read_scan(const std::filesystem::path& file, const ScanReadOptions& options = {}, const Progress& progress = {});
 
+/// Distances that rows of heights do not say, in the unit of the file; 0: not known.
+struct HeightRowOptions {
+  double across = 0.0;  ///< between the heights of a row
+  double along = 0.0;   ///< between rows; 0: the first column says where they are
+};
+
+/// Reads what a line scanner writes: a row of heights a profile (16 or more, no names), behind the place of the row if
+/// the first column grows or falls. x is along the rows' places, y across, z the height. Nothing if the file is no such
+/// text (.csv, .txt, .asc). Errors: as read_scan; Error(configuration) for a distance that is not known.
+std::optional<Scan> read_height_rows(const std::filesystem::path& file, const HeightRowOptions& how,
+                                     const ScanReadOptions& options = {}, const Progress& progress = {});
+
 /// Writes points times 1/metres_per(unit) by the extension: .ply (binary little endian, double, with a comment that
 /// names the unit), .xyz .asc .txt .csv (header line with names of columns and unit), .las 1.2 (steps of 0.1 um or
 /// finer, the unit as system identifier). Normals and passes are written where the cloud has them and the format can

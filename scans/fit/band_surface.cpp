@@ -61,14 +61,18 @@ SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, s
     finest = std::min(finest, level.knot_a);
     coarsest = std::max(coarsest, level.knot_a);
   }
-  const auto count = static_cast<std::size_t>(std::lround(band.length() / finest));
+  auto count = static_cast<std::size_t>(std::lround(band.length() / finest));
+  // short bands have few knots: between them the splines are what slices on both sides make them again
+  constexpr std::size_t kFewestPlaces = 8;
+  for (; count < kFewestPlaces; count *= 2) finest *= 0.5;
+  const double farthest = std::min(kFarthest, band.length() / static_cast<double>(kFewestPlaces));
   std::vector<double> stations;
   std::size_t last = 0;
   for (std::size_t k = 0; k <= count; ++k) {
     const double a = band.length() * static_cast<double>(k) / static_cast<double>(count);
     if (k == count && band.closed) break;
     // fine steps on both sides of a station that needs them
-    double step = kFarthest;
+    double step = farthest;
     for (const double beside : {a - 0.5 * finest, a + 0.5 * finest})
       step = std::min(
           step, fitted.field.finest_knot_a(band.closed ? beside : std::clamp(beside, 0.0, band.length()), tolerance));

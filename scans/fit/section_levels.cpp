@@ -168,10 +168,15 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
     for (std::size_t k = 0; k <= steps; ++k) {
       const double s = length * static_cast<double>(k) / static_cast<double>(steps), d = field.value(0.5, s);
       const Section::Point at = band.section.at(s);
-      const Vec2 next = at.position + d * at.normal;
+      nodes.emplace_back(at.position + d * at.normal);
       largest = std::max(largest, std::fabs(d));
-      if (nodes.empty() || next.x() > nodes.back().x() + 1e-8) nodes.push_back(next);
     }
+    // from the middle on, so that a wall, as worn flanks may be, stays one that hardly leans
+    constexpr double kApart = 1e-7;
+    const std::size_t middle = nodes.size() / 2;
+    for (std::size_t k = middle + 1; k < nodes.size(); ++k)
+      nodes[k].x() = std::max(nodes[k].x(), nodes[k - 1].x() + kApart);
+    for (std::size_t k = middle; k-- > 0;) nodes[k].x() = std::min(nodes[k].x(), nodes[k + 1].x() - kApart);
   }
   if (moved != nullptr) *moved = largest;
   return nodes.empty() ? band.section : Section(nodes);

@@ -10,15 +10,15 @@
 
 namespace treadmark::scans {
 
-/// Axis of a wheel scanned all round, from circles alone: for scans whose lines are so far apart that no planes can be
-/// laid through neighbouring points. Begins with the direction in which the points reach least and fits circles to
-/// strips across it. elements: for centre and extent. Nothing if the points do not look like that. residual: median
-/// scatter of the radii in a strip.
+/// Axis of a wheel, or of a part of one, from circles alone, for scans in which no planes can be laid through
+/// neighbouring points or whose normals hardly turn: strips across a direction hold arcs about one centre, which is a
+/// linear problem (Kasa 1976), so that only directions are searched for. elements: for centre and extent. Nothing if
+/// the points do not look like that. residual: scatter of the radii in the strips. Deterministic.
 std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<const std::uint8_t> keep,
                                      const SurfaceElements& elements);
 
-/// How far radii scatter in narrow strips across an axis: median over the strips of their robust deviations. For
-/// comparing axes.
+/// How far radii scatter about an axis in narrow strips across it, in each of which they may grow evenly: median over
+/// the strips of their robust deviations; extent if too few points lie in any. For comparing axes.
 double radius_scatter(std::span<const Vec3> points, const Axis& axis, double extent);
 
 }  // namespace treadmark::scans

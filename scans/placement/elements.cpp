@@ -111,14 +111,16 @@ SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, 
   out.flat_part = all > 0.0 ? flat / all : 0.0;
   // a plane cuts about 1.5 cubes for each face area of a cube
   constexpr double kCubesPerFace = 1.5;
-  if (flat > 0.0)
+  if (out.flat_part >= kLeastFlat)
     out.spacing = voxels.size() * std::sqrt(static_cast<double>(out.position.size()) / kCubesPerFace / flat);
+  else if (all > 0.0)
+    out.spacing = voxels.size() * std::sqrt(static_cast<double>(voxels.count()) / kCubesPerFace / all);
   return out;
 }
 
 }  // namespace
 
-SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
+SurfaceElements look_for_elements(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
   const auto kept =
       keep.empty() ? points.size()
                    : static_cast<std::size_t>(std::count_if(keep.begin(), keep.end(), [](auto k) { return k != 0; }));
@@ -155,7 +157,7 @@ SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std:
   const auto try_size = [&](const Voxels& voxels) {
     SurfaceElements found = elements_of(points, voxels, extent);
     // another size only for a clear gain: larger cubes blur the normals, smaller ones follow the noise
-    if (found.flat_part > best.flat_part + kClearGain) best = std::move(found);
+    if (best.size == 0.0 || found.flat_part > best.flat_part + kClearGain) best = std::move(found);
     return best.flat_part > kEnoughFlat;
   };
   constexpr double kStep = 1.6;
@@ -169,12 +171,21 @@ SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std:
     if (voxels.count() > kMostVoxels) break;
     enough = try_size(voxels);
   }
-  if (best.flat_part < kLeastFlat || best.position.size() < kFewestElements)
+  return best;
+}
+
+void require_surface(const SurfaceElements& elements) {
+  if (elements.flat_part < kLeastFlat || elements.position.size() < kFewestElements)
     throw Error(ErrorKind::input_data,
                 fmt::format("the points do not form a surface: only {:.0f} % of them lie in flat surroundings",
-                            100.0 * best.flat_part),
+                            100.0 * elements.flat_part),
                 {}, "is this the right file? remove everything that is not the wheel or rail");
-  return best;
+}
+
+SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
+  SurfaceElements out = look_for_elements(points, keep);
+  require_surface(out);
+  return out;
 }
 
 }  // namespace treadmark::scans

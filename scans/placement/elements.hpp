@@ -23,7 +23,13 @@ struct SurfaceElements {
 };
 
 /// Any unit. Cubes are as small as the data let planes be seen. keep: flags or empty. Deterministic.
-/// Errors: Error(input_data) for fewer than 100 points, all at one place, or points that nowhere form a surface.
+/// Errors: Error(input_data) for fewer than 100 points, or all at one place.
+SurfaceElements look_for_elements(std::span<const Vec3> points, std::span<const std::uint8_t> keep = {});
+
+/// Errors: Error(input_data) if the points nowhere form a surface.
+void require_surface(const SurfaceElements& elements);
+
+/// Both.
 SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std::uint8_t> keep = {});
 
 }  // namespace treadmark::scans

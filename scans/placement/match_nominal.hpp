@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
+#include <span>
+
 #include "treadmark/model/profile.hpp"
 #include "treadmark/scans/placement/section.hpp"
 
@@ -17,12 +20,32 @@ struct SectionMatch {
   double agreeing = 0.0;      ///< part of the measured section that does
   double beside = 0.0;        ///< part of the measured section that is nowhere near the nominal one
   double overlap = 0.0;       ///< part of the shorter one that the other covers
+
+  /// Wheel: what the section would be turned by besides, were the axis free, and to which standard error, were what it
+  /// differs by errors of some 20 mm length.
+  struct Turn {
+    double angle = 0.0, error = 0.0;  ///< as roll [rad]
+    Vec2 datum = Vec2::Zero();        ///< where the nominal section's (0, 0) lies then, in the measured one
+  };
+  std::optional<Turn> turn;
+
+  /// Rail whose way was free: mean distance from the nominal section in this reading and with the rail turned round,
+  /// wear of the gauge side apart [m]; how far the section is from its own mirror image, where both are (rms) [m].
+  struct Ways {
+    double here = 0.0, turned = 0.0, asymmetry = 0.0;
+    bool clear = false;  ///< one of them is clearly nearer
+  };
+  std::optional<Ways> ways;
 };
 
 /// Robust fit of a measured section to a nominal one: all shifts are tried coarsely (rails: also rolls up to 60
 /// degrees), then Gauss-Newton steps with Tukey's weights, so that worn and damaged parts do not pull. keep_way: the
-/// way round is known. Errors: Error(input_data) if they agree nowhere.
-SectionMatch match_nominal(const Section& measured, const Section& nominal, Body body, bool keep_way);
+/// way round is known. Else that of a wheel follows from its flange. A rail may be worn at its gauge side (y < 0); it
+/// is turned round where its points (in the plane of the measured section, flanks too that are too steep for it; none:
+/// the section's own) lie clearly nearer the nominal one then, or where only its other side was measured down to where
+/// gauges are. Errors: Error(input_data) if they agree nowhere.
+SectionMatch match_nominal(const Section& measured, const Section& nominal, Body body, bool keep_way,
+                           std::span<const Vec2> points = {});
 
 /// A point of the measured section's plane in the nominal's.
 Vec2 to_nominal(const SectionMatch& match, const Vec2& point);

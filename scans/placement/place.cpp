@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 #include "treadmark/scans/placement/circle_axis.hpp"
@@ -18,6 +19,8 @@ namespace treadmark::scans {
 namespace {
 
 constexpr double kSurelyFlat = 0.8;
+constexpr double kWideArc = 2.0;  // [rad]
+constexpr double kDatum = 70e-3;  // of the tread from the back of the flange (EN 13715) [m]
 constexpr std::size_t kMostUsed = 120'000;
 
 struct Limits {
@@ -47,6 +50,16 @@ Pose frame_of(Body body, const Vec3& origin, const Vec3& along, const Vec3& out)
   return pose;
 }
 
+/// The axis of the file along which a direction runs most; of two that are about equal, as in a cloud turned by 45
+/// degrees, the first.
+Eigen::Index nearest_axis(const Vec3& direction) {
+  constexpr double kAlike = 0.95;
+  Eigen::Index out = 0;
+  const double most = direction.cwiseAbs().maxCoeff();
+  while (std::fabs(direction[out]) < kAlike * most) ++out;
+  return out;
+}
+
 /// Out of the head: the normals that point away from the middle of the section, summed; they cancel on both sides.
 Vec3 outwards(const RoughPlace& roughly) {
   const Vec3 along = roughly.rough.axis.direction;
@@ -67,45 +80,61 @@ Pose turned(const Pose& X_CS) {
   return X_CS * Pose{Vec3::Zero(), Mat3(Eigen::DiagonalMatrix<double, 3>(-1.0, -1.0, 1.0))};
 }
 
-/// Where few points have flat surroundings: by normals or by circles, whichever gathers the radii better.
-RoughAxis sparse_revolution(std::span<const Vec3> points, std::span<const std::uint8_t> keep,
-                            const SurfaceElements& elements) {
-  const std::optional<RoughAxis> circles = circle_axis(points, keep, elements);
-  try {
-    const RoughAxis normals = rough_revolution(elements);
-    if (!circles ||
-        radius_scatter(points, normals.axis, elements.radius) < radius_scatter(points, circles->axis, elements.radius))
-      return normals;
-  } catch (const Error&) {
-    if (!circles) throw;
-  }
-  return *circles;
-}
-
-/// Angle about the axle that most of the points take up, on either side of where they are on average.
-double arc_of(std::span<const Vec3> points, const Pose& X_CS) {
+/// Angle about an axle that most of the points take up, on either side of where they are on average.
+double arc_of(std::span<const Vec3> points, const Axis& axle) {
+  const Vec3 e1 = any_perpendicular(axle.direction), e2 = axle.direction.cross(e1);
   std::vector<double> u;
   Vec2 mean = Vec2::Zero();
   for (const Vec3& p : points) {
-    u.push_back(natural(Body::wheel, X_CS.apply_inverse(p)).u);
+    u.push_back(std::atan2((p - axle.point).dot(e1), (p - axle.point).dot(e2)));
     mean += Vec2(std::sin(u.back()), std::cos(u.back()));
   }
   const double middle = std::atan2(mean.x(), mean.y());
   for (double& angle : u) angle = wrap_angle(angle - middle);
-  const double high = part_of(u, 0.98);
-  return high - part_of(u, 0.02);
+  const double high = part_of(u, 0.99);
+  return high - part_of(u, 0.01);
+}
+
+/// By normals or by circles, whichever gathers the radii better. Normals alone decide where they are many and turn by
+/// most of a turn.
+RoughAxis revolution(std::span<const Vec3> points, std::span<const std::uint8_t> keep,
+                     const SurfaceElements& elements) {
+  std::optional<RoughAxis> normals;
+  std::optional<Error> why;
+  try {
+    require_surface(elements);
+    normals = rough_revolution(elements);
+  } catch (const Error& error) {
+    why = error;
+  }
+  if (normals && elements.flat_part > kSurelyFlat && arc_of(elements.position, normals->axis) > kWideArc)
+    return *normals;
+  const std::optional<RoughAxis> circles = circle_axis(points, keep, elements);
+  if (!normals && !circles) throw Error(*why);
+  if (!circles) return *normals;
+  std::vector<Vec3> kept;
+  for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 100'000)
+    if (keep.empty() || keep[i] != 0) kept.push_back(points[i]);
+  const bool better = normals && radius_scatter(kept, normals->axis, elements.radius) <
+                                     radius_scatter(kept, circles->axis, elements.radius);
+  return better ? *normals : *circles;
+}
+
+/// Standard error of the radius of a refined wheel at a place y of its section.
+double radius_error(const RefinedAxis& refined, double y) {
+  const Eigen::RowVector4d h = refined.section_moves.row(0) + y * refined.section_moves.row(1);
+  return std::sqrt(std::max(0.0, (h * refined.covariance * h.transpose()).value()));
 }
 
 struct Reference {
   Vec2 shift;  ///< added to (y, v) of the measured section
 };
 
-/// Without a nominal profile. Wheel: y = 0 is 70 mm from the back of the flange (tread datum of EN 13715) and has the
+/// Without a nominal profile. Wheel: y = 0 is kDatum from the back of the flange and has the
 /// nominal radius. Rail: the highest point has z = 0; y = 0 is the middle of the head 14 mm below it, or of what was
 /// scanned.
 Reference own_reference(const Section& section, Body body) {
   if (body == Body::wheel) {
-    constexpr double kDatum = 70e-3;
     const double y = std::clamp(section.y_min() + kDatum, section.y_min(), section.y_max());
     return {{-(section.y_min() + kDatum), -section.v_at(y)}};
   }
@@ -126,13 +155,12 @@ Reference own_reference(const Section& section, Body body) {
 
 RoughPlace find_roughly(std::span<const Vec3> points, std::span<const std::uint8_t> keep, Body body) {
   RoughPlace out;
-  out.elements = find_elements(points, keep);
+  out.elements = look_for_elements(points, keep);
   if (body == Body::rail) {
+    require_surface(out.elements);
     out.rough = rough_sweep(out.elements);
-  } else if (out.elements.flat_part > kSurelyFlat) {
-    out.rough = rough_revolution(out.elements);
   } else {
-    out.rough = sparse_revolution(points, keep, out.elements);
+    out.rough = revolution(points, keep, out.elements);
   }
   const Axis& axis = out.rough.axis;
   std::vector<double> values, other;
@@ -204,12 +232,7 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
     throw Error(ErrorKind::configuration, "the upward direction that was given runs along the rail");
   out.normalize();
   if (settings.forward && along.dot(*settings.forward) < 0.0) along = -along;
-  if (!settings.forward && !wheel) {
-    // the way in which the axis of the file that is nearest grows
-    Eigen::Index nearest = 0;
-    along.cwiseAbs().maxCoeff(&nearest);
-    if (along[nearest] < 0.0) along = -along;
-  }
+  if (!settings.forward && !wheel && along[nearest_axis(along)] < 0.0) along = -along;
   const Vec3 origin = wheel
                           ? Vec3(axis.point + axis.direction * axis.direction.dot(roughly.elements.centre - axis.point))
                           : roughly.elements.centre;
@@ -217,14 +240,39 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
 
   Placement found;
   RefinedAxis refined;
+  KnownOfSection known;
+  known.error.setConstant(kInfinity);
+  constexpr double kRadiusKnown = 0.05e-3, kContradicts = 5.0;
+  // the radius of the section at its datum, if it does not contradict the one that was given
+  const auto know_radius = [&](const Vec2& datum) {
+    found.radius_error = radius_error(refined, datum.x());
+    if (!settings.radius) return;
+    known.y = datum.x();
+    known.lacking[0] = *settings.radius - datum.y();
+    if (std::fabs(known.lacking[0]) < kContradicts * std::hypot(found.radius_error, kRadiusKnown))
+      known.error[0] = kRadiusKnown;
+  };
   // the rail's roll changes what its section looks like from outside: placed, then looked at again
   const int rounds = wheel ? 1 : 2;
   for (int round = 0; round < rounds; ++round) {
     refined = refine_axis(used, body, X_CS);
     X_CS = refined.X_CS;
     if (settings.nominal) {
-      const bool keep_way = settings.forward.has_value() || round > 0;
-      const SectionMatch match = match_nominal(refined.fit.section, *settings.nominal, body, keep_way);
+      const auto matched = [&] {
+        return match_nominal(refined.fit.section, *settings.nominal, body, settings.forward.has_value(),
+                             wheel ? std::vector<Vec2>{} : across(used, body, X_CS));
+      };
+      SectionMatch match = matched();
+      if (match.turn) {
+        // a section that agrees with the nominal one tells the direction of the axle where a short arc hardly does
+        know_radius(match.turn->datum);
+        known.lacking[1] = match.turned ? match.turn->angle : -match.turn->angle;
+        known.error[1] = match.turn->error;
+        use_known(refined, known, used);
+        X_CS = refined.X_CS;
+        match = matched();
+        found.radius_error = radius_error(refined, match.turn->datum.x());
+      }
       if (match.turned) X_CS = turned(X_CS);
       Pose to_new;  // from the present frame to the nominal one
       to_new.rotation = wheel ? Mat3::Identity() : rotation_x(match.roll);
@@ -233,18 +281,27 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
       found.nominal_radius = wheel ? -match.shift.y() : 0.0;
       const bool was_turned = found.match && found.match->turned;
       found.match = match;
-      found.match->turned = match.turned || was_turned;
+      found.match->turned = match.turned != was_turned;
     } else {
-      if (wheel && !settings.forward) {
-        // the flange is the side that reaches farther out
+      // the flange is the side that reaches farther out
+      const Section& seen = refined.fit.section;
+      const bool flange_last = wheel && !settings.forward &&
+                               seen.at(0.25 * seen.length()).position.y() < seen.at(0.75 * seen.length()).position.y();
+      if (wheel) {
+        const double y =
+            std::clamp(flange_last ? seen.y_max() - kDatum : seen.y_min() + kDatum, seen.y_min(), seen.y_max());
+        know_radius({y, seen.v_at(y)});
+        use_known(refined, known, used);
+        X_CS = refined.X_CS;
+        found.radius_error = radius_error(refined, y);
+      }
+      if (flange_last) {
+        X_CS = turned(X_CS);
         const Section& s = refined.fit.section;
-        if (s.at(0.25 * s.length()).position.y() < s.at(0.75 * s.length()).position.y()) {
-          X_CS = turned(X_CS);
-          std::vector<Vec2> mirrored;
-          for (double at = s.length(); at >= 0.0; at -= 0.5e-3)
-            mirrored.emplace_back(-s.at(at).position.x(), s.at(at).position.y());
-          refined.fit.section = Section(mirrored);
-        }
+        std::vector<Vec2> mirrored;
+        for (double at = s.length(); at >= 0.0; at -= 0.5e-3)
+          mirrored.emplace_back(-s.at(at).position.x(), s.at(at).position.y());
+        refined.fit.section = Section(mirrored);
       }
       const Reference reference = own_reference(refined.fit.section, body);
       X_CS = X_CS *
@@ -253,14 +310,9 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
       found.nominal_radius = wheel ? settings.radius.value_or(-reference.shift.y()) : 0.0;
     }
   }
-  std::vector<Vec2> across;
-  across.reserve(used.size());
-  for (const Vec3& p : used) {
-    const Natural n = natural(body, X_CS.apply_inverse(p));
-    across.emplace_back(n.y, n.v);
-  }
+  const std::vector<Vec2> section = across(used, body, X_CS);
   constexpr double kReach = 5e-3, kKnots = 4e-3;
-  const SectionFit fit = fit_section(outline(across), across, kReach, kKnots);
+  const SectionFit fit = fit_section(outline(section), section, kReach, kKnots);
   found.X_CS = X_CS;
   found.section = fit.section;
   found.scatter = fit.scale;
@@ -268,17 +320,16 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
   found.position_error = refined.position_error;
   found.direction_error = refined.direction_error;
   found.iterations = refined.iterations;
-  constexpr double kMostError = 0.5e-3, kShortestArc = 0.3;
-  if (const double arc = wheel ? arc_of(used, X_CS) : kShortestArc; arc < kShortestArc)
+  if (!wheel) return found;
+  found.arc = arc_of(used, {X_CS.origin, X_CS.rotation.col(1)});
+  constexpr double kMostRadius = 0.5e-3, kMostDirection = 5e-3;
+  if (!(found.radius_error < kMostRadius) || !(found.direction_error < kMostDirection))
     throw Error(
         ErrorKind::input_data,
-        fmt::format("the scanned arc of {:.0f} degrees is too short to find the axle", arc * 180.0 / std::numbers::pi),
-        {}, "scan more of the circumference");
-  if (wheel && found.position_error > kMostError)
-    throw Error(ErrorKind::input_data,
-                fmt::format("the scanned arc is too short to find the axle: its standard error is {:.2g} mm",
-                            1e3 * found.position_error),
-                {}, "scan more of the circumference");
+        fmt::format("the scanned arc of {:.0f} degrees is too short to find the axle: it leaves the radius "
+                    "uncertain by {:.2g} mm and the direction of the axle by {:.2g} mrad (standard errors)",
+                    found.arc * 180.0 / std::numbers::pi, 1e3 * found.radius_error, 1e3 * found.direction_error),
+        {}, kKnowMore);
   return found;
 }
 

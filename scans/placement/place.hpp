@@ -36,7 +36,7 @@ void check_unit(Body body, double size, LengthUnit unit);
 struct PlaceSettings {
   Body body = Body::rail;
   std::optional<Section> nominal;  ///< (y, z) of a wheel, (y, -z) of a rail's profile; none: the scan's own features
-  std::optional<double> radius;    ///< wheel: nominal radius that is expected [m]
+  std::optional<double> radius;    ///< wheel: its nominal radius [m], which helps to find the axle of a short arc
   std::optional<Vec3> up;          ///< rail: in the cloud's frame, roughly out of the head
   std::optional<Vec3>
       forward;  ///< rail: roughly +x; wheel: roughly +y (from the flange to the field side); in the cloud's frame
@@ -50,9 +50,9 @@ struct Placement {
   std::optional<SectionMatch> match;  ///< of the section with the nominal one
   double scatter = 0.0;               ///< of most points about the section: robust standard deviation [m]
   double undamaged = 0.0;             ///< part of the points that fixed the axis
-  double position_error = 0.0,
-         direction_error = 0.0;  ///< standard errors of the axis from the scatter of the points; on arcs below 45
-                                 ///< degrees its true error may be several times that [m], [rad]
+  double position_error = 0.0, direction_error = 0.0;  ///< standard errors of the axis [m], [rad]
+  double radius_error = 0.0;                           ///< of a wheel's radius at the datum [m]
+  double arc = 0.0;                                    ///< of the circumference of a wheel that was scanned [rad]
   int iterations = 0;
 };
 
@@ -60,6 +60,10 @@ struct Placement {
 /// Errors: those of refine_axis and match_nominal; Error(input_data) for an arc too short to find an axle from.
 Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly,
                 const PlaceSettings& settings);
+
+/// What helps where the axle of a wheel is not known well.
+inline constexpr const char* kKnowMore =
+    "give its nominal radius if it is known (placement.nominal_radius_mm), or scan more of the circumference";
 
 /// The same place in another unit: lengths times factor.
 void scale(RoughPlace& roughly, double factor);

@@ -21,12 +21,162 @@ namespace {
 constexpr std::size_t kBlock = 8192;
 constexpr int kMostRounds = 25;
 
-/// d = distance from the section along its normal, j = change of d by the four (wheel) or two (rail) motions.
+constexpr std::size_t kMotions = 4, kColumns = 6;
+
+/// d = distance from the section along its normal, j = change of d by the four (wheel) or two (rail) motions, and
+/// in the last two columns what of those is the same at all stations.
 struct Residual {
   double d = 0.0;
-  std::array<double, 4> j{};
+  std::array<double, kColumns> j{};
   double s = -1.0;  ///< < 0: not near the section
 };
+
+struct Knots {
+  Knots(double length, double spacing)
+      : intervals(static_cast<std::size_t>(std::max(2.0, std::round(length / spacing)))),
+        apart(length / static_cast<double>(intervals)) {}
+
+  std::size_t intervals;
+  double apart;
+
+  struct Place {
+    std::size_t interval;
+    std::array<double, 4> basis;
+  };
+  Place at(double s) const {
+    const std::size_t k = std::min(intervals - 1, static_cast<std::size_t>(s / apart));
+    return {k, cubic_basis(s / apart - static_cast<double>(k))};
+  }
+};
+
+/// Normal equations of a spline along the section and of the motions.
+struct NormalSums {
+  explicit NormalSums(std::size_t intervals)
+      : banded(intervals + 3), mixed(Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(intervals + 3), kColumns)) {
+    section_rhs = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(intervals + 3));
+  }
+
+  std::vector<std::array<double, 4>> banded;  ///< row f, column f + k
+  Eigen::MatrixXd mixed;
+  Eigen::VectorXd section_rhs;
+  Eigen::Matrix<double, kColumns, kColumns> motions = Eigen::Matrix<double, kColumns, kColumns>::Zero();
+  Eigen::Vector<double, kColumns> motions_rhs = Eigen::Vector<double, kColumns>::Zero();
+  double near = 0.0, used = 0.0, weight = 0.0, square = 0.0, slope = 0.0;
+
+  /// x: the distance over Tukey's limit, below 1.
+  void add(const Residual& r, double x, const Knots& knots) {
+    const double w = (1.0 - x * x) * (1.0 - x * x);
+    const Knots::Place place = knots.at(r.s);
+    const Eigen::Map<const Eigen::Vector<double, kColumns>> j(r.j.data());
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double wb = w * place.basis[i];
+      const auto row = static_cast<Eigen::Index>(place.interval + i);
+      for (std::size_t k = i; k < 4; ++k) banded[place.interval + i][k - i] += wb * place.basis[k];
+      mixed.row(row) += wb * j.transpose();
+      section_rhs[row] += wb * r.d;
+    }
+    motions += w * j * j.transpose();
+    motions_rhs += w * r.d * j;
+    used += 1.0;
+    weight += w;
+    square += w * w * r.d * r.d;
+    slope += (1.0 - x * x) * (1.0 - 5.0 * x * x);
+  }
+
+  NormalSums& operator+=(const NormalSums& other) {
+    for (std::size_t f = 0; f < banded.size(); ++f)
+      for (std::size_t k = 0; k < 4; ++k) banded[f][k] += other.banded[f][k];
+    mixed += other.mixed;
+    section_rhs += other.section_rhs;
+    motions += other.motions;
+    motions_rhs += other.motions_rhs;
+    near += other.near;
+    used += other.used;
+    weight += other.weight;
+    square += other.square;
+    slope += other.slope;
+    return *this;
+  }
+
+  /// With a little stiffness, for strips without points.
+  Eigen::MatrixXd section_matrix() const {
+    const auto size = static_cast<Eigen::Index>(banded.size());
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
+    for (Eigen::Index f = 0; f < size; ++f)
+      for (Eigen::Index k = 0; k < std::min<Eigen::Index>(4, size - f); ++k)
+        out(f, f + k) = out(f + k, f) = banded[static_cast<std::size_t>(f)][static_cast<std::size_t>(k)];
+    constexpr double kStiffness = 1e-6;
+    const double stiffness = kStiffness * out.trace() / static_cast<double>(size);
+    for (Eigen::Index k = 1; k + 1 < size; ++k) {
+      const Eigen::Vector3d bend(1.0, -2.0, 1.0);
+      out.block<3, 3>(k - 1, k - 1) += stiffness * bend * bend.transpose();
+    }
+    return out;
+  }
+};
+
+struct Equations {
+  Eigen::Matrix4d matrix;
+  Eigen::Vector4d rhs;
+};
+/// Equations of the motions alone. follows: what of the columns the spline takes up.
+Equations of_motions(const NormalSums& sum, const Eigen::MatrixXd& follows) {
+  const Eigen::MatrixXd all = sum.motions - sum.mixed.transpose() * follows;
+  const Eigen::VectorXd rhs = sum.motions_rhs - follows.transpose() * sum.section_rhs;
+  constexpr Eigen::Index kMotion = kMotions, kSame = kColumns - kMotions;
+  // little is left of what is the same at all stations: nothing where the spline takes it up to rounding errors
+  const Eigen::Matrix2d same = all.bottomRightCorner<kSame, kSame>();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(same);
+  Eigen::Matrix2d inverse = Eigen::Matrix2d::Zero();
+  for (Eigen::Index k = 0; k < kSame; ++k)
+    if (eigen.eigenvalues()[k] > 1e-12 * sum.weight)
+      inverse += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).transpose() / eigen.eigenvalues()[k];
+  const Eigen::Matrix<double, kMotion, kSame> gain = all.topRightCorner<kMotion, kSame>() * inverse;
+  return {all.topLeftCorner<kMotion, kMotion>() - gain * all.bottomLeftCorner<kSame, kMotion>(),
+          rhs.head<kMotion>() - gain * rhs.tail<kSame>()};
+}
+
+Pose moved(const Pose& X_CS, Body body, const Eigen::Vector4d& step) {
+  const bool wheel = body == Body::wheel;
+  const Vec3 shift = wheel ? Vec3(step[0], 0.0, step[1]) : Vec3::Zero();
+  const Vec3 turn = wheel ? Vec3(step[2], 0.0, step[3]) : Vec3(0.0, step[0], step[1]);
+  const double angle = turn.norm();
+  const Mat3 rotation = angle > 0.0 ? Mat3(Eigen::AngleAxisd(angle, turn / angle)) : Mat3::Identity();
+  return X_CS * Pose{shift, rotation};
+}
+
+/// follows: what of the motions a spline of distances along the section takes up. The section moves the other way; as
+/// far as it does so rigidly, its shift in v at y = 0 and its turn.
+Eigen::Matrix<double, 2, 4> moves_of(const Section& section, const Knots& knots, const Eigen::MatrixXd& follows) {
+  constexpr double kStep = 0.5e-3;
+  const double middle = section.v_at(0.5 * (section.y_min() + section.y_max()));
+  Mat3 matrix = Mat3::Zero();
+  Eigen::Matrix<double, 3, 4> rhs = Eigen::Matrix<double, 3, 4>::Zero();
+  for (double s = 0.5 * kStep; s < section.length(); s += kStep) {
+    const Section::Point at = section.at(s);
+    const Vec3 rigid(at.normal.x(), at.normal.y(),
+                     at.position.x() * at.normal.y() - (at.position.y() - middle) * at.normal.x());
+    const Knots::Place place = knots.at(s);
+    Eigen::RowVector4d distance = Eigen::RowVector4d::Zero();
+    for (std::size_t i = 0; i < 4; ++i)
+      distance -= place.basis[i] * follows.row(static_cast<Eigen::Index>(place.interval + i)).head<kMotions>();
+    matrix += rigid * rigid.transpose();
+    rhs += rigid * distance;
+  }
+  const Eigen::Matrix<double, 3, 4> rigid = matrix.ldlt().solve(rhs);
+  return rigid.bottomRows<2>();
+}
+
+/// Standard errors by the covariance.
+void set_errors(RefinedAxis& refined, Body body) {
+  const auto root = [&](Eigen::Index i) {
+    return std::sqrt(std::max(refined.covariance(i, i) + refined.covariance(i + 1, i + 1), 0.0));
+  };
+  refined.position_error = body == Body::wheel ? root(0) : 0.0;
+  refined.direction_error = body == Body::wheel ? root(2) : root(0);
+}
+
+}  // namespace
 
 std::vector<Vec2> across(std::span<const Vec3> points, Body body, const Pose& X_CS) {
   std::vector<Vec2> out(points.size());
@@ -39,8 +189,6 @@ std::vector<Vec2> across(std::span<const Vec3> points, Body body, const Pose& X_
   return out;
 }
 
-}  // namespace
-
 RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& start) {
   RefinedAxis out;
   out.X_CS = start;
@@ -48,9 +196,10 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
   const Eigen::Index unknowns = wheel ? 4 : 2;
   double reach = 20e-3;  // the rough axis smears the section
   Section section = outline(across(points, body, out.X_CS));
-  constexpr double kKnots = 4e-3, kStrip = 2e-3, kNearest = 1e-3;
+  constexpr double kKnots = 4e-3, kNearest = 1e-3;
   Eigen::Matrix4d information = Eigen::Matrix4d::Identity();
-  double shifting = 0.0, turning = 0.0;  // sizes of the last few steps, unless settled
+  Eigen::Vector4d moving = Eigen::Vector4d::Zero();  // sizes of the last few steps, unless settled
+  Eigen::MatrixXd follows;                           // coefficients along the section by motions
   for (int round = 0; round < kMostRounds; ++round) {
     out.iterations = round + 1;
     if (round > 0 && round < 4) section = outline(across(points, body, out.X_CS));  // the first steps are large
@@ -63,12 +212,14 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
         const Natural n = natural(body, p);
         const auto foot = section.foot({n.y, n.v}, reach);
         if (!foot) continue;
-        const Vec3 normal = direction(body, n.u, section.at(foot->s).normal);
+        const Section::Point at = section.at(foot->s);
+        const Vec3 normal = direction(body, n.u, at.normal);
         const Vec3 turn = p.cross(normal);
-        residuals[i] = {
-            foot->distance,
-            wheel ? std::array{normal.x(), normal.z(), turn.x(), turn.z()} : std::array{turn.y(), turn.z(), 0.0, 0.0},
-            foot->s};
+        const double lever = wheel ? at.position.x() * at.normal.y() - at.position.y() * at.normal.x() : at.normal.x();
+        residuals[i] = {foot->distance,
+                        wheel ? std::array{normal.x(), normal.z(), turn.x(), turn.z(), at.normal.y(), lever}
+                              : std::array{turn.y(), turn.z(), 0.0, 0.0, at.normal.y(), lever},
+                        foot->s};
       }
     });
     // weights
@@ -78,81 +229,30 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
       if (r.s >= 0.0) sizes.push_back(std::fabs(r.d));
     if (sizes.empty()) break;
     const double scale = std::max(kMad * median_of(sizes), 1e-7);
-    // what is the same all along a strip of the section is the section's matter: its weighted mean is taken out
-    const auto strips = static_cast<std::size_t>(section.length() / kStrip) + 1;
-    struct Sum {
-      double w = 0.0, d = 0.0;
-      std::array<double, 4> j{};
-    };
+    // what is the same all along the wheel or rail is the section's matter: a spline along the section is fitted to
+    // distances and their changes alike, and what the section's normal makes of these besides. Else how the normal turns
+    // between two knots, with what the spline misses of the section there, would pass for what a short arc says of the
+    // axis.
+    const Knots knots(section.length(), kKnots);
     const std::size_t blocks = (residuals.size() + kBlock - 1) / kBlock;  // summed one by one, then in their order
-    std::vector<std::vector<Sum>> strip_sums(blocks);
-    std::vector<double> weight(residuals.size(), 0.0);
-    std::vector<std::array<std::size_t, 2>> counts(blocks, {0, 0});  // near, used
+    std::vector<NormalSums> block_sums(blocks, NormalSums(knots.intervals));
     parallel_blocks(residuals.size(), kBlock, [&](std::size_t from, std::size_t to) {
-      std::vector<Sum> own(strips);
-      auto& [near, used] = counts[from / kBlock];
+      NormalSums& own = block_sums[from / kBlock];
       for (std::size_t i = from; i < to; ++i) {
-        const Residual& r = residuals[i];
-        if (r.s < 0.0) continue;
-        ++near;
-        const double x = r.d / (kTukey * scale);
-        if (!(std::fabs(x) < 1.0)) continue;
-        weight[i] = (1.0 - x * x) * (1.0 - x * x);
-        ++used;
-        Sum& sum = own[static_cast<std::size_t>(r.s / kStrip)];
-        sum.w += weight[i];
-        sum.d += weight[i] * r.d;
-        for (std::size_t k = 0; k < 4; ++k) sum.j[k] += weight[i] * r.j[k];
-      }
-      strip_sums[from / kBlock] = std::move(own);
-    });
-    std::vector<Sum> mean(strips);
-    double used = 0.0, near = 0.0;
-    for (std::size_t block = 0; block < blocks; ++block) {
-      near += static_cast<double>(counts[block][0]);
-      used += static_cast<double>(counts[block][1]);
-      for (std::size_t s = 0; s < strips; ++s) {
-        mean[s].w += strip_sums[block][s].w;
-        mean[s].d += strip_sums[block][s].d;
-        for (std::size_t k = 0; k < 4; ++k) mean[s].j[k] += strip_sums[block][s].j[k];
-      }
-    }
-    out.undamaged = used / near;
-    struct Equations {
-      Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero(), plain = Eigen::Matrix4d::Zero();
-      Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
-      double square = 0.0, slope = 0.0;
-    };
-    std::vector<Equations> equations(blocks);
-    parallel_blocks(residuals.size(), kBlock, [&](std::size_t from, std::size_t to) {
-      Equations own;
-      for (std::size_t i = from; i < to; ++i) {
-        if (!(weight[i] > 0.0)) continue;
-        const Sum& sum = mean[static_cast<std::size_t>(residuals[i].s / kStrip)];
-        Eigen::Vector4d j;
-        for (std::size_t k = 0; k < 4; ++k) j[static_cast<Eigen::Index>(k)] = residuals[i].j[k] - sum.j[k] / sum.w;
-        const double d = residuals[i].d - sum.d / sum.w;
-        own.matrix += weight[i] * j * j.transpose();
-        own.rhs += weight[i] * d * j;
-        own.plain += j * j.transpose();
-        own.square += weight[i] * weight[i] * d * d;
+        if (residuals[i].s < 0.0) continue;
+        own.near += 1.0;
         const double x = residuals[i].d / (kTukey * scale);
-        own.slope += (1.0 - x * x) * (1.0 - 5.0 * x * x);
+        if (std::fabs(x) < 1.0) own.add(residuals[i], x, knots);
       }
-      equations[from / kBlock] = own;
     });
-    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero(), plain = matrix;
-    Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
-    double square = 0.0, slope = 0.0;
-    for (const Equations& own : equations) {
-      matrix += own.matrix;
-      plain += own.plain;
-      rhs += own.rhs;
-      square += own.square;
-      slope += own.slope;
-    }
+    NormalSums sum(knots.intervals);
+    for (const NormalSums& own : block_sums) sum += own;
+    out.undamaged = sum.used / sum.near;
+    const Eigen::LDLT<Eigen::MatrixXd> section_of(sum.section_matrix());
+    follows = section_of.solve(sum.mixed);
+    const auto [matrix, rhs] = of_motions(sum, follows);
     // covariance of an M-estimate (Huber 1981): n sum(psi^2) / sum(psi')^2 times the inverse of the plain normal matrix
-    information = plain * (slope * slope) / std::max(used * square, 1e-30);
+    information = matrix * (sum.used / sum.weight) * (sum.slope * sum.slope) / std::max(sum.used * sum.square, 1e-30);
     // motions that the scan says nothing about stay as they are
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix.topLeftCorner(unknowns, unknowns));
     Eigen::VectorXd step = Eigen::VectorXd::Zero(4);
@@ -160,30 +260,39 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
       if (eigen.eigenvalues()[k] > 1e-12 * eigen.eigenvalues()[unknowns - 1])
         step.head(unknowns) +=
             eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(rhs.head(unknowns)) / eigen.eigenvalues()[k];
-    const Vec3 shift = wheel ? Vec3(step[0], 0.0, step[1]) : Vec3::Zero();
-    const Vec3 turn = wheel ? Vec3(step[2], 0.0, step[3]) : Vec3(0.0, step[0], step[1]);
-    const double angle = turn.norm();
-    const Mat3 rotation = angle > 0.0 ? Mat3(Eigen::AngleAxisd(angle, turn / angle)) : Mat3::Identity();
-    out.X_CS = out.X_CS * Pose{shift, rotation};
+    out.X_CS = moved(out.X_CS, body, step);
     reach = std::max(kNearest, std::min(reach, std::max(8.0 * scale, 5e-3)));
-    const bool settled = round > 4 && shift.norm() < 1e-8 && angle < 1e-8;
-    shifting = settled ? 0.0 : std::max(0.5 * shifting, shift.norm());
-    turning = settled ? 0.0 : std::max(0.5 * turning, angle);
+    const bool settled = round > 4 && step.cwiseAbs().maxCoeff() < 1e-8;
+    moving = settled ? Eigen::Vector4d::Zero() : Eigen::Vector4d((0.5 * moving).cwiseMax(step.cwiseAbs()));
     if (settled) break;
   }
-  // what still moves, as on short arcs, may be as far from its end as it would get in as many rounds again
-  shifting *= out.iterations;
-  turning *= out.iterations;
-  const Eigen::MatrixXd covariance =
+  // what still moves may be as far from its end as it would get in as many rounds again
+  moving *= out.iterations;
+  out.covariance.topLeftCorner(unknowns, unknowns) =
       information.topLeftCorner(unknowns, unknowns).ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
-  if (wheel) {
-    out.position_error = std::hypot(std::sqrt(std::max(covariance(0, 0) + covariance(1, 1), 0.0)), shifting);
-    out.direction_error = std::hypot(std::sqrt(std::max(covariance(2, 2) + covariance(3, 3), 0.0)), turning);
-  } else {
-    out.direction_error = std::hypot(std::sqrt(std::max(covariance.trace(), 0.0)), turning);
-  }
+  out.covariance.diagonal() += moving.cwiseAbs2();
+  set_errors(out, body);
+  if (wheel) out.section_moves = moves_of(section, {section.length(), kKnots}, follows);
   out.fit = fit_section(section, across(points, body, out.X_CS), 5e-3, 2e-3);
   return out;
+}
+
+void use_known(RefinedAxis& refined, const KnownOfSection& known, std::span<const Vec3> points) {
+  Eigen::Vector4d step = Eigen::Vector4d::Zero();
+  Eigen::Matrix4d& covariance = refined.covariance;
+  for (Eigen::Index k = 0; k < 2; ++k) {  // one after the other is the same as together
+    if (!std::isfinite(known.error[k])) continue;
+    Eigen::Vector4d h = refined.section_moves.row(k);
+    if (k == 0) h += known.y * refined.section_moves.row(1).transpose();
+    const Eigen::Vector4d spread = covariance * h;
+    const Eigen::Vector4d gain = spread / (h.dot(spread) + known.error[k] * known.error[k]);
+    step += gain * (known.lacking[k] - h.dot(step));
+    covariance -= gain * spread.transpose();
+  }
+  refined.X_CS = moved(refined.X_CS, Body::wheel, step);
+  const std::vector<Vec2> section = across(points, Body::wheel, refined.X_CS);
+  refined.fit = fit_section(outline(section), section, 5e-3, 2e-3);
+  set_errors(refined, Body::wheel);
 }
 
 }  // namespace treadmark::scans

@@ -17,6 +17,7 @@
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 #include "treadmark/solvers/wheelrail/plausibility.hpp"
+#include "treadmark/solvers/wheelrail/present_part.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -182,6 +183,8 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   solution.placement = step.placement();
   solution.patches = step.take_patches();
   if (solution.patches.empty()) note(solution, Status::no_contact, "the bodies do not touch at this position");
+  if (solution.status == Status::no_contact)
+    solution.message += missing_part(*geometry_.wheel, -p.state.position.pitch - p.state.wheel_offset.pitch);
   add_damping(p, next->previous, next->last, solution.patches);
   move_down(solution, balance.rail_dz);
   complete(geometry_, solution);

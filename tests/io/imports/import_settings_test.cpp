@@ -61,7 +61,11 @@ std::vector<Case> cases() {
       {"fit", "base", "\"nominal\"", [](const S& s) { return s.fit.base == "nominal"; }},
       {"fit", "mesh", "\"free\"", [](const S& s) { return s.fit.mesh == "free"; }},
       {"fit", "decimate_um", "2", [](const S& s) { return s.fit.decimate_um == 2.0; }},
+      {"fit", "written_um", "3", [](const S& s) { return s.fit.written_um == 3.0; }},
       {"damage", "threshold_mm", "0.05", [](const S& s) { return s.damage.threshold_mm == 0.05; }},
+      {"map", "values", "\"heights\"", [](const S& s) { return s.map.values == "heights"; }},
+      {"map", "across_mm", "0.8", [](const S& s) { return s.map.across_mm == 0.8; }},
+      {"map", "along_mm", "2", [](const S& s) { return s.map.along_mm == 2.0; }},
       {"map", "height_unit", "\"in\"", [](const S& s) { return s.map.height_unit == "in"; }},
       {"map", "angles_deg", "true", [](const S& s) { return s.map.angles_deg; }},
   };
