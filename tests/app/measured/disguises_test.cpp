@@ -57,12 +57,12 @@ RunAnswer run(const BaseShape& base, const fs::path& file, const std::string& po
     for (const std::string& words : app::profile_doubts(cases))
       if (std::regex_search(words, doubt)) answer.doubted = true, answer.why += words + "; ";
     for (const io::CaseResult& c : result.cases) {
-      if (c.status != Status::ok || c.patches.empty()) {
+      if (c.status == Status::failed || c.status == Status::no_contact || c.status == Status::not_converged) {
         answer.refused = true;
         answer.why += c.message;
         continue;
       }
-      if (any_grave(c.remarks)) answer.doubted = true;
+      answer.doubted = answer.doubted || c.status != Status::ok || any_grave(c.remarks);
       Contact& contact = answer.contacts.emplace_back();
       double most = -1.0;
       for (const io::PatchResult& patch : c.patches) {
