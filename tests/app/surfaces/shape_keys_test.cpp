@@ -100,7 +100,7 @@ class Shapes {
       const Region region = wheel ? Region{-kAround, kAround} : Region{-kAlong, kAlong};
       const StoredSurface& surface = store.get(wheel ? input.wheel : input.rail, body, wheel ? 0.46 : 0.0, region);
       std::vector<double> y;
-      for (double at = -45e-3; at < 45e-3; at += 0.37e-3) y.push_back(at);
+      for (double at = -45e-3; at < 45e-3; at += 1.37e-3) y.push_back(at);
       std::vector<double> z(y.size());
       for (const double u : {-0.041, 0.0, 0.013, 0.033}) {
         section_heights(*surface.represented.surface, body, u, y, {z, {}, {}});
@@ -131,6 +131,8 @@ class Shapes {
     input_.write(b + (wheel ? ".slcw" : ".slcs"), index);
     ConvertSettings settings;
     settings.body = body;
+    settings.resolution = 4e-3;
+    settings.tolerance = 1e-3;
     if (wheel) settings.nominal_radius = 0.46;
     input_.write("source.toml",
                  "wheelset.vertical_force_N = 1e5\nwheelset.nominal_radius_mm = 460\n"
@@ -185,7 +187,6 @@ std::vector<std::string> values_of(const io::KeyInfo& key) {
 std::vector<std::vector<std::string>> preludes_of(const std::string& body, const std::string& name) {
   std::vector<std::vector<std::string>> all{{}};
   if (name == "smoothing_method") all.push_back({body + ".shape.smoothing_wavelength_mm=5"});
-  if (name.starts_with("kink_low")) all.push_back({body + ".shape.kink_high_deg=170"});
   if (name.starts_with("crossing_"))
     for (const char* part : {"nose", "wing"}) all.push_back({body + ".shape.crossing=" + part});
   if (name == "resolution_mm") all.push_back({body + ".backend=spline"});
@@ -200,7 +201,11 @@ std::string fault_of(const Shapes& shapes, Body body, const std::string& lines, 
   const Shapes::Outcome before = shapes.made(body, lines, prelude);
   if (!before.error.empty()) return "";  // what the key would need is refused already
   std::string name = key.path.substr(key.path.rfind('.') + 1);
+  // what messages call them
   if (name == "resolution_mm") name = "resolution";
+  if (name == "max_omit") name = "share";
+  if (name == "crossing") name = "move along the track";
+  if (key.path.find(".offsets.") != std::string::npos) name = "offsets";
   std::string seen;
   for (const std::string& value : values_of(key)) {
     std::vector<std::string> overrides = prelude;

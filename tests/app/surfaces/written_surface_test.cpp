@@ -103,7 +103,7 @@ TEST(WrittenSurface, StatesItsToleranceOnTheCommandLine) {
   EXPECT_EQ(refused.status, 1) << refused.out;
   EXPECT_THAT(refused.err, HasSubstr("--tolerance-um"));
   EXPECT_FALSE(std::filesystem::exists(input.folder() / "out.slcw"));
-  EXPECT_EQ(run("500").status, 0);
+  EXPECT_EQ(run("1000").status, 0);
   EXPECT_TRUE(std::filesystem::exists(input.folder() / "out.slcw"));
 }
 
