@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include <Eigen/Dense>
 
 #include "treadmark/core/constants.hpp"
 
@@ -168,34 +169,26 @@ double ends_of(const Envelope& e) {
 
 /// Curvature of a parabola through the points, over its standard deviation.
 double bend_of(const Envelope& e) {
-  std::array<double, 5> m{};
-  std::array<double, 3> r{};
   const double middle = e.y(e.height.size() / 2),
                half = std::max(0.5 * kStep * static_cast<double>(e.height.size()), kStep);
-  double squares = 0.0;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  double squares = 0.0, count = 0.0;
   for (std::size_t i = 0; i < e.height.size(); ++i) {
     if (std::isnan(e.height[i])) continue;
-    const double t = (e.y(i) - middle) / half, h = e.height[i];
-    double power = 1.0;
-    for (std::size_t k = 0; k < m.size(); ++k, power *= t) {
-      m[k] += power;
-      if (k < r.size()) r[k] += power * h;
-    }
-    squares += h * h;
+    const double t = (e.y(i) - middle) / half;
+    const Eigen::Vector3d row(1.0, t, t * t);
+    normal += row * row.transpose();
+    right += row * e.height[i];
+    squares += e.height[i] * e.height[i];
+    count += 1.0;
   }
-  // Cramer's rule for the normal equations
-  const auto det = [](double a, double b, double c, double d, double f, double g, double h, double i, double j) {
-    return a * (f * j - g * i) - b * (d * j - g * h) + c * (d * i - f * h);
-  };
-  const double all = det(m[0], m[1], m[2], m[1], m[2], m[3], m[2], m[3], m[4]);
-  if (!(m[0] > 5.0) || !(std::fabs(all) > 0.0)) return 0.0;
-  const double c0 = det(r[0], m[1], m[2], r[1], m[2], m[3], r[2], m[3], m[4]) / all,
-               c1 = det(m[0], r[0], m[2], m[1], r[1], m[3], m[2], r[2], m[4]) / all,
-               c2 = det(m[0], m[1], r[0], m[1], m[2], r[1], m[2], m[3], r[2]) / all;
-  const double rest = std::max(0.0, squares - c0 * r[0] - c1 * r[1] - c2 * r[2]) / (m[0] - 3.0);
-  const double variance = rest * (m[0] * m[2] - m[1] * m[1]) / all;
-  constexpr double kLeast = 1e-9;  // [m] of exact parabolas
-  return c2 / std::max(std::sqrt(std::max(0.0, variance)), kLeast);
+  constexpr double kFewest = 5.0, kLeast = 1e-9;  // kLeast: of exact parabolas [m]
+  if (!(count > kFewest)) return 0.0;
+  const Eigen::Matrix3d inverse = normal.inverse();
+  const Eigen::Vector3d c = inverse * right;
+  const double variance = std::max(0.0, squares - c.dot(right)) / (count - 3.0) * inverse(2, 2);
+  return c[2] / std::max(std::sqrt(std::max(0.0, variance)), kLeast);
 }
 
 Readings rail_z(const SectionPoints& p) {
@@ -243,9 +236,30 @@ double slope_of(const std::vector<double>& t, const std::vector<double>& x) {
   return tt > 0.0 ? tx / tt : 0.0;
 }
 
+/// The least x of a parabola x(t) through the points, in their range; `otherwise` for fewer than five.
+double least_of_parabola(const std::vector<double>& t, const std::vector<double>& x, double otherwise) {
+  if (t.size() < 5) return otherwise;
+  const auto [from, to] = std::minmax_element(t.begin(), t.end());
+  const double middle = 0.5 * (*from + *to), half = 0.5 * (*to - *from);
+  if (!(half > 0.0)) return otherwise;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double u = (t[i] - middle) / half;
+    const Eigen::Vector3d row(1.0, u, u * u);
+    normal += row * row.transpose();
+    right += row * (x[i] - otherwise);
+  }
+  const Eigen::Vector3d c = normal.ldlt().solve(right);
+  const auto at = [&](double u) { return otherwise + c[0] + u * (c[1] + u * c[2]); };
+  double best = std::min(at(-1.0), at(1.0));
+  if (const double u = c[2] > 0.0 ? -0.5 * c[1] / c[2] : 2.0; std::fabs(u) < 1.0) best = at(u);
+  return best;
+}
+
 /// The back of the flange: where the section behind its tip runs upright.
 void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
-  constexpr double kBelowTip = 5e-3, kReach = 0.3e-3, kLeastChord = 2e-3, kUpright = 10.0 * kPi / 180.0;
+  constexpr double kBelowTip = 5e-3, kLeastChord = 2e-3, kUpright = 10.0 * kPi / 180.0;
   constexpr double kStraight = 6e-3, kFillet = 12e-3;
   // the end of the section on the side of small y, whichever way it runs
   const bool back_first = p.y.front() < p.y.back();
@@ -265,10 +279,7 @@ void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
   for (std::size_t i = 0; i < y.size(); ++i)
     if (std::fabs(z[i] - z[farthest]) <= chord) near_y.push_back(y[i]), near_z.push_back(z[i]);
   if (near_y.size() < 2 || std::fabs(std::atan(slope_of(near_z, near_y))) > kUpright) return;
-  double sum = 0.0, n = 0.0;
-  for (std::size_t i = 0; i < near_y.size(); ++i)
-    if (near_y[i] < least + kReach && std::fabs(near_z[i] - z[farthest]) < 0.5 * chord) sum += near_y[i], n += 1.0;
-  marks.back_y = n > 0.0 ? sum / n : least;
+  marks.back_y = least_of_parabola(near_z, near_y, least);
   // above the fillet towards the tip it is straight
   std::vector<double> straight_y, straight_z;
   for (std::size_t i = 0; i < y.size(); ++i)

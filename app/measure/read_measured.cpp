@@ -46,7 +46,8 @@ bool is_library_name(const std::string& name) { return library_body_of(name).has
 ReadMeasured read_points(const std::string& name, const MeasureRequest& request) {
   io::ProfileOptions options;
   options.scale = request.scale_to_mm;
-  if (!request.from_flange_back) options.placement = io::ProfileOptions::Placement::as_in_file;
+  // two wheels of an axle are measured in its axes
+  if (!request.from_flange_back || !request.mate.empty()) options.placement = io::ProfileOptions::Placement::as_in_file;
   io::SourcedProfile read = io::read_sourced_profile(name, request.body, options);
   ReadMeasured out;
   out.kind = "profile";
@@ -115,6 +116,7 @@ measures::Section mirrored_section(const std::string& name, const MeasureRequest
   io::ProfileOptions options;
   options.scale = request.scale_to_mm;
   options.mirror_y = 1;
+  options.placement = io::ProfileOptions::Placement::as_in_file;
   return measures::Section(io::read_profile(name, Body::wheel, options));
 }
 

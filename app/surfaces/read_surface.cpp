@@ -76,8 +76,9 @@ constexpr ShapeKind kTriangles{
 constexpr ShapeKind kCad{"a file of CAD", is_crossing,
                          "CAD files have units and axes of their own and exact shapes: change them there, or convert "
                          "them to triangles, which are mirrored and scaled"};
-constexpr ShapeKind kSlices{"a file of slices", [](std::string_view key) { return !is_crossing(key); },
-                            "only one section can move along the track"};
+constexpr ShapeKind kSlices{"a file of slices",
+                            [](std::string_view key) { return !is_crossing(key) && key != "placement"; },
+                            "only one section can move along the track, and slices lie as they are in their file"};
 constexpr ShapeKind kProfileShape{"a profile", [](std::string_view key) { return key != "open_seam"; },
                                   "it belongs to slices all round a wheel (.slcw)"};
 constexpr ShapeKind kFormula{"a shape without a file",

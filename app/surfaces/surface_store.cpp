@@ -30,10 +30,10 @@ std::string key_of(const io::SurfaceSource& source, Body body, double radius) {
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     const io::ProfileOptions& o = file->options;
     const SmoothingOptions& s = o.smoothing;
-    key += fmt::format(" file {} {} {} {} {} {:.17g} {:.17g} {:.17g} {} {} {:.17g} {:.17g} {:.17g} {:.17g}",
+    key += fmt::format(" file {} {} {} {} {} {} {:.17g} {:.17g} {:.17g} {} {} {:.17g} {:.17g} {:.17g} {:.17g}",
                        file->file.string(), file->open_seam, o.mirror_y, o.mirror_z, static_cast<int>(o.placement),
-                       o.scale, o.zigzag_threshold, o.max_omit, o.error_handling, static_cast<int>(s.method),
-                       s.strength, s.kink_high, s.kink_low, s.kink_width);
+                       o.back_told, o.scale, o.zigzag_threshold, o.max_omit, o.error_handling,
+                       static_cast<int>(s.method), s.strength, s.kink_high, s.kink_low, s.kink_width);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
     key += " standard " + standard->name;
   } else if (const auto* arcs = std::get_if<ArcChain>(&source.geometry)) {

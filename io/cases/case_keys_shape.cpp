@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/shape_keys.hpp"
 #include "treadmark/io/cases/shared_keys.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
 
 namespace treadmark::io {
 
@@ -23,7 +25,10 @@ class ShapeKeys {
   void add() {
     add_geometry();
     add_file_options();
-    if (body_ == "wheel") add_seam();
+    if (body_ == "wheel") {
+      add_placement();
+      add_seam();
+    }
     add_offsets();
     KeyInfo backend = backend_key(body_ + ".backend",
                                   "surface representation: analytic, spline, nurbs, thb, thb-quadratic, mesh, "
@@ -125,15 +130,19 @@ class ShapeKeys {
     }
   }
 
-  /// change: ProfileOptions&, const CaseValue&; written: const ProfileOptions& -> TOML, empty where the default is
-  /// meant.
+  /// change: ProfileOptions&, const CaseValue&; written: const ProfileOptions& or const GeometryFile& -> TOML, empty
+  /// where the default is meant.
   template <class Change, class Written>
   void option(KeyInfo key, Change change, Written written) {
     const std::string path = key.path;
     CaseKey& added = list_.add(std::move(key));
     added.written = [surface = surface_, written](const Case& c, const std::filesystem::path&) {
       const auto* file = std::get_if<GeometryFile>(&(std::get<W>(c.content).*surface).geometry);
-      return file == nullptr ? std::string() : std::string(written(file->options));
+      if (file == nullptr) return std::string();
+      if constexpr (std::is_invocable_v<Written, const GeometryFile&>)
+        return std::string(written(*file));
+      else
+        return std::string(written(file->options));
     };
     added.set = [surface = surface_, change, path](Case& c, const CaseValue& v, const std::filesystem::path&) {
       GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
@@ -216,6 +225,27 @@ class ShapeKeys {
     };
   }
 
+  /// Of a wheel.
+  void add_placement() {
+    using Placement = ProfileOptions::Placement;
+    KeyInfo placement =
+        info("placement", KeyType::choice,
+             "automatic: y = 0 is put on the tape line, 70 mm from the back of the flange, and z = 0 on "
+             "the tread there, where the points show that they count from elsewhere");
+    placement.choices = {"automatic", "as_in_file"};
+    placement.default_text = "\"automatic\"";
+    option(
+        placement,
+        [](ProfileOptions& o, const CaseValue& v) {
+          o.placement = v.text() == "as_in_file" ? Placement::as_in_file : Placement::automatic;
+        },
+        [](const GeometryFile& f) {
+          const bool moved = f.options.placement == Placement::automatic ||
+                             (f.options.placement == Placement::reference && is_slices_file(f.file));
+          return moved ? "" : "\"as_in_file\"";
+        });
+  }
+
   void add_file_options() {
     using Method = SmoothingOptions::Method;
     const ProfileOptions fresh;
@@ -227,19 +257,6 @@ class ShapeKeys {
         [](const ProfileOptions& o) { return o.mirror_y == 0   ? ""
                                              : o.mirror_y == 1 ? "true"
                                                                : "false"; });
-    using Placement = ProfileOptions::Placement;
-    KeyInfo placement =
-        info("placement", KeyType::choice,
-             "automatic: y = 0 of a wheel is put on the tape line, 70 mm from the back of its flange, and "
-             "z = 0 on the tread there, where the points show that they count from elsewhere");
-    placement.choices = {"automatic", "as_in_file"};
-    placement.default_text = "\"automatic\"";
-    option(
-        placement,
-        [](ProfileOptions& o, const CaseValue& v) {
-          o.placement = v.text() == "as_in_file" ? Placement::as_in_file : Placement::automatic;
-        },
-        [](const ProfileOptions& o) { return o.placement == Placement::automatic ? "" : "\"as_in_file\""; });
     KeyInfo mirror_z = info("mirror_z", KeyType::choice, "negate z of the file; automatic: decide from the data");
     mirror_z.choices = {"automatic", "yes", "no"};
     mirror_z.default_text = "\"automatic\"";

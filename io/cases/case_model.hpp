@@ -30,10 +30,11 @@ struct ProfileOptions {
     as_in_file,  ///< the file; only which way z points may be decided from the points
     reference,   ///< the file and the rules of the reference program, which takes z by the ends of the profile
   };
-  int mirror_y = 0;    ///< 1 = negate y, -1 = no, 0 = decide from the data (automatic placement alone)
-  int mirror_z = 0;    ///< 1 = negate z, -1 = no, 0 = decide from the data
+  int mirror_y = 0;  ///< 1 = negate y, -1 = no, 0 = decide from the data (automatic placement alone)
+  int mirror_z = 0;  ///< 1 = negate z, -1 = no, 0 = decide from the data
   Placement placement = Placement::automatic;
-  double scale = 1.0;  ///< file units to mm (so 1000 for a file in metres)
+  bool back_told = false;  ///< the case says where the back of the flange is in the file, which is then not moved
+  double scale = 1.0;      ///< file units to mm (so 1000 for a file in metres)
   SmoothingOptions smoothing;
   double zigzag_threshold = 2.6179938779914944;  ///< [rad]
   double max_omit = 0.5;                         ///< share of points that cleaning may remove

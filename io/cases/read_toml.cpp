@@ -148,12 +148,10 @@ void refuse_steps(const std::vector<CaseOverride>& changes) {
 void take_as_told(Case& c) {
   constexpr double kSame = 1e-6;
   auto* input = std::get_if<WheelRailCase>(&c.content);
-  if (input == nullptr ||
-      std::fabs(input->wheelset.flange_back_position - WheelsetDimensions{}.flange_back_position) < kSame)
-    return;
+  if (input == nullptr) return;
   if (auto* file = std::get_if<GeometryFile>(&input->wheel.geometry))
-    if (file->options.placement == ProfileOptions::Placement::automatic)
-      file->options.placement = ProfileOptions::Placement::as_in_file;
+    file->options.back_told =
+        std::fabs(input->wheelset.flange_back_position - WheelsetDimensions{}.flange_back_position) > kSame;
 }
 
 CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name,

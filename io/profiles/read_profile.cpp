@@ -141,7 +141,7 @@ measured::Words words_of(const ProfileOptions& options, const RawPoints& points,
   using measured::Turn;
   const auto turn = [](int key) { return key > 0 ? Turn::yes : key < 0 ? Turn::no : Turn::decide; };
   measured::Words words{turn(options.mirror_y), turn(options.mirror_z),
-                        options.placement == ProfileOptions::Placement::automatic, radii};
+                        options.placement == ProfileOptions::Placement::automatic && !options.back_told, radii};
   if (options.placement == ProfileOptions::Placement::reference) {
     if (options.mirror_z == 0) words.mirror_z = profiles::z_points_up(points, body) ? Turn::yes : Turn::no;
     if (options.mirror_y == 0) words.mirror_y = Turn::no;

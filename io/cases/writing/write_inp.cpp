@@ -14,6 +14,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {
@@ -338,6 +339,10 @@ class InputWriter {
                   {"rail.resolution_mm", "0"},
                   {"wheel.backend", ""},
                   {"wheel.resolution_mm", "0"}});
+    if (const auto* file = std::get_if<GeometryFile>(&c.wheel.geometry);
+        file != nullptr && file->options.placement == ProfileOptions::Placement::automatic &&
+        !is_slices_file(file->file))
+      out_ += " %treadmark wheel.shape.placement = 'automatic'\n";
     if (const auto* file = std::get_if<GeometryFile>(&c.wheel.geometry);
         file != nullptr && file->file.extension().string().starts_with(".slc"))
       own_settings({{"wheel.shape.open_seam", "true"}});

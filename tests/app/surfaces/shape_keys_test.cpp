@@ -42,7 +42,7 @@ std::string points_text(const std::filesystem::path& folder, const std::string& 
     double y = 0.0, z = 0.0;
     char comma = ',';
     if (!(words >> y >> comma >> z)) continue;
-    if (wheel ? y < -68.0 : std::fabs(y) > 34.0) continue;
+    if (wheel ? y < -71.0 : std::fabs(y) > 34.0) continue;
     if (wheel && y > 40.0) z -= 0.8 * (y - 40.0);  // a corner of 39 degrees
     if (!wheel && y > 15.0) z += 0.8 * (y - 15.0);
     if (y > (wheel ? 10.0 : -5.0)) z += wheel ? -0.5 : 0.5;  // up and down again within the spacing of the points
@@ -117,7 +117,11 @@ class Shapes {
     const bool wheel = body == Body::wheel;
     const std::string b = wheel ? "wheel" : "rail", standard = wheel ? "S1002" : "60E1";
     const std::string points = points_text(input_.folder(), standard, wheel);
-    input_.write(b + ".txt", points);
+    // those of a wheel from the back of its flange, so that it is placed
+    std::string placed;
+    std::istringstream lines(points);
+    for (double y = 0.0, z = 0.0; lines >> y >> z;) placed += fmt::format("{:.9f} {:.9f}\n", wheel ? y + 70.0 : y, z);
+    input_.write(b + ".txt", placed);
     // four sections along, or eight round, each a little lower
     const int count = wheel ? 8 : 4;
     std::string index = fmt::format("0.0 1.0\n{}\n0 0 0\n1\n", count);
