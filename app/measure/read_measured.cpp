@@ -44,6 +44,7 @@ bool is_library_name(const std::string& name) { return library_body_of(name).has
 ReadMeasured read_points(const std::string& name, const MeasureRequest& request) {
   io::ProfileOptions options;
   options.scale = request.scale_to_mm;
+  options.smoothing = {};  // sections do that
   io::SourcedProfile read = io::read_sourced_profile(name, request.body, options);
   ReadMeasured out;
   out.kind = "profile";

@@ -61,7 +61,11 @@ decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body bod
     throw Error(ErrorKind::configuration, "a file of CAD cannot become a roller", where, "use a profile or slices");
   io::CadSurface cad = io::read_cad(file.file, body, radius, where);
   note = std::move(cad.note);
-  if (auto* profile = std::get_if<Profile>(&cad.shape)) profile->smoothing = file.options.smoothing;
+  if (auto* profile = std::get_if<Profile>(&cad.shape)) {
+    profile->smoothing = file.options.smoothing;
+    if (profile->smoothing.method == SmoothingOptions::Method::by_noise)  // nobody has measured it
+      profile->smoothing.method = SmoothingOptions::Method::spline;
+  }
   if (auto* slices = std::get_if<SliceSet>(&cad.shape)) slices->open_seam = file.open_seam;
   return std::visit([](auto& shape) -> decltype(SurfaceSpec::shape) { return std::move(shape); }, cad.shape);
 }
@@ -71,6 +75,7 @@ NaturalSurface read_spline_file(const io::GeometryFile& file, const io::SurfaceS
                                 double radius) {
   io::ProfileOptions scale_alone;
   scale_alone.scale = file.options.scale;
+  if (file.options.smoothing.strength == 0.0) scale_alone.smoothing.method = file.options.smoothing.method;
   if (!(file.options == scale_alone) || file.open_seam)
     throw Error(ErrorKind::configuration, "a file of splines is taken as it is", source.where,
                 "of the keys beside shape.file only scale_to_mm belongs to it");

@@ -27,7 +27,8 @@ struct ProfileOptions {
   int mirror_y = 0;    ///< 1 = negate y
   int mirror_z = 0;    ///< 1 = negate z, -1 = no, 0 = decide from the data
   double scale = 1.0;  ///< file units to mm (so 1000 for a file in metres)
-  SmoothingOptions smoothing;
+  /// Points that were measured, unless said otherwise.
+  SmoothingOptions smoothing = {.method = SmoothingOptions::Method::by_noise};
   double zigzag_threshold = 2.6179938779914944;  ///< [rad]
   double max_omit = 0.5;                         ///< share of points that cleaning may remove
   int error_handling = 0;                        ///< CONTACT's option ERRHND

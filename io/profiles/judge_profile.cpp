@@ -10,6 +10,7 @@
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/measured/noise.hpp"
+#include "treadmark/model/profile_scatter.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -49,7 +50,7 @@ class Judge {
     }
     radius();
     steps();
-    fact("noise", fmt::format("{:.2g} mm", kMm * measured::profile_noise(p_)));
+    noise();
     standard();
     return std::move(out_);
   }
@@ -203,6 +204,17 @@ class Judge {
              fmt::format("a gap of {:.3g} mm at y = {:.2f} to {:.2f} mm ({}) is bridged: measure the missing part, "
                          "or keep contact away from it",
                          kMm * steps[largest], kMm * p_.y[largest], kMm * p_.y[largest + 1], where));
+  }
+
+  /// A profile that was smoothed says what its points were like.
+  void noise() {
+    const auto [across, y, z, step] = p_.scatter ? measured::PointNoise{p_.scatter->white, p_.scatter->rounding_y,
+                                                                        p_.scatter->rounding_z, p_.scatter->step}
+                                                 : measured::profile_noise(p_);
+    fact("noise", fmt::format("{:.2g} mm{}", kMm * across,
+                              std::max(y, z) > 0.0 ? fmt::format(", rounded to {:.3g} mm", kMm * std::max(y, z)) : ""));
+    if (p_.scatter && p_.scatter->removed > 0.0)
+      fact("smoothed", fmt::format("points moved by {:.2g} mm (rms)", kMm * p_.scatter->removed));
   }
 
   /// Several profiles share a head: all that are as near as the nearest are named.

@@ -14,6 +14,7 @@
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
+#include "treadmark/measured/smoothing.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -133,6 +134,8 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, const Profil
   out.profile.z = std::move(points.z);
   out.profile.name = points.file;
   out.profile.smoothing = options.smoothing;
+  if (options.smoothing.method == SmoothingOptions::Method::by_noise)
+    out.profile = measured::smoothed_by_noise(std::move(out.profile));
   source.lines = std::move(points.line);
   out.source = std::move(source);
   return out;
