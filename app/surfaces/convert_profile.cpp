@@ -44,6 +44,7 @@ InputProfile input_profile(const std::filesystem::path& input, const std::filesy
     if (!body) refuse("the file does not tell whether it is a wheel or a rail", "say --body wheel or --body rail");
     io::ProfileOptions options;
     options.scale = settings.scale_to_mm;
+    options.smoothing = {};  // the file's own points
     return {io::read_profile(input, *body, options, {}), {}};
   }
   const std::optional<Body> body = settings.body ? settings.body : io::profile_body(output);

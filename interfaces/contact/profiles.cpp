@@ -58,7 +58,7 @@ io::ProfileOptions options_of(const Problem& p, std::span<const int> ints, std::
   o.error_handling = whole(4, 0);
   o.scale = real(0, 1.0);
   if (o.scale <= kUnitOfElement) o.scale = p.units.length / kMillimetre;
-  SmoothingOptions& s = o.smoothing;
+  SmoothingOptions& s = o.smoothing = {};
   s.method = static_cast<SmoothingOptions::Method>(std::clamp(whole(5, 0), 0, 2));
   const bool wavelength = s.method != SmoothingOptions::Method::spline;
   s.strength = std::max(real(1, 0.0), 0.0) * (wavelength ? kMillimetre : kMillimetre * kMillimetre * kMillimetre);

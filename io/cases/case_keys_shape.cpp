@@ -275,16 +275,34 @@ class ShapeKeys {
         scale, [](ProfileOptions& o, const CaseValue& v) { o.scale = v.number(); },
         [](const ProfileOptions& o) { return o.scale == 1.0 ? std::string() : exact_text(o.scale, 1.0); });
 
+    KeyInfo smoothing =
+        info("smoothing", KeyType::choice,
+             "of a profile's points: auto, as much as their noise asks for; none, a curve through all of "
+             "them; a number, as smoothing_wavelength_mm");
+    smoothing.choices = {"auto", "none"};
+    smoothing.or_number = true;
+    smoothing.default_text = "\"auto\"";
     KeyInfo lambda = info("smoothing_lambda_mm3", KeyType::number,
                           "smoothing parameter of an unweighted smoothing spline; 0 = interpolate");
     KeyInfo wavelength =
         info("smoothing_wavelength_mm", KeyType::number, "cut-off wavelength of a weighted smoothing spline");
-    for (KeyInfo* key : {&lambda, &wavelength}) {
+    for (KeyInfo* key : {&smoothing, &lambda, &wavelength}) {
       key->at_least = 0.0;
       key->group = fmt::format("{}smoothing", prefix_);
       key->alternative = key->path;
     }
-    lambda.default_text = "0";
+    option(
+        smoothing,
+        [](ProfileOptions& o, const CaseValue& v) {
+          const bool words = std::holds_alternative<std::string>(v.data);
+          o.smoothing.method = !words               ? Method::weighted_spline
+                               : v.text() == "auto" ? Method::by_noise
+                                                    : Method::spline;
+          o.smoothing.strength = words ? 0.0 : v.number() * unit_of_key("wavelength_mm");
+        },
+        [](const ProfileOptions& o) {
+          return o.smoothing.method == Method::spline && o.smoothing.strength == 0.0 ? "\"none\"" : "";
+        });
     option(
         lambda,
         [](ProfileOptions& o, const CaseValue& v) {
@@ -299,12 +317,13 @@ class ShapeKeys {
     option(
         wavelength,
         [](ProfileOptions& o, const CaseValue& v) {
-          if (o.smoothing.method == Method::spline) o.smoothing.method = Method::weighted_spline;
+          if (o.smoothing.method != Method::weighted_bspline) o.smoothing.method = Method::weighted_spline;
           o.smoothing.strength = v.number() * unit_of_key("wavelength_mm");
         },
         [](const ProfileOptions& o) {
-          return o.smoothing.method == Method::spline ? std::string()
-                                                      : exact_text(o.smoothing.strength, unit_of_key("wavelength_mm"));
+          return o.smoothing.method != Method::weighted_spline && o.smoothing.method != Method::weighted_bspline
+                     ? std::string()
+                     : exact_text(o.smoothing.strength, unit_of_key("wavelength_mm"));
         });
     KeyInfo method =
         info("smoothing_method", KeyType::choice, "with smoothing_wavelength_mm: kind of weighted smoothing spline");
@@ -313,7 +332,7 @@ class ShapeKeys {
     option(
         method,
         [](ProfileOptions& o, const CaseValue& v) {
-          if (o.smoothing.method == Method::spline)
+          if (o.smoothing.method != Method::weighted_spline && o.smoothing.method != Method::weighted_bspline)
             throw Error(ErrorKind::configuration, "smoothing_method needs smoothing_wavelength_mm", v.where);
           o.smoothing.method = v.text() == "weighted_bspline" ? Method::weighted_bspline : Method::weighted_spline;
         },

@@ -35,7 +35,8 @@ struct ProfileOptions {
   Placement placement = Placement::automatic;
   bool back_told = false;  ///< the case says where the back of the flange is in the file, which is then not moved
   double scale = 1.0;      ///< file units to mm (so 1000 for a file in metres)
-  SmoothingOptions smoothing;
+  /// Points that were measured, unless said otherwise.
+  SmoothingOptions smoothing = {.method = SmoothingOptions::Method::by_noise};
   double zigzag_threshold = 2.6179938779914944;  ///< [rad]
   double max_omit = 0.5;                         ///< share of points that cleaning may remove
   int error_handling = 0;                        ///< CONTACT's option ERRHND

@@ -247,7 +247,7 @@ SurfaceSource read_profile(ContactReader& r, std::string_view body) {
     if (further < 0 || further > 2) text.fail("PRFOPT must be 0, 1 or 2");
   }
 
-  SmoothingOptions& smoothing = options.smoothing;
+  SmoothingOptions& smoothing = options.smoothing = {};
   if (further >= 1) {
     text.begin_record("the profile option line ISMOOTH");
     const long method = text.integer("ISMOOTH");

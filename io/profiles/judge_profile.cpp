@@ -10,6 +10,7 @@
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/measured/lumps.hpp"
 #include "treadmark/measured/noise.hpp"
+#include "treadmark/model/profile_scatter.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -49,7 +50,7 @@ class Judge {
     radius();
     steps();
     lump();
-    fact("noise", fmt::format("{:.2g} mm", kMm * measured::profile_noise(p_)));
+    noise();
     return std::move(out_);
   }
 
@@ -171,7 +172,7 @@ class Judge {
 
   /// Dirt that is no spike.
   void lump() {
-    const std::optional<measured::Lump> found = measured::highest_lump(p_, measured::profile_noise(p_));
+    const std::optional<measured::Lump>& found = source_.lump;
     if (!found) return;
     remark("lump",
            fmt::format(
@@ -204,6 +205,17 @@ class Judge {
              fmt::format("a gap of {:.3g} mm at y = {:.2f} to {:.2f} mm ({}) is bridged: measure the missing part, "
                          "or keep contact away from it",
                          kMm * steps[largest], kMm * p_.y[largest], kMm * p_.y[largest + 1], lines));
+  }
+
+  /// A profile that was smoothed says what its points were like.
+  void noise() {
+    const auto [across, y, z, step] = p_.scatter ? measured::PointNoise{p_.scatter->white, p_.scatter->rounding_y,
+                                                                        p_.scatter->rounding_z, p_.scatter->step}
+                                                 : measured::profile_noise(p_);
+    fact("noise", fmt::format("{:.2g} mm{}", kMm * across,
+                              std::max(y, z) > 0.0 ? fmt::format(", rounded to {:.3g} mm", kMm * std::max(y, z)) : ""));
+    if (p_.scatter && p_.scatter->removed > 0.0)
+      fact("smoothed", fmt::format("points moved by {:.2g} mm (rms)", kMm * p_.scatter->removed));
   }
 
   const Profile& p_;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/measured/lumps.hpp"
 #include "treadmark/measured/section.hpp"
 #include "treadmark/model/length_unit.hpp"
 
@@ -23,6 +24,7 @@ struct ProfileSource {
   double scale_to_mm = 1.0;                               ///< from numbers of the file to mm
   bool mirrored_y = false, mirrored_z = false;            ///< in all, with what the file's own flags ask for
   bool reversed = false;                                  ///< the order of the points
+  std::optional<measured::Lump> lump;                     ///< dirt, in the points before they were smoothed
   measured::Understanding understood;                     ///< of the points; y of the back counts after placing
   std::vector<int> lines;                                 ///< where in the file each point of the profile stands
 };

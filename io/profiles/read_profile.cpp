@@ -15,6 +15,8 @@
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
+#include "treadmark/measured/noise.hpp"
+#include "treadmark/measured/smoothing.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -175,6 +177,9 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
   out.profile.z = std::move(points.z);
   out.profile.name = points.file;
   out.profile.smoothing = options.smoothing;
+  source.lump = measured::highest_lump(out.profile, measured::profile_noise(out.profile).across);
+  if (options.smoothing.method == SmoothingOptions::Method::by_noise)
+    out.profile = measured::smoothed_by_noise(std::move(out.profile));
   source.lines = std::move(points.line);
   out.source = std::move(source);
   return out;

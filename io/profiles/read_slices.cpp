@@ -260,6 +260,8 @@ SliceSet read_slices(const std::filesystem::path& file, Body body, const Profile
   SliceList list = read_list(text, file.string(), body);
   check_sum(text, list, folder);
   ProfileOptions how = options;
+  if (how.smoothing.method == SmoothingOptions::Method::by_noise)  // slices have been fitted
+    how.smoothing.method = SmoothingOptions::Method::spline;
   if (options.mirror_z == 0) {
     // all slices the same way up: damage can make some of them look otherwise
     std::size_t up = 0, down = 0, own = 0;

@@ -235,6 +235,7 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
             value.where);
       return;
     case KeyType::choice:
+      if (key.or_number && number) return check_range(key, value.number(), value.where);
       if (!text) wrong();
       if (std::find(key.choices.begin(), key.choices.end(), value.text()) == key.choices.end()) {
         std::string choices;

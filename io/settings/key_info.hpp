@@ -41,6 +41,7 @@ struct KeyInfo {
   std::string default_text;                        ///< as TOML; empty = none
   std::optional<double> above, at_least, at_most;  ///< limits in the unit of the key
   std::vector<std::string> choices;
+  bool or_number = false;                       ///< choice: a number within the limits will do, too
   std::string pattern;                          ///< text: regular expression for the schema; empty = anything
   bool (*matches)(std::string_view) = nullptr;  ///< text: what pattern says, as code; set with it
   std::string like;                             ///< text: what pattern says, in words; set with it

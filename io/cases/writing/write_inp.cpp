@@ -296,7 +296,9 @@ class InputWriter {
       refuse_if(extension == surface, fmt::format("the {} as {}", body, surface), advice);
 
     const ProfileOptions& o = file->options;
-    const SmoothingOptions &m = o.smoothing, usual = {};
+    const SmoothingOptions usual;
+    SmoothingOptions m = o.smoothing;
+    if (m.method == SmoothingOptions::Method::by_noise) m.method = usual.method;  // CONTACT knows none such
     const bool wavelength = m.method != SmoothingOptions::Method::spline;
     const bool further = wavelength || m.kink_high != usual.kink_high || m.kink_low != usual.kink_low ||
                          m.kink_width != usual.kink_width || o.zigzag_threshold != ProfileOptions{}.zigzag_threshold ||

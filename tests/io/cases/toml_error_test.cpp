@@ -93,6 +93,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{kRail + "rail.shape.start_y_mm = 1\n", "belongs to a shape given by arcs"},
         Wrong{"rail.shape.file = \"a.prr\"\nrail.shape.smoothing_method = \"weighted_spline\"\n",
               "needs smoothing_wavelength_mm"},
+        Wrong{"rail.shape.file = \"a.prr\"\nrail.shape.smoothing = \"some\"\n", "is not one of \"auto\", \"none\""},
+        Wrong{"rail.shape.file = \"a.prr\"\nrail.shape.smoothing = -1\n", "must be at least 0"},
+        Wrong{"rail.shape.file = \"a.prr\"\nrail.shape.smoothing = \"auto\"\nrail.shape.smoothing_lambda_mm3 = 1\n",
+              "exclude each other"},
         Wrong{"rail.shape.file = \"a.prr\"\nrail.shape.smoothing_lambda_mm3 = 1\nrail.shape.smoothing_wavelength_mm = "
               "1\n",
               "exclude each other"},

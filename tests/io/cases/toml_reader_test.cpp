@@ -253,6 +253,22 @@ arcs = [ { length_mm = 20, radius_mm = 80 }, { length_mm = 20, curvature_per_m =
   EXPECT_DOUBLE_EQ(rail.segments[2].curvature, 0.0);
 }
 
+TEST(TomlCase, SmoothingIsAWordOrAWavelength) {
+  using Method = SmoothingOptions::Method;
+  const auto options = [](const std::string& line) {
+    const CaseFile f =
+        parse("wheelset.vertical_force_N = 1e5\nrail.shape.standard = \"60E1\"\nwheel.shape.file = \"w.csv\"\n" + line);
+    return std::get<GeometryFile>(rail_case(f, 0).wheel.geometry).options.smoothing;
+  };
+  EXPECT_EQ(options("").method, Method::by_noise);
+  EXPECT_EQ(options("wheel.shape.smoothing = \"auto\"\n").method, Method::by_noise);
+  EXPECT_EQ(options("wheel.shape.smoothing = \"none\"\n").method, Method::spline);
+  EXPECT_EQ(options("wheel.shape.smoothing = \"none\"\n").strength, 0.0);
+  EXPECT_EQ(options("wheel.shape.smoothing = 6\n").method, Method::weighted_spline);
+  EXPECT_DOUBLE_EQ(options("wheel.shape.smoothing = 6\n").strength, 6e-3);
+  EXPECT_EQ(options("wheel.shape.smoothing_lambda_mm3 = 0\n").method, Method::spline);
+}
+
 TEST(TomlCase, CasesOverrideDefaultsAndListsSweep) {
   const CaseFile f = parse(kRail + R"(
 wheelset.y_mm = 1

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "samples.hpp"
+#include "treadmark/model/profile_scatter.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -31,6 +32,32 @@ TEST(TwoColumns, ReadsRailAndWheelInMetres) {
   EXPECT_EQ(wheel.y.size(), wheel_points().size());
   EXPECT_NEAR(wheel.y.front(), 0.060, kRound);
   EXPECT_GT(wheel.y.front(), wheel.y.back());
+}
+
+/// A crown of radius 300 mm at steps of 0.2 mm, with errors of +-0.01 mm that have no pattern to speak of.
+TEST(TwoColumns, AreSmoothedByTheirNoiseUnlessToldOtherwise) {
+  std::vector<Point> exact, noisy;
+  for (int i = -150; i <= 150; ++i) {
+    const double y = 0.2 * i;
+    exact.push_back({y, y * y / 600.0});
+    noisy.push_back({y, y * y / 600.0 + 0.01 * std::sin(1e4 * i * i)});
+  }
+  const Profile truth = parse(columns(exact), Body::rail);
+  EXPECT_EQ(truth.scatter->removed, 0.0);
+  const Profile smooth = parse(columns(noisy), Body::rail);
+  ProfileOptions as_given;
+  as_given.smoothing = {};
+  const Profile raw = parse(columns(noisy), Body::rail, as_given);
+  double left = 0.0, given = 0.0;
+  for (std::size_t i = 0; i < raw.z.size(); ++i) {
+    left = std::max(left, std::fabs(smooth.z[i] - truth.z[i]));
+    given = std::max(given, std::fabs(raw.z[i] - truth.z[i]));
+  }
+  EXPECT_NEAR(given, 10e-6, 0.1e-6);
+  EXPECT_LT(left, 4e-6);
+  EXPECT_NEAR(smooth.scatter->removed, 7e-6, 1e-6);  // of a sine's values
+  EXPECT_EQ(smooth.smoothing.strength, 0.0);
+  EXPECT_EQ(raw.scatter, nullptr);
 }
 
 TEST(TwoColumns, KnowsFourCommentCharacters) {

@@ -43,7 +43,7 @@ void expect_same(const Profile& a, const Profile& b) {
 
 TEST(Simpack, ReadsPointsInMetres) {
   ProfileOptions options;
-  options.smoothing.strength = 0.25;
+  options.smoothing = {SmoothingOptions::Method::spline, 0.25};
   const Profile p = rail("", options);
   ASSERT_EQ(p.y.size(), rail_points().size());
   EXPECT_NEAR(p.y.front(), -0.036, kRound);

@@ -1,0 +1,588 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/measured/smoothing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/random.hpp"
+#include "treadmark/measured/noise.hpp"
+
+namespace treadmark::measured {
+
+namespace {
+
+using Row = std::array<double, 4>;
+using Values = std::vector<double>;
+
+// Everything below is in mm.
+constexpr double kMm = 1e3;
+constexpr double kFinestKnots = 0.1, kCoarsestKnots = 0.5;  ///< the step of the points between these
+constexpr int kRounds = 4;                                  ///< of straightening the curve and laying it anew
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Symmetric matrix of half bandwidth 3, rows from the diagonal to the left; factorised into L D L'.
+class Band {
+ public:
+  explicit Band(int size) : rows_(at(size), Row{}) {}
+  explicit Band(std::vector<Row> factor) : rows_(std::move(factor)) {}
+  int size() const { return static_cast<int>(rows_.size()); }
+  double& entry(int i, int left) { return rows_[at(i)][at(left)]; }
+  const std::vector<Row>& rows() const { return rows_; }
+
+  bool factor() {
+    log_determinant_ = 0.0;
+    for (int i = 0; i < size(); ++i)
+      for (int left = std::min(3, i); left >= 0; --left) {
+        const int j = i - left;
+        double sum = get(i, left);
+        for (int m = std::max(0, i - 3); m < j; ++m) sum -= get(i, i - m) * get(m, 0) * get(j, j - m);
+        if (left > 0) {
+          entry(i, left) = sum / get(j, 0);
+        } else {
+          if (!(sum > 0.0)) return false;
+          entry(i, 0) = sum;
+          log_determinant_ += std::log(sum);
+        }
+      }
+    return true;
+  }
+  double log_determinant() const { return log_determinant_; }
+
+  void solve(Values& x) const {
+    lower(x);
+    for (int i = 0; i < size(); ++i) x[at(i)] /= get(i, 0);
+    upper(x);
+  }
+  /// From independent unit numbers to ones whose covariance is the inverse.
+  void draw(Values& x) const {
+    for (int i = 0; i < size(); ++i) x[at(i)] /= std::sqrt(get(i, 0));
+    upper(x);
+  }
+  /// x' (L D L')^-1 x
+  double inverse_square(Values x) const {
+    lower(x);
+    double sum = 0.0;
+    for (int i = 0; i < size(); ++i) sum += x[at(i)] * x[at(i)] / get(i, 0);
+    return sum;
+  }
+
+ private:
+  double get(int i, int left) const { return rows_[at(i)][at(left)]; }
+  void lower(Values& x) const {
+    for (int i = 0; i < size(); ++i)
+      for (int k = 1; k <= std::min(3, i); ++k) x[at(i)] -= get(i, k) * x[at(i - k)];
+  }
+  void upper(Values& x) const {
+    for (int i = size() - 1; i >= 0; --i)
+      for (int k = 1; k <= 3 && i + k < size(); ++k) x[at(i)] -= get(i + k, k) * x[at(i + k)];
+  }
+  std::vector<Row> rows_;
+  double log_determinant_ = 0.0;
+};
+
+/// Cubic B-splines of equal knots: cells + 3 of them.
+struct Knots {
+  double first = 0.0, step = 1.0;
+  int cells = 1;
+
+  static Knots over(double from, double to, double step) {
+    const int cells = std::max(4, static_cast<int>(std::lround((to - from) / step)));
+    return {from, (to - from) / cells, cells};
+  }
+  int size() const { return cells + 3; }
+  double last() const { return first + cells * step; }
+  double node(int k) const { return first + k * step; }
+  /// The cell of s, and the four B-splines there or one of their derivatives.
+  int basis(double s, int derivative, Row& out) const {
+    const double x = (s - first) / step;
+    const int cell = std::clamp(static_cast<int>(std::floor(x)), 0, cells - 1);
+    const double t = x - cell, u = 1.0 - t;
+    if (derivative == 0)
+      out = {u * u * u / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
+             (-3.0 * t * t * t + 3.0 * t * t + 3.0 * t + 1.0) / 6.0, t * t * t / 6.0};
+    else if (derivative == 1)
+      out = {-u * u / (2.0 * step), (3.0 * t * t - 4.0 * t) / (2.0 * step),
+             (-3.0 * t * t + 2.0 * t + 1.0) / (2.0 * step), t * t / (2.0 * step)};
+    else
+      out = {u / (step * step), (3.0 * t - 2.0) / (step * step), (1.0 - 3.0 * t) / (step * step), t / (step * step)};
+    return cell;
+  }
+  double value(const Values& c, double s, int derivative = 0) const {
+    Row b;
+    const int cell = basis(s, derivative, b);
+    double sum = 0.0;
+    for (int a = 0; a < 4; ++a) sum += b[at(a)] * c[at(cell + a)];
+    return sum;
+  }
+};
+
+/// Adds weights times products of B-splines, and with them times the data.
+void add_products(const Knots& knots, const Values& s, const Values& weights, Band& matrix) {
+  Row b;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const int cell = knots.basis(s[i], 0, b);
+    for (int p = 0; p < 4; ++p)
+      for (int q = 0; q <= p; ++q) matrix.entry(cell + p, p - q) += weights[i] * b[at(p)] * b[at(q)];
+  }
+}
+Values products_with(const Knots& knots, const Values& s, const Values& data) {
+  Values out(at(knots.size()), 0.0);
+  Row b;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const int cell = knots.basis(s[i], 0, b);
+    for (int p = 0; p < 4; ++p) out[at(cell + p)] += b[at(p)] * data[i];
+  }
+  return out;
+}
+
+double third_difference(const Values& c, int cell) {
+  return c[at(cell + 3)] - 3.0 * c[at(cell + 2)] + 3.0 * c[at(cell + 1)] - c[at(cell)];
+}
+/// Adds penalties on squares of third differences, one a cell.
+void add_penalty(const Values& penalty, Band& matrix) {
+  constexpr double kDifference[] = {-1.0, 3.0, -3.0, 1.0};
+  for (int k = 0; k < static_cast<int>(penalty.size()); ++k)
+    for (int p = 0; p < 4; ++p)
+      for (int q = 0; q <= p; ++q) matrix.entry(k + p, p - q) += penalty[at(k)] * kDifference[p] * kDifference[q];
+}
+
+/// A curve with its arc length as the parameter, nearly.
+struct Curve {
+  Knots knots;
+  Values y, z;
+
+  double at_y(double s, int derivative = 0) const { return knots.value(y, s, derivative); }
+  double at_z(double s, int derivative = 0) const { return knots.value(z, s, derivative); }
+  double speed(double s) const { return std::hypot(at_y(s, 1), at_z(s, 1)); }
+  double angle(double s) const { return std::atan2(at_z(s, 1), at_y(s, 1)); }
+};
+
+/// Through the points, with one penalty everywhere.
+Curve even_curve(const Knots& knots, const Values& s, const Values& y, const Values& z, double penalty) {
+  Band matrix(knots.size());
+  add_products(knots, s, Values(s.size(), 1.0), matrix);
+  add_penalty(Values(at(knots.cells), penalty), matrix);
+  Curve curve{knots, products_with(knots, s, y), products_with(knots, s, z)};
+  if (!matrix.factor()) return {knots, {}, {}};
+  matrix.solve(curve.y);
+  matrix.solve(curve.z);
+  return curve;
+}
+
+/// The points across a curve, laid out straight: heights whose second derivative is a curvature.
+struct Straightened {
+  Knots knots;                   ///< over the true arc length of the curve
+  Values node_y, node_z, angle;  ///< of the curve at the knots
+  Values node_height;            ///< the curve itself, straightened
+  Values s, height, half_step;   ///< of the points; half of what rounding leaves open, across the curve
+};
+
+double unwrapped(double angle, double near) { return angle + 2.0 * kPi * std::round((near - angle) / (2.0 * kPi)); }
+
+struct Points {
+  Values y, z, s;
+  double rounding_y = 0.0, rounding_z = 0.0, step = 1.0;
+  std::size_t size() const { return y.size(); }
+};
+
+/// Moves the points' parameters to their feet on the curve.
+void to_feet(Points& points, const Curve& curve) {
+  const double most = 0.5 * std::max(points.step, 0.2);
+  for (int turn = 0; turn < 2; ++turn)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      double& s = points.s[i];
+      const double ty = curve.at_y(s, 1), tz = curve.at_z(s, 1);
+      const double along = (points.y[i] - curve.at_y(s)) * ty + (points.z[i] - curve.at_z(s)) * tz;
+      s += std::clamp(along / (ty * ty + tz * tz), -most, most);
+    }
+}
+
+/// Nothing where the curve folds.
+std::optional<Straightened> straighten(Points& points, const Curve& curve, double knot_step) {
+  to_feet(points, curve);
+  const Knots& old = curve.knots;
+  const auto simpson = [&](double from, double to) {
+    return (to - from) / 6.0 * (curve.speed(from) + 4.0 * curve.speed(0.5 * (from + to)) + curve.speed(to));
+  };
+  Values arc(at(old.cells + 1), 0.0);
+  for (int k = 0; k < old.cells; ++k) arc[at(k + 1)] = arc[at(k)] + simpson(old.node(k), old.node(k + 1));
+  const auto arc_at = [&](double s) {
+    const int cell = std::clamp(static_cast<int>(std::floor((s - old.first) / old.step)), 0, old.cells - 1);
+    return arc[at(cell)] + simpson(old.node(cell), s);
+  };
+  Straightened out;
+  Values feet(points.s);
+  for (double& s : points.s) s = arc_at(s);
+  const auto [least, greatest] = std::ranges::minmax_element(points.s);
+  constexpr double kFolded = 1.5;
+  const bool folded = !std::ranges::all_of(points.s, [](double s) { return std::isfinite(s); }) ||
+                      !(arc.back() < kFolded * (old.last() - old.first)) || !(*greatest - *least < 2.0 * arc.back());
+  if (folded) return std::nullopt;
+  out.knots = Knots::over(*least, *greatest, knot_step);
+  const auto parameter_at = [&](double length) {
+    double s = old.first + length / arc.back() * (old.last() - old.first);
+    for (int turn = 0; turn < 4; ++turn) s -= (arc_at(s) - length) / curve.speed(s);
+    return s;
+  };
+  const int cells = out.knots.cells;
+  const double h = out.knots.step;
+  out.node_height.assign(at(cells + 1), 0.0);
+  Values middle(at(cells), 0.0);
+  for (int k = 0; k <= cells; ++k) {
+    const double s = parameter_at(out.knots.node(k));
+    out.node_y.push_back(curve.at_y(s));
+    out.node_z.push_back(curve.at_z(s));
+    out.angle.push_back(unwrapped(curve.angle(s), k > 0 ? out.angle.back() : curve.angle(s)));
+    if (k < cells) middle[at(k)] = unwrapped(curve.angle(parameter_at(out.knots.node(k) + 0.5 * h)), out.angle.back());
+  }
+  const double level = out.angle[at(cells / 2)];
+  for (int k = 0; k < cells; ++k)
+    out.node_height[at(k + 1)] =
+        out.node_height[at(k)] +
+        h / 6.0 * (out.angle[at(k)] + 4.0 * middle[at(k)] + out.angle[at(k + 1)] - 6.0 * level);
+  const auto height_at = [&](double s) {  // Hermite's cubic between knots
+    const double x = (s - out.knots.first) / h;
+    const int k = std::clamp(static_cast<int>(std::floor(x)), 0, cells - 1);
+    const double t = x - k, t2 = t * t, t3 = t2 * t;
+    return (2.0 * t3 - 3.0 * t2 + 1.0) * out.node_height[at(k)] + (3.0 * t2 - 2.0 * t3) * out.node_height[at(k + 1)] +
+           h * ((t3 - 2.0 * t2 + t) * (out.angle[at(k)] - level) + (t3 - t2) * (out.angle[at(k + 1)] - level));
+  };
+  out.s = points.s;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double s = feet[i], ty = curve.at_y(s, 1), tz = curve.at_z(s, 1), length = std::hypot(ty, tz);
+    const double across = ((points.z[i] - curve.at_z(s)) * ty - (points.y[i] - curve.at_y(s)) * tz) / length;
+    out.height.push_back(height_at(points.s[i]) + across);
+    out.half_step.push_back(0.5 * (points.rounding_y * std::fabs(tz) + points.rounding_z * std::fabs(ty)) / length);
+  }
+  return out;
+}
+
+/// The curve that the moved heights mean.
+Curve moved_curve(const Straightened& line, const Values& heights) {
+  Values s, y, z;
+  for (int k = 0; k <= line.knots.cells; ++k) {
+    const double node = line.knots.node(k), move = line.knots.value(heights, node) - line.node_height[at(k)];
+    s.push_back(node);
+    y.push_back(line.node_y[at(k)] - move * std::sin(line.angle[at(k)]));
+    z.push_back(line.node_z[at(k)] + move * std::cos(line.angle[at(k)]));
+  }
+  constexpr double kNearlyNone = 1e-9;  // makes the three splines beyond the number of nodes certain
+  return even_curve(line.knots, s, y, z, kNearlyNone);
+}
+
+struct Fit {
+  Values heights;                                            ///< coefficients
+  double penalty = 0.0;                                      ///< factor of the penalties
+  double variance = 0.0;                                     ///< of a point
+  double badness = std::numeric_limits<double>::infinity();  ///< -2 log of the likelihood, but for a constant
+  Band precision{1};                                         ///< of the coefficients times the variance, factorised
+};
+
+/// How restless the curvature is at each cell: its variance a length, but for one factor. Roughness grows with how much
+/// the curve is bent within a few millimetres.
+Values restlessness(const Knots& knots, const Knots& before, const Values& heights) {
+  constexpr double kWindow = 4.0, kReach = 3.0, kFlattest = 1.0 / 200.0;
+  const int reach = static_cast<int>(std::lround(kReach * kWindow / knots.step));
+  Values squares, out;
+  for (int k = 0; k < knots.cells; ++k) {
+    const double s = std::clamp(knots.node(k) + 0.5 * knots.step, before.first, before.last());
+    const double curvature = before.value(heights, s, 2);
+    squares.push_back(curvature * curvature);
+  }
+  for (int k = 0; k < knots.cells; ++k) {
+    double sum = 0.0, weights = 0.0;
+    for (int j = std::max(0, k - reach); j <= std::min(knots.cells - 1, k + reach); ++j) {
+      const double x = (j - k) * knots.step / kWindow, weight = std::exp(-0.5 * x * x);
+      sum += weight * squares[at(j)];
+      weights += weight;
+    }
+    const double bent = sum / weights + kFlattest * kFlattest;
+    out.push_back(bent * bent);
+  }
+  return out;
+}
+
+double log_normal_share(double from, double to, double& slope, double& bend) {
+  // log of the normal probability between two bounds, its derivative by the mean and the negative second one
+  constexpr double kRoot = 0.7071067811865476, kDensity = 0.3989422804014327, kFar = 5.0;
+  if (from > kFar || to < -kFar) {  // beyond: as if the nearer bound had been measured
+    const double beyond = from > kFar ? from : to;
+    slope = beyond, bend = 1.0;
+    return -0.5 * beyond * beyond - std::log(std::fabs(beyond) / kDensity);
+  }
+  const double share = from > 0.0 ? 0.5 * (std::erfc(from * kRoot) - std::erfc(to * kRoot))
+                                  : 0.5 * (std::erfc(-to * kRoot) - std::erfc(-from * kRoot));
+  const double low = kDensity * std::exp(-0.5 * from * from), high = kDensity * std::exp(-0.5 * to * to);
+  slope = (low - high) / share;
+  bend = std::max(0.0, (to * high - from * low) / share + slope * slope);
+  return std::log(share);
+}
+
+/// One smoothing problem: heights over s, the penalties but for their factor.
+class Problem {
+ public:
+  Problem(const Straightened& line, Values restless)
+      : line_(line),
+        restless_(std::move(restless)),
+        products_(line.knots.size()),
+        right_(products_with(line.knots, line.s, line.height)) {
+    add_products(line.knots, line.s, Values(line.s.size(), 1.0), products_);
+  }
+
+  /// White noise of unknown variance.
+  Fit white(double log_factor) const {
+    Fit fit = begin(log_factor);
+    Band matrix = products_;
+    add_penalty(penalties_, matrix);
+    if (!matrix.factor()) return fit;
+    fit.heights = right_;
+    matrix.solve(fit.heights);
+    double sum = penalty_of(fit.heights);
+    for (std::size_t i = 0; i < line_.s.size(); ++i) {
+      const double rest = line_.height[i] - line_.knots.value(fit.heights, line_.s[i]);
+      sum += rest * rest;
+    }
+    const auto free = static_cast<double>(line_.s.size() - 3);
+    fit.variance = sum / free;
+    fit.badness = free * std::log(fit.variance) + matrix.log_determinant() - log_penalties_;
+    fit.precision = std::move(matrix);
+    return fit;
+  }
+
+  /// Numbers that were rounded, with white noise of this standard deviation before: Newton's method.
+  Fit rounded(double log_factor, double noise, const Values& start) const {
+    constexpr int kMost = 30;
+    constexpr double kSame = 1e-5;
+    Fit fit = begin(log_factor);
+    fit.variance = 1.0;
+    Values now = start;
+    double badness = std::numeric_limits<double>::infinity();
+    const std::size_t n = line_.s.size();
+    Values slope(n), bend(n);
+    const auto value_of = [&](const Values& c) {
+      double sum = penalty_of(c);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double rest = line_.height[i] - line_.knots.value(c, line_.s[i]), half = line_.half_step[i];
+        sum -= 2.0 * log_normal_share((rest - half) / noise, (rest + half) / noise, slope[i], bend[i]);
+      }
+      return sum;
+    };
+    double value = value_of(now);
+    for (int turn = 0; turn < kMost; ++turn) {
+      Band matrix(line_.knots.size());
+      Values weights(n), data(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        weights[i] = bend[i] / (noise * noise);
+        data[i] = weights[i] * line_.knots.value(now, line_.s[i]) + slope[i] / noise;
+      }
+      add_products(line_.knots, line_.s, weights, matrix);
+      add_penalty(penalties_, matrix);
+      if (!matrix.factor()) return fit;
+      Values next = products_with(line_.knots, line_.s, data);
+      matrix.solve(next);
+      double next_value = value_of(next);
+      for (int half = 0; half < 8 && next_value > value; ++half) {
+        for (std::size_t k = 0; k < next.size(); ++k) next[k] = 0.5 * (next[k] + now[k]);
+        next_value = value_of(next);
+      }
+      const bool done = !(value - next_value > kSame * (1.0 + std::fabs(value)));
+      if (next_value <= value) now = next, value = next_value;
+      badness = value + matrix.log_determinant() - log_penalties_;
+      fit.precision = std::move(matrix);
+      if (done) break;
+    }
+    fit.heights = now;
+    fit.badness = badness;
+    return fit;
+  }
+
+ private:
+  Fit begin(double log_factor) const {
+    Fit fit;
+    fit.penalty = std::exp(log_factor);
+    penalties_.clear();
+    log_penalties_ = 0.0;
+    for (const double r : restless_) {
+      penalties_.push_back(fit.penalty / (r * std::pow(line_.knots.step, 5)));
+      log_penalties_ += std::log(penalties_.back());
+    }
+    return fit;
+  }
+  double penalty_of(const Values& c) const {
+    double sum = 0.0;
+    for (int k = 0; k < line_.knots.cells; ++k) sum += penalties_[at(k)] * std::pow(third_difference(c, k), 2);
+    return sum;
+  }
+
+  const Straightened& line_;
+  Values restless_;
+  Band products_;
+  Values right_;
+  mutable Values penalties_;
+  mutable double log_penalties_ = 0.0;
+};
+
+/// The least of a function of one valley between the bounds: by steps, then by the golden section.
+template <class Badness>
+double lowest(double from, double to, double step, Badness badness) {
+  double best = from, least = std::numeric_limits<double>::infinity();
+  for (double x = from; x <= to; x += step)
+    if (const double b = badness(x); b < least) least = b, best = x;
+  constexpr double kGolden = 0.6180339887498949, kNear = 0.02;
+  double low = best - step, high = best + step;
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = badness(a), at_b = badness(b);
+  while (high - low > kNear) {
+    if (at_a < at_b) {
+      high = b, b = a, at_b = at_a;
+      at_a = badness(a = high - kGolden * (high - low));
+    } else {
+      low = a, a = b, at_a = at_b;
+      at_b = badness(b = low + kGolden * (high - low));
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// The curve of the points, and what is known of it.
+struct Laid {
+  Straightened line;
+  Curve curve;
+  Fit fit;
+};
+
+std::optional<Laid> lay_curve(Points points, const PointNoise& noise) {
+  constexpr double kFirstCutoff = 1.0;  ///< wavelength that the first curve halves, which only has to lie near
+  constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kNarrow = 3.0, kFine = 1.0;
+  constexpr double kOfStep = 0.1;  ///< least noise before rounding, of the step
+  const double knot_step = std::clamp(points.step, kFinestKnots, kCoarsestKnots);
+  const Knots knots = Knots::over(points.s.front(), points.s.back(), knot_step);
+  const double cutoff = kFirstCutoff * std::max(1.0, points.step) / (2.0 * kPi);
+  Laid laid;
+  laid.curve =
+      even_curve(knots, points.s, points.y, points.z, std::pow(cutoff, 6) / (points.step * std::pow(knots.step, 5)));
+  if (laid.curve.y.empty()) return std::nullopt;
+
+  const double rounding = std::max(points.rounding_y, points.rounding_z), rounded = rounding / std::sqrt(12.0);
+  const double across = kMm * noise.across;
+  const bool by_halves = rounded > 0.5 * across;
+  const double before = std::sqrt(std::max(across * across - rounded * rounded, std::pow(kOfStep * rounding, 2)));
+  double found = 0.0;
+  Values restless;
+  for (int round = 0; round < kRounds; ++round) {
+    std::optional<Straightened> straight = straighten(points, laid.curve, knot_step);
+    if (!straight) return std::nullopt;
+    Straightened line = std::move(*straight);
+    restless =
+        round == 0 ? Values(at(line.knots.cells), 1.0) : restlessness(line.knots, laid.line.knots, laid.fit.heights);
+    const Problem problem(line, restless);
+    const bool wide = round < 2;
+    const auto search = [&](auto&& fit_of) {
+      const auto badness = [&](double x) { return fit_of(x).badness; };
+      found =
+          wide ? lowest(kLowest, kHighest, kCoarse, badness) : lowest(found - kNarrow, found + kNarrow, kFine, badness);
+      return fit_of(found);
+    };
+    if (by_halves) {
+      Values start = problem.white(6.0 * std::log(cutoff) - std::log(points.step)).heights;
+      laid.fit = search([&](double x) {
+        Fit fit = problem.rounded(x, before, start);
+        if (!fit.heights.empty()) start = fit.heights;
+        return fit;
+      });
+    } else {
+      laid.fit = search([&](double x) { return problem.white(x); });
+    }
+    if (laid.fit.heights.empty() || !std::isfinite(laid.fit.badness)) return std::nullopt;
+    laid.curve = moved_curve(line, laid.fit.heights);
+    if (laid.curve.y.empty()) return std::nullopt;
+    laid.line = std::move(line);
+  }
+  return laid;
+}
+
+}  // namespace
+
+Profile smoothed_by_noise(Profile profile) {
+  constexpr std::size_t kFewest = 16;
+  profile.smoothing.method = SmoothingOptions::Method::spline;
+  profile.smoothing.strength = 0.0;
+  const std::size_t n = profile.y.size();
+  if (n < kFewest) return profile;
+  const PointNoise noise = profile_noise(profile);
+  auto scatter = std::make_shared<ProfileScatter>();
+  scatter->white = noise.across;
+  scatter->rounding_y = noise.rounding_y;
+  scatter->rounding_z = noise.rounding_z;
+  scatter->step = noise.step;
+  profile.scatter = scatter;
+  if (noise.across < kExactPoints || !(noise.step > 0.0)) return profile;
+
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) points.y.push_back(kMm * profile.y[i]), points.z.push_back(kMm * profile.z[i]);
+  points.s = rough_arc_length(profile);
+  for (double& s : points.s) s *= kMm;
+  points.rounding_y = kMm * noise.rounding_y;
+  points.rounding_z = kMm * noise.rounding_z;
+  points.step = kMm * noise.step;
+  const std::optional<Laid> laid = lay_curve(points, noise);
+  if (!laid) return profile;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double s = laid->line.s[i], y = laid->curve.at_y(s), z = laid->curve.at_z(s);
+    squares += std::pow(y - points.y[i], 2) + std::pow(z - points.z[i], 2);
+    profile.y[i] = y / kMm;
+    profile.z[i] = z / kMm;
+    scatter->s.push_back(s / kMm);
+  }
+  scatter->removed = std::sqrt(squares / static_cast<double>(n)) / kMm;
+  scatter->first_knot = laid->line.knots.first / kMm;
+  scatter->knot_step = laid->line.knots.step / kMm;
+  scatter->factor = laid->fit.precision.rows();
+  for (Row& row : scatter->factor) row[0] *= kMm * kMm / laid->fit.variance;
+  return profile;
+}
+
+ErrorDraws::ErrorDraws(const ProfileScatter& scatter, int count, unsigned seed)
+    : first_(scatter.first_knot), step_(scatter.knot_step) {
+  if (scatter.factor.empty()) return;
+  const Band factor(scatter.factor);
+  Random random(seed);
+  for (int draw = 0; draw < count; ++draw) {
+    Values& coefficients = draws_.emplace_back(scatter.factor.size());
+    for (double& c : coefficients) {  // normal (Box and Muller 1958)
+      const double size = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+      c = size * std::cos(2.0 * kPi * random.uniform());
+    }
+    factor.draw(coefficients);
+  }
+}
+
+double ErrorDraws::at(std::size_t draw, double s) const {
+  if (draw >= draws_.size()) return 0.0;
+  const Values& coefficients = draws_[draw];
+  const Knots knots{first_, step_, static_cast<int>(coefficients.size()) - 3};
+  return knots.value(coefficients, std::clamp(s, knots.first, knots.last()));
+}
+
+double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s, std::span<const double> weights) {
+  if (scatter.factor.empty()) return 0.0;
+  const Knots knots{scatter.first_knot, scatter.knot_step, static_cast<int>(scatter.factor.size()) - 3};
+  Values sum(scatter.factor.size(), 0.0);
+  Row b;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const int cell = knots.basis(s[i], 0, b);
+    for (int p = 0; p < 4; ++p) sum[at(cell + p)] += weights[i] * b[at(p)];
+  }
+  return std::sqrt(Band(scatter.factor).inverse_square(std::move(sum)));
+}
+
+}  // namespace treadmark::measured

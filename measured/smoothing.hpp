@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "treadmark/model/profile.hpp"
+#include "treadmark/model/profile_scatter.hpp"
+
+namespace treadmark::measured {
+
+/// Noise below which points are taken as exact [m]: tables that are rounded to 0.1 um are.
+inline constexpr double kExactPoints = 0.1e-6;
+
+/// The profile with its points moved onto the curve that they stand for, and its scatter. The curve is the most
+/// probable one whose curvature is a random walk, the more restless the more the curve is bent around (so chains of
+/// arcs keep both their crown and their gauge corner); restlessness and noise by restricted maximum likelihood (Wahba
+/// 1985), and rounded numbers are known within half a step only. Exact points stay where they are. The profile's
+/// smoothing is then that of an interpolation. Errors: none; points that no curve fits stay, too.
+Profile smoothed_by_noise(Profile profile);
+
+/// Standard deviation of a sum of weights times the curve's errors across itself, at these arc lengths (those of
+/// scatter.s). 0 where the points were not smoothed.
+double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s, std::span<const double> weights);
+
+/// Errors that the curve may have across itself, each as probable as any other. Immutable; the same in every run.
+class ErrorDraws {
+ public:
+  /// Of different seeds: independent of each other.
+  ErrorDraws(const ProfileScatter& scatter, int count, unsigned seed);
+
+  std::size_t size() const { return draws_.size(); }
+  /// At an arc length [m]; beyond the ends as at them. 0 where the points were not smoothed.
+  double at(std::size_t draw, double s) const;
+
+ private:
+  double first_ = 0.0, step_ = 1.0;
+  std::vector<std::vector<double>> draws_;  ///< coefficients [m]
+};
+
+}  // namespace treadmark::measured
