@@ -20,11 +20,10 @@
 #include "treadmark/io/simulations/recording_functions.hpp"
 #include "treadmark/io/simulations/recording_header.hpp"
 
-namespace treadmark::io {
+namespace treadmark::io::recording {
 
 namespace {
 
-using namespace recording;
 using profiles::LineScanner;
 using Notes = std::vector<std::string>;
 
@@ -400,12 +399,16 @@ class RecordingReader {
 
 }  // namespace
 
-IrregularityTable parse_irregularity_text(std::string_view text, const std::string& name, Notes* notes,
-                                          const RecordingSettings& settings) {
-  return RecordingReader(text, name, settings).read(notes);
+}  // namespace treadmark::io::recording
+
+namespace treadmark::io {
+
+IrregularityTable parse_irregularity_text(std::string_view text, const std::string& name,
+                                          std::vector<std::string>* notes, const RecordingSettings& settings) {
+  return recording::RecordingReader(text, name, settings).read(notes);
 }
 
-IrregularityTable read_irregularity_file(const std::filesystem::path& file, Notes* notes,
+IrregularityTable read_irregularity_file(const std::filesystem::path& file, std::vector<std::string>* notes,
                                          const RecordingSettings& settings) {
   return parse_irregularity_text(read_text(file), file.string(), notes, settings);
 }
