@@ -65,6 +65,8 @@ Json value_schema(const KeyInfo& key) {
   if (triple || key.type == KeyType::direction) schema["maxItems"] = 3;
   if (!triple) limit(schema);
   if (!key.pattern.empty()) schema["pattern"] = key.pattern;
+  if (key.type == KeyType::number && !key.choices.empty())
+    return {{"anyOf", {std::move(schema), Json{{"enum", key.choices}}}}};
   return schema;
 }
 
@@ -135,7 +137,6 @@ Json sections_of(std::span<const KeyInfo> keys, std::span<const ExclusiveSection
 
 std::string type_of(const KeyInfo& key) {
   std::string text = words_of(key).shown;
-  for (const std::string& one : key.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", one);
   if (key.above) text += fmt::format(" > {:.6g}", *key.above);
   if (key.at_least && key.at_most)
     text += fmt::format(", {:.6g} ... {:.6g}", *key.at_least, *key.at_most);
@@ -143,6 +144,7 @@ std::string type_of(const KeyInfo& key) {
     text += fmt::format(" >= {:.6g}", *key.at_least);
   else if (key.at_most)
     text += fmt::format(" <= {:.6g}", *key.at_most);
+  for (const std::string& one : key.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", one);
   return text;
 }
 
