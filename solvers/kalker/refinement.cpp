@@ -53,9 +53,12 @@ struct Coarse {
 
 double relative(double coarse, double fine) { return fine > 0.0 ? std::abs(coarse - fine) / fine : 0.0; }
 
-/// What the number of elements across says by itself, where it is small or nothing else is known: bounds of what
-/// Hertz' contacts of any place on their elements show (tests/solvers/kalker/refinement_test.cpp).
-Refinement by_number(double across) { return {1.0 / (across * across), 1.0 / across, 1.0 / (across * across)}; }
+/// What the number of elements across says by itself. Bounds of what ellipses anywhere on their elements show
+/// (tests/solvers/kalker/refinement_test.cpp).
+constexpr int kTold = 2 * kRatio;  ///< from this number on thirds of them tell more
+double normal_by_number(double n) { return n < 3.0 ? 3.0 / n : 1.0 / (n * n); }
+double area_by_number(double n) { return (n < kTold ? 1.7 : 1.0) / n; }
+double tangential_by_number(double n) { return (n < kTold ? 1.0 : 0.5) / n; }
 
 }  // namespace
 
@@ -64,8 +67,12 @@ Refinement estimate_refinement(const ContactProblem& problem, const ContactSolut
   const Grid2& g = problem.grid;
   const ContactSpan n = contact_span(g, s.pressure);
   const double across = g.nx == 1 && g.ny > 1 ? n.ny : g.ny == 1 && g.nx > 1 ? n.nx : std::min(n.nx, n.ny);
-  Refinement out = by_number(across);
-  if (across < 2.0 * kRatio || problem.influence.kind == InfluenceSettings::Kind::table) return out;
+  const bool force_sought = !problem.force_prescribed && !load_given,
+             tractions = problem.regime != Regime::frictionless && problem.friction.static_friction() > 0.0;
+  Refinement out{normal_by_number(across), area_by_number(across), 0.0};
+  if (force_sought) out.force = normal_by_number(across);
+  if (tractions) out.force = std::max(out.force, tangential_by_number(across));
+  if (across < kTold || problem.influence.kind == InfluenceSettings::Kind::table) return out;
 
   const Coarse coarse(g, largest_pressure(s.pressure));
   const std::vector<double> gap = coarse.of(problem.gap), slip_x = coarse.of(problem.extra_slip_x),
@@ -90,7 +97,7 @@ Refinement estimate_refinement(const ContactProblem& problem, const ContactSolut
   p.sensitivities = false;
   constexpr double kAccuracy = 1e-4;
   p.settings.eps = std::max(p.settings.eps, kAccuracy);
-  const bool tangential = problem.regime == Regime::steady;
+  const bool tangential = problem.regime == Regime::steady && tractions;
   if (!tangential) p.regime = Regime::frictionless;
 
   solver.reset();
@@ -101,11 +108,11 @@ Refinement estimate_refinement(const ContactProblem& problem, const ContactSolut
   const double fine_area = s.elements_contact * g.cell_area(), area = c.elements_contact * p.grid.cell_area();
   out.pressure = std::max(out.pressure, kLeft * relative(c.max_pressure * size, s.max_pressure));
   out.area = std::max(out.area, kLeft * relative(area * size * size, fine_area));
-  if (!problem.force_prescribed && !load_given) out.force = std::max(out.force, kLeft * relative(c.force_n, s.force_n));
+  if (force_sought) out.force = std::max(out.force, kLeft * relative(c.force_n, s.force_n));
   if (!tangential) return out;
   solver.solve_tangential(p, c);
   const double bound = problem.friction.static_friction() * s.force_n;
-  if (c.tangential.status != Status::ok || !(bound > 0.0)) return out;
+  if (c.tangential.status != Status::ok) return out;
   out.force =
       std::max(out.force, kLeft * std::hypot(c.force_x * load - s.force_x, c.force_y * load - s.force_y) / bound);
   return out;

@@ -17,10 +17,10 @@ struct Refinement {
 
 /// Solves the problem once more on every third element of its grid, in both directions, and takes half of the
 /// difference: what is left of an error that is proportional to the size of elements (Richardson 1911). Pressures and
-/// forces of smooth bodies converge faster, so that theirs is an upper bound; so few elements that thirds of them tell
-/// nothing are told from their number. load_given: the approach of the problem is that of a given force.
-/// coarse: a solver for it, which keeps nothing from one call to the next but coefficients. Transient rolling and
-/// shifts have no tangential estimate, nor have tables of coefficients any but by the number of elements.
+/// normal forces of smooth bodies converge faster, so that theirs is an upper bound. The number of elements across
+/// tells as well, and alone where thirds of them are too few, of the tractions of transient rolling and shifts, and
+/// with tables of coefficients. load_given: the approach of the problem is that of a given force. coarse: a solver for
+/// it, which keeps nothing from one call to the next but coefficients. A solution with contact.
 Refinement estimate_refinement(const ContactProblem& problem, const ContactSolution& solution, bool load_given,
                                ContactSolver& coarse);
 
