@@ -338,9 +338,9 @@ class InputWriter {
                   {"rail.resolution_mm", "0"},
                   {"wheel.backend", ""},
                   {"wheel.resolution_mm", "0"}});
-    const DiscretisationInput& d = c.discretisation;
-    own_settings({{"discretisation.dx_mm", exact_text(d.dx, kMillimetre)},
-                  {"discretisation.ds_mm", exact_text(d.ds, kMillimetre)}});
+    const DiscretisationInput& elements = c.discretisation;
+    own_settings({{"discretisation.dx_mm", exact_text(elements.dx, kMillimetre)},
+                  {"discretisation.ds_mm", exact_text(elements.ds, kMillimetre)}});
     if (const auto* file = std::get_if<GeometryFile>(&c.wheel.geometry);
         file != nullptr && file->file.extension().string().starts_with(".slc"))
       own_settings({{"wheel.shape.open_seam", "true"}});
