@@ -15,6 +15,7 @@
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
+#include "treadmark/solvers/kalker/refinement.hpp"
 #include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
 
 namespace treadmark::app {
@@ -165,12 +166,16 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   add_dissipation(r);
   add_subsurface(input.subsurface, input.material, p.grid, solution, r);
   // What is posed without bodies may be dimensionless; of what has the stiffness of a solid, a line contact of 0.1 E'
-  // has a half-width of a fifth of its radius (Johnson 1985, eq. 4.45).
-  constexpr double kSoftestSolid = 0.1e9, kNotSmall = 0.1;
+  // has a half-width of a fifth of its radius (Johnson 1985, eq. 4.45). What yields like steel is as stiff as a metal.
+  constexpr double kSoftestSolid = 0.1e9, kNotSmall = 0.1, kSoftestMetal = 10e9, kYields = 0.03;
   const double modulus = kalker::contact_modulus(p.material);
   kalker::judge({p.grid, p.material, p.friction.static_friction(), rolling, p.regime == Regime::shift,
-                 modulus < kSoftestSolid ? kInfinity : kNotSmall * modulus},
+                 modulus < kSoftestSolid ? kInfinity : kNotSmall * modulus,
+                 modulus < kSoftestMetal ? kInfinity : kYields * modulus},
                 solution, 1, result.remarks);
+  const kalker::Refinement refinement = kalker::estimate_refinement(p, solution, p.force_prescribed, coarse_solver_);
+  r.refinement = {refinement.pressure, refinement.area, refinement.force};
+  kalker::judge_refinement(refinement, 1, result.remarks);
   if (result.status == Status::ok && p.force_prescribed)
     kalker::judge_force("normal force", p.normal_force, solution.force_n, result.remarks);
   result.patches.push_back(std::move(r));

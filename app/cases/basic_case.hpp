@@ -23,6 +23,7 @@ class BasicSequence {
 
  private:
   kalker::ContactSolver solver_;
+  kalker::ContactSolver coarse_solver_;  ///< to estimate what refining would change
 };
 
 /// The Hertzian ellipse of a case; none where its geometry is not Hertzian. Errors: Error(configuration).

@@ -65,7 +65,9 @@ wheelrail::Pair& CaseSequence::pair_for(const wheelrail::Geometry& geometry) {
 
 io::CaseResult CaseSequence::solve(const io::Case& c, const io::WheelRailCase& input,
                                    const wheelrail::Geometry& geometry) {
-  const wheelrail::PairSolution solution = pair_for(geometry).solve(to_problem(input, geometry.round_wheel));
+  wheelrail::Problem problem = to_problem(input, geometry.round_wheel);
+  problem.refinement = true;
+  const wheelrail::PairSolution solution = pair_for(geometry).solve(problem);
   io::CaseResult result = to_result(input, solution);
   if (c.element_table > 0)
     for (std::size_t k = 0; k < result.patches.size(); ++k)

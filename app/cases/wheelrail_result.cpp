@@ -89,6 +89,7 @@ io::PatchResult to_patch(const io::WheelRailCase& input, const wheelrail::PatchS
   put_resultant(input, patch, r);
   put_kinematics(input, patch, r);
   r.loads = to_loads(patch.load);
+  if (const auto& left = patch.refinement) r.refinement = {left->pressure, left->area, left->force};
   r.fields.row_angle = patch.row_angle;
   r.fields.extra_slip_x = patch.extra_slip_x;
   r.fields.extra_slip_s = patch.extra_slip_y;

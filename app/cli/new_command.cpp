@@ -56,8 +56,8 @@ rolling = "nominal"
 coefficient = 0.3
 
 [discretisation]
-dx_mm = 1.0
-ds_mm = 1.0
+#dx_mm
+#ds_mm
 
 # A list makes one case for each of its values.
 [[cases]]

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/backends/registry.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/summary.hpp"
 
@@ -79,6 +81,30 @@ io::CaseFile with(io::CaseFile file, const Choice& choice) {
     };
     apply(input->wheel, choice.wheel);
     apply(input->rail, choice.rail);
+  }
+  return file;
+}
+
+bool elements_chosen(const io::CaseFile& file) {
+  return std::ranges::any_of(file.cases, [](const io::Case& c) {
+    const auto* input = std::get_if<io::WheelRailCase>(&c.content);
+    return input != nullptr && (input->discretisation.choose_dx || input->discretisation.choose_ds);
+  });
+}
+
+/// Every case on the elements that its smallest patch got: representations are not told apart by elements.
+io::CaseFile on_elements_of(const io::RunResult& run, io::CaseFile file) {
+  for (std::size_t i = 0; i < std::min(file.cases.size(), run.cases.size()); ++i) {
+    auto* input = std::get_if<io::WheelRailCase>(&file.cases[i].content);
+    if (input == nullptr || run.cases[i].patches.empty()) continue;
+    io::DiscretisationInput& d = input->discretisation;
+    const auto settle = [&](bool& chosen, double& side, double Grid2::*of) {
+      if (!std::exchange(chosen, false)) return;
+      side = kInfinity;
+      for (const io::PatchResult& patch : run.cases[i].patches) side = std::min(side, patch.fields.grid.*of);
+    };
+    settle(d.choose_dx, d.dx, &Grid2::dx);
+    settle(d.choose_ds, d.ds, &Grid2::dy);
   }
   return file;
 }
@@ -196,6 +222,10 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   const bool come_up_again = !settings.wheel_backends.empty() || !settings.rail_backends.empty();
   const std::size_t total = wanted.size() * file.cases.size();
   std::size_t done = 0;
+  Progress silent;
+  silent.stop = progress.stop;
+  const io::CaseFile cases =
+      elements_chosen(file) ? on_elements_of(run_cases(with(file, wanted.front()), store, silent), file) : file;
   for (const Choice& choice : wanted) {
     if (progress.stop_requested()) {
       out.complete = false;
@@ -210,7 +240,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
         progress.report(done + finished, total, fmt::format("{}, {}", name, what));
       };
     try {
-      const io::RunResult run = run_cases(with(file, choice), store, inner);
+      const io::RunResult run = run_cases(with(cases, choice), store, inner);
       if (!run.complete) {
         out.complete = false;
         break;
@@ -223,7 +253,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
         for (io::ComparisonRow& row : out.candidates.front().rows) row.comparable = row.patches > 0;
         if (settings.sample_surfaces) {
           io::ComparisonCandidate& truth = out.candidates.front();
-          truth.surfaces = sample_surfaces(truth.results, used_bodies(with(file, choice), truth.results, store));
+          truth.surfaces = sample_surfaces(truth.results, used_bodies(with(cases, choice), truth.results, store));
         }
       }
     } catch (const Error& e) {

@@ -26,7 +26,7 @@ class Differences {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const io::Quantity<T>& row = rows_[k];
       if (!row.meaning.empty()) meaning = row.meaning;  // rows without one go on with that of the row above
-      if (row.key.empty() || row.block == io::Block::timing) continue;
+      if (row.key.empty() || row.block == io::Block::timing || row.block == io::Block::refined) continue;
       const bool in_a = known(row, a), in_b = known(row, b);
       if (in_a != in_b)
         result_.unmatched.push_back(fmt::format("case {}{}: only one has {}", case_number,

@@ -155,8 +155,9 @@ class Writer {
   static Json patch_numbers(const io::PatchResult& p) {
     using io::Block;
     Json out = Json::object();
-    for (const Block block : {Block::force, Block::pressure, Block::approach, Block::count, Block::creepage,
-                              Block::place, Block::angle, Block::shape, Block::energy, Block::relative, Block::heat})
+    for (const Block block :
+         {Block::force, Block::pressure, Block::approach, Block::count, Block::creepage, Block::place, Block::angle,
+          Block::shape, Block::refined, Block::energy, Block::relative, Block::heat})
       for (const auto& row : io::quantities<io::PatchResult>()) {
         if (row.block != block || row.label.page.empty() || !io::has_block(p, block) || !row.has(p)) continue;
         if (p.shift && !row.in_shift.si.empty()) continue;

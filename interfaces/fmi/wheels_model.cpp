@@ -300,6 +300,8 @@ class WheelsModel final : public Model {
     Wheel wheel;
     wheel.given = *given;
     wheel.given.subsurface = {};
+    // Forces of instants that follow each other must not jump from one size of elements to another.
+    wheel.given.discretisation.choose_dx = wheel.given.discretisation.choose_ds = false;
     const auto surface = [&](const io::SurfaceSource& source, Body body) -> const app::StoredSurface& {
       return store_.get(source, body, app::profile_radius(*given, body), Region{});
     };

@@ -97,8 +97,7 @@ void check_exclusive_sections(std::span<const Assignment> assignments) {
 
 /// Where text is expected, a word that happens to be a TOML number (60E1) is that word.
 CaseValue meant_value(const KeyInfo& key, const CaseOverride& assignment) {
-  const bool textual =
-      key.type == KeyType::text || key.type == KeyType::path || (key.type == KeyType::choice && !key.or_number);
+  const bool textual = key.type == KeyType::text || key.type == KeyType::path || key.type == KeyType::choice;
   const CaseValue& value = assignment.value;
   if (!textual || value.is_list() || value.is_table() || std::holds_alternative<std::string>(value.data)) return value;
   return {value.where, assignment.raw};

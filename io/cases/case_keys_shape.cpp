@@ -276,11 +276,10 @@ class ShapeKeys {
         [](const ProfileOptions& o) { return o.scale == 1.0 ? std::string() : exact_text(o.scale, 1.0); });
 
     KeyInfo smoothing =
-        info("smoothing", KeyType::choice,
+        info("smoothing", KeyType::number,
              "of a profile's points: auto, as much as their noise asks for; none, a curve through all of "
              "them; a number, as smoothing_wavelength_mm");
     smoothing.choices = {"auto", "none"};
-    smoothing.or_number = true;
     smoothing.default_text = "\"auto\"";
     KeyInfo lambda = info("smoothing_lambda_mm3", KeyType::number,
                           "smoothing parameter of an unweighted smoothing spline; 0 = interpolate");

@@ -232,11 +232,34 @@ void add_flexible_wheelset(KeyList& list) {
   deviation("vpitch_rad_s", "rate of the pitch deviation", kRate, &SixMotion::pitch);
 }
 
+/// A side of the elements, or the word that has it chosen from each patch.
+void add_element_side(KeyList& list, const std::string& path, const std::string& doc, double ElementGrid::*side,
+                      bool ElementGrid::*chosen) {
+  KeyInfo& info = list.number<W>(path, kPositive, doc, [side](W& c) -> double& { return c.discretisation.*side; });
+  const std::string word = "auto";
+  info.choices = {word};
+  info.default_text = toml_text(word);
+  CaseKey& key = list.keys.back();
+  key.set = [=, number = key.set](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
+    DiscretisationInput& d = content_of<W>(c).discretisation;
+    d.*chosen = std::holds_alternative<std::string>(v.data);
+    if (d.*chosen)
+      d.*side = ElementGrid{}.*side;
+    else
+      number(c, v, folder);
+  };
+  key.written = [=, number = key.written](const Case& c, const std::filesystem::path& folder) {
+    return std::get<W>(c.content).discretisation.*chosen ? toml_text(word) : number(c, folder);
+  };
+}
+
 void add_discretisation(KeyList& list) {
-  list.number<W>("discretisation.dx_mm", kPositive, "element size in rolling direction",
-                 [](W& c) -> double& { return c.discretisation.dx; });
-  list.number<W>("discretisation.ds_mm", kPositive, "element size in lateral direction",
-                 [](W& c) -> double& { return c.discretisation.ds; });
+  add_element_side(list, "discretisation.dx_mm",
+                   "element size in rolling direction; auto: chosen from each patch, 0.5 mm where patches share a "
+                   "raster (shifts, transient rolling, damping, simulations)",
+                   &ElementGrid::dx, &ElementGrid::choose_dx);
+  add_element_side(list, "discretisation.ds_mm", "element size in lateral direction; auto: as above", &ElementGrid::ds,
+                   &ElementGrid::choose_ds);
   list.number<W>("discretisation.dq_relative", {0.0, {}, kMostStep}, "rolling step over dx",
                  [](W& c) -> double& { return c.discretisation.dq_relative; });
   list.angle<W>("discretisation.angle_separation", kNotNegative,

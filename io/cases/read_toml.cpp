@@ -167,6 +167,8 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   const CaseEntry* entries = nullptr;
   Case defaults;
   defaults.where = {name.string(), 1, 1};
+  ElementGrid& elements = std::get<WheelRailCase>(defaults.content).discretisation;
+  elements.choose_dx = elements.choose_ds = true;
   for (const CaseEntry& entry : document) {
     if (entry.key == "title") {
       if (!std::holds_alternative<std::string>(entry.value.data))

@@ -198,7 +198,37 @@ void validate_case(const Case& c) {
   check.none(contradictions(c));
 }
 
+namespace {
+
+/// Patches of instants that follow each other lie on one raster.
+void settle_elements(std::vector<Case>& cases) {
+  std::map<int, std::vector<Case*>> sequences;
+  for (Case& c : cases) sequences[c.sequence].push_back(&c);
+  const auto share_raster = [](const std::vector<Case*>& instants) {
+    const bool raster = std::ranges::any_of(instants, [](const Case* c) {
+      const auto* w = std::get_if<WheelRailCase>(&c->content);
+      return w != nullptr && (w->regime == Regime::transient || w->regime == Regime::shift || w->damping);
+    });
+    for (Case* c : instants)
+      if (auto* w = std::get_if<WheelRailCase>(&c->content); raster && w != nullptr)
+        w->discretisation.choose_dx = w->discretisation.choose_ds = false;
+  };
+  for (const auto& [number, all] : sequences) {
+    std::vector<Case*> instants;
+    for (Case* c : all) {
+      const bool anew =
+          std::visit([](const auto& content) { return content.history == HistoryUse::start; }, c->content);
+      if (anew) share_raster(std::exchange(instants, {}));
+      instants.push_back(c);
+    }
+    share_raster(instants);
+  }
+}
+
+}  // namespace
+
 void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes) {
+  settle_elements(cases);
   std::map<int, const Case*> last;
   bool told = false;
   for (Case& c : cases) {

@@ -95,6 +95,7 @@ constexpr Access<C> deflection() {
 
 using Local = P::LocalForces;
 using Curvatures = P::Curvatures;
+using Refinement = P::Refinement;
 using Roller = C::Roller;
 
 // A row of a table stays a row: clang-format would give each column a line.
@@ -173,6 +174,14 @@ constexpr Quantity<P> kPatchQuantities[] = {
      {"approach"}, {"approach", Digits::five, "approach_mm"}},
     {"", "pmax_MPa", kStress, B::pressure, of<&P::pmax>(), "largest pressure at an element's centre",
      {"pmax"}, {"largest pressure", Digits::five, "pmax_MPa"}},
+    {"", "pmax_refinement", kRatio, B::refined, within<&P::refinement, &Refinement::pmax>(),
+     "estimates of what smaller elements would still change, relative: the largest pressure, the area of contact, and "
+     "forces (the normal force at a given approach, the tangential force over the friction bound)",
+     {"pmax_refinement"}, {"its change by refining", Digits::four, "pmax_refinement"}},
+    {"", "area_refinement", kRatio, B::refined, within<&P::refinement, &Refinement::area>(), "",
+     {"area_refinement"}},
+    {"", "force_refinement", kRatio, B::refined, within<&P::refinement, &Refinement::force>(), "",
+     {"force_refinement"}},
     {"", "fn_tilde_N", kForce, B::local, within<&P::local, &Local::fn>(),
      "curved reference: sum of the normal components in the axes of the rows", {"local_forces_x_s_n", 2}},
     {"", "fx_tilde_N", kForce, B::local, within<&P::local, &Local::fx>(), "sum of the longitudinal components",

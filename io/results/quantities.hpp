@@ -41,6 +41,7 @@ enum class Block {
   count,     ///< older files lack these
   heat,      ///< each where it was computed
   shape,     ///< older files lack these, and contacts at the end of a surface
+  refined,   ///< where it was estimated
   rolling,
   place,
   angle,

@@ -255,8 +255,8 @@ PatchResult read_patch(const Hdf5GroupReader& group) {
   p.shift = group.integer("shift") != 0;
   for (const Block block : {Block::force, Block::creepage, Block::approach, Block::pressure, Block::energy})
     read_block(group, block, p);
-  for (const Block block :
-       {Block::relative, Block::count, Block::heat, Block::rolling, Block::place, Block::local, Block::shape})
+  for (const Block block : {Block::relative, Block::count, Block::heat, Block::rolling, Block::place, Block::local,
+                            Block::shape, Block::refined})
     read_block_if_there(group, block, p);
   if (p.has_reference) {
     for (const Block block : {Block::angle, Block::in_grid, Block::arc}) read_block(group, block, p);

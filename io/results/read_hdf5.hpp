@@ -69,7 +69,7 @@ template <class T>
 void read_block_if_there(const Hdf5GroupReader& group, Block block, T& item) {
   bool first = true, there = false;
   for_each_stored<T>(block, [&](auto rows) {
-    if (first || block == Block::heat || block == Block::shape)
+    if (first || block == Block::heat || block == Block::shape || block == Block::refined)
       there = group.has_attribute(std::string(rows.front().stored.name));
     first = false;
     if (there) read_rows<T>(group, rows, item);

@@ -167,6 +167,11 @@ struct PatchResult {
     std::array<double, 3> by_approach{};  ///< of (F_n, F_x, F_s) by the approach [N/m]
   };
   std::optional<Sensitivities> sensitivities;
+  /// Relative changes with ever smaller elements, as far as coarser ones tell.
+  struct Refinement {
+    double pmax = 0.0, area = 0.0, force = 0.0;
+  };
+  std::optional<Refinement> refinement;
 };
 
 /// What came out of one case.

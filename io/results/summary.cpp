@@ -99,8 +99,8 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
   table.line(heading);
 
   const bool shift = patches.front().shift;
-  for (const Block block : {Block::place, Block::angle, Block::force, Block::approach, Block::pressure, Block::creepage,
-                            Block::energy, Block::relative, Block::heat, Block::count})
+  for (const Block block : {Block::place, Block::angle, Block::force, Block::approach, Block::pressure, Block::refined,
+                            Block::creepage, Block::energy, Block::relative, Block::heat, Block::count})
     for (const Quantity<PatchResult>& row : quantities<PatchResult>()) {
       if (row.block != block || row.label.text.empty() || !has_block(patches.front(), block)) continue;
       const Unit& unit = row.unit_in(shift);

@@ -172,7 +172,7 @@ std::vector<Attribute> attributes_of(const PatchResult& patch) {
     for (const std::uint64_t one : patch.came_from) from.push_back(fmt::format("{}", one));
     add("came_from", from);
   }
-  add_blocks(list, patch, {Block::arc, Block::shape});
+  add_blocks(list, patch, {Block::arc, Block::shape, Block::refined});
   if (patch.loads) add_loads(list, *patch.loads);
   add_blocks(list, patch, {Block::local});
   return list;

@@ -69,7 +69,7 @@ Json patch_json(const PatchResult& patch) {
   }
   add_quantities(out, patch,
                  {Block::place, Block::angle, Block::arc, Block::shape, Block::rolling, Block::creepage, Block::force,
-                  Block::energy, Block::work, Block::relative, Block::approach, Block::pressure});
+                  Block::energy, Block::work, Block::relative, Block::approach, Block::pressure, Block::refined});
   if (patch.loads) out["loads"] = loads_json(*patch.loads);
   add_quantities(out, patch, {Block::local});
   if (patch.sensitivities) {

@@ -194,6 +194,14 @@ void check_range(const KeyInfo& key, double value, const SourcePosition& where) 
                 advice);
 }
 
+void check_choice(const KeyInfo& key, const CaseValue& value) {
+  if (std::find(key.choices.begin(), key.choices.end(), value.text()) != key.choices.end()) return;
+  std::string choices = key.type == KeyType::number ? "a number" : "";
+  for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
+  refuse_value(fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices),
+               value.where);
+}
+
 }  // namespace
 
 void check_exclusive(const KeyInfo& key, const SourcePosition& where, ChosenKeys& chosen) {
@@ -214,6 +222,7 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
   const bool text = std::holds_alternative<std::string>(value.data);
   switch (key.type) {
     case KeyType::number:
+      if (text && !key.choices.empty()) return check_choice(key, value);
       if (!number) wrong();
       check_range(key, value.number(), value.where);
       return;
@@ -235,15 +244,8 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
             value.where);
       return;
     case KeyType::choice:
-      if (key.or_number && number) return check_range(key, value.number(), value.where);
       if (!text) wrong();
-      if (std::find(key.choices.begin(), key.choices.end(), value.text()) == key.choices.end()) {
-        std::string choices;
-        for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
-        refuse_value(
-            fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices),
-            value.where);
-      }
+      check_choice(key, value);
       return;
     case KeyType::number_list:
     case KeyType::triple:

@@ -40,12 +40,11 @@ struct KeyInfo {
   std::string doc;
   std::string default_text;                        ///< as TOML; empty = none
   std::optional<double> above, at_least, at_most;  ///< limits in the unit of the key
-  std::vector<std::string> choices;
-  bool or_number = false;                       ///< choice: a number within the limits will do, too
-  std::string pattern;                          ///< text: regular expression for the schema; empty = anything
-  bool (*matches)(std::string_view) = nullptr;  ///< text: what pattern says, as code; set with it
-  std::string like;                             ///< text: what pattern says, in words; set with it
-  std::string group, alternative;               ///< keys of one group with different alternatives exclude each other
+  std::vector<std::string> choices;                ///< choice: the words; number: those that may stand in its place
+  std::string pattern;                             ///< text: regular expression for the schema; empty = anything
+  bool (*matches)(std::string_view) = nullptr;     ///< text: what pattern says, as code; set with it
+  std::string like;                                ///< text: what pattern says, in words; set with it
+  std::string group, alternative;                  ///< keys of one group with different alternatives exclude each other
   KeyScope scope = KeyScope::any;
   bool required = false;          ///< not of a case file but in its lists of tables
   std::vector<KeyInfo> elements;  ///< keys of a table or of the tables of a table_list

@@ -42,13 +42,7 @@ const TypeWords& words_of(const KeyInfo& key) { return kTypeWords[static_cast<st
 bool is_table(const KeyInfo& key) { return key.type == KeyType::table || key.type == KeyType::table_list; }
 
 Json value_schema(const KeyInfo& key) {
-  if (key.type == KeyType::choice) {
-    Json words{{"enum", key.choices}};
-    if (!key.or_number) return words;
-    KeyInfo number = key;
-    number.type = KeyType::number;
-    return {{"anyOf", {std::move(words), value_schema(number)}}};
-  }
+  if (key.type == KeyType::choice) return {{"enum", key.choices}};
   if (key.type == KeyType::table) return properties_of(key.elements);
   const TypeWords& words = words_of(key);
   Json schema{{"type", words.json}}, items;
@@ -71,6 +65,8 @@ Json value_schema(const KeyInfo& key) {
   if (triple || key.type == KeyType::direction) schema["maxItems"] = 3;
   if (!triple) limit(schema);
   if (!key.pattern.empty()) schema["pattern"] = key.pattern;
+  if (key.type == KeyType::number && !key.choices.empty())
+    return {{"anyOf", {std::move(schema), Json{{"enum", key.choices}}}}};
   return schema;
 }
 
@@ -141,8 +137,6 @@ Json sections_of(std::span<const KeyInfo> keys, std::span<const ExclusiveSection
 
 std::string type_of(const KeyInfo& key) {
   std::string text = words_of(key).shown;
-  for (const std::string& one : key.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", one);
-  if (key.or_number) text += " or number";
   if (key.above) text += fmt::format(" > {:.6g}", *key.above);
   if (key.at_least && key.at_most)
     text += fmt::format(", {:.6g} ... {:.6g}", *key.at_least, *key.at_most);
@@ -150,6 +144,7 @@ std::string type_of(const KeyInfo& key) {
     text += fmt::format(" >= {:.6g}", *key.at_least);
   else if (key.at_most)
     text += fmt::format(" <= {:.6g}", *key.at_most);
+  for (const std::string& one : key.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", one);
   return text;
 }
 

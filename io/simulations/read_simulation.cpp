@@ -194,6 +194,8 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.torques = read_torques(simulation, result.vehicle);
   contact = with_rail(std::move(contact), simulation);
   read_contact(contact, result);
+  // The patches of a wheel lie on one raster while it rolls.
+  result.contact.discretisation.choose_dx = result.contact.discretisation.choose_ds = false;
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);

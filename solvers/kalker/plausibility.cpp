@@ -13,7 +13,8 @@
 namespace treadmark::kalker {
 namespace {
 
-constexpr int kFewElements = 20, kHardlyAny = 5;
+constexpr int kFewElements = 20, kHardlyAny = 5, kFewInStrip = 8;
+constexpr double kMuchRefinement = 0.05;
 constexpr double kLargeCreepage = 0.1;
 constexpr double kMostFriction = 1.0;
 constexpr double kAddedEnergy = 0.01;
@@ -87,14 +88,18 @@ void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vect
         fmt::format("{} of {} elements in contact lie at the border of the potential contact area: make it larger",
                     border.touching, s.elements_contact));
 
+  if (s.max_pressure > p.yield_limit && s.max_pressure <= p.pressure_limit)
+    add(RemarkKind::beyond_yield,
+        fmt::format("the largest pressure of {:.4g} MPa is {:.2g} E': steel yields before, and this is an upper bound",
+                    kMega * s.max_pressure, s.max_pressure / contact_modulus(p.material)));
   if (s.max_pressure > p.pressure_limit)
     add(RemarkKind::beyond_half_space,
         fmt::format("the largest pressure of {:.4g} MPa is {:.2g} E' and means a patch that is not small against the "
                     "bodies' radii: look for spikes or edges in the surfaces, or a position that is not meant",
                     kMega * s.max_pressure, s.max_pressure / contact_modulus(p.material)));
 
-  const int most = std::max(p.grid.nx, p.grid.ny);
-  if (s.elements_contact < kFewElements && most > 1 && std::min(p.grid.nx, p.grid.ny) > 1)
+  const bool strip = (p.grid.nx == 1) != (p.grid.ny == 1);
+  if (s.elements_contact < (strip ? kFewInStrip : kFewElements))
     add(RemarkKind::few_elements,
         fmt::format("{} elements are in contact{}: take smaller ones", s.elements_contact,
                     s.elements_contact < kHardlyAny ? ", so that pressures are an order of magnitude only" : ""));
@@ -120,6 +125,14 @@ void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vect
     add(RemarkKind::friction_adds_energy,
         fmt::format("friction adds {:.2g} % of the energy that it dissipates: tractions push where the surfaces slip",
                     1e2 * e.added / std::max(e.dissipated, noise)));
+}
+
+void judge_refinement(const Refinement& r, int patch, std::vector<Remark>& remarks) {
+  if (r.pressure <= kMuchRefinement && r.force <= kMuchRefinement) return;
+  remarks.push_back({RemarkKind::coarse_elements, patch,
+                     fmt::format("smaller elements would change the largest pressure by about {:.2g} % and forces by "
+                                 "{:.2g} %: take smaller ones, or smooth what is rough between them",
+                                 1e2 * r.pressure, 1e2 * r.force)});
 }
 
 void judge_force(const char* name, double wanted, double found, std::vector<Remark>& remarks) {

@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
+#include "treadmark/solvers/kalker/refinement.hpp"
 
 namespace treadmark::kalker {
 
@@ -17,10 +19,15 @@ struct PatchSetting {
   bool rolling = false;       ///< steady or transient
   bool shift = false;         ///< creepages and slip are lengths
   double pressure_limit = 0;  ///< beyond_half_space above it [Pa]
+  /// beyond_yield above it and up to the former [Pa]
+  double yield_limit = std::numeric_limits<double>::infinity();
 };
 
 /// Appends what is doubtful about the solution of one patch to remarks; patch: its number there. Thread-safe.
 void judge(const PatchSetting& setting, const ContactSolution& solution, int patch, std::vector<Remark>& remarks);
+
+/// The same about what smaller elements would change.
+void judge_refinement(const Refinement& refinement, int patch, std::vector<Remark>& remarks);
 
 /// E' = G / (1 - nu) of both bodies [Pa].
 double contact_modulus(const Material& material);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -100,9 +101,20 @@ class Iteration {
 
   /// On success the tangential problem is solved as well.
   bool balance_vertical() {
+    do
+      if (!balance_on_elements()) return false;
+    while (step_.learn_elements());
+    return true;
+  }
+
+  bool balance_on_elements() {
     const std::optional<RailSprings>& springs = p_.rail_springs;
     if (step_.at_given_height()) {
       out_.z = p_.state.position.z;
+      if (elements_missing()) {
+        step_.evaluate(out_.z);
+        step_.learn_elements();
+      }
       step_.evaluate(out_.z);
       if (std::isnan(step_.least_gap())) {
         off_the_rail();
@@ -124,6 +136,10 @@ class Iteration {
         return solve_tangential();
       }
     }
+    if (elements_missing()) {
+      seek_height(target);
+      step_.learn_elements();
+    }
     if (!iterate_height(target)) return false;
     if (!p_.vertical_force) out_.rail_dz = p_.state.position.z - out_.z;
     return true;
@@ -139,6 +155,35 @@ class Iteration {
     return guess > 0.0 ? guess : out_.stiffness;
   }
 
+  bool elements_missing() { return step_.chooses_elements() && !std::exchange(elements_sought_, true); }
+
+  /// Vertical force on the elements that are there; too deep for contact mechanics, any large one sends the search up.
+  double force_at_height() const {
+    return step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
+  }
+
+  void keep_stiffness(const ForceBalance& balance, const ForceBalance::Target& target, double z) {
+    const double depth = z - step_.touching_z();
+    if (!(depth > 0.0)) return;
+    out_.stiffness = target.at(z) / std::pow(depth, 1.5), known_ = true;
+    out_.end_slope = balance.end_slope(depth);
+  }
+
+  /// About the height, without tractions: near enough for the size of patches, and for the next search to start from.
+  void seek_height(const ForceBalance::Target& target) {
+    constexpr double kNearEnough = 5e-3;
+    ForceBalance balance(target, kNearEnough, stiffness_for(target), out_.end_slope);
+    double z = balance.first(step_.touching_z());
+    for (int i = 0; i < p_.max_force_iterations; ++i) {
+      check_cancelled();
+      step_.evaluate(z);
+      const ForceBalance::State state = balance.add(z, force_at_height(), step_.least_gap());
+      if (state == ForceBalance::State::found && step_.too_deep() <= 0.0) keep_stiffness(balance, target, z);
+      if (state != ForceBalance::State::search) return;
+      z = balance.next();
+    }
+  }
+
   bool iterate_height(const ForceBalance::Target& target) {
     ForceBalance balance(target, p_.solver.eps, stiffness_for(target), out_.end_slope);
     double z = balance.first(step_.touching_z());
@@ -149,9 +194,7 @@ class Iteration {
     for (int i = 0, round = 0; i < p_.max_force_iterations && round < p_.max_force_iterations; ++i) {
       check_cancelled();
       if (state == ForceBalance::State::search && !tangential_done) step_.evaluate(z);
-      // Too deep for contact mechanics: any large force sends the search back up.
-      const double force =
-          step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
+      const double force = force_at_height();
       out_.iterations.emplace_back(z, force);
       out_.z = z;
       state = balance.add(z, force, step_.least_gap());
@@ -176,11 +219,7 @@ class Iteration {
     if (inside_the_rail()) return false;
     if (!(tangential_done && exact) && !solve_tangential()) return false;
     if (state == ForceBalance::State::found) {
-      const double depth = out_.z - step_.touching_z();
-      if (depth > 0.0) {
-        out_.stiffness = target.at(out_.z) / std::pow(depth, 1.5), known_ = true;
-        out_.end_slope = balance.end_slope(depth);
-      }
+      keep_stiffness(balance, target, out_.z);
       return true;
     }
     fail(Status::not_converged,
@@ -225,6 +264,7 @@ class Iteration {
   PairStep& step_;
   const Problem& p_;
   bool known_;  ///< the stiffness, from a balance
+  bool elements_sought_ = false;
   Balance out_;
 };
 

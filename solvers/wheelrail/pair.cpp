@@ -180,6 +180,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   next->last = step.finish();
   next->last.stiffness = balance.stiffness;
   next->last.end_slope = balance.end_slope;
+  if (p.refinement) step.estimate_refinement(coarse_solver_);
   solution.placement = step.placement();
   solution.patches = step.take_patches();
   if (solution.patches.empty()) note(solution, Status::no_contact, "the bodies do not touch at this position");

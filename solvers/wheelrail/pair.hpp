@@ -14,6 +14,7 @@
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
+#include "treadmark/solvers/kalker/refinement.hpp"
 #include "treadmark/solvers/wheelrail/contact_shape.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 #include "treadmark/solvers/wheelrail/loads.hpp"
@@ -45,6 +46,7 @@ struct PatchSolution {
   Vec3 reference_wheelset = Vec3::Zero();  ///< in wheelset axes [m]
   double reference_s = 0.0;                ///< arc length along the rail profile from y = 0 [m]
   double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
+  std::optional<kalker::Refinement> refinement;  ///< where it was asked for
   std::optional<ContactShape> rail_shape, wheel_shape;  ///< at the contact reference; none where a surface ends there
 };
 
@@ -114,6 +116,7 @@ class Pair {
   std::shared_ptr<const detection::SampledProfile> wheel_profile_;  ///< whole_profile(): null for rough wheels
   std::shared_ptr<const detection::ProfileLines> wheel_lines_;      ///< likewise, from the first search that wants them
   std::vector<kalker::ContactSolver> solvers_;                      ///< by number of the patch; keep coefficients
+  kalker::ContactSolver coarse_solver_;                             ///< to estimate what refining would change
   std::shared_ptr<const State> state_;
 };
 

@@ -30,7 +30,8 @@ PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Insta
       previous_(previous),
       solvers_(solvers),
       times_(times),
-      tangential_share_(previous.shares) {}
+      tangential_share_(previous.shares),
+      elements_(geometry, problem) {}
 
 /// What is deeper lies beyond all contact mechanics [m].
 double PairStep::deepest() const { return kDeepestOfRadius * problem_.wheelset.nominal_radius; }
@@ -211,6 +212,12 @@ void PairStep::evaluate(double z) {
   }
 }
 
+bool PairStep::learn_elements() {
+  std::vector<const PatchSolution*> solved;
+  for (const Patch& patch : patches_) solved.push_back(&patch.solution);
+  return elements_.learn(solved);
+}
+
 /// Of the patches that were there when tractions were found last: patches come, go, join and part while the wheel
 /// moves.
 Vec3 PairStep::share_near(const Rectangle& box) const {
@@ -266,6 +273,12 @@ double PairStep::normal_force() const {
   double sum = 0.0;
   for (const Patch& p : patches_) sum += p.solution.contact.force_n;
   return sum;
+}
+
+void PairStep::estimate_refinement(kalker::ContactSolver& coarse) {
+  for (Patch& patch : patches_)
+    patch.solution.refinement =
+        kalker::estimate_refinement(contact_problem(patch), patch.solution.contact, !at_given_height(), coarse);
 }
 
 std::vector<PatchSolution> PairStep::take_patches() {

@@ -12,6 +12,7 @@
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/wheelrail/configuration.hpp"
+#include "treadmark/solvers/wheelrail/element_choice.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/patch_memory.hpp"
 
@@ -42,6 +43,10 @@ class PairStep {
   /// Vertical force of paraboloids that interpenetrate as the bodies do with the wheelset at height z, over the depth
   /// there to the power 1.5 [N/m^1.5]; 0: nothing interpenetrates. A guess, without patches or pressures.
   double stiffness_guess(double z);
+  /// Whether elements are sought, from few ones on: evaluate() before learn_elements() is a first guess.
+  bool chooses_elements() const { return elements_.active(); }
+  /// Chooses elements by the contact of the last evaluate(). False: they stay.
+  bool learn_elements();
   /// Patches and pressures with the wheelset at height z over the undeflected rail.
   void evaluate(double z);
   /// Tractions at a pitch rate of the wheelset. eps: relative accuracy.
@@ -65,6 +70,8 @@ class PairStep {
   /// Likewise, between the points of the search grids as well; NaN before evaluate().
   double closest() const { return closest_; }
 
+  /// Of each patch, after tractions were found.
+  void estimate_refinement(kalker::ContactSolver& coarse);
   std::vector<PatchSolution> take_patches();
   const Placement& placement() const { return placement_; }
   /// Names the patches and returns what they leave to the next instant; before take_patches().
@@ -111,6 +118,7 @@ class PairStep {
   std::optional<detection::ContactSearch> search_;
   std::vector<Patch> patches_;
   std::vector<TangentialShare> tangential_share_;
+  ElementChoice elements_;
   int hidden_ = 0;
   std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };

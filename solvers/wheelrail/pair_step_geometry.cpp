@@ -82,7 +82,8 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
   s.frame = detection::contact_frame(bodies, region);
   const Pose& X_TC = s.frame.X_TC;
   s.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS, X_TC.origin);
-  detection::PotentialContactSettings settings{d.dx, d.ds, aligned() ? 0 : d.max_elements, Vec2::Zero()};
+  const ElementSize size = elements_.of(region, s.frame.angle);
+  detection::PotentialContactSettings settings{size.dx, size.ds, aligned() ? 0 : d.max_elements, Vec2::Zero()};
   if (aligned())
     settings.reference = {
         X_TC.origin.x() + (problem_.regime == kalker::Regime::shift ? problem_.state.position.x : 0.0), s.reference_s};

@@ -73,10 +73,10 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
   const auto add = [&](RemarkKind kind, std::string text) {
     solution.remarks.push_back({kind, number, std::move(text)});
   };
-  if (s.grid.cell_area() > 1.5 * p.discretisation.dx * p.discretisation.ds)
+  const Discretisation& d = p.discretisation;
+  if ((!d.choose_dx && s.grid.dx > 1.5 * d.dx) || (!d.choose_ds && s.grid.dy > 1.5 * d.ds))
     add(RemarkKind::elements_enlarged,
-        fmt::format("elements were enlarged to keep the potential contact area below {} elements",
-                    p.discretisation.max_elements));
+        fmt::format("elements were enlarged to keep the potential contact area below {} elements", d.max_elements));
 
   const MissingSurface missing = missing_beside_contact(s.grid, s.distance, s.contact.pressure);
   if (missing.hole > 0) {
@@ -97,12 +97,9 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
   const bool rolling = p.regime == kalker::Regime::steady || p.regime == kalker::Regime::transient;
   const double modulus = kalker::contact_modulus(p.material), ratio = s.contact.max_pressure / modulus;
   kalker::judge({s.grid, p.material, p.friction.static_friction(), rolling && s.kinematics.velocity > 0.0,
-                 p.regime == kalker::Regime::shift, kNotSmall * modulus},
+                 p.regime == kalker::Regime::shift, kNotSmall * modulus, kYields * modulus},
                 s.contact, number, solution.remarks);
-  if (ratio > kYields && ratio <= kNotSmall)
-    add(RemarkKind::beyond_yield,
-        fmt::format("the largest pressure of {:.4g} MPa is {:.2g} E': steel yields before, and this is an upper bound",
-                    kMega * s.contact.max_pressure, ratio));
+  if (s.refinement) kalker::judge_refinement(*s.refinement, number, solution.remarks);
   if (ratio > kMeaningless && solution.status != Status::failed) {
     solution.status = Status::failed;
     solution.message = fmt::format(

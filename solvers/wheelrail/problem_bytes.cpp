@@ -48,8 +48,9 @@ void put_one(ByteWriter& out, const RailSprings& springs) {
   put_all(out, y, z, force_y, force_z, first_step);
 }
 void put_one(ByteWriter& out, const ElementGrid& grid) {
-  const auto& [dx, ds, dq, angle, separation, combination, turning, near_miss, most, linear] = grid;
-  put_all(out, dx, ds, dq, angle, separation, combination, turning, near_miss, most, linear);
+  const auto& [dx, ds, choose_dx, choose_ds, dq, angle, separation, combination, turning, near_miss, most, linear] =
+      grid;
+  put_all(out, dx, ds, choose_dx, choose_ds, dq, angle, separation, combination, turning, near_miss, most, linear);
 }
 void put_one(ByteWriter& out, const Discretisation& d) {
   put_one(out, static_cast<const ElementGrid&>(d));
@@ -108,10 +109,10 @@ void put_all(ByteWriter& out, const T&... values) {
 void write(const Problem& p, ByteWriter& out) {
   const auto& [side, track, wheelset, state, roller, vertical, longitudinal, springs, regime, history, step_rule,
                reference, discretisation, material, friction, solver, iterations, normal, tangential, fastsim,
-               influence, thermal, damping, sensitivities, inclination, laws] = p;
+               influence, thermal, damping, sensitivities, refinement, inclination, laws] = p;
   put_all(out, side, track, wheelset, state, roller, vertical, longitudinal, springs, regime, history, step_rule,
           reference, discretisation, material, friction, solver, iterations, normal, tangential, fastsim, influence,
-          thermal, damping, sensitivities, inclination, laws);
+          thermal, damping, sensitivities, refinement, inclination, laws);
 }
 
 }  // namespace treadmark::wheelrail

@@ -8,6 +8,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/solvers/wheelrail/element_choice.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -94,8 +95,9 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   s.grid_T =
       s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.mesh.emplace().wheel);
   if (locus) s.locus_rows = locus_rows(p, rail);
-  s.refined_dx = 0.3 * d.dx;
-  s.refined_dy = 0.3 * d.ds;
+  const bool chosen = chooses_elements(p);
+  s.refined_dx = 0.3 * (chosen && d.choose_dx ? kShortestElement : d.dx);
+  s.refined_dy = 0.3 * (chosen && d.choose_ds ? kShortestElement : d.ds);
   s.refined_points = geometry.constant_profiles() ? 64 : 120;
   s.weight = d.linear_weight ? detection::PenetrationWeight::linear : detection::PenetrationWeight::squared;
   if (d.distance_on_mesh) s.distance_mesh = {p.wheelset.nominal_radius, !p.roller};

@@ -341,6 +341,9 @@ class InputWriter {
                   {"rail.resolution_mm", "0"},
                   {"wheel.backend", ""},
                   {"wheel.resolution_mm", "0"}});
+    const DiscretisationInput& elements = c.discretisation;
+    own_settings({{"discretisation.dx_mm", exact_text(elements.dx, kMillimetre)},
+                  {"discretisation.ds_mm", exact_text(elements.ds, kMillimetre)}});
     if (const auto* file = std::get_if<GeometryFile>(&c.wheel.geometry);
         file != nullptr && file->options.placement == ProfileOptions::Placement::automatic &&
         !is_slices_file(file->file))

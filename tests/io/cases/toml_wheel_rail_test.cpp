@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <utility>
 
 #include "treadmark/io/cases/read_toml.hpp"
 
@@ -29,6 +30,42 @@ std::string error_of(const std::string& text, const std::vector<std::string>& ov
     return e.what();
   }
   return "no error";
+}
+
+TEST(TomlElements, AreChosenUnlessTheyAreGiven) {
+  const auto chosen = [](const WheelRailCase& c) {
+    return std::pair(c.discretisation.choose_dx, c.discretisation.choose_ds);
+  };
+  EXPECT_EQ(chosen(one("")), std::pair(true, true));
+  const WheelRailCase along = one("discretisation.dx_mm = 0.2\n");
+  EXPECT_EQ(chosen(along), std::pair(false, true));
+  EXPECT_DOUBLE_EQ(along.discretisation.dx, 0.2e-3);
+  EXPECT_EQ(chosen(one("discretisation = { dx_mm = \"auto\", ds_mm = 1 }\n")), std::pair(true, false));
+  const std::string given = kRail + "discretisation = { dx_mm = 1, ds_mm = 1 }\n";
+  const WheelRailCase back = at(parse(given, {"discretisation.dx_mm=auto"}), 0);
+  EXPECT_EQ(chosen(back), std::pair(true, false));
+  EXPECT_DOUBLE_EQ(back.discretisation.dx, ElementGrid{}.dx) << "for what shares a raster";
+  EXPECT_EQ(chosen(at(parse(kRail, {"discretisation.ds_mm=0.3"}), 0)), std::pair(true, false));
+  EXPECT_THAT(error_of(kRail + "discretisation.dx_mm = \"automatic\"\n"),
+              HasSubstr("is not one of a number, \"auto\""));
+}
+
+TEST(TomlElements, ShareARasterInTime) {
+  const auto chosen = [](const std::string& text, std::size_t i) {
+    const DiscretisationInput& d = at(parse(kRail + "wheelset.velocity_m_s = 1\n" + text), i).discretisation;
+    EXPECT_EQ(d.choose_dx, d.choose_ds);
+    return d.choose_dx;
+  };
+  EXPECT_FALSE(chosen("case.regime = \"transient\"\n", 0));
+  EXPECT_FALSE(chosen("case.regime = \"shift\"\n", 0));
+  const std::string damped = "[damping]\nnormal_s = 1e-4\nmax_rate_normal_N_per_s = 3e6\n";
+  EXPECT_FALSE(chosen(damped, 0));
+  // What a later instant goes on from has its elements; what stands alone, its own.
+  const std::string sequence =
+      "[[cases]]\n[[cases]]\n[[cases]]\ncase.regime = \"transient\"\ncase.history = \"continue\"\n";
+  EXPECT_TRUE(chosen(sequence, 0));
+  EXPECT_FALSE(chosen(sequence, 1));
+  EXPECT_FALSE(chosen(sequence, 2));
 }
 
 TEST(TomlBalance, RollerSpringsForceAndDamping) {

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/wheelrail/element_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "treadmark/core/constants.hpp"
+#include "treadmark/solvers/kalker/contact_span.hpp"
+
+namespace treadmark::wheelrail {
+namespace {
+
+/// Aimed at, since contact is measured on elements of the size before.
+constexpr double kAimedAcross = 1.1 * kLeastAcross;
+/// Across an interpenetration, of which contact takes a half to seven tenths (Hertz).
+constexpr double kFirstAcross = 16.0;
+/// An interpenetration that has grown by more is looked at anew.
+constexpr double kGrown = 2.0;
+/// Where surfaces vary along the track, no element passes over what they hold between two of this size.
+constexpr double kLongestOnVarying = 0.5e-3;
+constexpr int kMostRounds = 3;
+
+double rounded_down(double size) {
+  constexpr double kUnit = 1e-4, kRounding = 1.0 + 1e-9;
+  const double octave = kUnit * std::exp2(std::floor(std::log2(size * kRounding / kUnit)));
+  for (const double step : {1.6, 1.25})
+    if (step * octave <= size * kRounding) return step * octave;
+  return octave;
+}
+
+bool overlap(const Rectangle& a, const Rectangle& b) {
+  return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
+}
+
+bool grown(const Rectangle& now, const Rectangle& before) {
+  return now.x_max - now.x_min > kGrown * (before.x_max - before.x_min) ||
+         now.y_max - now.y_min > kGrown * (before.y_max - before.y_min);
+}
+
+}  // namespace
+
+bool chooses_elements(const Problem& p) {
+  const Discretisation& d = p.discretisation;
+  const bool in_time = p.damping || p.regime == kalker::Regime::transient || p.regime == kalker::Regime::shift;
+  return (d.choose_dx || d.choose_ds) && !in_time && d.search == Discretisation::SearchGrid::refined;
+}
+
+ElementSize elements_for(double length, double width, double longest) {
+  double dx = length / kAimedAcross, ds = width / kAimedAcross;
+  const auto limit = [](double side, double extent, double most) {
+    return std::min(side, std::max(most, extent / kMostAcross));
+  };
+  dx = limit(dx, length, std::min(longest, kLongestElement * ds));
+  ds = limit(ds, width, std::min(longest, kLongestElement * dx));
+  return {rounded_down(std::max(dx, kShortestElement)), rounded_down(std::max(ds, kShortestElement))};
+}
+
+ElementChoice::ElementChoice(const Geometry& geometry, const Problem& problem)
+    : given_(problem.discretisation),
+      active_(chooses_elements(problem)),
+      longest_(geometry.constant_profiles() ? kInfinity : kLongestOnVarying) {}
+
+ElementSize ElementChoice::told(ElementSize size) const {
+  if (!given_.choose_dx) size.dx = given_.dx;
+  if (!given_.choose_ds) size.ds = given_.ds;
+  return size;
+}
+
+ElementSize ElementChoice::of(const detection::ContactPatch& region, double angle) {
+  if (!active_) return {given_.dx, given_.ds};
+  const Rectangle& box = region.extent.box;
+  ElementSize least{kInfinity, kInfinity};
+  for (const Kept& one : kept_)
+    if (overlap(box, one.box) && !grown(box, one.box))
+      least = {std::min(least.dx, one.size.dx), std::min(least.ds, one.size.ds)};
+  if (least.dx < kInfinity) return least;
+  std::erase_if(kept_, [&](const Kept& one) { return overlap(box, one.box); });
+  const double length = box.x_max - box.x_min, width = (box.y_max - box.y_min) / std::cos(angle);
+  kept_.push_back({box, told({std::max(length / kFirstAcross, kShortestElement),
+                              std::max(width / kFirstAcross, kShortestElement)})});
+  return kept_.back().size;
+}
+
+bool ElementChoice::learn(std::span<const PatchSolution* const> patches) {
+  if (!active_ || rounds_ >= kMostRounds || patches.empty()) return false;
+  std::vector<Kept> chosen;
+  bool changed = false;
+  for (const PatchSolution* patch : patches) {
+    const kalker::ContactSpan span = kalker::contact_span(patch->grid, patch->contact.pressure);
+    ElementSize size{patch->grid.dx, patch->grid.dy};
+    const bool coarse = (given_.choose_dx && span.nx < kLeastAcross) || (given_.choose_ds && span.ny < kLeastAcross);
+    if (rounds_ == 0 || coarse) {
+      size = told(elements_for(span.length, span.width, longest_));
+      // Of a contact that is measured no better by smaller elements, as at an edge, they shrink for ever.
+      changed = changed || rounds_ == 0 || size.dx < patch->grid.dx || size.ds < patch->grid.dy;
+    }
+    chosen.push_back({patch->region.extent.box, size});
+  }
+  ++rounds_;
+  if (changed) kept_ = std::move(chosen);
+  return changed;
+}
+
+}  // namespace treadmark::wheelrail

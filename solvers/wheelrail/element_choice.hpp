@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "treadmark/solvers/wheelrail/configuration.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
+
+namespace treadmark::wheelrail {
+
+/// Elements that a patch gets where they are chosen: at least kLeastAcross from edge to edge through the place of its
+/// largest pressure, along and across. Along the longer of the two they are at most kLongestElement times as long as
+/// they are wide, as far as kMostAcross allow it. No side is shorter than kShortestElement.
+constexpr int kLeastAcross = 20, kMostAcross = 64;
+constexpr double kLongestElement = 4.0, kShortestElement = 1e-5;
+
+/// Whether a problem's elements are chosen, not only asked to be: in contacts that leave nothing but start values to a
+/// later instant. Damping, transient rolling and shifts need one raster, search grids of the reference program dx, ds.
+bool chooses_elements(const Problem& problem);
+
+/// Sides of the elements of one patch [m].
+struct ElementSize {
+  double dx = 0.0, ds = 0.0;
+};
+
+/// For a contact of this length and width [m] where it presses most. Sides are 0.1 mm times 1, 1.25 or 1.6 and a power
+/// of two, so that a little more load leaves them alone and a patch of twice the size has as many elements. longest: of
+/// a side [m], as far as kMostAcross allow it.
+ElementSize elements_for(double length, double width, double longest);
+
+/// The elements of the patches of one instant while the height of the wheel is being sought: few ones, from where the
+/// undeformed bodies interpenetrate, until learn() has seen a contact.
+class ElementChoice {
+ public:
+  ElementChoice(const Geometry& geometry, const Problem& problem);
+
+  bool active() const { return active_; }
+  /// Elements of a patch with this contact angle [rad]. They stay with the patches that overlap it.
+  ElementSize of(const detection::ContactPatch& region, double angle);
+  /// Chooses by what is in contact. False: nothing changes, or it has changed often enough.
+  bool learn(std::span<const PatchSolution* const> patches);
+
+ private:
+  struct Kept {
+    Rectangle box;  ///< where the bodies interpenetrate, in T [m]
+    ElementSize size;
+  };
+  ElementSize told(ElementSize size) const;
+
+  Discretisation given_;
+  bool active_ = false;
+  double longest_;
+  int rounds_ = 0;
+  std::vector<Kept> kept_;
+};
+
+}  // namespace treadmark::wheelrail
