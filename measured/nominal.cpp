@@ -17,17 +17,17 @@ namespace {
 
 constexpr double kOutlineStep = 0.25e-3;  ///< [m]
 
-struct Place {
+struct Turned {
   double dy = 0.0, dz = 0.0, roll = 0.0;
 };
 
-struct Fit {
-  Place place;
+struct RollFit {
+  Turned place;
   double rms = kInfinity;
 };
 
 /// Points about a millimetre apart.
-std::vector<Vec2> thinned(const Profile& p) {
+std::vector<Vec2> apart(const Profile& p) {
   constexpr double kApart = 1e-3;
   std::vector<Vec2> out;
   for (std::size_t i = 0; i < p.y.size(); ++i) {
@@ -59,14 +59,14 @@ std::vector<Vec2> points_of(const NominalOutline& n) {
 }
 
 /// Gauss-Newton on the better six tenths of the points.
-Fit fitted(const std::vector<Vec2>& points, const NominalOutline& n, Place place, double most_roll) {
+RollFit fitted_to(const std::vector<Vec2>& points, const NominalOutline& n, Turned place, double most_roll) {
   constexpr int kSteps = 12;
   constexpr double kKept = 0.6, kInRange = 0.7;
-  Fit out;
-  struct Row {
+  RollFit out;
+  struct Residual {
     double r, by_y, by_z, by_roll;
   };
-  std::vector<Row> rows;
+  std::vector<Residual> rows;
   for (int step = 0; step <= kSteps; ++step) {
     rows.clear();
     const double c = std::cos(place.roll), s = std::sin(place.roll);
@@ -85,7 +85,7 @@ Fit fitted(const std::vector<Vec2>& points, const NominalOutline& n, Place place
     if (static_cast<double>(rows.size()) < kInRange * static_cast<double>(points.size())) return out;
     const auto kept = static_cast<std::ptrdiff_t>(kKept * static_cast<double>(rows.size()));
     std::nth_element(rows.begin(), rows.begin() + kept, rows.end(),
-                     [](const Row& a, const Row& b) { return std::fabs(a.r) < std::fabs(b.r); });
+                     [](const Residual& a, const Residual& b) { return std::fabs(a.r) < std::fabs(b.r); });
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     double squares = 0.0;
@@ -107,13 +107,13 @@ Fit fitted(const std::vector<Vec2>& points, const NominalOutline& n, Place place
 }
 
 /// Rolled about the mark, so that this stays where it is.
-Place start_at(const Vec2& mark, const Vec2& nominal_mark, double roll) {
+Turned start_at(const Vec2& mark, const Vec2& nominal_mark, double roll) {
   const double c = std::cos(roll), s = std::sin(roll);
   return {nominal_mark.x() - (c * mark.x() - s * mark.y()), nominal_mark.y() - (s * mark.x() + c * mark.y()), roll};
 }
 
 /// Mean distance inside the nominal section on one flank (side -1: small y).
-double lost_on(const std::vector<Vec2>& points, const NominalOutline& n, const Place& place, double side) {
+double lost_on(const std::vector<Vec2>& points, const NominalOutline& n, const Turned& place, double side) {
   constexpr double kFrom = 4e-3, kTo = 13e-3;
   double top = kInfinity, sum = 0.0, count = 0.0;
   for (const double z : n.z)
@@ -163,7 +163,7 @@ std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutli
   constexpr std::size_t kFewest = 20;
   constexpr std::array<double, 5> kStarts{0.0, 0.1, -0.1, 0.2, -0.2};
   constexpr double kMostRoll = 0.5;
-  const std::vector<Vec2> points = thinned(profile);
+  const std::vector<Vec2> points = apart(profile);
   if (points.size() < kFewest) return std::nullopt;
   const Vec2 mark = mark_of(profile.body, points);
   Lean out;
@@ -172,9 +172,10 @@ std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutli
     const std::vector<Vec2> outline = points_of(n);
     if (outline.empty()) continue;
     const Vec2 nominal_mark = mark_of(profile.body, outline);
-    out.upright = std::min(out.upright, fitted(points, n, start_at(mark, nominal_mark, 0.0), kUsualRoll).rms);
+    out.upright = std::min(out.upright, fitted_to(points, n, start_at(mark, nominal_mark, 0.0), kUsualRoll).rms);
     for (const double roll : kStarts)
-      if (const Fit fit = fitted(points, n, start_at(mark, nominal_mark, roll), kMostRoll); fit.rms < out.residual) {
+      if (const RollFit fit = fitted_to(points, n, start_at(mark, nominal_mark, roll), kMostRoll);
+          fit.rms < out.residual) {
         out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll;
         out.lost_low = lost_on(points, n, fit.place, -1.0), out.lost_high = lost_on(points, n, fit.place, 1.0);
       }
