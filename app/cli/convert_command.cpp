@@ -23,6 +23,7 @@
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
@@ -99,7 +100,8 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   catch_interrupt();
   const CancellationScope scope(&interrupted());
   app::ConvertSettings settings;
-  if (!options.body.empty()) settings.body = options.body == "wheel" ? Body::wheel : Body::rail;
+  if (!options.body.empty() || !io::profile_body(options.output))
+    settings.body = body_asked(options.body, options.input, common.quiet);
   settings.resolution = 1e-3 * options.resolution_mm;
   settings.backend = options.backend;
   settings.nominal_radius = 1e-3 * options.nominal_radius_mm;

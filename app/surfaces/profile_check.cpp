@@ -64,7 +64,7 @@ enum class Standards { no, yes };
 CheckedProfile checked(const io::SourcedProfile& profile, const std::filesystem::path& file,
                        const io::ExpectedWheel& expected, Standards compare) {
   const Body body = profile.profile.body;
-  return {fmt::format("{} profile {}", body == Body::wheel ? "wheel" : "rail", file.string()),
+  return {fmt::format("{} profile {}", body == Body::wheel ? "wheel" : "rail", file.string()), body,
           io::judge_profile(profile, expected,
                             compare == Standards::no ? std::vector<io::StandardOutline>() : standards(body))};
 }
@@ -147,6 +147,16 @@ CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Bo
       out.judgement.notes.begin(),
       fmt::format("taken for a {} by its shape: say --body if it is none", is_wheel ? "wheel" : "rail"));
   return out;
+}
+
+std::optional<Body> body_by_shape(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!is_profile_file(file) || io::profile_body(file) || !std::filesystem::exists(file, ignored)) return std::nullopt;
+  try {
+    return check_profile(file, std::nullopt).body;
+  } catch (const Error&) {  // told where it is read
+    return std::nullopt;
+  }
 }
 
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) { return checked_profiles(file, Standards::yes); }

@@ -14,6 +14,7 @@ namespace treadmark::app {
 
 struct CheckedProfile {
   std::string name;  ///< "wheel profile FILE"
+  Body body = Body::rail;
   io::ProfileJudgement judgement;
 };
 
@@ -23,6 +24,10 @@ bool is_profile_file(const std::filesystem::path& file);
 /// Reads and judges one file. Without a body it is judged by extension, then by shape. Errors as read_profile;
 /// Error(configuration) where the file could be either.
 CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body);
+
+/// What a file of a profile is by its shape, where neither its name nor the library says so; nothing for files that
+/// cannot be read so, and for all others.
+std::optional<Body> body_by_shape(const std::filesystem::path& file);
 
 /// The same for every profile file that the cases of a file use, each once. Errors as read_profile.
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file);

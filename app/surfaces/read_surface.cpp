@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/backends/spline/spline_gaps.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
@@ -21,6 +24,7 @@
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -134,6 +138,21 @@ MovingSection motion_of(const io::CrossingInput& c) {
 
 namespace {
 
+/// Of files: standard profiles and arcs are what they are.
+void refuse_narrow(const NaturalSurface& natural, const io::SurfaceSource& source) {
+  constexpr double kNarrowestWheel = 10e-3, kNarrowestRail = 5e-3;  // [m]
+  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  if (file == nullptr) return;
+  const Box3 box = natural.surface->bounds();
+  const double width = box.max.y() - box.min.y();
+  const bool wheel = natural.spec.body == Body::wheel;
+  if (!(width < (wheel ? kNarrowestWheel : kNarrowestRail))) return;
+  throw Error(ErrorKind::input_data,
+              fmt::format("the {} of {} is {:.3g} mm wide, and none is", body_name(natural.spec.body),
+                          file->file.string(), kMilli * width),
+              source.where, "is the file in inches or cm? the factor to mm is then 25.4 or 10 (scale_to_mm, --scale)");
+}
+
 NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double radius) {
   if (!source.parts.empty()) return read_parts(source, body, radius);
   SurfaceSpec spec;
@@ -153,9 +172,13 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
     else
       spec.shape = io::read_profile(file->file, body, file->options, source.where);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
-    if (!library_body(standard->name))
+    if (!library_body(standard->name)) {
+      const std::string near = nearest_library_name(standard->name);
       throw Error(ErrorKind::configuration, fmt::format("there is no standard profile '{}'", standard->name),
-                  source.where, "treadmark list profiles prints those there are");
+                  source.where,
+                  near.empty() ? "treadmark list profiles prints those there are"
+                               : fmt::format("did you mean '{}'? treadmark list profiles prints all", near));
+    }
     spec.shape = *standard;
   } else {
     spec.shape = std::get<ArcChain>(source.geometry);
@@ -163,6 +186,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
   if (source.crossing.part != io::CrossingInput::Part::none)
     spec.shape = move_section(spec, motion_of(source.crossing));
   NaturalSurface natural = create_natural(std::move(spec));
+  refuse_narrow(natural, source);
   natural.note += note;
   return natural;
 }

@@ -18,6 +18,7 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -290,6 +291,7 @@ Hdf5Id open_in_memory(const std::string& name, Hdf5Image& image) {
 }
 
 Hdf5Id open_to_read(const std::filesystem::path& file) {
+  require_file(file, "file of results", ErrorKind::input_data);
   if (!text_heaps_sound(file)) cannot_read(file.string(), "the file: it is damaged");
   Hdf5Id id(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (id.get() < 0) cannot_read(file.string(), "the file");

@@ -12,6 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
+#include "treadmark/solvers/wheelrail/usual_values.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -99,6 +100,11 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
   kalker::judge({s.grid, p.material, p.friction.static_friction(), rolling && s.kinematics.velocity > 0.0,
                  p.regime == kalker::Regime::shift, kNotSmall * modulus},
                 s.contact, number, solution.remarks);
+  const SixMotion& moving = p.state.velocity;
+  if (rolling && moving.x != 0.0 && moving.pitch == 0.0 && !p.longitudinal_force && !p.roller)
+    for (Remark& remark : solution.remarks)
+      if (remark.kind == RemarkKind::large_creepage && remark.patch == number)
+        remark.text += ": the wheel slides without turning, its pitch rate or rolling is not given";
   if (ratio > kYields && ratio <= kNotSmall)
     add(RemarkKind::beyond_yield,
         fmt::format("the largest pressure of {:.4g} MPa is {:.2g} E': steel yields before, and this is an upper bound",
@@ -130,6 +136,7 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
 }  // namespace
 
 void judge(const Geometry& geometry, const Problem& p, PairSolution& solution) {
+  judge_values(p, solution.remarks);
   for (std::size_t i = 0; i < solution.patches.size(); ++i) judge_patch(geometry, p, static_cast<int>(i) + 1, solution);
   if (solution.hidden_patches > 0) {
     solution.status = Status::failed;
