@@ -11,4 +11,8 @@ inline constexpr double kMostCreepage = 1e12;  ///< [-]; spin [rad/m]; a shift [
 inline constexpr double kMostSpeed = 1e9;      ///< [m/s], [rad/s]; as displacements of a shift [m], [rad]
 inline constexpr double kMostStep = 1e9;       ///< way or time of a step [m], [s], or over the size of an element
 
+/// Nominal radii of wheels, from models to the largest that was ever built, with room on both sides [m].
+inline constexpr double kLeastWheelRadius = 0.01, kMostWheelRadius = 2.0;
+inline constexpr double kLeastGauge = 0.05, kMostGauge = 5.0;  ///< the same of tracks [m]
+
 }  // namespace treadmark

@@ -38,6 +38,7 @@ enum class RemarkKind : std::uint8_t {
   off_nominal_height,
   on_flange_tip,
   on_flange_back,
+  unusual_value,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -104,6 +105,8 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "off the nominal one"},
     {RemarkKind::on_flange_back, "on_flange_back", true,
      "the back of the flange alone touches: without a check rail a wheel cannot be there"},
+    {RemarkKind::unusual_value, "unusual_value", true,
+     "a number of the problem that no railway has, as in another unit: a load, gauge, radius, speed, angle or place"},
 };
 
 /// One remark on one result.

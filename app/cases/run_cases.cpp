@@ -6,7 +6,11 @@
 #include <exception>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/data_ends.hpp"
@@ -19,6 +23,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/solvers/wheelrail/usual_values.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -153,6 +158,20 @@ std::vector<CaseGeometry> check_geometry(const io::CaseFile& file) {
     if (const auto* input = std::get_if<io::WheelRailCase>(&c.content))
       out.push_back({&c, geometry_of(*input, store, regions)});
   return out;
+}
+
+std::vector<std::string> value_doubts(const io::CaseFile& file) {
+  std::vector<std::string> doubts;
+  std::set<std::string> known;
+  for (const io::Case& c : file.cases) {
+    const auto* input = std::get_if<io::WheelRailCase>(&c.content);
+    if (input == nullptr) continue;
+    std::vector<Remark> remarks;
+    wheelrail::judge_values(to_problem(*input, true), remarks);
+    for (const Remark& remark : remarks)
+      if (known.insert(remark.text).second) doubts.push_back(fmt::format("case {}: {}", c.number, remark.text));
+  }
+  return doubts;
 }
 
 }  // namespace treadmark::app

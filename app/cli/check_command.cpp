@@ -102,6 +102,10 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
     for (std::size_t k = 0; k < cases.size(); ++k)
       write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number), input.positions[k].second);
   }
+  for (const std::string& doubt : app::value_doubts(file)) {
+    std::cout << "  doubt  " << doubt << '\n';
+    input.notes.push_back(doubt);
+  }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
   for (const app::CheckedProfile& surface : app::check_surfaces(file)) add_profile(surface, input);
   const std::size_t doubts = doubts_of(input);

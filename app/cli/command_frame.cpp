@@ -13,10 +13,12 @@
 #include <iostream>
 
 #include "treadmark/app/report/write_page.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::cli {
 
@@ -36,6 +38,16 @@ void add_report_file(CLI::App& verb, std::string& file) {
   verb.add_option("--report", file, "Write a report here that opens in any browser, offline")
       ->type_name("FILE.html")
       ->each([](const std::string&) { require_part("report", "--report"); });
+}
+
+std::optional<Body> body_asked(const std::string& word, const std::filesystem::path& file, bool quiet) {
+  if (!word.empty()) return word == "wheel" ? Body::wheel : Body::rail;
+  const std::optional<Body> body = app::body_by_shape(file);
+  if (body)
+    print_notes(
+        {fmt::format("{}: taken for a {} by its shape: say --body if it is none", file.string(), body_name(*body))},
+        quiet);
+  return body;
 }
 
 Command add_left_out(CLI::App& verb) {

@@ -11,6 +11,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/report/page.hpp"
 #include "treadmark/core/progress.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::cli {
 
@@ -68,6 +70,8 @@ void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector
 void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const char* example = "wheelset.y_mm=3");
 /// --report of a file.
 void add_report_file(CLI::App& verb, std::string& file);
+/// The body that --body names; without it that of a profile by its shape, with a note.
+std::optional<Body> body_asked(const std::string& word, const std::filesystem::path& file, bool quiet);
 /// An option of several values with commas between them.
 template <class Value>
 CLI::Option* add_values(CLI::App& verb, const char* name, std::vector<Value>& values, const char* text,

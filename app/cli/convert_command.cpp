@@ -121,7 +121,8 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   catch_interrupt();
   const CancellationScope scope(&interrupted());
   app::ConvertSettings settings;
-  if (!options.body.empty()) settings.body = options.body == "wheel" ? Body::wheel : Body::rail;
+  if (!options.body.empty() || !io::profile_body(options.output))
+    settings.body = body_asked(options.body, options.input, common.quiet);
   settings.resolution = 1e-3 * options.resolution_mm;
   settings.backend = options.backend;
   settings.nominal_radius = 1e-3 * options.nominal_radius_mm;

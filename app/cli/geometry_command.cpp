@@ -12,6 +12,8 @@
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/geometry/geometry_page.hpp"
 #include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
@@ -94,6 +96,10 @@ int geometry_command(const GeometryOptions& options, const CommonOptions& common
   }
   if (!options.hdf5_file.empty())
     throw Error(ErrorKind::configuration, "--hdf5 is the table of a list of --pairs", {}, "use --json or --csv");
+  if (!options.case_file.empty() &&
+      (app::is_profile_file(options.case_file) || app::library_body_of(options.case_file)))
+    throw Error(ErrorKind::configuration, options.case_file + " is a profile, and CASE is a case file", {},
+                "name profiles with --wheel and --rail");
   std::vector<std::string> inputs;
   for (const std::string& name :
        {options.case_file, options.wheel, options.wheel_left, options.rail, options.rail_left})

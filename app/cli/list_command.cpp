@@ -11,6 +11,7 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/model/defects.hpp"
@@ -54,8 +55,24 @@ void print_defects() {
   });
 }
 
+/// What can be listed.
+struct ListedKind {
+  const char* name;
+  const char* meaning;
+};
+constexpr ListedKind kListed[] = {{"backends", "representations of surfaces"},
+                                  {"defects", "damage of wheels and rails that cases can ask for, with its keys"},
+                                  {"laws", "of wear, flow and fatigue, for evolve"},
+                                  {"profiles", "of wheels and rails that are built in"},
+                                  {"remarks", "what results say of themselves where they are doubtful"},
+                                  {"solvers", "theories of contact"},
+                                  {"verbs", "of this program"}};
+
 int list_command(const std::string& what) {
-  if (what == "backends") {
+  if (what.empty()) {
+    for (const ListedKind& kind : kListed)
+      std::cout << fmt::format("treadmark list {:<10}{}\n", kind.name, kind.meaning);
+  } else if (what == "backends") {
     for (const auto name : backend_names()) std::cout << name << '\n';
     for (const Backend* backend : left_out_backends()) print_left_out(backend->name, backend->part);
   } else if (what == "defects") {
@@ -82,8 +99,11 @@ int list_command(const std::string& what) {
     for (const FlowTheoryRow& row : kFlowTheories) print_row(row);
     for (const FatigueMeasureRow& row : kFatigueMeasures) print_row(row);
   } else {
+    std::vector<std::string> names;
+    for (const ListedKind& kind : kListed) names.emplace_back(kind.name);
+    const std::string near = nearest_name(what, names);
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
-                "choose backends, defects, laws, profiles, remarks, solvers or verbs");
+                near.empty() ? fmt::format("choose {}", fmt::join(names, ", ")) : "did you mean '" + near + "'?");
   }
   return kOk;
 }
@@ -92,7 +112,8 @@ int list_command(const std::string& what) {
 
 Command add_list(CLI::App& verb) {
   auto what = std::make_shared<std::string>();
-  verb.add_option("WHAT", *what, "backends, defects, laws, profiles, remarks, solvers or verbs")->required();
+  verb.add_option("WHAT", *what,
+                  "backends, defects, laws, profiles, remarks, solvers or verbs; without it what there is");
   return [what](const CommonOptions&) { return list_command(*what); };
 }
 

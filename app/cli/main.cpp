@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "treadmark/app/cli/printable_stream.hpp"
+#include "treadmark/app/cli/usage_faults.hpp"
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/settings/key_info.hpp"
 
 namespace {
 
@@ -72,26 +72,9 @@ constexpr const char* kFirstSteps =
     "  treadmark import SCAN.ply -o wheel.slcw      a surface from a laser scan\n"
     "  treadmark VERB --help                        all options of a verb\n";
 
-/// The first word that is no option, which has to be a verb. Errors: Error(configuration) where it is none.
-void require_verb(int argc, char** argv) {
-  std::vector<std::string> known;
-  for (const cli::Verb& verb : cli::verbs()) known.emplace_back(verb.name);
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--threads") {
-      ++i;  // and its value
-    } else if (!word.starts_with("-")) {
-      if (std::ranges::find(known, word) != known.end()) return;
-      const std::string near = io::nearest_key(word, known);
-      throw Error(ErrorKind::configuration, "there is no verb '" + word + "'", {},
-                  near.empty() ? "treadmark --help lists all" : "did you mean '" + near + "'?");
-    }
-  }
-}
-
 /// Everything but whether the standard output took what it was given.
 int parse_and_run(int argc, char** argv) {
-  CLI::App program{"Treadmark: wheel-rail contact on any 3D surface"};
+  CLI::App program{"Treadmark: wheel-rail contact on any 3D surface", "treadmark"};
   program.set_version_flag(
       "--version", "treadmark " + app::version() + " (" + app::git_revision() + ")\n" + app::build_description(),
       "Display version and parts of the program; with --json behind it also libraries and licences, for programs; with "
@@ -126,11 +109,15 @@ int parse_and_run(int argc, char** argv) {
     std::cout << app::version_spdx();
     return cli::kOk;
   }
-  require_verb(argc, argv);
+  std::vector<std::string> words = cli::with_help({argv + 1, argv + argc});
+  cli::check_words(program, words);
   try {
-    program.parse(argc, argv);
+    std::ranges::reverse(words);  // as the parser takes them
+    program.parse(std::move(words));
   } catch (const CLI::ParseError& e) {
-    return program.exit(e) == 0 ? cli::kOk : cli::kUsage;
+    if (e.get_exit_code() == 0) return program.exit(e) == 0 ? cli::kOk : cli::kUsage;
+    std::cerr << cli::usage_fault(program, e);
+    return cli::kUsage;
   }
   common.threads_given = threads->count() > 0;
   for (const auto& [verb, command] : commands)

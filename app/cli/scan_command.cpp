@@ -40,9 +40,9 @@ app::Range range(const std::vector<double>& numbers, double factor) {
   return std::pair{factor * numbers[0], factor * numbers[1]};
 }
 
-app::ScanRequest request_of(const ScanOptions& options) {
+app::ScanRequest request_of(const ScanOptions& options, bool quiet) {
   app::ScanRequest request;
-  if (!options.body.empty()) request.surface.body = options.body == "wheel" ? Body::wheel : Body::rail;
+  request.surface.body = body_asked(options.body, options.surface, quiet);
   request.surface.nominal_radius = kMetres * options.nominal_radius_mm;
   request.surface.scale_to_mm = options.scale_to_mm;
   request.surface.overrides = options.overrides;
@@ -77,7 +77,7 @@ int scan_command(const ScanOptions& options, const CommonOptions& common) {
   require_different({options.surface}, {options.cloud, options.truth_file});
   const ThreadLimit limit(common.threads);
   const app::Scanned scanned = with_progress(common.quiet, [&](const Progress& progress) {
-    return app::scan_surface(options.surface, options.cloud, request_of(options), progress);
+    return app::scan_surface(options.surface, options.cloud, request_of(options, common.quiet), progress);
   });
   const auto json = [&] { return app::truth_json(scanned); };
   write_json_file(options.truth_file, json);

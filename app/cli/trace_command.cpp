@@ -38,7 +38,7 @@ int trace_command(const TraceOptions& options, const CommonOptions& common) {
   catch_interrupt();
   const CancellationScope scope(&interrupted());
   app::NamedSurface said;
-  if (!options.body.empty()) said.body = options.body == "wheel" ? Body::wheel : Body::rail;
+  said.body = body_asked(options.body, options.file, common.quiet);
   said.nominal_radius = 1e-3 * options.nominal_radius_mm;
   said.scale_to_mm = options.scale;
   said.overrides = options.overrides;

@@ -22,6 +22,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/model/body_name.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -51,9 +52,8 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
       spec.nominal_radius = body == Body::wheel ? 0.5 * kUsualDiameter : 0.0;
       return create_natural(std::move(spec));
     } catch (const Error& error) {
-      throw Error(ErrorKind::input_data,
-                  fmt::format("neither a file nor a profile that is built in: {}", error.message()), {name},
-                  "see treadmark list profiles");
+      if (library_body_of(name)) throw Error(ErrorKind::input_data, error.message(), {name}, error.advice());
+      refuse_missing_surface(name, ErrorKind::input_data);
     }
   }
   NamedSurface said;
@@ -243,6 +243,11 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
       throw Error(ErrorKind::configuration, "where the rails are is not said", {},
                   "give --gauge-mm with --cant, or --rail-origins-mm");
   }
+  for (const std::optional<double>& diameter : {r.diameter, r.diameter_left})
+    if (diameter) require_wheel_radius(0.5 * *diameter);
+  if (r.gauge && !(*r.gauge >= kLeastGauge && *r.gauge <= kMostGauge))
+    throw Error(ErrorKind::configuration, fmt::format("no track has a gauge of {:g} m", *r.gauge), {},
+                "is it in the unit that is asked for?");
   if (r.gauge && r.rail_origins)
     throw Error(ErrorKind::configuration, "--gauge-mm and --rail-origins-mm say the same thing twice", {},
                 "give one of them");

@@ -18,6 +18,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -410,8 +411,9 @@ Truth read_truth(const Path& file, Body body, double nominal_radius) {
   std::error_code ignored;
   const std::optional<Body> library = library_body_of(file);
   if (!library && !std::filesystem::is_regular_file(file, ignored))
-    throw Error(ErrorKind::configuration, "there is no such file of the truth", {file.string()},
-                "name what treadmark scan --truth wrote, or the file of the true surface");
+    throw MissingFile(
+        ErrorKind::configuration, "there is no such file of the truth", {file.string()},
+        advice_on_missing(file, "name what treadmark scan --truth wrote, or the file of the true surface"));
   const std::string extension = extension_of(file);
   for (const char* known : {".slcw", ".prw", ".whl"})
     if (extension == known) require_body(file, Body::wheel, body);

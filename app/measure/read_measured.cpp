@@ -125,8 +125,7 @@ measures::Section nominal_section(const std::string& name, Body body) {
   if (is_library_name(name)) return measures::Section(library_points(name, body), 0.0);
   std::error_code ignored;
   if (!fs::exists(io::profile_file(name), ignored))
-    throw Error(ErrorKind::configuration, "there is neither a profile nor a file named '" + name + "'", {},
-                "treadmark list profiles");
+    refuse_missing_surface(name, ErrorKind::configuration);
   return measures::Section(io::read_profile(name, body, {}));
 }
 

@@ -4,16 +4,22 @@
 
 #include <fmt/format.h>
 
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/model/body_name.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -37,6 +43,27 @@ std::optional<Body> library_body_of(const std::filesystem::path& file) {
   std::error_code ignored;
   if (std::filesystem::exists(file, ignored)) return std::nullopt;
   return library_body(file.string());
+}
+
+std::string nearest_library_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const LibraryProfile& profile : profile_library()) names.push_back(profile.name);
+  return nearest_name(name, names);
+}
+
+void refuse_missing_surface(const std::filesystem::path& file, ErrorKind kind) {
+  const std::string near = nearest_library_name(file.string());
+  throw MissingFile(kind, "neither a file nor a profile that is built in", {file.string()},
+                    near.empty() ? advice_on_missing(file, "treadmark list profiles shows what is built in")
+                                 : fmt::format("did you mean {}?", near));
+}
+
+void require_wheel_radius(double radius) {
+  if (radius >= kLeastWheelRadius && radius <= kMostWheelRadius) return;
+  throw Error(ErrorKind::configuration,
+              fmt::format("no wheel has a radius of {:g} m: {:g} to {:g} m is possible", radius, kLeastWheelRadius,
+                          kMostWheelRadius),
+              {}, "is it in the unit that is asked for?");
 }
 
 NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said) {
@@ -73,11 +100,16 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
     return natural;
   }
   const std::optional<Body> library = library_body_of(file);
+  std::error_code ignored;
+  if (!library && !std::filesystem::exists(io::profile_file(file), ignored) &&
+      !std::filesystem::exists(io::profiles::portable_path(file.string()), ignored))
+    refuse_missing_surface(file, ErrorKind::input_data);
   if (library && said.body && *said.body != *library)
     throw Error(ErrorKind::configuration, fmt::format("{} is a {}", file.string(), body_name(*library)), {},
                 "leave out --body");
   if (library && said.scale_to_mm != 1.0) refuse("--scale belongs to profiles, slices and triangles");
   const Body body = library ? *library : body_of(file, said.body);
+  if (body == Body::wheel && radius > 0.0) require_wheel_radius(radius);
   if (body == Body::wheel && !(radius > 0.0))
     throw Error(ErrorKind::configuration, "a wheel needs its nominal radius", {file.string()},
                 "say --nominal-radius in mm");

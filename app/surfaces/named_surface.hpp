@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/backends/create.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/model/profile.hpp"
 
 namespace treadmark::app {
@@ -24,6 +25,16 @@ struct NamedSurface {
 /// The body of a name of the profile library; nothing for files that are there, and for other names. Errors: those of
 /// library_body.
 std::optional<Body> library_body_of(const std::filesystem::path& file);
+
+/// The profile of the library that a name was probably meant to be; empty where none is near.
+std::string nearest_library_name(const std::string& name);
+
+/// Errors: always, MissingFile of this kind, which names the file or the profile of the library that was probably
+/// meant.
+[[noreturn]] void refuse_missing_surface(const std::filesystem::path& file, ErrorKind kind);
+
+/// Errors: Error(configuration) for a nominal radius [m] that no wheel has, as one in another unit.
+void require_wheel_radius(double radius);
 
 /// Reads any geometry: profile, slices, triangles, offsets, a name of the profile library, or the wheel or rail of the
 /// first case of a case file.

@@ -154,7 +154,7 @@ enum class Nearest { no, yes };
 
 CheckedProfile checked(const io::SourcedProfile& profile, const std::filesystem::path& file,
                        const io::ExpectedProfile& expected, Nearest nearest) {
-  CheckedProfile out{fmt::format("{} profile {}", body_name(profile.profile.body), file.string()),
+  CheckedProfile out{fmt::format("{} profile {}", body_name(profile.profile.body), file.string()), profile.profile.body,
                      io::judge_profile(profile, expected)};
   judge_against_nominal(profile, out.judgement);
   if (nearest == Nearest::yes) add_nearest(profile.profile, out.judgement);
@@ -246,6 +246,16 @@ CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Bo
       out.judgement.notes.begin(),
       fmt::format("taken for a {} by its shape: say --body if it is none", is_wheel ? "wheel" : "rail"));
   return out;
+}
+
+std::optional<Body> body_by_shape(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!is_profile_file(file) || io::profile_body(file) || !std::filesystem::exists(file, ignored)) return std::nullopt;
+  try {
+    return check_profile(file, std::nullopt).body;
+  } catch (const Error&) {  // told where it is read
+    return std::nullopt;
+  }
 }
 
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile) {

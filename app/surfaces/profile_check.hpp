@@ -15,6 +15,7 @@ namespace treadmark::app {
 
 struct CheckedProfile {
   std::string name;  ///< "wheel profile FILE"
+  Body body = Body::rail;
   io::ProfileJudgement judgement;
 };
 
@@ -28,6 +29,10 @@ CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Bo
 
 /// What is doubtful about a profile by itself, wherever it is to be placed. Never throws; thread-safe.
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile);
+
+/// What a file of a profile is by its shape, where neither its name nor the library says so; nothing for files that
+/// cannot be read so, and for all others.
+std::optional<Body> body_by_shape(const std::filesystem::path& file);
 
 /// The same for every profile file that the cases of a file use, each once. Errors as read_profile.
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file);

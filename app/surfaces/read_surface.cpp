@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/backends/added_offsets.hpp"
 #include "treadmark/backends/profile_library.hpp"
@@ -27,6 +29,7 @@
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
+#include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 
@@ -208,6 +211,21 @@ MovingSection motion_of(const io::CrossingInput& c) {
 
 namespace {
 
+/// Of files: standard profiles and arcs are what they are.
+void refuse_narrow(const NaturalSurface& natural, const io::SurfaceSource& source) {
+  constexpr double kNarrowestWheel = 10e-3, kNarrowestRail = 5e-3;  // [m]
+  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  if (file == nullptr) return;
+  const Box3 box = natural.surface->bounds();
+  const double width = box.max.y() - box.min.y();
+  const bool wheel = natural.spec.body == Body::wheel;
+  if (!(width < (wheel ? kNarrowestWheel : kNarrowestRail))) return;
+  throw Error(ErrorKind::input_data,
+              fmt::format("the {} of {} is {:.3g} mm wide, and none is", body_name(natural.spec.body),
+                          file->file.string(), kMilli * width),
+              source.where, "is the file in inches or cm? the factor to mm is then 25.4 or 10 (scale_to_mm, --scale)");
+}
+
 NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double radius) {
   refuse_idle_keys(source, body);
   if (!source.parts.empty()) return read_parts(source, body, radius);
@@ -229,9 +247,13 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
     else
       spec.shape = placed_profile(*file, body, source.where, note);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
-    if (!library_body(standard->name))
+    if (!library_body(standard->name)) {
+      const std::string near = nearest_library_name(standard->name);
       throw Error(ErrorKind::configuration, fmt::format("there is no standard profile '{}'", standard->name),
-                  source.where, "treadmark list profiles prints those there are");
+                  source.where,
+                  near.empty() ? "treadmark list profiles prints those there are"
+                               : fmt::format("did you mean '{}'? treadmark list profiles prints all", near));
+    }
     spec.shape = *standard;
   } else {
     spec.shape = std::get<ArcChain>(source.geometry);
@@ -239,6 +261,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
   if (source.crossing.part != io::CrossingInput::Part::none)
     spec.shape = move_section(spec, motion_of(source.crossing));
   NaturalSurface natural = create_natural(std::move(spec));
+  refuse_narrow(natural, source);
   natural.note += note;
   return natural;
 }

@@ -18,6 +18,7 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/output_file.hpp"
 
 namespace treadmark::offset {
@@ -40,9 +41,10 @@ std::uint64_t sum_of(const char* data, std::size_t size) {
 }
 
 std::vector<char> read_all(const fs::path& file) {
+  require_file(file, "VDB file", ErrorKind::input_data);
   std::error_code problem;
   if (!fs::is_regular_file(file, problem))
-    throw Error(ErrorKind::input_data, "the VDB file does not exist or is not a file", {file.string()});
+    throw Error(ErrorKind::input_data, "the VDB file is not a regular file", {file.string()});
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
   if (size < 0) throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});

@@ -53,7 +53,13 @@ void set_number(tm_case& c, const CaseNumber& number, double value) {
   } else {
     given.data = value / number.si;
   }
-  io::check_value(number.key->info, given);
+  try {
+    io::check_value(number.key->info, given);
+  } catch (const Error& error) {
+    if (number.si == 1.0) throw;
+    throw Error(error.kind(), fmt::format("{} = {:g} {}: {}", number.name, value, number.unit, error.message()), {},
+                fmt::format("here it is in {}", number.unit));
+  }
   const bool checked = c.checked, found = height_is_found(*c.content);
   number.key->set(changed(c), given, c.folder);
   c.checked = checked && number.motion && height_is_found(*c.content) == found;

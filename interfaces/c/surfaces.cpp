@@ -40,7 +40,10 @@ SurfaceSpec spec_of(tm_body body, double nominal_radius) {
   spec.body = body_of(body);
   require(std::isfinite(nominal_radius) && (spec.body == Body::rail || nominal_radius > 0.0),
           "the nominal radius of a wheel must be positive");
-  if (spec.body == Body::wheel) spec.nominal_radius = nominal_radius;
+  if (spec.body == Body::wheel) {
+    app::require_wheel_radius(nominal_radius);
+    spec.nominal_radius = nominal_radius;
+  }
   return spec;
 }
 

@@ -19,6 +19,7 @@
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/model/magnitudes.hpp"
 #include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::python {
@@ -352,6 +353,7 @@ py::object view(const void* data, char item, const std::vector<py::ssize_t>& sha
 }
 
 void add_handles(py::module_& module) {
+  module.def("wheel_radii", [] { return py::make_tuple(kLeastWheelRadius, kMostWheelRadius); });
   add_cases(module);
   add_surfaces(module);
   py::class_<tm_state, Owned<tm_state>>(module, "State")

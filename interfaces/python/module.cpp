@@ -5,6 +5,7 @@
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
 #include "treadmark/interfaces/python/python.hpp"
@@ -33,6 +34,8 @@ void raise(const char* name, const std::string& message, const SourcePosition& w
 void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11 has it so
   try {
     if (thrown) std::rethrow_exception(thrown);
+  } catch (const MissingFile& missing) {
+    raise("MissingFileError", missing.message(), missing.where(), missing.advice());
   } catch (const Error& error) {
     raise(error.kind() == ErrorKind::numerical ? "NumericalError" : "InputError", error.message(), error.where(),
           error.advice());

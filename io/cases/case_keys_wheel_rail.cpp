@@ -14,6 +14,7 @@ namespace {
 using W = WheelRailCase;
 
 constexpr KeyLimits kSpeed{{}, -kMostSpeed, kMostSpeed};
+constexpr KeyLimits kAside{{}, -1000.0, 1000.0};    // [mm]
 constexpr KeyLimits kQuarterTurn{{}, -90.0, 90.0};  // [deg]
 
 bool is_digits(std::string_view text) {
@@ -29,7 +30,7 @@ bool is_ratio(std::string_view text) {
 }
 
 void add_track(KeyList& list) {
-  list.number<W>("track.gauge_mm", kPositive, "track gauge; the rail is placed by its gauge point",
+  list.number<W>("track.gauge_mm", kGaugeMm, "track gauge; the rail is placed by its gauge point",
                  [](W& c) -> double& { return c.track.gauge_width; });
   CaseKey& gauge = list.keys.back();
   gauge.info.group = "track placement";
@@ -104,7 +105,7 @@ void add_wheelset(KeyList& list) {
                  [](W& c) -> double& { return c.wheelset.flange_back_distance; });
   list.number<W>("wheelset.flange_back_position_mm", kAnyNumber, "y of the flange back in wheel profile coordinates",
                  [](W& c) -> double& { return c.wheelset.flange_back_position; });
-  list.number<W>("wheelset.nominal_radius_mm", kPositive, "wheel radius where the profile has z = 0",
+  list.number<W>("wheelset.nominal_radius_mm", kWheelRadiusMm, "wheel radius where the profile has z = 0",
                  [](W& c) -> double& { return c.wheelset.nominal_radius; });
   KeyInfo tape = key_info("wheelset.tape_line_y_mm", KeyType::number,
                           "y of the tape line in wheel profile coordinates; without it the profile's z = 0 counts");
@@ -119,7 +120,7 @@ void add_wheelset(KeyList& list) {
   };
   list.number<W>("wheelset.s_mm", kAnyNumber, "position along the track",
                  [](W& c) -> double& { return c.state.position.x; });
-  list.number<W>("wheelset.y_mm", kAnyNumber, "lateral position", [](W& c) -> double& { return c.state.position.y; });
+  list.number<W>("wheelset.y_mm", kAside, "lateral position", [](W& c) -> double& { return c.state.position.y; });
 
   const auto vertical = [&](const std::string& name, KeyLimits limits, const std::string& doc, auto place, bool force) {
     list.number<W>("wheelset." + name, limits, doc, place);

@@ -11,31 +11,55 @@
 #include <iterator>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 
 namespace treadmark::io {
+
+namespace {
+
+/// What to do with a file that holds no case.
+std::string advice_on_kind(std::string_view extension) {
+  for (const std::string_view result : {".json", ".h5", ".html", ".svg"})
+    if (extension == result) return "treadmark report and treadmark plot show results";
+  for (const std::string_view surface :
+       {".csv", ".txt", ".dat",  ".asc", ".prr",  ".prw", ".ban", ".whl", ".rail", ".slcs", ".slcw", ".ply", ".stl",
+        ".obj", ".off", ".step", ".stp", ".iges", ".igs", ".xml", ".vdb", ".xyz",  ".pts",  ".pcd",  ".e57", ".las"})
+    if (extension == surface)
+      return "a case names its wheel and rail: treadmark new case writes one with wheel.shape.file and rail.shape.file";
+  return "use .toml (Treadmark) or .inp (CONTACT)";
+}
+
+}  // namespace
 
 CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension == ".toml") return read_case_file(file, overrides);
-  if (extension != ".inp")
-    throw Error(ErrorKind::configuration, fmt::format("'{}' is no kind of case file", extension), {file.string()},
-                "use .toml (Treadmark) or .inp (CONTACT)");
+  std::error_code ignored;
+  if (const std::string name = file.string();
+      name.find('=') != std::string::npos && !std::filesystem::exists(file, ignored))
+    throw Error(ErrorKind::configuration, fmt::format("'{}' is no file", name), {},
+                "keys of a case are changed by --set KEY=VALUE, without blanks");
+  if (extension != ".inp") {
+    require_file(file, "case file", ErrorKind::configuration);
+    throw Error(ErrorKind::configuration,
+                extension.empty() ? "a case file is expected, this has no extension"
+                                  : fmt::format("'{}' is no kind of case file", extension),
+                {file.string()}, advice_on_kind(extension));
+  }
   CaseFile result = read_contact_input(file);
   apply_overrides(result, overrides);
   return result;
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code code;
-  if (std::filesystem::is_directory(file, code))
-    throw Error(ErrorKind::configuration, "a case file is expected, this is a folder", {file.string()});
+  require_file(file, "file", ErrorKind::configuration);
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw Error(ErrorKind::configuration, "the case file cannot be opened", {file.string()}, "check its name");
+    throw Error(ErrorKind::configuration, "the file cannot be opened", {file.string()}, "check its permissions");
   return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
 }
 

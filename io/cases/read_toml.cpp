@@ -38,23 +38,64 @@ struct ValueList {
   CaseValue values;
 };
 
-/// Takes these lists out of a table; all of one entry must have the same length.
+/// Takes the list that stands for one value of a key; all of one entry must have the same length.
+void take_list(CaseValue& value, const std::string& path, std::vector<ValueList>& lists) {
+  const std::size_t count = value.list().size();
+  if (count == 0) throw Error(ErrorKind::configuration, fmt::format("the list of {} is empty", path), value.where);
+  if (const std::size_t other = lists.empty() ? count : lists.front().values.list().size(); other != count)
+    throw Error(ErrorKind::configuration,
+                fmt::format("the list of {} has {} values, another one of the same entry has {}", path, count, other),
+                value.where, "lists of one [[cases]] entry advance together");
+  lists.push_back({&value, std::move(value)});
+}
+
+/// Takes these lists out of a table, but for those of keys that overrides set.
 void take_lists(CaseTable& table, const std::string& prefix, std::vector<ValueList>& lists) {
   for (CaseEntry& entry : table) {
     const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
-    if (entry.value.is_table()) {
+    if (entry.value.is_table())
       take_lists(std::get<CaseTable>(entry.value.data), path, lists);
-    } else if (entry.value.is_list() && is_scalar_key(path)) {
-      const std::size_t count = entry.value.list().size();
-      if (count == 0)
-        throw Error(ErrorKind::configuration, fmt::format("the list of {} is empty", path), entry.value.where);
-      if (const std::size_t other = lists.empty() ? count : lists.front().values.list().size(); other != count)
-        throw Error(
-            ErrorKind::configuration,
-            fmt::format("the list of {} has {} values, another one of the same entry has {}", path, count, other),
-            entry.value.where, "lists of one [[cases]] entry advance together");
-      lists.push_back({&entry.value, std::move(entry.value)});
-    }
+    else if (entry.value.is_list() && is_scalar_key(path))
+      take_list(entry.value, path, lists);
+  }
+}
+
+/// Removes the list of values of a key.
+void drop_list(CaseTable& table, std::string_view path) {
+  const std::size_t dot = path.find('.');
+  for (auto entry = table.begin(); entry != table.end(); ++entry) {
+    if (entry->key != path.substr(0, dot)) continue;
+    if (dot != std::string_view::npos && entry->value.is_table())
+      drop_list(std::get<CaseTable>(entry->value.data), path.substr(dot + 1));
+    else if (dot == std::string_view::npos && entry->value.is_list())
+      table.erase(entry);
+    return;
+  }
+}
+
+/// A value for comparison only.
+std::string as_words(const CaseValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value.data)) return *flag ? "true" : "false";
+  if (const auto* text = std::get_if<std::string>(&value.data)) return '"' + *text + '"';
+  std::string words;
+  if (value.is_list()) {
+    for (const CaseValue& one : value.list()) words += as_words(one) + ',';
+    return '[' + words + ']';
+  }
+  if (!value.is_table()) return fmt::format("{}", value.number());
+  for (const CaseEntry& one : value.table()) words += one.key + '=' + as_words(one.value) + ',';
+  return '{' + words + '}';
+}
+
+/// Keys and values of a table but for those that overrides set, a line each, for comparison only.
+void add_words(const CaseTable& table, const std::string& prefix, std::span<const CaseOverride> changes,
+               std::set<std::string>& words) {
+  for (const CaseEntry& entry : table) {
+    const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
+    if (entry.value.is_table())
+      add_words(entry.value.table(), path, changes, words);
+    else if (std::ranges::find(changes, path, &CaseOverride::path) == changes.end())
+      words.insert(path + '=' + as_words(entry.value));
   }
 }
 
@@ -82,9 +123,10 @@ void collect_paths(const CaseTable& table, const std::string& prefix, std::set<s
 struct Expansion {
   const Case& defaults;
   const std::filesystem::path& folder;
-  const std::vector<CaseOverride>& changes;
+  std::vector<CaseOverride> changes;
   std::vector<Case>& out;
-  std::map<int, std::size_t> last = {};  ///< of every sequence, in out
+  std::map<int, std::size_t> last = {};                   ///< of every sequence, in out
+  std::set<std::set<std::string>> given = {}, kept = {};  ///< what cases say, and what overrides leave of it
 
   void add(Case next, const SourcePosition& where) {
     if (out.size() >= kMostCases)
@@ -103,10 +145,16 @@ struct Expansion {
   }
 
   void expand(CaseTable table, const SourcePosition& where) {
-    std::set<std::string, std::less<>> given;
-    collect_paths(table, "", given);
-    for (const CaseOverride& change : changes) given.insert(change.path);
+    std::set<std::string, std::less<>> paths;
+    collect_paths(table, "", paths);
+    for (const CaseOverride& change : changes) paths.insert(change.path);
     std::vector<ValueList> lists;
+    const std::vector<CaseOverride> as_given = changes;
+    for (CaseOverride& change : changes)
+      if (change.value.is_list() && is_scalar_key(change.path)) {
+        drop_list(table, change.path);
+        take_list(change.value, change.path, lists);
+      }
     take_lists(table, "", lists);
     take_values(lists, 0);
     const std::size_t length = lists.empty() ? 1 : lists.front().values.list().size();
@@ -118,13 +166,27 @@ struct Expansion {
     for (std::size_t i = 0; i < (steps > 0 ? steps : length); ++i) {
       if (i < length) take_values(lists, i);
       Case next = changed(table, where);
-      if (steps > 0) step(next, i > 0, [&](std::string_view key) { return given.contains(key); });
+      if (steps > 0) step(next, i > 0, [&](std::string_view key) { return paths.contains(key); });
+      if (!changes.empty()) note_words(table, steps > 0 ? i : 0);
       next.steps = 0;
       add(std::move(next), where);
     }
+    changes = as_given;
   }
 
  private:
+  void note_words(const CaseTable& table, std::size_t step) {
+    std::set<std::string> words;
+    add_words(table, "", {}, words);
+    words.insert(fmt::format("step {}", step));
+    given.insert(words);
+    words.clear();
+    add_words(table, "", changes, words);
+    words.insert(fmt::format("step {}", step));
+    for (const CaseOverride& change : changes) words.insert(change.path + '=' + as_words(change.value));
+    kept.insert(std::move(words));
+  }
+
   void step(Case& next, bool goes_on, const std::function<bool(std::string_view)>& given) const {
     HistoryUse& history = std::visit([](auto& content) -> HistoryUse& { return content.history; }, next.content);
     if (goes_on && history == HistoryUse::start) history = HistoryUse::keep_going;
@@ -186,7 +248,7 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   }
   apply_table(defaults, common, folder);
 
-  Expansion expansion{defaults, folder, changes, result.cases};
+  Expansion expansion{defaults, folder, changes, result.cases, {}, {}, {}};
   if (entries == nullptr) {
     expansion.expand({}, defaults.where);
   } else {
@@ -197,6 +259,12 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
       expansion.expand(entry.table(), entry.where);
     }
   }
+
+  if (expansion.kept.size() < expansion.given.size())
+    result.notes.push_back(
+        fmt::format("only {} of {} different cases still differ: overrides set what the others had of "
+                    "their own",
+                    expansion.kept.size(), expansion.given.size()));
 
   int number = 0;
   for (Case& c : result.cases) {

@@ -155,8 +155,17 @@ std::string doubt_about_history(const Case& previous, const Case& next) {
 
 std::string doubt_about_motion(const Case& c) {
   const auto* rail = std::get_if<WheelRailCase>(&c.content);
-  if (rail == nullptr || !rolling(rail->regime) || rail->longitudinal_force || rail->rolls_by_radius) return {};
-  if (rail->state.velocity != SixMotion{} || rail->state.wheel_velocity != SixMotion{}) return {};
+  if (rail == nullptr || !rolling(rail->regime) || rail->longitudinal_force) return {};
+  const SixMotion& rate = rail->state.velocity;
+  if (rail->state.wheel_velocity != SixMotion{}) return {};
+  if (rail->rolls_by_radius && rate == SixMotion{} && !rail->roller)
+    return "wheelset.rolling = \"nominal\", and no speed is given: nothing moves, and tangential forces are zero "
+           "(give wheelset.velocity_km_h)";
+  if (rail->rolls_by_radius) return {};
+  if (rate.x != 0.0 && rate.pitch == 0.0 && !rail->roller)
+    return "a speed is given, and no pitch rate: the wheel slides without turning "
+           "(wheelset.rolling = \"free\" or \"nominal\" makes it roll)";
+  if (rate != SixMotion{}) return {};
   return "neither a speed nor rolling is given: nothing creeps, and tangential forces are zero "
          "(wheelset.velocity_km_h and wheelset.rolling = \"nominal\" make the wheel roll)";
 }

@@ -18,6 +18,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -174,12 +175,12 @@ std::string sha256_hex(std::string_view bytes) { return hex(digest_of(bytes)); }
 std::string sha256_base64(std::string_view bytes) { return to_base64(digest_of(bytes)); }
 
 std::string sha256_file(const std::filesystem::path& file) {
+  require_file(file, "file", ErrorKind::input_data);
   std::error_code code;
   std::ifstream stream;
   if (std::filesystem::is_regular_file(file, code)) stream.open(file, std::ios::binary);
   if (!stream.is_open())
-    throw Error(ErrorKind::input_data, "the file cannot be opened", {file.string(), 0, 0},
-                "check its name and permissions");
+    throw Error(ErrorKind::input_data, "the file cannot be opened", {file.string(), 0, 0}, "check its permissions");
   Sha256 hash;
   std::vector<char> piece(1 << 16);
   do {

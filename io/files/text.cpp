@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/missing_file.hpp"
 
 namespace treadmark::io::profiles {
 
@@ -24,22 +25,36 @@ fs::path portable_path(std::string name) {
   return name;
 }
 
+namespace {
+
+/// Without what would spoil a terminal.
+std::string shown_name(const fs::path& file) {
+  std::string name = file.string();
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  return name;
+}
+
+}  // namespace
+
 std::string read_text(const fs::path& file, const std::string& what, const SourcePosition& referenced_from) {
   check_cancelled();
   const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
   const auto refuse = [&](const std::string& why, const std::string& advice) {
-    std::string name = file.string();
-    for (char& c : name)
-      if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-    throw Error(ErrorKind::input_data, fmt::format("the {} file '{}' {}", what, name, why), where, advice);
+    throw Error(ErrorKind::input_data, fmt::format("the {} file '{}' {}", what, shown_name(file), why), where, advice);
   };
 
   std::error_code code;
   fs::path actual = file;
   if (!fs::exists(actual, code)) actual = portable_path(file.string());
   const fs::file_status status = fs::status(actual, code);
-  if (status.type() == fs::file_type::not_found)
-    refuse("does not exist", "names are relative to the folder of the file that mentions them");
+  if (status.type() == fs::file_type::not_found) {
+    throw MissingFile(ErrorKind::input_data, fmt::format("the {} file '{}' does not exist", what, shown_name(file)),
+                      where,
+                      advice_on_missing(file, referenced_from.file.empty()
+                                                  ? ""
+                                                  : "names are relative to the folder of the file that mentions them"));
+  }
   if (status.type() == fs::file_type::none) refuse("cannot be looked up: " + code.message(), "check its name");
   if (!fs::is_regular_file(status)) refuse("is not a regular file", "name a text file");
   const std::uintmax_t size = fs::file_size(actual, code);

@@ -22,6 +22,7 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -303,6 +304,7 @@ bool is_locked(const std::filesystem::path& file) {
 }
 
 Hdf5Id open_to_read(const std::filesystem::path& file) {
+  require_file(file, "file of results", ErrorKind::input_data);
   const auto refuse = [&](const char* what) {
     if (is_locked(file))
       throw Error(ErrorKind::input_data, "HDF5: another program has the file open for writing", {file.string()},

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/settings/key_info.hpp"
 #include "treadmark/io/settings/key_list.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
@@ -143,7 +144,8 @@ const std::vector<ImportKey>& import_keys() {
 
 double number_of(const CaseValue& value, const std::string& name, const SourcePosition& where) {
   const bool number = std::holds_alternative<double>(value.data) || std::holds_alternative<std::int64_t>(value.data);
-  if (!number || !std::isfinite(value.number())) fail(fmt::format("'{}' must be a number", name), where);
+  if (!number || !std::isfinite(value.number()))
+    fail(fmt::format("'{}' must be a number", name), where, advice_on_type(key_info(name, KeyType::number, {}), value));
   return value.number();
 }
 
@@ -173,10 +175,12 @@ void set(ImportSettings& settings, const ImportKey& key, const CaseValue& value)
     check_direction(value, info.path);
   } else if (info.type == KeyType::flag) {
     if (!std::holds_alternative<bool>(value.data))
-      fail(fmt::format("'{}' must be true or false", info.path), value.where);
+      fail(fmt::format("'{}' must be true or false", info.path), value.where, advice_on_type(info, value));
   } else {
     const auto* word = std::get_if<std::string>(&value.data);
-    if (word == nullptr || word->empty()) fail(fmt::format("'{}' must be a text", info.path), value.where);
+    if (word == nullptr || word->empty())
+      fail(fmt::format("'{}' must be a text", info.path), value.where,
+           word == nullptr ? advice_on_type(info, value) : std::string());
     if (!info.choices.empty() && std::find(info.choices.begin(), info.choices.end(), *word) == info.choices.end())
       fail(fmt::format("'{}' cannot be \"{}\"", info.path, *word), value.where,
            fmt::format("choose {}", fmt::join(info.choices, ", ")));
@@ -201,10 +205,11 @@ const ImportKey& known_key(const std::string& path, const SourcePosition& where)
 }  // namespace
 
 void read_import_settings(const std::filesystem::path& file, ImportSettings& settings) {
+  require_file(file, "file of settings", ErrorKind::configuration);
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail("File could not be opened for reading", {file.string()});
+  if (!stream) fail("the file of settings cannot be opened", {file.string()}, "check its permissions");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  for (const CaseEntry& table : parse_toml(text, file.string(), "")) {
+  for (const CaseEntry& table : parse_toml(text, file.string())) {
     if (!table.value.is_table()) unknown(table.key, table.value.where);
     for (const CaseEntry& entry : table.value.table())
       set(settings, known_key(table.key + '.' + entry.key, entry.value.where), entry.value);
@@ -223,8 +228,9 @@ void set_import_setting(ImportSettings& settings, const std::string& assignment)
   CaseTable parsed;
   try {
     parsed = parse_toml("value = " + text, "");
-  } catch (const Error&) {
-    fail(fmt::format("the value in '{}' cannot be read", assignment), {}, "write it as in TOML");
+  } catch (const Error& error) {
+    fail(fmt::format("the value in '{}' cannot be read", assignment), {},
+         error.advice().empty() ? "write it as in TOML" : error.advice());
   }
   if (parsed.size() != 1) fail(fmt::format("'{}' takes one value", path), {});
   set(settings, key, {{}, parsed.front().value.data});

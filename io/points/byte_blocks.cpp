@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::points {
@@ -27,7 +28,10 @@ ByteBlocks::ByteBlocks(const fs::path& file, const SourcePosition& asked_by, con
   };
   std::error_code code;
   const fs::file_status status = fs::status(file, code);
-  if (status.type() == fs::file_type::not_found) refuse("does not exist", "check its name and folder");
+  if (status.type() == fs::file_type::not_found)
+    throw MissingFile(ErrorKind::input_data,
+                      fmt::format("the scan file {} does not exist", profiles::printable(file.filename().string())),
+                      where, advice_on_missing(file));
   if (status.type() == fs::file_type::none) refuse("cannot be looked up: " + code.message(), "check its name");
   if (fs::is_directory(status)) refuse("is a folder", "name a file in it");
   if (!fs::is_regular_file(status)) refuse("is not a regular file", "name a file of points");

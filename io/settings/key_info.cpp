@@ -12,7 +12,9 @@
 #include <numbers>
 #include <vector>
 
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/settings/magnitudes.hpp"
+#include "treadmark/io/settings/toml_faults.hpp"
 
 namespace treadmark::io {
 
@@ -95,20 +97,6 @@ void refuse_unknown_key(std::string_view path, const std::vector<std::string>& k
 
 namespace {
 
-/// Damerau-Levenshtein distance (restricted: adjacent transpositions).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i)
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-        d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-    }
-  return d[a.size()][b.size()];
-}
-
 std::string_view leaf(std::string_view path) {
   const std::size_t dot = path.rfind('.');
   return dot == std::string_view::npos ? path : path.substr(dot + 1);
@@ -169,8 +157,81 @@ std::string_view plain(KeyType type) {
   return "a value";
 }
 
-[[noreturn]] void refuse_value(std::string message, const SourcePosition& where) {
-  throw Error(ErrorKind::configuration, std::move(message), where);
+[[noreturn]] void refuse_value(std::string message, const SourcePosition& where, std::string advice = {}) {
+  throw Error(ErrorKind::configuration, std::move(message), where, std::move(advice));
+}
+
+/// What to write for a text where something else is expected.
+std::string advice_on_text(KeyType wanted, const std::string& text) {
+  if (wanted == KeyType::flag) {
+    for (const std::string_view yes : {"true", "yes", "on", "1"})
+      if (edit_distance(text, yes) == 0) return "write true without quotes";
+    for (const std::string_view no : {"false", "no", "off", "0"})
+      if (edit_distance(text, no) == 0) return "write false without quotes";
+    return {};
+  }
+  if (wanted != KeyType::number && wanted != KeyType::integer) return {};
+  const TextFault fault = number_fault(text);
+  return fault.message.empty() || fault.advice.empty() ? fault.message + fault.advice
+                                                       : fault.message + ": " + fault.advice;
+}
+
+/// What to write for a number where text is expected.
+std::string advice_on_number(const KeyInfo& key, double number) {
+  if (key.matches != nullptr && number > 0.0) {
+    std::string ratio = fmt::format("1:{:.6g}", number < 1.0 ? 1.0 / number : number);
+    if (key.matches(ratio)) return fmt::format("write \"{}\"", ratio);
+  }
+  return key.like.empty() ? "text stands in quotes" : fmt::format("write it like {}", key.like);
+}
+
+std::string choices_of(const KeyInfo& key) {
+  std::string choices = key.type == KeyType::number ? "a number" : "";
+  for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
+  return choices;
+}
+
+void check_choice(const KeyInfo& key, const CaseValue& value) {
+  if (std::find(key.choices.begin(), key.choices.end(), value.text()) != key.choices.end()) return;
+  const std::string near = nearest_name(value.text(), key.choices);
+  refuse_value(
+      fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices_of(key)),
+      value.where, near.empty() ? "" : fmt::format("did you mean \"{}\"?", near));
+}
+
+}  // namespace
+
+std::string advice_on_type(const KeyInfo& key, const CaseValue& value) {
+  if (const auto* text = std::get_if<std::string>(&value.data)) return advice_on_text(key.type, *text);
+  if (value.is_list()) return "lists of values make cases in [[cases]] of a case file, and runs in a study";
+  if (key.type == KeyType::choice) return fmt::format("choose {}", choices_of(key));
+  const auto* integer = std::get_if<std::int64_t>(&value.data);
+  const auto* real = std::get_if<double>(&value.data);
+  if (integer == nullptr && real == nullptr) return {};
+  const double number = value.number();
+  if (key.type == KeyType::text || key.type == KeyType::path) return advice_on_number(key, number);
+  if (key.type == KeyType::flag && (number == 0.0 || number == 1.0))
+    return number == 1.0 ? "write true" : "write false";
+  constexpr double kMostExact = 1e15;
+  if (key.type == KeyType::integer && number == std::round(number) && std::abs(number) < kMostExact)
+    return fmt::format("write {:.0f}", number);
+  if (key.type == KeyType::number_list || key.type == KeyType::triple || key.type == KeyType::direction)
+    return "a list stands in square brackets: [1, 2, 3]";
+  return {};
+}
+
+namespace {
+
+/// The number in the unit of the key, where it is plainly in another one: both limits are magnitudes, and a thousand
+/// times more or less lies between them.
+std::string advice_on_unit(const KeyInfo& key, double value) {
+  if (!key.at_least || !key.at_most || !(*key.at_least > 0.0 || *key.at_least == -*key.at_most)) return {};
+  const std::string_view unit = unit_at_end(key.path).ending;
+  if (unit != "_mm" && unit != "_N" && unit != "_um") return {};
+  for (const double factor : {1e3, 1e-3})
+    if (const double meant = factor * value; meant > *key.at_least && meant < *key.at_most)
+      return fmt::format("the number is in {}: {:g} is meant?", unit.substr(1), meant);
+  return fmt::format("the number is in {}", unit.substr(1));
 }
 
 void check_range(const KeyInfo& key, double value, const SourcePosition& where) {
@@ -178,9 +239,11 @@ void check_range(const KeyInfo& key, double value, const SourcePosition& where) 
   if (key.above && !(value > *key.above))
     refuse_value(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
   if (key.at_least && value < *key.at_least)
-    refuse_value(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
+    refuse_value(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where,
+                 advice_on_unit(key, value));
   if (key.at_most && value > *key.at_most)
-    refuse_value(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
+    refuse_value(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where,
+                 advice_on_unit(key, value));
   const Magnitudes& meant = magnitudes_of(key.path);
   const char* advice = "is it in the unit that the name of the key ends with?";
   if (std::abs(value) > meant.greatest)
@@ -192,14 +255,6 @@ void check_range(const KeyInfo& key, double value, const SourcePosition& where) 
     throw Error(ErrorKind::configuration,
                 fmt::format("{} = {:g} is below the least that is taken, {:g}", key.path, value, meant.least), where,
                 advice);
-}
-
-void check_choice(const KeyInfo& key, const CaseValue& value) {
-  if (std::find(key.choices.begin(), key.choices.end(), value.text()) != key.choices.end()) return;
-  std::string choices = key.type == KeyType::number ? "a number" : "";
-  for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
-  refuse_value(fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices),
-               value.where);
 }
 
 }  // namespace
@@ -215,7 +270,8 @@ void check_exclusive(const KeyInfo& key, const SourcePosition& where, ChosenKeys
 
 void check_value(const KeyInfo& key, const CaseValue& value) {
   const auto wrong = [&] {
-    refuse_value(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where);
+    refuse_value(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where,
+                 advice_on_type(key, value));
   };
   const bool integer = std::holds_alternative<std::int64_t>(value.data);
   const bool number = integer || std::holds_alternative<double>(value.data);
@@ -237,6 +293,9 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
     case KeyType::text:
       if (!text) wrong();
       if (value.text().empty()) refuse_value(fmt::format("{} must not be empty", key.path), value.where);
+      if (key.type == KeyType::path && std::ranges::any_of(value.text(), [](char c) { return c >= 0 && c < ' '; }))
+        refuse_value(fmt::format("{} holds a character that no name of a file has", key.path), value.where,
+                     "a backslash in double quotes begins one: write / in its place, or single quotes round the name");
       if (value.text().size() > kLongestText) refuse_value(fmt::format("{} is too long", key.path), value.where);
       if (key.matches != nullptr && !key.matches(value.text()))
         refuse_value(
@@ -253,7 +312,8 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
       if (!value.is_list()) wrong();
       for (const CaseValue& one : value.list()) {
         if (!std::holds_alternative<std::int64_t>(one.data) && !std::holds_alternative<double>(one.data))
-          refuse_value(fmt::format("{} must be a list of numbers, found {} in it", key.path, one.kind()), one.where);
+          refuse_value(fmt::format("{} must be a list of numbers, found {} in it", key.path, one.kind()), one.where,
+                       one.is_list() ? "" : advice_on_type(key_info(key.path, KeyType::number, {}), one));
         check_range(key, one.number(), one.where);
       }
       return;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/io/settings/toml_value.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -58,6 +59,9 @@ struct KeyLimits {
 inline constexpr KeyLimits kPositive{0.0, {}, {}};
 inline constexpr KeyLimits kNotNegative{{}, 0.0, {}};
 inline constexpr KeyLimits kAnyNumber{};
+/// Of wheels and tracks [mm]: what is beyond is in another unit.
+inline constexpr KeyLimits kWheelRadiusMm{{}, 1e3 * kLeastWheelRadius, 1e3 * kMostWheelRadius},
+    kGaugeMm{{}, 1e3 * kLeastGauge, 1e3 * kMostGauge};
 
 KeyInfo key_info(std::string path, KeyType type, std::string doc, const KeyLimits& limits);
 
@@ -88,6 +92,9 @@ double unit_of_key(std::string_view path);
 
 /// The numbers of a list that has been checked, in SI units.
 std::vector<double> numbers_of(const CaseValue& list, double unit);
+
+/// What to write for a value whose type is another one than that of its key; empty where that is not known.
+std::string advice_on_type(const KeyInfo& key, const CaseValue& value);
 
 /// Type and range; throws Error (configuration) at the value. Not for triple_list, text_list, value_list and table.
 void check_value(const KeyInfo& key, const CaseValue& value);

@@ -22,25 +22,6 @@ SourcePosition place_in(std::string_view text, std::size_t at, const std::string
   return {name, 1 + static_cast<int>(std::ranges::count(before, '\n')), 1 + static_cast<int>(column)};
 }
 
-/// Where the string that begins at `at` has ended.
-std::size_t after_string(std::string_view text, std::size_t at) {
-  const char quote = text[at];
-  const std::string three(3, quote);
-  const bool lines = text.substr(at, 3) == three;
-  for (at += lines ? 3 : 1; at < text.size(); ++at) {
-    if (quote == '"' && text[at] == '\\') {
-      ++at;
-    } else if (!lines && (text[at] == quote || text[at] == '\n')) {
-      return at + 1;
-    } else if (lines && text.substr(at, 3) == three) {
-      at += 3;
-      for (int k = 0; k < 2 && at < text.size() && text[at] == quote; ++k) ++at;  // quotes may stand before the end
-      return at;
-    }
-  }
-  return text.size();
-}
-
 /// What the characters of a TOML text outside strings and comments mean for depth.
 class NestingScan {
  public:
@@ -118,12 +99,30 @@ class NestingScan {
 
 }  // namespace
 
+std::size_t after_toml_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string three(3, quote);
+  const bool lines = text.substr(at, 3) == three;
+  for (at += lines ? 3 : 1; at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (!lines && (text[at] == quote || text[at] == '\n')) {
+      return at + 1;
+    } else if (lines && text.substr(at, 3) == three) {
+      at += 3;
+      for (int k = 0; k < 2 && at < text.size() && text[at] == quote; ++k) ++at;  // quotes may stand before the end
+      return at;
+    }
+  }
+  return text.size();
+}
+
 void refuse_deep_toml(std::string_view text, const std::string& name) {
   NestingScan scan;
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (c == '"' || c == '\'') {
-      at = after_string(text, at);
+      at = after_toml_string(text, at);
     } else if (c == '#') {
       at = std::min(text.find('\n', at), text.size());
     } else if (scan.take(c) > kDeepestNesting) {

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/settings/toml_faults.hpp"
 #include "treadmark/io/settings/toml_nesting.hpp"
 
 namespace treadmark::io {
@@ -55,6 +57,12 @@ CaseTable convert(const toml::table& table, const std::string& name) {
   return entries;
 }
 
+void set_place(CaseValue& value, const SourcePosition& where) {
+  value.where = where;
+  if (auto* list = std::get_if<std::vector<CaseValue>>(&value.data))
+    for (CaseValue& one : *list) set_place(one, where);
+}
+
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
@@ -73,13 +81,20 @@ std::string_view CaseValue::kind() const {
   return kKinds[data.index()];
 }
 
-CaseTable parse_toml(std::string_view text, const std::string& name, std::string_view what) {
+CaseTable parse_toml(std::string_view text, const std::string& name) {
+  const std::string decoded = profiles::from_utf16(text);
+  if (!decoded.empty()) text = decoded;
+  if (text.find('\0') != std::string_view::npos)
+    throw Error(ErrorKind::configuration, "not valid TOML: the file holds zero bytes, which no text does", {name},
+                "is it the right file?");
   refuse_deep_toml(text, name);
   try {
     return convert(toml::parse(text, name), name);
   } catch (const toml::parse_error& error) {
-    throw Error(ErrorKind::configuration, fmt::format("{}{}", what, error.description()),
-                position(error.source(), name));
+    const SourcePosition where = position(error.source(), name);
+    TextFault fault = toml_fault(text, where.line, where.column, error.description());
+    if (fault.message.empty()) fault.message = error.description();
+    throw Error(ErrorKind::configuration, "not valid TOML: " + fault.message, where, std::move(fault.advice));
   }
 }
 
@@ -107,13 +122,13 @@ CaseOverride parse_override(std::string_view assignment) {
   try {
     CaseTable parsed = parse_toml(fmt::format("value = {}", text), "");
     result.value = std::move(parsed.at(0).value);
-  } catch (const Error&) {
+  } catch (const Error& error) {
     // Bare words are text; anything that looks like broken TOML is not.
     if (text.find_first_of("'\"[]{}=#") != std::string_view::npos)
-      throw Error(ErrorKind::configuration, "the value is neither a word nor valid TOML", where);
+      throw Error(ErrorKind::configuration, "the value is neither a word nor valid TOML", where, error.advice());
     result.value.data = std::string(text);
   }
-  result.value.where = where;
+  set_place(result.value, where);
   return result;
 }
 

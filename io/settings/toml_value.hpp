@@ -44,10 +44,9 @@ struct CaseEntry {  // NOLINT(bugprone-exception-escape)
   CaseValue value;
 };
 
-/// Parses TOML; throws Error (configuration) with the position of a syntax error, or of what is nested too deeply
-/// (toml_nesting.hpp).
-/// what: before the parser's own words.
-CaseTable parse_toml(std::string_view text, const std::string& name, std::string_view what = "not valid TOML: ");
+/// Parses TOML in UTF-8 or UTF-16; throws Error (configuration) with the position of a syntax error and what to write
+/// instead (toml_faults.hpp), or of what is nested too deeply (toml_nesting.hpp).
+CaseTable parse_toml(std::string_view text, const std::string& name);
 
 /// A text as it stands in a TOML file, in quotes.
 std::string toml_text(const std::string& text);

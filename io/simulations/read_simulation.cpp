@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
@@ -153,9 +154,9 @@ FileText named_text(const TableReader& simulation, std::string_view key, const s
   const std::filesystem::path path = (folder / name).lexically_normal();
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    throw Error(ErrorKind::configuration,
-                fmt::format("{}: there is no file {}", simulation.path_of(key), path.string()),
-                simulation.need(key).where, "names count from the folder of the simulation file");
+    throw MissingFile(
+        ErrorKind::configuration, fmt::format("{}: there is no file {}", simulation.path_of(key), path.string()),
+        simulation.need(key).where, advice_on_missing(path, "names count from the folder of the simulation file"));
   FileText result{{path, {}}, read_text(path)};
   result.file.sha256 = sha256_hex(result.text);
   return result;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
@@ -67,8 +68,9 @@ BaseTables named_base(const TableReader& study, const CaseTable& document, const
   const SourcePosition& where = study.need("base").where;
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    throw Error(ErrorKind::configuration, fmt::format("{}: there is no file {}", study.path_of("base"), path.string()),
-                where, "names count from the folder of the study file");
+    throw MissingFile(ErrorKind::configuration,
+                      fmt::format("{}: there is no file {}", study.path_of("base"), path.string()), where,
+                      advice_on_missing(path, "names count from the folder of the study file"));
   if (path.extension() != ".toml")
     throw Error(ErrorKind::configuration, fmt::format("{} must be a .toml file", study.path_of("base")), where);
   if (is_study_file(path))

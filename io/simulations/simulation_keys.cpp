@@ -273,7 +273,7 @@ const TableKeys& bump_stop_keys() {
 
 const TableKeys& wheelset_keys() {
   static const TableKeys keys{needed(key_info("body", KeyType::text, "free in z at least")),
-                              needed(key_info("nominal_radius_mm", KeyType::number, "of its wheels", kPositive)),
+                              needed(key_info("nominal_radius_mm", KeyType::number, "of its wheels", kWheelRadiusMm)),
                               key_info("axle", KeyType::text, "name of one of `[[axles]]`; without it it is rigid")};
   return keys;
 }
@@ -514,7 +514,7 @@ const TableKeys& layout_keys() {
                                  "place of the vehicle's x = 0 at the start, from the "
                                  "beginning of the line",
                                  kNotNegative)),
-      key_info("gauge_mm", KeyType::number, "where no element says another; without it that of `[track]`", kPositive),
+      key_info("gauge_mm", KeyType::number, "where no element says another; without it that of `[track]`", kGaugeMm),
       with_default("1500", key_info("cant_base_mm", KeyType::number, "width over which cant is measured", kPositive)),
       with_default("\"centre\"",
                    one_of("cant_about", {"centre", "low_rail"}, "what keeps its height where the track is canted")),
@@ -532,7 +532,7 @@ const TableKeys& element_keys() {
       key_info("radius_m", KeyType::number, "of a curve (required there): positive to the right, negative to the left"),
       with_default("0", key_info("cant_mm", KeyType::number,
                                  "of a curve: how much the outer rail lies higher; of a straight: the left one")),
-      key_info("gauge_mm", KeyType::number, "of a straight or a curve", kPositive),
+      key_info("gauge_mm", KeyType::number, "of a straight or a curve", kGaugeMm),
       with_default("\"clothoid\"",
                    one_of("shape", {"clothoid", "bloss"}, "of a transition: how curvature, cant and gauge go over"))};
   return keys;

@@ -12,6 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
+#include "treadmark/solvers/wheelrail/usual_values.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -100,6 +101,11 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
                  p.regime == kalker::Regime::shift, kNotSmall * modulus, kYields * modulus},
                 s.contact, number, solution.remarks);
   if (s.refinement) kalker::judge_refinement(*s.refinement, number, solution.remarks);
+  const SixMotion& moving = p.state.velocity;
+  if (rolling && moving.x != 0.0 && moving.pitch == 0.0 && !p.longitudinal_force && !p.roller)
+    for (Remark& remark : solution.remarks)
+      if (remark.kind == RemarkKind::large_creepage && remark.patch == number)
+        remark.text += ": the wheel slides without turning, its pitch rate or rolling is not given";
   if (ratio > kMeaningless && solution.status != Status::failed) {
     solution.status = Status::failed;
     solution.message = fmt::format(
@@ -162,6 +168,7 @@ void judge_place(const Geometry& geometry, const Problem& p, PairSolution& solut
 }  // namespace
 
 void judge(const Geometry& geometry, const Problem& p, PairSolution& solution) {
+  judge_values(p, solution.remarks);
   for (std::size_t i = 0; i < solution.patches.size(); ++i) judge_patch(geometry, p, static_cast<int>(i) + 1, solution);
   if (solution.hidden_patches > 0) {
     solution.status = Status::failed;

@@ -22,6 +22,7 @@
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/report/pages/sweep_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
@@ -89,8 +90,8 @@ Found find_results(const fs::path& given) {
   const fs::path folder =
       fs::is_regular_file(given, unknown) ? (given.has_parent_path() ? given.parent_path() : fs::path(".")) : given;
   if (!fs::is_directory(folder, unknown))
-    throw Error(ErrorKind::input_data, "there is no such folder", {given.string()},
-                "give a folder that a command wrote with -o");
+    throw MissingFile(ErrorKind::input_data, "there is no such folder", {given.string()},
+                      advice_on_missing(given, "give a folder that a command wrote with -o"));
   const auto row =
       std::ranges::find_if(kKinds, [&](const KindRow& one) { return fs::exists(folder / one.file, unknown); });
   if (row == std::end(kKinds))

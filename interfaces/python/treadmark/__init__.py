@@ -8,7 +8,7 @@ All numbers are in SI units (m, N, Pa, rad, s); axes are x along the track, y to
 The handbook is docs/python.md.
 """
 from . import _treadmark
-from ._errors import Cancelled, ConvergenceWarning, InputError, NumericalError, TreadmarkError
+from ._errors import Cancelled, ConvergenceWarning, InputError, MissingFileError, NumericalError, TreadmarkError
 from ._records import CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Grid, Patch, Quantity, Remark, Result
 from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, LimitCheck, Measure, Measured, SecondContact, ShiftLimit, geometry,
                         measure, measure_files, measures_to_pandas, profiles)

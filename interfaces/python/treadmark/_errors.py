@@ -3,6 +3,21 @@
 """What Treadmark raises and warns of."""
 from __future__ import annotations
 
+import errno
+import pathlib
+import re
+
+#: What the program calls otherwise.
+_WORDS = (("--nominal-radius in mm", "nominal_radius in m"), ("--body wheel or --body rail", 'body="wheel" or body="rail"'),
+          ("treadmark list profiles", "treadmark.profiles()"), ("treadmark list backends", "treadmark.backends()"))
+
+
+def _in_python(text: str) -> str:
+    """The same with the names that functions of this package have for options and verbs of the program."""
+    for theirs, ours in _WORDS:
+        text = text.replace(theirs, ours)
+    return re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), text)
+
 
 class TreadmarkError(Exception):
     """Something is wrong with what was asked: what, where in the input, and what to do instead.
@@ -11,16 +26,29 @@ class TreadmarkError(Exception):
     """
 
     def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0, advice: str = "") -> None:
+        message, advice = _in_python(message), _in_python(advice)
+        if pathlib.PurePath(file).name == "dictionary":  # of which nobody sees lines
+            file, line, column = "", 0, 0
         super().__init__(message, file, line, column, advice)
         self.message, self.file, self.line, self.column, self.advice = message, file, line, column, advice
 
     def __str__(self) -> str:
         place = ":".join(str(part) for part in (self.file, self.line, self.column) if part)
+        if pathlib.PurePath(self.file).name == "text" and self.line:
+            place = f"line {self.line}, column {self.column} of the text"
         return (place + ": " if place else "") + self.message + (f" ({self.advice})" if self.advice else "")
 
 
 class InputError(TreadmarkError, ValueError):
     """An argument, a setting or a file is wrong, missing or not supported."""
+
+
+class MissingFileError(InputError, FileNotFoundError):
+    """A file that is not there."""
+
+    def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0, advice: str = "") -> None:
+        super().__init__(message, file, line, column, advice)
+        self.errno, self.filename = errno.ENOENT, file or None
 
 
 class NumericalError(TreadmarkError, ArithmeticError):

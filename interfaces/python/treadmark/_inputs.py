@@ -18,6 +18,16 @@ Changes = Union[Mapping[str, Any], Iterable[str], None]
 Path = Union[str, "os.PathLike[str]"]
 
 
+def number(value: Any, name: str, unit: str = "m") -> float:
+    """A value as a number, or a TypeError that says what is wanted. unit: what numbers of this name are in."""
+    if not isinstance(value, (str, bytes)):
+        try:
+            return float(value)
+        except (TypeError, ValueError):
+            pass
+    raise TypeError(f"{name} must be a number{'' if unit in ('', '1') else ' in ' + unit}, not {value!r}")
+
+
 def toml_value(value: Any) -> str:
     """A value as TOML."""
     if hasattr(value, "tolist"):  # of NumPy

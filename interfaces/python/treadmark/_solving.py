@@ -12,13 +12,15 @@ import numpy as np
 
 from . import _treadmark
 from ._errors import ConvergenceWarning, InputError
-from ._inputs import Changes, Input, Path, assignments, toml_value
+from ._inputs import Changes, Input, Path, assignments, number as as_number, toml_value
 from ._records import Case, Solution, case_of
 from ._surfaces import Surface, case_of_input
 
 _numbers: dict[str, int] = {}
+_units: dict[int, str] = {}
 for _id, _row in enumerate(_treadmark.tables()["case_numbers"]):
     _numbers.setdefault(_row[0], _id)
+    _units[_id] = _row[1]
 _keys = {row[0] for row in _treadmark.tables()["case_keys"]}
 _WHEEL_RAIL = ("wheelset", "friction", "discretisation", "material", "case", "contact", "solver", "track", "damping", "influence", "heat", "roller")
 _PATCH = ("patch", "patch.hertz", "patch.gap", "friction", "material", "case", "solver", "influence", "heat")
@@ -58,7 +60,7 @@ def _change(case: _treadmark.Case, values: Mapping[str, Any], changes: Changes =
             continue
         number, full = _find(name, patch)
         if number is not None and not (isinstance(value, str) and full in _keys):
-            case.set_number(number, value)
+            case.set_number(number, as_number(value, name, _units[number]))
         else:
             case.set(f"{full}={toml_value(value)}")
     for assignment in assignments(changes):

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from . import _treadmark
 from ._errors import InputError
-from ._inputs import Input, Path, source as _source, toml_value, to_toml
+from ._inputs import Input, Path, number, source as _source, toml_value, to_toml
 
 Array = npt.NDArray[np.float64]
 
@@ -27,6 +27,15 @@ def numbers(values: Any, name: str, *shape: int) -> Array:
     if not np.isfinite(array).all():
         raise InputError(f"{name} holds a number that is not finite")
     return array
+
+
+def _radius(value: Any) -> float:
+    """A nominal radius; 0: none is given. Errors: InputError for one that no wheel has."""
+    radius = number(value, "nominal_radius")
+    least, most = _treadmark.wheel_radii()
+    if radius != 0.0 and not least <= radius <= most:
+        raise InputError(f"no wheel has a nominal_radius of {radius:g} m", advice="it is in metres: 0.46 for 460 mm")
+    return radius
 
 
 class Located(NamedTuple):
@@ -101,7 +110,7 @@ class Surface:
         body: "rail" or "wheel"; nominal_radius [m]: of a wheel, 0 where the file has it; scale_to_mm: unit of profiles and triangles.
         Errors: InputError for a file that is missing, broken or implausible.
         """
-        return cls._of(_treadmark.Surface.read(pathlib.Path(file), body, nominal_radius, scale_to_mm))
+        return cls._of(_treadmark.Surface.read(pathlib.Path(file), body, _radius(nominal_radius), number(scale_to_mm, "scale_to_mm", "")))
 
     @classmethod
     def standard(cls, name: str, body: str | None = None, nominal_radius: float = 0.46) -> "Surface":
@@ -113,7 +122,7 @@ class Surface:
         other = "60E1" if which == "wheel" else "S1002"
         shape = {which: name, ("rail" if which == "wheel" else "wheel"): other}
         case = {f"{part}.shape.standard": profile for part, profile in shape.items()}
-        return cls.of_case({**case, "wheelset.nominal_radius_mm": 1e3 * nominal_radius, "wheelset.vertical_force_N": 1.0}, which)
+        return cls.of_case({**case, "wheelset.nominal_radius_mm": 1e3 * _radius(nominal_radius), "wheelset.vertical_force_N": 1.0}, which)
 
     @classmethod
     def of_case(cls, given: Input, body: str, case: int = 1, folder: Path | None = None) -> "Surface":
@@ -128,7 +137,7 @@ class Surface:
         nominal_radius [m]: of a wheel; smoothing [m^3]: strength, 0 = through the points.
         """
         y = numbers(y, "y", -1)
-        return cls._of(_treadmark.Surface.profile(body, y, numbers(z, "z", len(y)), nominal_radius, smoothing))
+        return cls._of(_treadmark.Surface.profile(body, y, numbers(z, "z", len(y)), _radius(nominal_radius), number(smoothing, "smoothing", "m^3")))
 
     @classmethod
     def slices(cls, u: Any, y: Any, z: Any, body: str, nominal_radius: float = 0.0) -> "Surface":
@@ -137,7 +146,7 @@ class Surface:
         u = numbers(u, "u", -1)
         z = numbers(z, "z", len(u), -1)
         y = numbers(np.broadcast_to(numbers(y, "y", z.shape[1]), z.shape) if np.ndim(y) == 1 else y, "y", *z.shape)
-        return cls._of(_treadmark.Surface.slices(body, u, y, z, nominal_radius))
+        return cls._of(_treadmark.Surface.slices(body, u, y, z, _radius(nominal_radius)))
 
     @classmethod
     def mesh(cls, vertices: Any, faces: Any, body: str, nominal_radius: float = 0.0) -> "Surface":
@@ -148,7 +157,7 @@ class Surface:
             raise InputError(f"faces has the shape {corners.shape} of {corners.dtype}", advice="it must be (m, 3) whole numbers")
         if corners.size and (corners.min() < 0 or corners.max() >= len(vertices)):
             raise InputError("a face names a vertex that does not exist")
-        return cls._of(_treadmark.Surface.mesh(body, vertices, corners.astype(np.int32), nominal_radius))
+        return cls._of(_treadmark.Surface.mesh(body, vertices, corners.astype(np.int32), _radius(nominal_radius)))
 
     @classmethod
     def function(cls, heights: Any, body: str, u: Sequence[float], y: Sequence[float], n_u: int = 201, n_y: int = 401,
@@ -276,8 +285,14 @@ class Surface:
 
 def case_of_input(given: Input, case: int, folder: Path | None) -> _treadmark.Case:
     if isinstance(given, Mapping) or (isinstance(given, str) and "\n" in given):
-        text = to_toml(given) if isinstance(given, Mapping) else given
-        return _treadmark.Case.parse(text, str(folder or ""), case)
+        if not isinstance(given, Mapping):
+            return _treadmark.Case.parse(given, str(folder or ""), case)
+        try:
+            return _treadmark.Case.parse(to_toml(given), str(folder or ""), case)
+        except InputError as error:
+            if pathlib.PurePath(error.file).name != "text":
+                raise
+            raise type(error)(error.message, advice=error.advice) from None  # nobody sees lines of a dictionary
     _source(given, None, folder)  # the same errors as elsewhere
     return _treadmark.Case.read(pathlib.Path(given), case)
 

@@ -116,7 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
     Wheelsets, VehicleError,
     ::testing::Values(Wrong{"body = \"axle\"", "body = \"axles\"",
                             "v.toml:34:8: wheelsets.body: the body 'axles' is not known (did you mean 'axle'?)"},
-                      Wrong{"nominal_radius_mm = 460", "nominal_radius_mm = 0", "must be greater than 0"},
+                      Wrong{"nominal_radius_mm = 460", "nominal_radius_mm = 0.46",
+                            "must be at least 10 (the number is in mm: 460 is meant?)"},
                       Wrong{"nominal_radius_mm = 460",
                             "nominal_radius_mm = 460\n[[wheelsets]]\nbody = \"axle\"\nnominal_radius_mm = 460",
                             "'axle' is a wheelset twice"},
@@ -194,7 +195,8 @@ TEST(VehicleOverride, TellsWhatIsWrong) {
 }
 
 TEST(VehicleFile, MissingFileIsTold) {
-  EXPECT_THAT(error_of([] { read_vehicle_file("/nowhere/v.toml"); }), ::testing::HasSubstr("cannot be opened"));
+  EXPECT_THAT(error_of([] { read_vehicle_file("/nowhere/v.toml"); }),
+              ::testing::HasSubstr("there is no folder /nowhere"));
 }
 
 }  // namespace

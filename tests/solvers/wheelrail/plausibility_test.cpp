@@ -7,11 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/solvers/wheelrail/usual_values.hpp"
 #include "treadmark/tests/solvers/wheelrail/round_groove.hpp"
 #include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
 
@@ -131,6 +135,57 @@ TEST(PairPlausibility, SurfaceThatEndsInContactAndHoles) {
   EXPECT_THAT(kinds(torn), Contains(RemarkKind::hole_in_contact));
   EXPECT_EQ(torn.status, Status::failed);
   EXPECT_FALSE(torn.message.empty());
+}
+
+TEST(UsualValues, NumbersOfRailwaysAreWithoutDoubtOthersAreNamed) {
+  const auto doubts = [](auto change) {
+    Problem p = standard_problem();
+    p.vertical_force = 1e5;
+    change(p);
+    std::vector<Remark> remarks;
+    judge_values(p, remarks);
+    std::string texts;
+    for (const Remark& r : remarks) {
+      EXPECT_EQ(r.kind, RemarkKind::unusual_value);
+      EXPECT_TRUE(r.grave());
+      texts += r.text + '\n';
+    }
+    return texts;
+  };
+  using ::testing::HasSubstr;
+  EXPECT_EQ(doubts([](Problem&) {}), "");
+  for (const double radius : {0.1, 0.165, 0.33, 0.46, 0.625, 0.75})
+    EXPECT_EQ(doubts([=](Problem& p) { p.wheelset.nominal_radius = radius; }), "") << radius;
+  for (const double gauge : {0.6, 1.0, 1.435, 1.52, 1.676})
+    EXPECT_EQ(doubts([=](Problem& p) {
+                p.track.gauge_width = gauge;
+                p.wheelset.flange_back_distance = gauge - 0.075;
+              }),
+              "")
+        << gauge;
+  for (const double y : {-0.017, 0.01}) EXPECT_EQ(doubts([=](Problem& p) { p.state.position.y = y; }), "") << y;
+  EXPECT_THAT(doubts([](Problem& p) { p.wheelset.nominal_radius = 0.92; }), HasSubstr("920 mm, more than 750"));
+  EXPECT_THAT(doubts([](Problem& p) { p.vertical_force = 100.0; }), HasSubstr("is it in kN?"));
+  EXPECT_THAT(doubts([](Problem& p) { p.track.gauge_width = 1.0; }),
+              HasSubstr("do wheelset and track belong together?"));
+  EXPECT_THAT(doubts([](Problem& p) { p.state.position.y = -0.02; }), HasSubstr("has climbed"));
+  EXPECT_THAT(doubts([](Problem& p) { p.track.dy = 0.02; }), HasSubstr("has climbed"));
+  EXPECT_THAT(doubts([](Problem& p) { p.state.velocity.x = -300.0; }), HasSubstr("is it in km/h?"));
+  EXPECT_THAT(doubts([](Problem& p) { p.state.position.yaw = -5.0; }), HasSubstr("is it in degrees?"));
+  EXPECT_EQ(doubts([](Problem& p) {
+              p.track.gauge_based = false;
+              p.state.position.y = 1.0;
+            }),
+            "")
+      << "absolute places have their own origin";
+}
+
+TEST(UsualValues, DocumentationHasTheirLimits) {
+  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/case-file.md");
+  std::stringstream text;
+  text << stream.rdbuf();
+  EXPECT_NE(text.str().find(usual_value_table()), std::string::npos) << "docs/case-file.md must contain:\n"
+                                                                     << usual_value_table();
 }
 
 }  // namespace
