@@ -32,6 +32,7 @@ enum class RemarkKind : std::uint8_t {
   no_contact_under_load,
   elements_enlarged,
   step_rule,
+  noisy_profile,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -84,6 +85,8 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::elements_enlarged, "elements_enlarged", false,
      "elements were enlarged to keep their number below max_elements"},
     {RemarkKind::step_rule, "step_rule", false, "a step of transient rolling is longer than dt = 2 dx / V"},
+    {RemarkKind::noisy_profile, "noisy_profile", true,
+     "noise of a measured profile leaves a standard deviation of more than 5 % of the largest pressure"},
 };
 
 /// One remark on one result.

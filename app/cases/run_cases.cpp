@@ -4,11 +4,13 @@
 
 #include <chrono>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 #include "treadmark/app/cases/case_sequence.hpp"
+#include "treadmark/app/cases/noise_of_results.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
@@ -31,6 +33,20 @@ wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& st
   const StoredSurface& wheel = store.get(input.wheel, Body::wheel, profile_radius(input, Body::wheel), regions.wheel);
   return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !input.roller,
           wheel.constant_profile()};
+}
+
+/// What noise of measured profiles leaves uncertain, of all cases that were solved.
+void add_noise(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run) {
+  std::map<std::pair<const NaturalSurface*, const NaturalSurface*>, NoiseOfResults> pairs;
+  std::size_t next = 0;
+  for (io::CaseResult& result : run.cases) {
+    while (next < file.cases.size() && file.cases[next].number != result.number) ++next;
+    const auto* input = next < file.cases.size() ? std::get_if<io::WheelRailCase>(&file.cases[next].content) : nullptr;
+    if (input == nullptr) continue;
+    const auto rail = store.natural(input->rail, Body::rail, profile_radius(*input, Body::rail));
+    const auto wheel = store.natural(input->wheel, Body::wheel, profile_radius(*input, Body::wheel));
+    pairs.try_emplace({rail.get(), wheel.get()}, *rail, *wheel).first->second.add(*input, result);
+  }
 }
 
 /// A result that says where it comes from, without cases.
@@ -69,6 +85,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
         geometries[i] = geometry_of(*input, store, regions);
     }
     run = solve_cases(file, geometries, progress);
+    add_noise(file, store, run);
   } catch (const Cancelled&) {  // what is finished is whole
     run = head_of(file);
   }

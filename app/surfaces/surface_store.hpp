@@ -31,6 +31,9 @@ class SurfaceStore {
   /// radius: nominal radius of a wheel, or of a roller in place of a rail [m]; 0 = it is a rail.
   const StoredSurface& get(const io::SurfaceSource& source, Body body, double radius, const Region& region);
 
+  /// The surface itself, whatever it is represented by.
+  std::shared_ptr<const NaturalSurface> natural(const io::SurfaceSource& source, Body body, double radius);
+
   /// The surface that a source stands for from now on, in place of what it names. For sources that nobody has asked
   /// for yet.
   void put(const io::SurfaceSource& source, Body body, double radius, std::shared_ptr<const NaturalSurface> surface);
@@ -63,7 +66,6 @@ class SurfaceStore {
     bool fit_known = false;
   };
 
-  std::shared_ptr<const NaturalSurface> natural(const io::SurfaceSource& source, Body body, double radius);
   void note_hashes(const io::SurfaceSource& source);
 
   std::vector<Natural> naturals_;

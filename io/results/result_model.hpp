@@ -167,6 +167,11 @@ struct PatchResult {
     std::array<double, 3> by_approach{};  ///< of (F_n, F_x, F_s) by the approach [N/m]
   };
   std::optional<Sensitivities> sensitivities;
+  /// Standard deviations of what noise of the measured profiles has left uncertain.
+  struct Noise {
+    double pmax = 0.0, area = 0.0, fn = 0.0, place = 0.0;  ///< [Pa], [m^2], [N], across the rolling direction [m]
+  };
+  std::optional<Noise> noise;
 };
 
 /// What came out of one case.
