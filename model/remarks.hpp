@@ -39,6 +39,7 @@ enum class RemarkKind : std::uint8_t {
   on_flange_tip,
   on_flange_back,
   unusual_value,
+  noisy_profile,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -107,6 +108,8 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "the back of the flange alone touches: without a check rail a wheel cannot be there"},
     {RemarkKind::unusual_value, "unusual_value", true,
      "a number of the problem that no railway has, as in another unit: a load, gauge, radius, speed, angle or place"},
+    {RemarkKind::noisy_profile, "noisy_profile", true,
+     "noise of a measured profile leaves a standard deviation of more than 5 % of the largest pressure"},
 };
 
 /// One remark on one result.

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <exception>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 
 #include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/data_ends.hpp"
+#include "treadmark/app/cases/noise_of_results.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
@@ -38,6 +40,20 @@ wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& st
   const StoredSurface& wheel = store.get(input.wheel, Body::wheel, profile_radius(input, Body::wheel), regions.wheel);
   return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !input.roller,
           wheel.constant_profile()};
+}
+
+/// What noise of measured profiles leaves uncertain, of all cases that were solved.
+void add_noise(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run) {
+  std::map<std::pair<const NaturalSurface*, const NaturalSurface*>, NoiseOfResults> pairs;
+  std::size_t next = 0;
+  for (io::CaseResult& result : run.cases) {
+    while (next < file.cases.size() && file.cases[next].number != result.number) ++next;
+    const auto* input = next < file.cases.size() ? std::get_if<io::WheelRailCase>(&file.cases[next].content) : nullptr;
+    if (input == nullptr) continue;
+    const auto rail = store.natural(input->rail, Body::rail, profile_radius(*input, Body::rail));
+    const auto wheel = store.natural(input->wheel, Body::wheel, profile_radius(*input, Body::wheel));
+    pairs.try_emplace({rail.get(), wheel.get()}, *rail, *wheel).first->second.add(*input, result);
+  }
 }
 
 /// A result that says where it comes from, without cases.
@@ -83,6 +99,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
       if (const auto* input = std::get_if<io::WheelRailCase>(&c->content))
         doubt_contact_beyond_data(*input, store, result);
     }
+    add_noise(file, store, run);
   } catch (const Cancelled&) {  // what is finished is whole
     run = head_of(file);
   }

@@ -31,7 +31,7 @@ class SurfaceStore {
   /// radius: nominal radius of a wheel, or of a roller in place of a rail [m]; 0 = it is a rail.
   const StoredSurface& get(const io::SurfaceSource& source, Body body, double radius, const Region& region);
 
-  /// The surface as given, see get().
+  /// The surface itself, whatever it is represented by.
   std::shared_ptr<const NaturalSurface> natural(const io::SurfaceSource& source, Body body, double radius);
 
   /// The surface that a source stands for from now on, in place of what it names. For sources that nobody has asked

@@ -96,6 +96,7 @@ constexpr Access<C> deflection() {
 using Local = P::LocalForces;
 using Curvatures = P::Curvatures;
 using Refinement = P::Refinement;
+using Noise = P::Noise;
 using Roller = C::Roller;
 
 // A row of a table stays a row: clang-format would give each column a line.
@@ -193,6 +194,15 @@ constexpr Quantity<P> kPatchQuantities[] = {
     {"", "max_temperature_2_C", kCelsius, B::heat, of<&P::max_temperature_2>(),
      "greatest surface temperature of the wheel in contact",
      {"max_temperature_2"}},
+    {"noise", "pmax_MPa", kStress, B::heat, within<&P::noise, &Noise::pmax>(),
+     "standard deviation that noise of measured profiles leaves to the largest pressure; where they were smoothed by it",
+     {"noise_pmax"}, {"its error by noise", Digits::four, "noise_pmax_MPa"}},
+    {"noise", "area_mm2", kArea, B::heat, within<&P::noise, &Noise::area>(), "to the area of contact",
+     {"noise_area"}},
+    {"noise", "fn_N", kForce, B::heat, within<&P::noise, &Noise::fn>(),
+     "to the normal force where no vertical force is prescribed, else 0", {"noise_fn"}},
+    {"noise", "place_mm", kLength, B::heat, within<&P::noise, &Noise::place>(),
+     "to the place of contact across the rolling direction", {"noise_place"}},
     {"", "slip_share", kRatio, B::count,
      {[](const P& p) { return static_cast<double>(p.nslip) / p.ncon; }, nullptr, [](const P& p) { return p.ncon > 0; }},
      "elements in slip over elements in contact", {}, {"share in slip", Digits::four, "slip_share"}},

@@ -39,7 +39,7 @@ enum class Block {
   energy,
   relative,  ///< older files lack these
   count,     ///< older files lack these
-  heat,      ///< each where it was computed
+  heat,      ///< each where it was computed; also what noise leaves uncertain
   shape,     ///< older files lack these, and contacts at the end of a surface
   refined,   ///< where it was estimated
   rolling,

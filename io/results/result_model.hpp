@@ -172,6 +172,11 @@ struct PatchResult {
     double pmax = 0.0, area = 0.0, force = 0.0;
   };
   std::optional<Refinement> refinement;
+  /// Standard deviations of what noise of the measured profiles has left uncertain.
+  struct Noise {
+    double pmax = 0.0, area = 0.0, fn = 0.0, place = 0.0;  ///< [Pa], [m^2], [N], across the rolling direction [m]
+  };
+  std::optional<Noise> noise;
 };
 
 /// What came out of one case.
