@@ -236,22 +236,33 @@ double slope_of(const std::vector<double>& t, const std::vector<double>& x) {
   return tt > 0.0 ? tx / tt : 0.0;
 }
 
-/// The least x of a parabola x(t) through the points, in their range; `otherwise` for fewer than five.
-double least_of_parabola(const std::vector<double>& t, const std::vector<double>& x, double otherwise) {
-  if (t.size() < 5) return otherwise;
+/// Least squares parabola x = c0 + c1 u + c2 u^2 through five points or more, u = (t - middle) / half.
+struct Parabola {
+  Eigen::Vector3d c;
+  double middle, half;
+};
+
+Parabola parabola(const std::vector<double>& t, const std::vector<double>& x) {
   const auto [from, to] = std::minmax_element(t.begin(), t.end());
-  const double middle = 0.5 * (*from + *to), half = 0.5 * (*to - *from);
-  if (!(half > 0.0)) return otherwise;
+  Parabola out{Eigen::Vector3d::Zero(), 0.5 * (*from + *to), std::max(0.5 * (*to - *from), 1e-9)};
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < t.size(); ++i) {
-    const double u = (t[i] - middle) / half;
+    const double u = (t[i] - out.middle) / out.half;
     const Eigen::Vector3d row(1.0, u, u * u);
     normal += row * row.transpose();
-    right += row * (x[i] - otherwise);
+    right += row * (x[i] - x.front());
   }
-  const Eigen::Vector3d c = normal.ldlt().solve(right);
-  const auto at = [&](double u) { return otherwise + c[0] + u * (c[1] + u * c[2]); };
+  out.c = normal.ldlt().solve(right);
+  out.c[0] += x.front();
+  return out;
+}
+
+/// The least x of a parabola x(t) through the points, in their range; `otherwise` for fewer than five.
+double least_of_parabola(const std::vector<double>& t, const std::vector<double>& x, double otherwise) {
+  if (t.size() < 5) return otherwise;
+  const Eigen::Vector3d c = parabola(t, x).c;
+  const auto at = [&](double u) { return c[0] + u * (c[1] + u * c[2]); };
   double best = std::min(at(-1.0), at(1.0));
   if (const double u = c[2] > 0.0 ? -0.5 * c[1] / c[2] : 2.0; std::fabs(u) < 1.0) best = at(u);
   return best;
@@ -296,10 +307,9 @@ std::optional<double> tape_height(const SectionPoints& p) {
   for (std::size_t i = 0; i < p.y.size(); ++i)
     if (std::fabs(p.y[i]) <= kNear) y.push_back(p.y[i]), z.push_back(p.z[i]);
   if (y.size() >= 5) {
-    const double slope = slope_of(y, z);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < y.size(); ++i) sum += z[i] - slope * y[i];
-    return sum / static_cast<double>(y.size());
+    const auto [c, middle, half] = parabola(y, z);
+    const double u = -middle / half;
+    return c[0] + u * (c[1] + u * c[2]);
   }
   for (std::size_t i = 1; i < p.y.size(); ++i)
     if ((p.y[i - 1] <= 0.0) != (p.y[i] <= 0.0)) {
@@ -424,7 +434,7 @@ class Reader {
   }
 
   void judge_place() {
-    constexpr double kTipNew = -55e-3, kTipOff = 4e-3, kLowest = 20e-3, kHighest = 42e-3;
+    constexpr double kTipNew = -55e-3, kTipOff = 2.5e-3, kLowest = 20e-3, kHighest = 42e-3;
     const WheelMarks& m = u_.wheel;
     if (!w_.place || m.second_flange || !m.tip_y) return;
     const double height = *m.tip_z - m.tape_z.value_or(0.0);

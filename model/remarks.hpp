@@ -102,8 +102,7 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "the wheel stands more than 5 mm off its nominal height on a rail placed by the gauge"},
     {RemarkKind::on_flange_tip, "on_flange_tip", true,
      "the wheel stands on the tip of its flange, 15 mm beyond the nominal radius, or its radius there is more than 45 "
-     "mm "
-     "off the nominal one"},
+     "mm off the nominal one"},
     {RemarkKind::on_flange_back, "on_flange_back", true,
      "the back of the flange alone touches: without a check rail a wheel cannot be there"},
     {RemarkKind::unusual_value, "unusual_value", true,

@@ -92,7 +92,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
         geometries[i] = geometry_of(*input, store, regions);
     }
     run = solve_cases(file, geometries, progress);
-    add_profile_doubts(file, run);
+    add_profile_doubts(file, store, run);
     auto c = file.cases.begin();
     for (io::CaseResult& result : run.cases) {
       while (c->number != result.number) ++c;

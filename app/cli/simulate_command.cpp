@@ -2,8 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <optional>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -15,6 +18,7 @@
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -85,6 +89,25 @@ void write_snapshots_vtk(const std::filesystem::path& folder, const io::Simulati
   io::write_vtk_bodies(folder, result.snapshots, "bodies", result.snapshot_times);
 }
 
+/// Whether there were any.
+bool tell_profile_doubts(const io::SimulationFile& file, const std::function<void(const std::string&)>& tell) {
+  std::set<std::string> told;
+  const io::WheelRailCase& contact = file.contact;
+  const auto look = [&](const io::SurfaceSource& source, Body body) {
+    const io::ExpectedProfile expected =
+        body == Body::wheel
+            ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true}
+            : io::ExpectedProfile{{}, {}, contact.track.gauge_based};
+    for (const std::string& doubt : app::source_doubts(source, body, expected))
+      if (told.insert(doubt).second) tell(doubt);
+  };
+  look(contact.wheel, Body::wheel);
+  if (file.other_wheel) look(*file.other_wheel, Body::wheel);
+  look(file.rail(Side::left), Body::rail);
+  look(file.rail(Side::right), Body::rail);
+  return !told.empty();
+}
+
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
   require_different({options.file}, {options.json_file, options.report_file});
   if (options.resume && options.output_folder.empty())
@@ -114,6 +137,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   run.settings = overrides;
   run.tables = &tables;
   run.doubt = [](const std::string& message) { std::cerr << "doubt: " << message << '\n'; };
+  const bool doubtful = tell_profile_doubts(file, run.doubt);
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
     print_summary(options.json_file, app::to_json(result, {}),
@@ -167,7 +191,8 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
         "doubt: the contact is doubtful in {:.0f} steps (column doubts of the history); keep contact fields there to "
         "see why\n",
         steps);
-  return exit_status(result);
+  const int status = exit_status(result);
+  return status == kOk && doubtful ? kFailed : status;
 }
 
 }  // namespace

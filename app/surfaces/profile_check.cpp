@@ -33,18 +33,20 @@ struct Standard {
   std::string name;
   measures::Section section;
   measured::NominalOutline outline;
+  bool upright = true;  ///< false: inclined in its own axes
 };
 
 std::vector<Standard> standards_of(Body body) {
   std::vector<Standard> list;
-  for (const std::string_view name : standard_profile_names()) {
-    if (library_body(name) != body) continue;
+  for (const LibraryProfile& row : profile_library()) {
+    const std::string& name = row.name;
+    if (row.family || row.body != body) continue;
     const std::vector<Vec2> outline = library_outline(name, kLibraryPoints);
     Profile points;
     points.body = body;
     for (const Vec2& p : outline) points.y.push_back(p.x()), points.z.push_back(p.y());
-    list.push_back({std::string(name), measures::Section(points, 0.0),
-                    measured::nominal_outline(std::string(name), body, outline)});
+    list.push_back({name, measures::Section(points, 0.0), measured::nominal_outline(name, body, outline),
+                    row.shape.find("inclined") == std::string::npos});
   }
   return list;
 }
@@ -129,11 +131,13 @@ void add_nearest(const Profile& profile, io::ProfileJudgement& to) {
 /// is worn on the side of great y alone shows the gauge side there.
 void judge_against_nominal(const io::SourcedProfile& sourced, io::ProfileJudgement& to) {
   constexpr double kTimesBetter = 3.0, kBadUpright = 0.05e-3, kWorn = 1e-3, kAsNew = 0.3e-3;
+  constexpr double kFits = 0.3e-3;  // a worse fit shows nothing
   const Profile& profile = sourced.profile;
   std::vector<measured::NominalOutline> outlines;
-  for (const Standard& standard : standards(profile.body)) outlines.push_back(standard.outline);
+  for (const Standard& standard : standards(profile.body))
+    if (standard.upright) outlines.push_back(standard.outline);
   const std::optional<measured::Lean> lean = measured::lean_of(profile, outlines);
-  if (!lean) return;
+  if (!lean || lean->residual > kFits) return;
   if (std::fabs(lean->roll) > measured::kUsualRoll && lean->upright > kBadUpright &&
       lean->upright > kTimesBetter * lean->residual)
     to.remarks.push_back(
@@ -268,11 +272,59 @@ std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) {
   return out;
 }
 
-void add_profile_doubts(const io::CaseFile& file, io::RunResult& run) {
+std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body,
+                                       const io::ExpectedProfile& expected) {
+  std::vector<ProfileUse> uses;
+  collect(source, body, expected, uses);
+  std::vector<std::string> out;
+  for (const ProfileUse& use : uses) {
+    const CheckedProfile one = checked(io::read_sourced_profile(use.file.file, body, use.file.options, use.where),
+                                       use.file.file, expected, Nearest::no);
+    for (const io::ProfileRemark& remark : one.judgement.remarks)
+      out.push_back(fmt::format("{}: {}: {}", one.name, remark.name, remark.text));
+  }
+  return out;
+}
+
+namespace {
+
+/// Slices lie as they are in their file: a section in their middle shows whether that is the place of a wheel or rail.
+std::string doubt_of_slices(const io::SurfaceSource& source, Body body, double radius, SurfaceStore& store) {
+  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  if (!source.parts.empty() || file == nullptr || !io::is_slices_file(file->file)) return {};
+  const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, radius);
+  const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
+  if (slices == nullptr || slices->profiles.empty()) return {};
+  const Profile& middle = slices->profiles[slices->profiles.size() / 2];
+  measured::SectionPoints points{body, middle.y, middle.z};
+  const measured::Understanding seen = measured::understand(points, {});
+  std::string what;
+  if (seen.mirrored_z && seen.z.sure())
+    what = "upside_down: turned over a section shows " + seen.z.evidence;
+  else if (seen.mirrored_y)
+    what = "flange_side: " + seen.y.evidence + ", on the side of great y, as that of a left wheel";
+  else if (seen.shift_y != 0.0)
+    what = fmt::format("tape_line: y = 0 lies {:.2f} mm from the tape line, 70 mm from the back of the flange",
+                       kMilli * std::fabs(seen.shift_y));
+  return what.empty() ? what
+                      : fmt::format("{} slices {}: {}; slices are taken as they lie", body_name(body),
+                                    file->file.string(), what);
+}
+
+}  // namespace
+
+void add_profile_doubts(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run) {
   const auto known = checked_uses(file, Nearest::no);
   for (io::CaseResult& result : run.cases) {
     const auto given = std::ranges::find(file.cases, result.number, &io::Case::number);
     if (given == file.cases.end()) continue;
+    const auto* input = std::get_if<io::WheelRailCase>(&given->content);
+    if (input == nullptr) continue;
+    for (const Body body : {Body::rail, Body::wheel})
+      if (std::string doubt = doubt_of_slices(body == Body::wheel ? input->wheel : input->rail, body,
+                                              profile_radius(*input, body), store);
+          !doubt.empty())
+        result.remarks.push_back({RemarkKind::profile_doubtful, 0, std::move(doubt)});
     for (const ProfileUse& use : uses_of(*given))
       for (const auto& [same, profile] : known) {
         if (!same.same_as(use)) continue;

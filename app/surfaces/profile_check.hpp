@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/profiles/judge_profile.hpp"
 #include "treadmark/io/results/result_model.hpp"
@@ -37,11 +38,15 @@ std::optional<Body> body_by_shape(const std::filesystem::path& file);
 /// The same for every profile file that the cases of a file use, each once. Errors as read_profile.
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file);
 
+/// The doubts about the profile files behind a wheel or rail. Errors as read_profile.
+std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected);
+
 /// The doubts and notes of check_profiles as notes of a run.
 std::vector<std::string> profile_doubts(const io::CaseFile& file);
 
 /// The doubts of check_profiles as remarks on the cases of a run in which the profiles are used; those that a contact
 /// has remarks of its own for are left to it.
-void add_profile_doubts(const io::CaseFile& file, io::RunResult& run);
+/// store: of the surfaces of the run; slices are judged by one in their middle.
+void add_profile_doubts(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run);
 
 }  // namespace treadmark::app
