@@ -52,6 +52,7 @@ ProfileSpline fit_profile(const Profile& profile) {
   // A filter of this penalty halves a sine whose wavelength is the strength.
   const double cutoff = strength / (2.0 * std::numbers::pi);
   switch (method) {
+    case Method::by_noise:  // the points have been smoothed where they were read
     case Method::spline:
       return fit_cubic_smoothing(data, strength <= kTinyPenaltyUnweighted ? 0.0 : strength);
     case Method::weighted_spline: {

@@ -22,6 +22,7 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/model/body_name.hpp"
 #include "treadmark/model/natural_view.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 
@@ -36,18 +37,25 @@ std::string points_text(const std::filesystem::path& folder, const std::string& 
   convert_profile(name, file, {}, {});
   std::ifstream in(file);
   std::string line, out;
+  const double corner = wheel ? 40.0 : 15.0, step = wheel ? 10.0 : -5.0, down = wheel ? -1.0 : 1.0;
   int count = 0;
+  double y_before = 0.0, z_before = 0.0;
+  const auto add = [&](double y, double z) {
+    if (y > corner) z += down * 0.8 * (y - corner);  // a corner of 39 degrees
+    if (y > step) z += down * 0.5;                   // up and down again within the spacing of the points
+    out += fmt::format("{:.9f} {:.9f}\n", y, z);
+  };
   while (std::getline(in, line)) {
     std::istringstream words(line);
     double y = 0.0, z = 0.0;
     char comma = ',';
     if (!(words >> y >> comma >> z)) continue;
     if (wheel ? y < -71.0 : std::fabs(y) > 34.0) continue;
-    if (wheel && y > 40.0) z -= 0.8 * (y - 40.0);  // a corner of 39 degrees
-    if (!wheel && y > 15.0) z += 0.8 * (y - 15.0);
-    if (y > (wheel ? 10.0 : -5.0)) z += wheel ? -0.5 : 0.5;  // up and down again within the spacing of the points
-    out += fmt::format("{:.9f} {:.9f}\n", y, z);
-    if (++count == 20) out += fmt::format("{:.9f} {:.9f}\n", y, z);
+    if (count > 0 && (y_before - corner) * (y - corner) < 0.0)
+      add(corner, z_before + (z - z_before) * (corner - y_before) / (y - y_before));
+    add(y, z);
+    if (++count == 20) add(y, z);
+    y_before = y, z_before = z;
   }
   return out;
 }
@@ -55,9 +63,7 @@ std::string points_text(const std::filesystem::path& folder, const std::string& 
 /// Wheel or rail of each kind, by the lines of a case file that make it.
 class Shapes {
  public:
-  Shapes() {
-    for (const Body body : {Body::rail, Body::wheel}) write(body);
-  }
+  explicit Shapes(Body body) { write(body); }
 
   std::vector<std::pair<std::string, std::string>> kinds(Body body) const {
     const std::string b = body == Body::wheel ? "wheel" : "rail";
@@ -154,7 +160,9 @@ class Shapes {
     convert("openvdb", ".vdb");
     convert("cad", ".step");
     convert("expat", ".xml");
-    input_.write("table.csv", "x,-20,0,20\n-30,0,0,0\n0,0,0.05,0\n30,0,0,0\n");
+    std::string table = "x,-20,0,20\n";
+    for (int x = -10; x <= 10; ++x) table += fmt::format("{},0,{},0\n", x, x == 0 ? 0.05 : 0.0);
+    input_.write("table.csv", table);
   }
 
   const treadmark::testing::SampleInput input_;
@@ -199,51 +207,59 @@ std::vector<std::vector<std::string>> preludes_of(const std::string& body, const
   return all;
 }
 
+/// Whether a message speaks of the key, by its name or as readers of its file call it.
+bool names(const std::string& message, const io::KeyInfo& key) {
+  const std::string name = key.path.substr(key.path.rfind('.') + 1);
+  const std::pair<const char*, const char*> others[] = {
+      {"resolution_mm", "resolution"}, {"max_omit", "share"}, {"crossing", "move along the track"}};
+  for (const auto& [one, other] : others)
+    if (name == one && message.find(other) != std::string::npos) return true;
+  const bool table = key.path.find(".offsets.") != std::string::npos && message.find("offsets") != std::string::npos;
+  return table || message.find(name) != std::string::npos;
+}
+
 /// What happened instead, where none of the values has an effect or is refused by the key's name.
 std::string fault_of(const Shapes& shapes, Body body, const std::string& lines, const io::KeyInfo& key,
-                     const std::vector<std::string>& prelude) {
-  const Shapes::Outcome before = shapes.made(body, lines, prelude);
-  if (!before.error.empty()) return "";  // what the key would need is refused already
-  std::string name = key.path.substr(key.path.rfind('.') + 1);
-  // what messages call them
-  if (name == "resolution_mm") name = "resolution";
-  if (name == "max_omit") name = "share";
-  if (name == "crossing") name = "move along the track";
-  if (key.path.find(".offsets.") != std::string::npos) name = "offsets";
+                     const std::vector<std::string>& prelude, const Shapes::Outcome& before) {
   std::string seen;
   for (const std::string& value : values_of(key)) {
     std::vector<std::string> overrides = prelude;
     overrides.push_back(key.path + "=" + value);
     const Shapes::Outcome after = shapes.made(body, lines, overrides);
-    if (after.error.empty() ? differ(before.heights, after.heights) : after.error.find(name) != std::string::npos)
-      return "";
+    if (after.error.empty() ? differ(before.heights, after.heights) : names(after.error, key)) return "";
     seen += fmt::format(" {}: {};", value, after.error.empty() ? "no effect" : after.error);
   }
   return seen;
 }
 
-TEST(ShapeKeys, ActOrAreRefusedOnEveryKindOfShape) {
-  const Shapes shapes;
+class ShapeKeys : public ::testing::TestWithParam<Body> {};
+
+INSTANTIATE_TEST_SUITE_P(Bodies, ShapeKeys, ::testing::Values(Body::rail, Body::wheel),
+                         [](const auto& body) { return std::string(body_name(body.param)); });
+
+TEST_P(ShapeKeys, ActOrAreRefusedOnEveryKindOfShape) {
+  const Body body = GetParam();
+  const Shapes shapes(body);
+  const std::string b(body_name(body));
   int walked = 0;
-  for (const Body body : {Body::rail, Body::wheel}) {
-    const std::string b = body == Body::wheel ? "wheel" : "rail";
-    for (const auto& [kind, lines] : shapes.kinds(body)) {
-      ASSERT_EQ(shapes.made(body, lines, {}).error, "") << kind;
-      for (const io::CaseKey& key : io::case_keys()) {
-        const std::string& path = key.info.path;
-        const bool shape = path.starts_with(b + ".shape.") && key.info.group != b + ".shape.";
-        if (!shape && !path.starts_with(b + ".offsets.") && path != b + ".backend" && path != b + ".resolution_mm")
-          continue;
-        for (const auto& prelude : preludes_of(b, path.substr(path.rfind('.') + 1))) {
-          const std::string fault = fault_of(shapes, body, lines, key.info, prelude);
-          EXPECT_EQ(fault, "") << b << " from " << kind << ": " << path
-                               << (prelude.empty() ? "" : " with " + prelude.front());
-          ++walked;
-        }
+  for (const auto& [kind, lines] : shapes.kinds(body)) {
+    const Shapes::Outcome plain = shapes.made(body, lines, {});
+    ASSERT_EQ(plain.error, "") << kind;
+    for (const io::CaseKey& key : io::case_keys()) {
+      const std::string& path = key.info.path;
+      const bool shape = path.starts_with(b + ".shape.") && key.info.group != b + ".shape.";
+      if (!shape && !path.starts_with(b + ".offsets.") && path != b + ".backend" && path != b + ".resolution_mm")
+        continue;
+      for (const auto& prelude : preludes_of(b, path.substr(path.rfind('.') + 1))) {
+        const Shapes::Outcome before = prelude.empty() ? plain : shapes.made(body, lines, prelude);
+        if (!before.error.empty()) continue;  // what the key would need is refused already
+        EXPECT_EQ(fault_of(shapes, body, lines, key.info, prelude, before), "")
+            << b << " from " << kind << ": " << path << (prelude.empty() ? "" : " with " + prelude.front());
+        ++walked;
       }
     }
   }
-  EXPECT_GT(walked, 200);
+  EXPECT_GT(walked, 100);
 }
 
 }  // namespace
