@@ -11,6 +11,7 @@
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
@@ -76,9 +77,8 @@ extern "C" {
 tm_status tm_case_create(int patch, tm_case** out) {
   return make(out, [&] {
     require(patch == 0 || patch == 1, "patch must be 0 or 1");
-    auto content = std::make_shared<io::Case>();
+    auto content = std::make_shared<io::Case>(io::case_without_keys(patch == 1));
     content->number = 1;
-    if (patch == 1) content->content = io::BasicCase{};
     return std::make_unique<tm_case>(tm_case{std::move(content), {}, false});
   });
 }

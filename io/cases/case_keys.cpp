@@ -184,6 +184,17 @@ void apply_table(Case& target, const CaseTable& table, const std::filesystem::pa
   for (const Assignment& a : assignments) a.key->set(target, *a.value, folder);
 }
 
+Case case_without_keys(bool patch) {
+  Case c;
+  if (patch) {
+    c.content = BasicCase{};
+  } else {
+    ElementGrid& elements = std::get<WheelRailCase>(c.content).discretisation;
+    elements.choose_dx = elements.choose_ds = true;
+  }
+  return c;
+}
+
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder) {
   const SourcePosition& where = assignment.value.where;
   const std::string& path = assignment.path;

@@ -19,6 +19,9 @@ using KeyList = SettingKeys<Case>;
 /// All keys, in the order in which they are applied. Immutable; safe to use from several threads.
 std::span<const CaseKey> case_keys();
 
+/// What a case file without keys says of a wheel on a rail, or of a patch: every key has its default.
+Case case_without_keys(bool patch);
+
 /// Within a layer of a case file.
 inline constexpr ExclusiveSections kExclusiveSections[] = {{"patch", "hertz", "gap"}};
 

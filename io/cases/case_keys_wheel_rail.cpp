@@ -239,7 +239,7 @@ void add_element_side(KeyList& list, const std::string& path, const std::string&
   KeyInfo& info = list.number<W>(path, kPositive, doc, [side](W& c) -> double& { return c.discretisation.*side; });
   const std::string word = "auto";
   info.choices = {word};
-  info.default_text = toml_text(word);
+  info.default_text = '"' + word + '"';
   CaseKey& key = list.keys.back();
   key.set = [=, number = key.set](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
     DiscretisationInput& d = content_of<W>(c).discretisation;

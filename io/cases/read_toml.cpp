@@ -227,10 +227,8 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   // Title and cases apart, everything at the top is common to all cases.
   CaseTable common;
   const CaseEntry* entries = nullptr;
-  Case defaults;
+  Case defaults = case_without_keys(false);
   defaults.where = {name.string(), 1, 1};
-  ElementGrid& elements = std::get<WheelRailCase>(defaults.content).discretisation;
-  elements.choose_dx = elements.choose_ds = true;
   for (const CaseEntry& entry : document) {
     if (entry.key == "title") {
       if (!std::holds_alternative<std::string>(entry.value.data))
@@ -242,7 +240,7 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
         throw Error(ErrorKind::configuration, "cases must be a list of tables, [[cases]]", entry.value.where);
       entries = &entry;
     } else {
-      if (entry.key == "patch") defaults.content = BasicCase{};
+      if (entry.key == "patch") defaults.content = case_without_keys(true).content;
       common.push_back(entry);
     }
   }

@@ -26,9 +26,9 @@ std::string value_of(const CaseKey& key, const Case& c, const std::filesystem::p
 
 /// What differs from a case without keys, in the order of the keys; of two units the shorter number.
 std::vector<Said> said_of(const Case& c, const std::filesystem::path& folder) {
-  Case fresh;
-  if (std::holds_alternative<BasicCase>(c.content)) fresh.content = BasicCase{};
-  const KeyScope scope = std::holds_alternative<BasicCase>(c.content) ? KeyScope::patch : KeyScope::wheel_rail;
+  const bool patch = std::holds_alternative<BasicCase>(c.content);
+  const Case fresh = case_without_keys(patch);
+  const KeyScope scope = patch ? KeyScope::patch : KeyScope::wheel_rail;
   std::vector<Said> all;
   for (const CaseKey& key : case_keys()) {
     const KeyInfo& info = key.info;
