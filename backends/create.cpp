@@ -76,9 +76,7 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
 }
 
 RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted) {
-  RepresentedSurface out = natural.kind->represent(natural, wanted);
-  if (wanted.resolution > 0.0 && !out.resampled) refuse_idle_resolution();
-  return out;
+  return natural.kind->represent(natural, wanted);
 }
 
 void refuse_idle_resolution(const SourcePosition& where) {

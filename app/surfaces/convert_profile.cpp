@@ -82,7 +82,10 @@ void write_checked(const std::filesystem::path& output, const Profile& profile,
   const SurfaceDifference difference = naming(output, place, [&] {
     io::write_profile(place, profile, derivatives);
     io::SurfaceSource again;
-    again.geometry = io::GeometryFile{place, {}};
+    io::GeometryFile as_written{place, {}};
+    as_written.options.placement = io::ProfileOptions::Placement::as_in_file;
+    as_written.options.smoothing = {};
+    again.geometry = as_written;
     again.where = {place.string(), 0, 0};
     const NaturalSurface back = read_surface(again, profile.body, meant.spec.nominal_radius);
     return fit_error(meant, {back.surface, true, 0.0, {}, 0.0, {}});

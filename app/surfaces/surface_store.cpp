@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
@@ -113,8 +114,13 @@ const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body bod
     auto entry = std::make_unique<Stored>();
     entry->natural = given.get();
     entry->representation = wanted;
-    entry->surface = std::make_unique<StoredSurface>(
-        StoredSurface{given, located(source.where, [&] { return represent(*given, wanted); })});
+    entry->surface = std::make_unique<StoredSurface>(StoredSurface{given, located(source.where, [&] {
+                                                                     RepresentedSurface made =
+                                                                         represent(*given, wanted);
+                                                                     if (wanted.resolution > 0.0 && !made.resampled)
+                                                                       refuse_idle_resolution();
+                                                                     return made;
+                                                                   })});
     stored_.push_back(std::move(entry));
     found = stored_.end() - 1;
   }

@@ -55,7 +55,7 @@ std::string family_name(std::string_view name) { return capitals(name, joins_let
 std::optional<WheelSection> named_section(std::string_view said) {
   return wheel_section(capitals(said, [](std::string_view name, std::size_t at) {
     const bool dimension = name.substr(0, at).find_first_of(":/") != std::string_view::npos;
-    return joins_letter(name, at) || (at > 0 && is_letter(name[at - 1]) && !dimension);
+    return !dimension && (joins_letter(name, at) || (at > 0 && is_letter(name[at - 1])));
   }));
 }
 

@@ -159,8 +159,10 @@ void check_direction(const CaseValue& value, const std::string& name) {
 }
 
 void check_number(const CaseValue& value, const KeyInfo& key) {
-  const double number = number_of(value, key.path, value.where), least = key.at_least.value();
-  if (number < least || (key.at_most && number > *key.at_most))
+  const double number = number_of(value, key.path, value.where), least = key.at_least.value_or(0.0);
+  if (key.above && !(number > *key.above))
+    fail(fmt::format("'{}' must be above {:g}, not {:g}", key.path, *key.above, number), value.where);
+  if ((key.at_least && number < least) || (key.at_most && number > *key.at_most))
     fail(key.at_most
              ? fmt::format("'{}' must be between {:g} and {:g}, not {:g}", key.path, least, *key.at_most, number)
              : fmt::format("'{}' must be at least {:g}, not {:g}", key.path, least, number),

@@ -109,7 +109,10 @@ void write_profile(const std::filesystem::path& file, const Profile& profile, co
   const std::string text = extension == ".csv"                          ? csv_text(profile, derivatives)
                            : extension == ".prr" || extension == ".prw" ? simpack_text(profile)
                                                                         : miniprof_text(profile, derivatives);
-  const Profile again = parse_profile(text, file.string(), profile_format(file), profile.body, {});
+  ProfileOptions as_written;
+  as_written.placement = ProfileOptions::Placement::as_in_file;
+  as_written.smoothing = {};
+  const Profile again = parse_profile(text, file.string(), profile_format(file), profile.body, as_written);
   if (!same_points(again, profile))
     throw Error(ErrorKind::configuration,
                 "a reader of this file would take the points for others (upside down, zig-zag)", {file.string(), 0, 0},

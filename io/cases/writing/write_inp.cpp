@@ -344,6 +344,10 @@ class InputWriter {
     const DiscretisationInput& elements = c.discretisation;
     own_settings({{"discretisation.dx_mm", exact_text(elements.dx, kMillimetre)},
                   {"discretisation.ds_mm", exact_text(elements.ds, kMillimetre)}});
+    for (const auto& [body, source] : {std::pair{"rail", &c.rail}, std::pair{"wheel", &c.wheel}})
+      if (const auto* file = std::get_if<GeometryFile>(&source->geometry);
+          file != nullptr && file->options.smoothing.method == SmoothingOptions::Method::by_noise)
+        out_ += fmt::format(" %treadmark {}.shape.smoothing = 'auto'\n", body);
     if (const auto* file = std::get_if<GeometryFile>(&c.wheel.geometry);
         file != nullptr && file->options.placement == ProfileOptions::Placement::automatic &&
         !is_slices_file(file->file))

@@ -331,8 +331,10 @@ TEST(TomlSteps, StepsOverMoreThanTwoElementsAreRefused) {
 TEST(TomlSteps, AWheelThatShallRollAndDoesNotIsNoted) {
   EXPECT_THAT(parse(kRail).notes, ::testing::ElementsAre(HasSubstr("case 1: neither a speed nor rolling is given")));
   for (const char* moves : {"wheelset.velocity_km_h = 100\nwheelset.rolling = \"nominal\"\n",
-                            "wheelset.velocity_m_s = 1\n", "wheelset.vpitch_rad_s = -1\n", "case.regime = \"none\"\n"})
+                            "wheelset.vpitch_rad_s = -1\n", "case.regime = \"none\"\n"})
     EXPECT_THAT(parse(kRail + moves).notes, IsEmpty()) << moves;
+  EXPECT_THAT(parse(kRail + "wheelset.velocity_m_s = 1\n").notes,
+              ::testing::ElementsAre(HasSubstr("a speed is given, and no pitch rate: the wheel slides")));
 }
 
 TEST(TomlSteps, ElementsOfACaseThatContinuesStayAsTheyAre) {

@@ -134,7 +134,7 @@ TEST_F(ImportMapsFile, RefusesMapsThatDoNotFitTheirSizes) {
 }
 
 TEST_F(ImportMapsFile, RefusesOtherFiles) {
-  refused("cannot read");  // there is none
+  refused("does not exist");
   folder_.write("maps.h5", "no maps at all");
   refused("cannot read");
   const char* format = "treadmark import maps 1";

@@ -53,8 +53,9 @@ TEST_P(TomlSlip, IsNamedWithWhatToWrite) {
   constexpr std::string_view kWrite = "write ";
   if (!error.advice().starts_with(kWrite)) return;
   const std::string written = error.advice().substr(kWrite.size(), error.advice().find(", or ") - kWrite.size());
-  if (written.find(" = ") != std::string::npos && written[0] != '{' && written.find("value") == std::string::npos)
+  if (written.find(" = ") != std::string::npos && written[0] != '{' && written.find("value") == std::string::npos) {
     EXPECT_EQ(error_of(written).message(), "") << written;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
