@@ -136,10 +136,12 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, dou
   for (std::size_t i = 0; i < section.z.size(); ++i) {
     if (!high_enough(section.z[i])) continue;
     const std::size_t from = i;
-    while (i + 1 < section.z.size() && high_enough(section.z[i + 1])) ++i;
-    if (first < section.z.size() && (track.gauge_at_innermost || i - from < widest)) continue;
+    std::size_t last = i;  // a hole in the head does not end it
+    for (; i + 1 < section.z.size() && (high_enough(section.z[i + 1]) || std::isnan(section.z[i + 1])); ++i)
+      if (!std::isnan(section.z[i + 1])) last = i + 1;
+    if (first < section.z.size() && (track.gauge_at_innermost || last - from < widest)) continue;
     first = from;
-    widest = i - from;
+    widest = last - from;
   }
   if (first < section.z.size()) {
     point.y = section.y[first];
