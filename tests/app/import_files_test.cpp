@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "treadmark/app/import/write_outputs.hpp"
+#include "treadmark/app/surfaces/written_surface.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/tests/app/program.hpp"

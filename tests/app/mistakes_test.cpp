@@ -280,7 +280,9 @@ TEST_F(Mistakes, NumbersInOtherUnitsAreRefusedOrDoubted) {
     EXPECT_EQ(run.status, row.status) << run.err;
     EXPECT_THAT(run.out + run.err, HasSubstr(row.words));
     EXPECT_THAT(check.out + check.err, HasSubstr(row.words));
-    if (row.status == 1) EXPECT_THAT(run.out, HasSubstr("doubt: "));
+    if (row.status == 1) {
+      EXPECT_THAT(run.out, HasSubstr("doubt: "));
+    }
   }
   const auto noted = [&](const std::string& wheelset) {
     write("moving.toml",

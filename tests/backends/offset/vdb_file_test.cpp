@@ -87,7 +87,7 @@ TEST_F(VdbFile, KeepsBasesOfArcsAndPoints) {
   ASSERT_EQ(arcs.segments.size(), 3u);
   EXPECT_EQ(arcs.segments[2].curvature, 1.0 / 0.07);
 
-  Profile points{Body::rail, {-0.01, 1e-3 / 3.0, 0.02}, {1e-4, 0.0, 1.0 / 7000.0}, "points of a test", {}};
+  Profile points{Body::rail, {-0.01, 1e-3 / 3.0, 0.02}, {1e-4, 0.0, 1.0 / 7000.0}, "points of a test", {}, {}};
   points.smoothing.strength = 1e-7 / 3.0;
   offset::write_vdb(path_, {offsets, {Body::rail, 0.0, points, {}}});
   const auto back = std::get<Profile>(offset::read_vdb(path_).base.shape);
