@@ -459,7 +459,9 @@ struct Laid {
   Fit fit;
 };
 
-std::optional<Laid> lay_curve(Points points, const PointNoise& noise) {
+/// level: the curvature may change as much anywhere, as in the head of a rail, whose arcs of 80 and 300 mm meet in a
+/// jump.
+std::optional<Laid> lay_curve(Points points, const PointNoise& noise, bool level) {
   constexpr double kFirstCutoff = 1.0;  ///< wavelength that the first curve halves, which only has to lie near
   constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kNarrow = 3.0, kFine = 1.0;
   constexpr double kOfStep = 0.1;  ///< least noise before rounding, of the step
@@ -481,8 +483,8 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise) {
     std::optional<Straightened> straight = straighten(points, laid.curve, knot_step);
     if (!straight) return std::nullopt;
     Straightened line = std::move(*straight);
-    restless =
-        round == 0 ? Values(at(line.knots.cells), 1.0) : restlessness(line.knots, laid.line.knots, laid.fit.heights);
+    restless = level || round == 0 ? Values(at(line.knots.cells), 1.0)
+                                   : restlessness(line.knots, laid.line.knots, laid.fit.heights);
     const Problem problem(line, restless);
     const bool wide = round < 2;
     const auto search = [&](auto&& fit_of) {
@@ -533,7 +535,7 @@ Profile smoothed_by_noise(Profile profile) {
   points.rounding_y = kMm * noise.rounding_y;
   points.rounding_z = kMm * noise.rounding_z;
   points.step = kMm * noise.step;
-  const std::optional<Laid> laid = lay_curve(points, noise);
+  const std::optional<Laid> laid = lay_curve(points, noise, profile.body == Body::rail);
   if (!laid) return profile;
   double squares = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
