@@ -325,6 +325,15 @@ void find_marks(const SectionPoints& p, WheelMarks& marks) {
   if (f.width <= 0.0) return;
   const auto tip = static_cast<std::size_t>(std::max_element(p.z.begin(), p.z.end()) - p.z.begin());
   marks.tip_y = p.y[tip], marks.tip_z = p.z[tip];
+  constexpr double kBeyond = 1e-3, kFace = 10e-3;
+  const auto [low, high] = std::minmax_element(p.y.begin(), p.y.end());
+  marks.tip_seen = p.y[tip] - *low > kBeyond && *high - p.y[tip] > kBeyond;
+  marks.face_y.reset();
+  for (std::size_t i = 1; marks.tape_z && i < p.y.size(); ++i) {
+    const double a = p.z[i - 1] - *marks.tape_z - kFace, b = p.z[i] - *marks.tape_z - kFace;
+    const double y = a != b ? p.y[i - 1] + a / (a - b) * (p.y[i] - p.y[i - 1]) : p.y[i];
+    if ((a > 0.0) != (b > 0.0) && y > p.y[tip] && (!marks.face_y || y > *marks.face_y)) marks.face_y = y;
+  }
   find_back(p, tip, marks);
 }
 
@@ -438,16 +447,20 @@ class Reader {
     const WheelMarks& m = u_.wheel;
     if (!w_.place || m.second_flange || !m.tip_y) return;
     const double height = *m.tip_z - m.tape_z.value_or(0.0);
-    if (m.tape_z && (height < kLowest || height > kHighest))
+    if (m.tape_z && ((m.tip_seen && height < kLowest) || height > kHighest))
       doubt("flange_height",
             fmt::format("the flange is {:.1f} mm high, 26 to 36 mm are usual: are the unit and the sense of z right{}?",
                         kMilli * height, w_.z_is_radius ? " (radii, no diameters)" : ""));
-    if (!m.back_y && !u_.y.is_turned() && std::fabs(*m.tip_y - kTipNew) > kTipOff)
+    if (m.back_y || u_.y.is_turned()) return;
+    constexpr double kThinnest = 20e-3, kThickest = 36e-3;  // of flanges
+    const double thickness = m.face_y ? *m.face_y + kTapeToBack : kNaN;
+    if (m.tip_seen ? std::fabs(*m.tip_y - kTipNew) > kTipOff : thickness < kThinnest || thickness > kThickest)
       doubt(
           "tape_line",
-          fmt::format("y = 0 seems not to be the tape line: the tip of the flange is at y = {:.1f} mm, where {:.0f} mm "
-                      "are usual, and the back of the flange is not in the section: measure it too, or shift y",
-                      kMilli * *m.tip_y, kMilli * kTipNew));
+          fmt::format("y = 0 seems not to be the tape line: the {} of the flange is at y = {:.1f} mm, where {} mm are "
+                      "usual, and the back of the flange is not in the section: measure it too, or shift y",
+                      m.tip_seen ? "tip" : "face", kMilli * (m.tip_seen ? *m.tip_y : *m.face_y),
+                      m.tip_seen ? "-55" : "-50 to -34"));
   }
 
   SectionPoints& p_;

@@ -46,6 +46,8 @@ struct Doubt {
 /// The marks of a wheel's section, z down [m].
 struct WheelMarks {
   std::optional<double> tip_y, tip_z;  ///< of the flange, where there is one
+  bool tip_seen = false;               ///< false: the section ends on the flange before it
+  std::optional<double> face_y;        ///< of the flange 10 mm beyond the tread at y = 0
   std::optional<double> back_y;        ///< of the flange, where the section reaches it
   std::optional<double> back_lean;     ///< of its straight part against the upright, positive: rolled so that z grows
                                        ///< with y [rad]; nothing where less than 6 mm of it are measured

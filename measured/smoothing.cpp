@@ -535,7 +535,8 @@ Profile smoothed_by_noise(Profile profile) {
   points.rounding_y = kMm * noise.rounding_y;
   points.rounding_z = kMm * noise.rounding_z;
   points.step = kMm * noise.step;
-  const std::optional<Laid> laid = lay_curve(points, noise, profile.body == Body::rail);
+  const bool level = profile.body == Body::rail;
+  const std::optional<Laid> laid = lay_curve(points, noise, level), other = lay_curve(points, noise, !level);
   if (!laid) return profile;
   double squares = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -544,6 +545,10 @@ Profile smoothed_by_noise(Profile profile) {
     profile.y[i] = y / kMm;
     profile.z[i] = z / kMm;
     scatter->s.push_back(s / kMm);
+    if (!other) continue;
+    const double dy = other->curve.at_y(other->line.s[i]) - y, dz = other->curve.at_z(other->line.s[i]) - z;
+    const double ty = laid->curve.at_y(s, 1), tz = laid->curve.at_z(s, 1);
+    scatter->other.push_back((dz * ty - dy * tz) / std::hypot(ty, tz) / kMm);
   }
   scatter->removed = std::sqrt(squares / static_cast<double>(n)) / kMm;
   scatter->first_knot = laid->line.knots.first / kMm;
@@ -554,7 +559,7 @@ Profile smoothed_by_noise(Profile profile) {
 }
 
 ErrorDraws::ErrorDraws(const ProfileScatter& scatter, int count, unsigned seed)
-    : first_(scatter.first_knot), step_(scatter.knot_step) {
+    : first_(scatter.first_knot), step_(scatter.knot_step), s_(scatter.s), other_(scatter.other) {
   if (scatter.factor.empty()) return;
   const Band factor(scatter.factor);
   Random random(seed);
@@ -572,7 +577,18 @@ double ErrorDraws::at(std::size_t draw, double s) const {
   if (draw >= draws_.size()) return 0.0;
   const Values& coefficients = draws_[draw];
   const Knots knots{first_, step_, static_cast<int>(coefficients.size()) - 3};
-  return knots.value(coefficients, std::clamp(s, knots.first, knots.last()));
+  return knots.value(coefficients, std::clamp(s, knots.first, knots.last())) +
+         (draw % 2 == 0 ? 1.0 : -1.0) * other_at(s);
+}
+
+double ErrorDraws::other_at(double s) const {
+  if (other_.size() != s_.size() || s_.size() < 2) return 0.0;
+  const auto after = std::clamp(std::lower_bound(s_.begin(), s_.end(), s), s_.begin() + 1, s_.end() - 1);
+  const auto k = after - s_.begin();
+  const double length = s_[static_cast<std::size_t>(k)] - s_[static_cast<std::size_t>(k - 1)];
+  const double t = length > 0.0 ? std::clamp((s - s_[static_cast<std::size_t>(k - 1)]) / length, 0.0, 1.0) : 0.0;
+  return other_[static_cast<std::size_t>(k - 1)] +
+         t * (other_[static_cast<std::size_t>(k)] - other_[static_cast<std::size_t>(k - 1)]);
 }
 
 double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s, std::span<const double> weights) {

@@ -36,8 +36,11 @@ class ErrorDraws {
   double at(std::size_t draw, double s) const;
 
  private:
+  double other_at(double s) const;
+
   double first_ = 0.0, step_ = 1.0;
   std::vector<std::vector<double>> draws_;  ///< coefficients [m]
+  std::vector<double> s_, other_;           ///< of the scatter, which every second draw has the other way round [m]
 };
 
 }  // namespace treadmark::measured

@@ -67,10 +67,8 @@ io::PatchResult::Noise NoiseOfResults::of_patch(const io::WheelRailCase& input, 
   add(rail_, patch.y_rail, patch.z_rail, 1.0);
   add(wheel_, patch.y_wheel, patch.z_wheel, -1.0);
   const measured::PatchSpread spread = measured::patch_spread(rows, errors);
-  // curvatures jump where arcs meet, which the model of a wandering curvature smears: what lies beyond its own errors
-  constexpr double kOfModel = 1.7;
-  return {kOfModel * spread.pressure * patch.pmax, kOfModel * spread.area * patch.ncon * grid.cell_area(),
-          input.vertical_force_prescribed ? 0.0 : kOfModel * spread.force * patch.fn, kOfModel * spread.shift};
+  return {spread.pressure * patch.pmax, spread.area * patch.ncon * grid.cell_area(),
+          input.vertical_force_prescribed ? 0.0 : spread.force * patch.fn, spread.shift};
 }
 
 void NoiseOfResults::add(const io::WheelRailCase& input, io::CaseResult& result) const {

@@ -99,7 +99,7 @@ Nearness nearness(const measures::Section& section, const Standard& standard) {
 
 /// The standard profile that a section may have been, with its wear as `measure` finds it.
 void add_nearest(const Profile& profile, io::ProfileJudgement& to) {
-  constexpr double kAlike = 1e-9;  // [m^2]
+  constexpr double kAboutAsNear = 1.5, kAlike = 1e-9;  // [1], [m^2]
   constexpr std::size_t kNamed = 6;
   std::vector<std::pair<Nearness, std::string>> all;
   try {
@@ -121,7 +121,8 @@ void add_nearest(const Profile& profile, io::ProfileJudgement& to) {
   std::string names;
   std::size_t count = 0;
   for (const auto& [one, name] : all)
-    if (one.badness() <= best.badness() + kAlike && ++count <= kNamed) names += (count > 1 ? ", " : "") + name;
+    if (one.badness() <= kAboutAsNear * best.badness() + kAlike && ++count <= kNamed)
+      names += (count > 1 ? ", " : "") + name;
   if (count > kNamed) names += fmt::format(" and {} more", count - kNamed);
   to.facts.emplace_back("standard", fmt::format("nearest to {}: {}; {:.3g} mm2 lost, {:.3g} mm2 beyond", names,
                                                 best.wear, kMicro * best.lost, kMicro * best.gained));

@@ -26,7 +26,9 @@ constexpr double kClean = 0.002, kNoisy = 0.05;
 
 Told run_with(const fs::path& shared, const char* name) {
   const fs::path folder = shared / "found/first-use";
-  return told_by_run(folder / "my.toml", {"wheel.shape.file=" + (folder / name).string()});
+  // the numbers are those of elements of 0.5 mm
+  return told_by_run(folder / "my.toml", {"wheel.shape.file=" + (folder / name).string(), "discretisation.dx_mm=0.5",
+                                          "discretisation.ds_mm=0.5"});
 }
 
 void expect_pressures(const Told& told, const Pressures& right, double relative) {

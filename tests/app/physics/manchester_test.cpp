@@ -228,11 +228,13 @@ TEST(ManchesterFlexible, HasTheModesOfItsBeam) {
 /// One passage of the flat in each representation of the wheel: the same forces within 2 % of the largest.
 TEST(FlatAtSpeed, RepresentationsGiveTheSameForces) {
   const std::vector<std::string> common{"simulation.distance_m=0.36", "simulation.wheels.0.pitch_deg=25",
-                                        "discretisation.dx_mm=1.0", "discretisation.ds_mm=1.0",
-                                        "wheel.resolution_mm=1.0"};
+                                        "discretisation.dx_mm=1.0", "discretisation.ds_mm=1.0"};
   const auto run = [&](const std::string& backend) {
     std::vector<std::string> overrides = common;
-    if (!backend.empty()) overrides.push_back("wheel.backend=" + backend);
+    if (!backend.empty()) {
+      overrides.push_back("wheel.backend=" + backend);
+      overrides.push_back("wheel.resolution_mm=1.0");
+    }
     SurfaceStore store;
     io::SimulationResult r = run_simulation(example(overrides), store, {}, {});
     EXPECT_EQ(r.status, "complete") << r.message;
