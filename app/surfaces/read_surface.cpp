@@ -77,8 +77,8 @@ constexpr ShapeKind kTriangles{
     [](std::string_view key) { return key == "mirror_y" || key == "mirror_z" || key == "scale_to_mm"; },
     "triangles are mirrored and scaled, no more; measured points are smoothed by treadmark import"};
 constexpr ShapeKind kCad{"a file of CAD", is_crossing,
-                         "CAD files have units and axes of their own and exact shapes: change them there, or convert "
-                         "them to triangles, which are mirrored and scaled"};
+                         "CAD files have units of their own, axes and exact shapes: change them there, or convert them "
+                         "to triangles, which are mirrored and scaled"};
 constexpr ShapeKind kSlices{"a file of slices",
                             [](std::string_view key) { return !is_crossing(key) && key != "placement"; },
                             "only one section can move along the track, and slices lie as they are in their file"};

@@ -44,18 +44,19 @@ std::string plain(std::string_view name) {
 
 /// "circle-R300", but not "circle R-300" nor "circle -R300", where it looks like a sign.
 bool joins_letter(std::string_view name, std::size_t at) {
-  const std::size_t next = name.find_first_not_of(" _", at + 1);
-  return at > 0 && next != std::string_view::npos && is_letter(name[next]) &&
-         is_blank(name[at - 1]) == is_blank(name[at + 1]);
+  const std::size_t next = name.find_first_not_of(" _", at + 1), last = name.substr(0, at).find_last_not_of(" _");
+  return next != std::string_view::npos && last != std::string_view::npos && is_letter(name[next]) &&
+         std::isalnum(static_cast<unsigned char>(name[last])) != 0 && is_blank(name[at - 1]) == is_blank(name[at + 1]);
 }
 
 std::string family_name(std::string_view name) { return capitals(name, joins_letter); }
 
-/// "EN-13715 S-1002/h30": before the dimensions hyphens after letters are joints, too.
+/// "EN-13715 - S-1002/h30": before the dimensions hyphens after letters and between blanks are joints, too.
 std::optional<WheelSection> named_section(std::string_view said) {
   return wheel_section(capitals(said, [](std::string_view name, std::size_t at) {
-    const bool dimension = name.substr(0, at).find_first_of(":/") != std::string_view::npos;
-    return !dimension && (joins_letter(name, at) || (at > 0 && is_letter(name[at - 1])));
+    if (at == 0 || at + 1 == name.size() || name.substr(0, at).find_first_of(":/") != std::string_view::npos)
+      return false;
+    return joins_letter(name, at) || is_letter(name[at - 1]) || (is_blank(name[at - 1]) && is_blank(name[at + 1]));
   }));
 }
 

@@ -164,7 +164,7 @@ TEST(ProfileLibrary, SignsOfNumbersAreMeantOrRefused) {
   // hyphens that join
   for (const char* name : {"UIC-60", "60-E1", "S-49", "54E1-AHC", "50EB-T", "circle-R300"})
     EXPECT_EQ(library_body(name), Body::rail) << name;
-  for (const char* name : {"EN-13715-S1002/h30", "S-1002", "EN 13715 - EPS", "hollow-R330"})
+  for (const char* name : {"EN-13715-S1002/h30", "S-1002", "EN 13715 - EPS", "EN 13715 - 1:40/h30", "hollow-R330"})
     EXPECT_EQ(library_body(name), Body::wheel) << name;
 }
 
