@@ -179,8 +179,13 @@ std::string usage_fault(const CLI::App& program, const CLI::ParseError& refused)
                                                                         : extra_word(verb, extra.front());
   } else if (dynamic_cast<const CLI::RequiredError*>(&refused) != nullptr) {
     constexpr std::string_view kEnd = " is required";
-    if (said.message.ends_with(kEnd))
-      said.message.replace(said.message.size() - kEnd.size(), kEnd.size(), " is missing");
+    if (said.message.ends_with(kEnd)) {
+      std::string name = said.message.substr(0, said.message.size() - kEnd.size());
+      if (verb != nullptr)  // a place that has an option too is named as a place
+        for (const CLI::Option* place : verb->get_options())
+          if (place->get_positional() && place->get_name() == name) name = place->get_name(true);
+      said.message = name + " is missing";
+    }
   } else {
     said = wrong_value(verb, said.message);
   }

@@ -124,8 +124,7 @@ measures::Section mirrored_section(const std::string& name, const MeasureRequest
 measures::Section nominal_section(const std::string& name, Body body) {
   if (is_library_name(name)) return measures::Section(library_points(name, body), 0.0);
   std::error_code ignored;
-  if (!fs::exists(io::profile_file(name), ignored))
-    refuse_missing_surface(name, ErrorKind::configuration);
+  if (!fs::exists(io::profile_file(name), ignored)) refuse_missing_surface(name, ErrorKind::configuration);
   return measures::Section(io::read_profile(name, body, {}));
 }
 

@@ -39,15 +39,15 @@ const std::map<std::string, const CaseKey*, std::less<>>& keys_by_path() {
   return index;
 }
 
-bool is_section(std::string_view path) {
-  static const auto sections = [] {
+const std::set<std::string, std::less<>>& sections() {
+  static const auto all = [] {
     std::set<std::string, std::less<>> set;
     for (const CaseKey& key : case_keys())
       for (std::size_t dot = key.info.path.find('.'); dot != std::string::npos; dot = key.info.path.find('.', dot + 1))
         set.insert(key.info.path.substr(0, dot));
     return set;
   }();
-  return sections.contains(path);
+  return all;
 }
 
 struct Assignment {
@@ -62,12 +62,13 @@ void collect(const CaseTable& table, const std::string& prefix, std::vector<Assi
     const auto found = keys_by_path().find(path);
     if (found != keys_by_path().end()) {
       out.push_back({found->second, &entry.value, entry.key_where});
-    } else if (is_section(path)) {
+    } else if (sections().contains(path)) {
       if (!entry.value.is_table())
         fail(fmt::format("{} must be a table, found {}", path, entry.value.kind()), entry.value.where);
       collect(entry.value.table(), path, out);
     } else {
-      refuse_unknown_key(path, all_paths(), entry.key_where);
+      const std::vector<std::string> tables(sections().begin(), sections().end());
+      refuse_unknown_key(path, entry.value.is_table() ? tables : all_paths(), entry.key_where);
     }
   }
 }

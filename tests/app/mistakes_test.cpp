@@ -67,7 +67,6 @@ TEST_F(Mistakes, OptionsAndPlacesAreNamed) {
   expect({"run", "@/my.toml", "--repor=x"}, 2, {"did you mean '--report'?"});
   expect({"run", "@/my.toml", "--out", "x"}, 2, {"did you mean '--output'?"});
   expect({"run", "@/my.toml", "--gauges-mm", "3"}, 2, {"it belongs to treadmark geometry"});
-  expect({"run", "@/my.toml", "-3"}, 2, {"'-3' is taken for an option"});
   expect({"run"}, 2, {"treadmark run: CASE is missing", "usage: treadmark run [OPTIONS] CASE..."});
   expect({"convert", "@/wheel.csv"}, 2,
          {"treadmark convert: OUT is missing", "usage: treadmark convert [OPTIONS] IN OUT;"});
@@ -134,7 +133,7 @@ TEST_F(Mistakes, FilesThatAreNotThereAreLookedForBesideTheirName) {
   if (has_part("scans")) {
     expect({"import", "@/Wheel.csv", "-o", "@/x.slcw"}, 3, {wheel});
     expect({"import", "@/wheel.csv", "-o", "@/x.slcw", "--settings", "@/My.toml"}, 2, {near});
-    expect({"scan", "@/Wheel.csv", "@/x.xyz", "--body", "wheel"}, 3, {wheel});
+    expect({"scan", "@/Wheel.csv", "-o", "@/x.xyz", "--body", "wheel"}, 3, {wheel});
   }
   if (has_part("vehicle")) {
     expect({"simulate", "@/My.toml"}, 2, {near});
@@ -215,7 +214,8 @@ TEST_F(Mistakes, WrongTypesSayWhatToWrite) {
       {"case.side = \"Rigth\"", "did you mean \"right\"?"},
       {"case.side = true", "(choose \"left\", \"right\")"},
       {"wheelset.y_mm = [1, 2]", "lists of values make cases in [[cases]]"},
-      {"Wheelset.Y_MM = 1", "did you mean 'wheelset.y_mm'?"},
+      {"wheelset.Y_MM = 1", "did you mean 'wheelset.y_mm'?"},
+      {"Wheelset.y_mm = 1", "unknown key 'Wheelset' (did you mean 'wheelset'?)"},
       {"wheel.shape.file = \"C:\\temp\\new.csv\"", "a backslash in double quotes begins one"}};
   for (const auto& [line, said] : rows) {
     write("type.toml", line + "\n");
@@ -237,7 +237,7 @@ TEST_F(Mistakes, ListsOfValuesAreTakenFromTheCommandLineToo) {
   };
   EXPECT_EQ(io::replaced(text("a.toml"), "my", "two"), text("b.toml"));
   EXPECT_THAT(call({"check", "@/four.toml", "--set", "wheelset.y_mm=[0, 2]"}).out, HasSubstr("2 cases, no errors"));
-  expect({"check", "@/four.toml", "--set", "track.gauge_mm=[1435, 1437]"}, 2, {"has 2 values", "has 4"});
+  expect({"check", "@/four.toml", "--set", "track.gauge_mm=[1435, 1437]"}, 2, {"has 4 values", "has 2"});
   expect({"check", "@/my.toml", "--set", "wheelset.y_mm=[]"}, 2, {"the list of wheelset.y_mm is empty"});
   expect({"check", "@/four.toml", "--set", "wheelset.y_mm=1"}, 0, {"only 1 of 4 different cases still differ"});
   EXPECT_THAT(call({"check", "@/four.toml", "--set", "track.gauge_mm=1437"}).err, Not(HasSubstr("differ")));
