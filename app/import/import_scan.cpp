@@ -110,8 +110,8 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
   return part ? middle - wrap_angle(middle - u_zero) : u_zero;
 }
 
-/// The nominal profile where there is one, as wide as the scan of a wheel; of a rail with its flanks, which no look from
-/// above would find. Else what the placement found.
+/// The nominal profile where there is one, as wide as the scan of a wheel; of a rail with its flanks, which no look
+/// from above would find. Else what the placement found.
 scans::Section start_section(const PlacedScan& scan) {
   if (scan.nominal.empty()) return scan.placement.section;
   const bool wheel = scan.body == Body::wheel;

@@ -60,10 +60,11 @@ SliceSet smoothed_sections(const SliceSet& sections, const io::ImportSettings& s
   return out;
 }
 
-SliceSet slices_of(const FittedScan& fit, const io::ImportSettings& settings) {
+/// share: of the tolerance below which changes along the band need no slices of their own.
+SliceSet slices_of(const FittedScan& fit, const io::ImportSettings& settings, double share = 1.0) {
   if (fit.sections != nullptr) return smoothed_sections(*fit.sections, settings);
-  const double tolerance = settings.fit.tolerance_um > 0.0 ? 1e-6 * settings.fit.tolerance_um
-                                                           : std::clamp(fit.noise / 50.0, 0.02e-6, 0.5e-6);
+  const double tolerance = share * (settings.fit.tolerance_um > 0.0 ? 1e-6 * settings.fit.tolerance_um
+                                                                    : std::clamp(fit.noise / 50.0, 0.02e-6, 0.5e-6));
   return scans::to_slices(fit.fitted, 1e-3 * settings.fit.resolution_mm, tolerance,
                           fit.scan.body == Body::wheel ? "scanned wheel" : "scanned rail");
 }
@@ -305,16 +306,31 @@ void check_holes(const std::filesystem::path& file, const FittedScan& fit) {
   if (is_offset_file(file)) refuse_holes(fit, file, "offsets");
 }
 
-io::ImportReport::Output write_output(const std::filesystem::path& file, const std::filesystem::path& place,
-                                      const FittedScan& fit, const io::ImportSettings& settings,
-                                      const std::vector<std::string>& summary) {
-  check_holes(file, fit);
+namespace {
+
+/// Slices of a part of a wheel hold angles from -180 to 180 degrees.
+void check_angles(const SliceSet& slices, const std::filesystem::path& file) {
+  constexpr double kTolerance = 1e-3, kDegrees = 180.0 / kPi;
+  const double first = slices.u.front(), last = slices.u.back();
+  if (slices.body == Body::rail || (first >= -kPi - kTolerance && last <= kPi + kTolerance)) return;
+  throw Error(ErrorKind::configuration,
+              fmt::format("slices hold angles from -180 to 180 degrees, and the scanned part would run from {:.1f} to "
+                          "{:.1f}",
+                          first * kDegrees, last * kDegrees),
+              {file.string()}, "put its middle nearer to zero with placement.zero_deg, or write triangles (.ply)");
+}
+
+/// Writes and reads again. share: as in slices_of.
+io::ImportReport::Output written(const std::filesystem::path& file, const std::filesystem::path& place,
+                                 const FittedScan& fit, const io::ImportSettings& settings,
+                                 const std::vector<std::string>& summary, double share) {
   io::ImportReport::Output out;
   out.file = file.filename().string();
   try {
     if (io::is_slices_file(file)) {
       out.kind = "slices";
-      const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings);
+      const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings, share);
+      check_angles(slices, file);
       out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
       out.bytes = io::write_slices(place, slices, summary);
     } else if (io::is_mesh_file(file)) {
@@ -351,7 +367,21 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const s
                     ? "what fills a large hole may fold: lower clean.hole_limit_mm, or write triangles (.ply)"
                     : "raise fit.significance or fit.resolution_mm, or write triangles (.ply)");
   }
-  if (!(kMicro * out.height_max <= settings.fit.written_um))
+  return out;
+}
+
+}  // namespace
+
+io::ImportReport::Output write_output(const std::filesystem::path& file, const std::filesystem::path& place,
+                                      const FittedScan& fit, const io::ImportSettings& settings,
+                                      const std::vector<std::string>& summary) {
+  check_holes(file, fit);
+  io::ImportReport::Output out = written(file, place, fit, settings, summary, 1.0);
+  const auto near_enough = [&] { return kMicro * out.height_max <= settings.fit.written_um; };
+  // changes that need no slices one by one may do so together
+  if (!near_enough() && io::is_slices_file(file) && fit.sections == nullptr)
+    out = written(file, place, fit, settings, summary, 0.0);
+  if (!near_enough())
     throw Error(
         ErrorKind::input_data,
         fmt::format("{} read again lie up to {:.3g} mm beside the fitted surface, more than {:g} um ({:.3g} mm rms)",

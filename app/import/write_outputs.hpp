@@ -30,7 +30,8 @@ void check_holes(const std::filesystem::path& file, const FittedScan& fit);
 
 /// Writes one surface to `place` that shall become `file`, reads it back and compares it with the fitted one. summary:
 /// lines that go into the file. Errors: those of check_holes, writers and CGAL; Error(input_data) for a surface that
-/// would not be read again.
+/// would not be read again, or lie farther than fit.written_um from the fitted one; Error(configuration) for slices of
+/// angles that they cannot hold.
 io::ImportReport::Output write_output(const std::filesystem::path& file, const std::filesystem::path& place,
                                       const FittedScan& fit, const io::ImportSettings& settings,
                                       const std::vector<std::string>& summary);

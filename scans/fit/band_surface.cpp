@@ -84,6 +84,14 @@ SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, s
       last = k;
     }
   }
+  if (!band.closed) {
+    // splines along the band know nothing of the curvature at its ends but what slices nearby tell
+    constexpr double kNearEnd = 2e-3, kApart = 1e-3;
+    for (double from = kNearEnd; from < 0.5 * farthest; from *= 2.0)
+      for (const double a : {from, band.length() - from})
+        if (std::ranges::none_of(stations, [&](double other) { return std::fabs(other - a) < kApart; }))
+          stations.push_back(a);
+  }
   SliceSet out;
   out.body = band.body;
   out.name = name;

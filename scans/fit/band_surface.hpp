@@ -29,8 +29,8 @@ struct FittedBand {
 };
 
 /// Slices at the knots that the field has along a, where its finer functions matter (a coefficient beyond tolerance
-/// [m]), but no farther apart than kFarthest; across, points spacing apart. A closed wheel has the same slice at -pi
-/// and pi.
+/// [m]), but no farther apart than 33 mm, and closer at open ends; across, points spacing apart. A closed wheel has the
+/// same slice at -pi and pi.
 SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, std::string name);
 
 /// The section without damage, as a profile: z of a wheel is the radius less nominal_radius [m].

@@ -198,8 +198,8 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
   Section section = outline(across(points, body, out.X_CS));
   constexpr double kKnots = 4e-3, kNearest = 1e-3;
   Eigen::Matrix4d information = Eigen::Matrix4d::Identity();
-  Eigen::Vector4d moving = Eigen::Vector4d::Zero();  // sizes of the last few steps, unless settled
-  Eigen::MatrixXd follows;                           // coefficients along the section by motions
+  Eigen::Vector4d moving = Eigen::Vector4d::Zero(), last = moving;  // mean of the last few steps, and the last one
+  Eigen::MatrixXd follows;                                          // coefficients along the section by motions
   for (int round = 0; round < kMostRounds; ++round) {
     out.iterations = round + 1;
     if (round > 0 && round < 4) section = outline(across(points, body, out.X_CS));  // the first steps are large
@@ -230,9 +230,9 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     if (sizes.empty()) break;
     const double scale = std::max(kMad * median_of(sizes), 1e-7);
     // what is the same all along the wheel or rail is the section's matter: a spline along the section is fitted to
-    // distances and their changes alike, and what the section's normal makes of these besides. Else how the normal turns
-    // between two knots, with what the spline misses of the section there, would pass for what a short arc says of the
-    // axis.
+    // distances and their changes alike, and what the section's normal makes of these besides. Else how the normal
+    // turns between two knots, with what the spline misses of the section there, would pass for what a short arc says
+    // of the axis.
     const Knots knots(section.length(), kKnots);
     const std::size_t blocks = (residuals.size() + kBlock - 1) / kBlock;  // summed one by one, then in their order
     std::vector<NormalSums> block_sums(blocks, NormalSums(knots.intervals));
@@ -262,12 +262,15 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
             eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(rhs.head(unknowns)) / eigen.eigenvalues()[k];
     out.X_CS = moved(out.X_CS, body, step);
     reach = std::max(kNearest, std::min(reach, std::max(8.0 * scale, 5e-3)));
-    const bool settled = round > 4 && step.cwiseAbs().maxCoeff() < 1e-8;
-    moving = settled ? Eigen::Vector4d::Zero() : Eigen::Vector4d((0.5 * moving).cwiseMax(step.cwiseAbs()));
-    if (settled) break;
+    constexpr double kMemory = 0.7;
+    last = step;
+    moving = kMemory * moving + (1.0 - kMemory) * last;
+    if (round > 4 && step.cwiseAbs().maxCoeff() < 1e-8) break;
   }
-  // what still moves may be as far from its end as it would get in as many rounds again
-  moving *= out.iterations;
+  // what still moves one way may be as far from its end as it would get in some rounds more; what goes to and fro, as
+  // points at the ends of the section come and go, is there
+  constexpr double kRoundsMore = 10.0;
+  moving = kRoundsMore * moving.cwiseAbs() + last.cwiseAbs();
   out.covariance.topLeftCorner(unknowns, unknowns) =
       information.topLeftCorner(unknowns, unknowns).ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   out.covariance.diagonal() += moving.cwiseAbs2();
