@@ -624,7 +624,7 @@ def run_answers(text):
         answers.append({"status": case["status"], "remarks": [r["name"] for r in case.get("remarks", []) if r.get("grave")],
                         "all_remarks": [r["name"] for r in case.get("remarks", [])], "pmax": max(p["pmax_MPa"] for p in patches),
                         "place": best["reference"]["y_tr_mm"], "angle": best["reference"]["angle_rad"],
-                        "uncertainty": case.get("uncertainty") or best.get("uncertainty") or {}})
+                        "noise": (best.get("noise") or {}).get("pmax_MPa") or 0.0})
     return answers
 
 
@@ -731,9 +731,8 @@ def allowance(c):
 
 def run_right(c, answer, true):
     pressure, place, angle, _ = allowance(c)
-    stated = (answer["uncertainty"] or {}).get("pmax_MPa") or 0.0
     for t in true:
-        if t and "pmax" in t and near(answer["pmax"], t["pmax"], 2 * stated, pressure) and near(answer["place"], t["place"], place) and near(
+        if t and "pmax" in t and near(answer["pmax"], t["pmax"], 2 * answer["noise"], pressure) and near(answer["place"], t["place"], place) and near(
                 answer["angle"], t["angle"], angle):
             return True
     return False

@@ -303,7 +303,12 @@ const std::vector<BaseShape>& base_shapes() {
       wheel("hollow by 3 mm", [] { return hollow_wheel(3.0); }),
       wheel("hollow by 4 mm", [] { return hollow_wheel(4.0); }),
       wheel("hollow by 6 mm", [] { return hollow_wheel(6.0); }),
-      wheel("thin flange", [] { return standard("S1002/h28/e28.5"); }),
+      wheel("thin flange",
+            [] {
+              return changed(standard("S1002"), [](const Vec2& p) {
+                return Vec2(-5.0 * eased((p.x() + 57.0) / 10.0) * eased((-14.0 - p.x()) / 18.0), 0.0);
+              });
+            }),
       wheel("false flange",
             [] {
               return changed(standard("S1002"), [](const Vec2& p) {

@@ -37,6 +37,7 @@ Told told_by_run(const std::filesystem::path& file, const std::vector<std::strin
       most = patch["fn_N"];
       one.y_tr_mm = patch["reference"]["y_tr_mm"];
       one.angle_rad = patch["reference"]["angle_rad"];
+      one.noise_MPa = patch.contains("noise") ? patch["noise"]["pmax_MPa"].get<double>() : 0.0;
     }
   }
   return told;

@@ -13,6 +13,7 @@ struct ToldCase {
   std::string status;
   double pmax_MPa = 0.0;                  ///< largest of all patches
   double y_tr_mm = 0.0, angle_rad = 0.0;  ///< of the patch that carries most
+  double noise_MPa = 0.0;                 ///< standard deviation of its pressure that is stated; 0: none
 };
 
 /// What a command tells its user.
