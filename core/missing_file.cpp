@@ -58,7 +58,7 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   return best;
 }
 
-std::string advice_on_missing(const fs::path& file, std::string otherwise) {
+std::string advice_on_missing(const fs::path& file, const std::string& otherwise) {
   std::error_code code;
   std::string portable = file.string();
   std::ranges::replace(portable, '\\', '/');
@@ -68,7 +68,7 @@ std::string advice_on_missing(const fs::path& file, std::string otherwise) {
       return "'" + part.string() + "' is not replaced here: write the folder";
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, code)) {
-    const std::string there = folder == file || !folder.has_filename() ? std::string() : advice_on_missing(folder);
+    std::string there = folder == file || !folder.has_filename() ? std::string() : advice_on_missing(folder);
     if (there.starts_with("did you mean")) return there;
     return otherwise.empty() ? "there is no folder " + folder.string() : otherwise;
   }

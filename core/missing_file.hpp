@@ -24,7 +24,7 @@ void require_file(const std::filesystem::path& file, std::string_view what, Erro
 
 /// What to do about a file that is not there: the name in its folder that was probably meant, else `otherwise`, or that
 /// the folder is not there either. Thread-safe.
-std::string advice_on_missing(const std::filesystem::path& file, std::string otherwise = {});
+std::string advice_on_missing(const std::filesystem::path& file, const std::string& otherwise = {});
 
 /// Letters to be changed, left out, added or exchanged with their neighbour from one text to another; small letters and
 /// capitals are the same. (Restricted Damerau-Levenshtein distance.)

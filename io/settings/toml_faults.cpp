@@ -565,7 +565,7 @@ TextFault toml_fault(std::string_view text, int number, int column, std::string_
   if (!open.empty() && !in_string) return bracket_fault(open.back(), whole, at, words);
   const std::string_view line = without_blanks(without_comment(whole));
   if (const std::string_view header = header_of(whole); !header.empty() && open.empty()) return header_fault(header);
-  const TextFault key = key_fault(line);
+  TextFault key = key_fault(line);
   if (!key.message.empty()) return key;
   return value_fault(key_of_line(whole), without_blanks(without_comment(whole).substr(whole.find('=') + 1)), words);
 }
