@@ -205,8 +205,8 @@ class SheetReader {
              "its class must be unknown");
     half_ = grid.type == "Tree_float_5_4_3_HalfFloat";
     if (!half_ && grid.type != "Tree_float_5_4_3")
-      refuse(
-          fmt::format("the offsets of a VDB file must be single or half precision numbers, not {}", short_name(grid.type)));
+      refuse(fmt::format("the offsets of a VDB file must be single or half precision numbers, not {}",
+                         short_name(grid.type)));
     at_ = grid.begin;
     compression_ = number<std::uint32_t>();
     if (compression_ > (kZip | kActiveMask | kBlosc)) refuse("the VDB file is compressed in an unknown way");

@@ -195,7 +195,7 @@ TEST(CadFiles, HaveUnitsOfTheirOwn) {
               treadmark::testing::standard_case("1.0", "shape.file = \"wheel.step\"\nshape.scale_to_mm = 2\n"));
   input.write("wheel.step", "");
   EXPECT_THAT(treadmark::testing::error_of([&] { solved(input.folder() / "cad.toml"); }),
-              HasSubstr("units of their own"));
+              HasSubstr("scale_to_mm does not belong to a file of CAD"));
 }
 
 }  // namespace
