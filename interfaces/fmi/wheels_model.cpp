@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -409,25 +408,20 @@ class WheelsModel final : public Model {
     return pair.solve(problem);
   }
 
-  /// Whether the balance of a load was sought in vain above nothing but no contact.
-  static bool less_than_an_element(const wheelrail::PairSolution& solution, double load) {
-    constexpr double kAbove = 1.1;  // balances that fail otherwise have come nearer
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& [z, force] : solution.force_iterations)
-      if (force > 0.0) least = std::min(least, force);
-    return solution.status == Status::not_converged && std::isfinite(least) && least > kAbove * load;
-  }
-
-  /// Loads of nothing, or less than a single element in contact carries, are a loss of contact.
-  static wheelrail::PairSolution solve_pair(wheelrail::Pair& pair, const Problem& problem) {
-    constexpr double kNothing = 1.0;  // [N]
+  /// Loads of nothing are a loss of contact. The force of a contact of few elements grows in jumps: light loads across
+  /// which it jumps get the force beside the jump. usual: load of the case [N].
+  static wheelrail::PairSolution solve_pair(wheelrail::Pair& pair, const Problem& problem, double usual) {
+    constexpr double kNothing = 1.0, kLight = 1e-3;  // [N], of the usual load
     if (!problem.vertical_force) return pair.solve(problem);
     if (*problem.vertical_force <= kNothing) return solve_unloaded(pair, problem);
     const auto before = pair.save();
     wheelrail::PairSolution solution = pair.solve(problem);
-    if (!less_than_an_element(solution, *problem.vertical_force)) return solution;
+    if (solution.status != Status::not_converged || *problem.vertical_force > kLight * usual) return solution;
     pair.restore(before);
-    return solve_unloaded(pair, problem);
+    Problem held = problem;
+    held.vertical_force.reset();
+    held.state.position.z = solution.z;
+    return pair.solve(held);
   }
 
   /// Outputs into values, which may be the model's own. on: from the last accepted instant. keep: else all stays as it
@@ -443,7 +437,7 @@ class WheelsModel final : public Model {
       parallel_for(wheels_.size(), [&](std::size_t i) {
         const Problem problem = problem_of(i, values, rolled, on && started_);
         if (!keep) wheels_[i].pair->restore(wheels_[i].before);
-        solutions[i] = solve_pair(*wheels_[i].pair, problem);
+        solutions[i] = solve_pair(*wheels_[i].pair, problem, wheels_[i].problem.vertical_force.value_or(0.0));
       });
     } catch (...) {
       back();

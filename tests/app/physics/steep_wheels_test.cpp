@@ -129,7 +129,7 @@ TEST(SteepWheels, ABalanceThatIsNotThereIsToldWithItsPlace) {
   SurfaceStore store;
   BuiltVehicle built = build_vehicle(io::read_simulation_file(folder.path() / "simulation.toml"), store);
   for (std::size_t i = 0; i < built.vehicle.system.coordinates.size(); ++i)
-    if (built.vehicle.system.coordinates[i].name == "wheelset.x")
+    if (built.vehicle.system.coordinates[i].name == "wheelset.y")
       built.vehicle.system.weight[static_cast<Eigen::Index>(i)] = 2e5;
   const vehicle::Equilibrium e = vehicle::find_equilibrium(built.vehicle);
   EXPECT_EQ(e.report.status, Status::not_converged);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -383,7 +384,7 @@ TEST_P(Versions, ALoadOfNothingIsLossOfContact) {
       EXPECT_EQ(it->step(time, step), kOk) << force << ' ' << it->messages();
       time += step;
     };
-    for (const double force : {0.0, -5e4, 0.1, 1e-300, 2.0}) {
+    for (const double force : {0.0, -5e4, 0.1, 1e-300}) {
       go_on(force);
       EXPECT_EQ(it->number("status"), 1.0) << force;
       EXPECT_EQ(it->number("patches"), 0.0) << force;
@@ -397,6 +398,26 @@ TEST_P(Versions, ALoadOfNothingIsLossOfContact) {
       EXPECT_NEAR(it->get("force_on_rail")[2], 80e3, 80.0) << force;
     }
   }
+}
+
+/// Contacts of few elements bear more by jumps: no load on the way to nothing is an error for that.
+TEST_P(Versions, LightLoadsAreNoErrors) {
+  for (const char* size : {"0.5", "2", "5"})
+    for (const char* y : {"0.0", "-3.0", "6.3"}) {
+      std::string text = case_text(fmt::format("y_mm = {}\nvertical_force_N = 80e3\n", y));
+      for (const auto& [given, other] : {std::pair{"dx_mm = 2.0", "dx_mm = "}, {"ds_mm = 1.0", "ds_mm = "}})
+        text.replace(text.find(given), std::string(given).size(), other + std::string(size));
+      const Fmu fmu(text, GetParam());
+      const auto it = fmu.open();
+      ASSERT_EQ(it->initialize(), kOk) << it->messages();
+      double time = 0.0;
+      for (const double force : {80.0, 30.0, 10.0, 5.0, 3.0, 2.0, 1.01}) {
+        ASSERT_EQ(it->set("vertical_force", force), kOk);
+        ASSERT_EQ(it->step(time, kStep), kOk) << size << ' ' << y << ' ' << force << ' ' << it->messages();
+        time += kStep;
+        EXPECT_NEAR(it->get("force_on_rail")[2], force, 0.1 * force) << size << ' ' << y;
+      }
+    }
 }
 
 TEST_P(Versions, TheStopTimeOfTheMasterEndsTheRun) {
@@ -427,7 +448,9 @@ TEST_P(Versions, TheStepOfTheDescriptionCanBeTaken) {
       const Fmu fmu(case_text("y_mm = 2.0\nz_mm = 0.9\n", regime), GetParam(), wheelset);
       const double step = std::stod(fmu.unpacked().attribute("stepSize"));
       EXPECT_GT(step, 0.0);
-      if (std::string(regime) == "transient") EXPECT_LE(step, 2.0 * 2e-3 / 20.0);
+      if (std::string(regime) == "transient") {
+        EXPECT_LE(step, 2.0 * 2e-3 / 20.0);
+      }
       const auto it = fmu.open();
       ASSERT_EQ(it->initialize(), kOk);
       double time = 0.0;
