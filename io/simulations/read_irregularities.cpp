@@ -82,8 +82,8 @@ class RecordingReader {
               "as distance_m,longitudinal_level_mm,cross_level_mm,alignment_mm,gauge_mm");
     refuse_slips(at, header_);
     check_columns(at, header_);
-    for (std::size_t k = 0; k < header_.unknown_names.size(); ++k)
-      unused_ += (unused_.empty() ? "" : ", ") + profiles::printable(profiles::lower(header_.unknown_names[k]));
+    for (const std::string& unknown : header_.unknown_names)
+      unused_ += (unused_.empty() ? "" : ", ") + profiles::printable(profiles::lower(unknown));
     if (!unused_.empty()) notes_.push_back(fmt::format("{}: columns that are not used: {}", name_, unused_));
     choose_among_equals(at, header_, notes_);
     for (const Column& column : header_.columns) {

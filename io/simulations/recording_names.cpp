@@ -162,9 +162,8 @@ Letter take_letter(std::string_view& text) {
   constexpr std::uint32_t kMicro1 = 0xB5, kMicro2 = 0x3BC;
   if (code == kMicro1 || code == kMicro2) return {Letter::Kind::lower, "u"};
   bool upper = true;
-  if (code >= 0xC0 && code <= 0xDE && code != 0xD7)
-    code += 0x20;
-  else if (code >= 0x410 && code <= 0x42F)
+  const bool latin = code >= 0xC0 && code <= 0xDE && code != 0xD7, cyrillic = code >= 0x410 && code <= 0x42F;
+  if (latin || cyrillic)
     code += 0x20;
   else if ((code >= 0x139 && code <= 0x148) || (code >= 0x179 && code <= 0x17E))
     upper = code % 2 == 1, code += upper ? 1 : 0;
@@ -192,10 +191,8 @@ std::vector<std::string> pieces_of(std::string_view name) {
   while (!name.empty()) {
     const Letter letter = take_letter(name);
     using Kind = Letter::Kind;
-    if (letter.kind == Kind::other) {
-      close();
-    } else if ((letter.kind == Kind::digit) != (before == Kind::digit) ||
-               (letter.kind == Kind::upper && before == Kind::lower)) {
+    if (letter.kind == Kind::other || (letter.kind == Kind::digit) != (before == Kind::digit) ||
+        (letter.kind == Kind::upper && before == Kind::lower)) {
       close();
     } else if (letter.kind == Kind::lower && before == Kind::upper && capitals > 1) {
       piece.resize(piece.size() - last.size());

@@ -202,7 +202,7 @@ void read_layout(const TableReader& layout, SimulationFile& out) {
     layout.fail(fmt::format("the line is {:.6g} m long, the run ends at {:.6g} m", length, end),
                 "shorten the run (simulation.distance_m), or put a longer element at the end of the line");
   if (!begins_steadily(out))
-    out.notes.push_back(
+    out.notes.emplace_back(
         "layout: the vehicle starts where the line changes; it begins in the balance of forces that it "
         "would have if it stayed there");
   const LayoutElement& first = out.layout->elements.front();
