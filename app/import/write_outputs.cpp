@@ -233,46 +233,42 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, const io:
   }
   constexpr std::size_t kStations = Stations::kCount, kAcross = Stations::kAcross;
   constexpr double margin = Stations::kMargin;
-  std::vector<double> worst(kStations, 0.0), square(kStations, 0.0), count(kStations, 0.0);
+  std::vector<double> worst(kStations, 0.0), square(kStations, 0.0), count(kStations, 0.0), missing(kStations, 0.0);
   parallel_for(kStations, [&](std::size_t i) {
     const double a = stations.at(i);
-    std::vector<double> y, v, slope(kAcross), z(kAcross);
+    const Pose X_SP = natural_plane(fit.scan.body, fit.fitted.u_at(a));
     for (std::size_t k = 0; k < kAcross; ++k) {
       const double s = fit.fitted.s_min + margin +
                        (fit.fitted.s_max - fit.fitted.s_min - 2.0 * margin) * (static_cast<double>(k) + 0.41) / kAcross;
       const auto row = std::min(fit.points.rows - 1, static_cast<std::size_t>(a / fit.points.cell_a)),
                  column = std::min(fit.points.columns - 1, static_cast<std::size_t>(s / fit.points.cell_s));
       if (!fit.coverage.open.empty() && fit.coverage.open[row * fit.points.columns + column] != 0) continue;
-      const Vec2 p = fit.fitted.across(a, s);
-      y.push_back(p.x());
-      v.push_back(fit.scan.body == Body::wheel ? p.y() : -p.y());
-    }
-    if (y.empty()) return;
-    if (sections) {
-      HeightsOut wanted;
-      wanted.z = v;
-      section_heights(*sections->surface, fit.scan.body, fit.fitted.u_at(a), y, wanted);
-    }
-    z.resize(y.size());
-    slope.resize(y.size());
-    HeightsOut heights;
-    heights.z = z;
-    heights.dzdy = slope;
-    section_heights(*back.surface, fit.scan.body, fit.fitted.u_at(a), y, heights);
-    for (std::size_t k = 0; k < y.size(); ++k) {
-      if (std::isnan(z[k]) || std::isnan(v[k])) continue;
-      const double d = (z[k] - v[k]) / std::hypot(1.0, slope[k]);
+      // seen along the section's normal, so that flanks are compared like the top
+      const Vec2 p = fit.fitted.across(a, s), normal = fit.fitted.band.section.at(s).normal;
+      const double tilt = std::atan2(normal.x(), normal.y()), sign = fit.scan.body == Body::wheel ? 1.0 : -1.0;
+      const Pose X_SN = X_SP * Pose{Vec3(0.0, p.x(), sign * p.y()), rotation_x(-sign * tilt)};
+      double d = height_at(*back.surface, X_SN, Vec2::Zero());
+      if (sections) d -= height_at(*sections->surface, X_SN, Vec2::Zero());
+      if (std::isnan(d)) {
+        missing[i] += 1.0;
+        continue;
+      }
       worst[i] = std::max(worst[i], std::fabs(d));
       square[i] += d * d;
       count[i] += 1.0;
     }
   });
-  double sum = 0.0, number = 0.0;
+  double sum = 0.0, number = 0.0, none = 0.0;
   for (std::size_t i = 0; i < kStations; ++i) {
     out.height_max = std::max(out.height_max, worst[i]);
     sum += square[i];
     number += count[i];
+    none += missing[i];
   }
+  constexpr double kMostMissing = 0.1;
+  if (none > kMostMissing * (number + none))
+    throw Error(ErrorKind::input_data,
+                fmt::format("it is not there at {:.0f} % of the fitted places", 100.0 * none / (number + none)));
   out.height_rms = number > 0.0 ? std::sqrt(sum / number) : 0.0;
 }
 

@@ -110,7 +110,7 @@ std::vector<ImportKey> listed_keys() {
   list.number("fit.decimate_um", kNotNegative,
               "leave out nodes that triangles do not need to this tolerance; 0: keep all",
               at(&S::fit, &S::Fit::decimate_um));
-  list.number("fit.written_um", kPositive,
+  list.number("fit.written_um", {{}, 0.001, 1e6},
               "a surface that is written, read again, farther from the fitted one is an error",
               at(&S::fit, &S::Fit::written_um));
 

@@ -265,7 +265,10 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     constexpr double kMemory = 0.7;
     last = step;
     moving = kMemory * moving + (1.0 - kMemory) * last;
-    if (round > 4 && step.cwiseAbs().maxCoeff() < 1e-8) break;
+    if (round > 4 && step.cwiseAbs().maxCoeff() < 1e-8) {
+      moving.setZero();
+      break;
+    }
   }
   // what still moves one way may be as far from its end as it would get in some rounds more; what goes to and fro, as
   // points at the ends of the section come and go, is there
