@@ -73,8 +73,8 @@ NaturalSurface surface_of_points(const Profile& profile) {
 }
 
 /// Writes it where it is read again as what it was made from, at the place to see that.
-void write_checked(const std::filesystem::path& output, const Profile& profile,
-                   const io::ProfileDerivatives* derivatives, const NaturalSurface& meant, double tolerance) {
+void write_checked_points(const std::filesystem::path& output, const Profile& profile,
+                          const io::ProfileDerivatives* derivatives, const NaturalSurface& meant, double tolerance) {
   std::optional<OutputFolder> own;
   StagedOutputs staged;
   if (is_stream(output)) own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
@@ -120,7 +120,7 @@ std::string convert_profile(const std::filesystem::path& input, const std::files
     }
     derivatives.s = s;
   }
-  write_checked(output, profile, how.derivatives ? &derivatives : nullptr, *surface, tolerance_of(settings));
+  write_checked_points(output, profile, how.derivatives ? &derivatives : nullptr, *surface, tolerance_of(settings));
   return fmt::format("{} profile, {} points{}", profile.body == Body::wheel ? "wheel" : "rail", profile.y.size(),
                      smoothed ? ", smoothed" : "");
 }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
@@ -66,8 +67,16 @@ double tolerance_of(const ConvertSettings& settings) {
   return settings.tolerance > 0.0 ? settings.tolerance : sampled_tolerance(settings.resolution);
 }
 
-Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
-                          const ConvertSettings& settings) {
+namespace {
+
+/// A table that is added to a surface, and the surface without it.
+struct AddedTable {
+  NaturalSurface below;
+  OffsetMap table;
+};
+
+Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& added,
+                        const std::filesystem::path& output, const ConvertSettings& settings) {
   const std::string extension = io::profiles::lower(output.extension().string());
   const bool view = extension == ".vtp";  // only to be looked at
   const bool triangles = view || io::is_mesh_file(output), slices = io::is_slices_file(output),
@@ -78,14 +87,8 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
                 "use .ply, .stl, .obj, .off or .vtp (ParaView) for triangles, .slcs or .slcw for slices, .vdb for "
                 "offsets, .step for CAD, .xml for splines");
   Converted out;
-  out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
+  out.source = std::move(source);
   out.body = out.source.spec.body;
-  const NaturalSurface below = out.source;
-  std::optional<OffsetMap> table;
-  if (!settings.offsets.file.empty()) {
-    table = read_offset_table(settings.offsets, out.source);
-    out.source = add_offsets(out.source, *table);
-  }
   Representation wanted{splines     ? settings.backend
                         : triangles ? "mesh"
                         : slices    ? "spline"
@@ -122,8 +125,8 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
       io::write_slices(place, to_slices(out.source, wanted, &sampled));
     } else {
       out.kind = "offsets";
-      if (table)
-        write_added_offsets(place, below, *table, wanted);
+      if (added)
+        write_added_offsets(place, added->below, added->table, wanted);
       else
         write_offsets(place, out.source, wanted, &sampled);
     }
@@ -148,6 +151,25 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   else
     staged.commit();
   return out;
+}
+
+}  // namespace
+
+Converted write_surface(const NaturalSurface& surface, const std::filesystem::path& output,
+                        const ConvertSettings& settings) {
+  return write_checked(surface, std::nullopt, output, settings);
+}
+
+Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
+                          const ConvertSettings& settings) {
+  NaturalSurface source =
+      named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
+  std::optional<AddedTable> added;
+  if (!settings.offsets.file.empty()) {
+    added = AddedTable{source, read_offset_table(settings.offsets, source)};
+    source = add_offsets(source, added->table);
+  }
+  return write_checked(std::move(source), added, output, settings);
 }
 
 }  // namespace treadmark::app

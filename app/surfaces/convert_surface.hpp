@@ -47,4 +47,8 @@ struct Converted {
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
                           const ConvertSettings& settings);
 
+/// The same of a surface that is there already; what settings say of the input is not looked at.
+Converted write_surface(const NaturalSurface& surface, const std::filesystem::path& output,
+                        const ConvertSettings& settings);
+
 }  // namespace treadmark::app

@@ -17,8 +17,6 @@
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
-#include "treadmark/io/meshes/read_mesh.hpp"
-#include "treadmark/io/profiles/write_slices.hpp"
 #include "treadmark/model/magnitudes.hpp"
 #include "treadmark/model/natural_view.hpp"
 
@@ -65,21 +63,12 @@ Surf with_defects(const tm_surface& from, const Strings& assignments) {
   });
 }
 
-/// The slice of a wheel's or rail's surface that is not written stays what it is: files say what they hold.
+/// Read again and compared before the file gets its name.
 void save(const tm_surface& s, const std::filesystem::path& file, double resolution) {
   released([&] {
-    Representation wanted{"", resolution, {}};
-    const bool triangles = io::is_mesh_file(file), offsets = file.extension() == ".vdb";
-    if (wanted.resolution == 0.0 && !triangles) wanted.resolution = kDefaultResolution;
-    if (triangles)
-      io::write_mesh(file, to_triangles(*s.natural, wanted));
-    else if (offsets)
-      write_offsets(file, *s.natural, wanted);
-    else if (file.extension() == ".slcs" || file.extension() == ".slcw")
-      io::write_slices(file, to_slices(*s.natural, wanted));
-    else
-      throw Error(ErrorKind::configuration, "surfaces cannot be written to files like this", {file.string(), 0, 0},
-                  "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets");
+    app::ConvertSettings settings;
+    settings.resolution = resolution;
+    app::write_surface(*s.natural, file, settings);
   });
 }
 
