@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Dense>
@@ -132,6 +133,26 @@ double lost_on(const std::vector<Vec2>& points, const NominalOutline& n, const T
   return count > 2.0 ? sum / count : kNaN;
 }
 
+/// Of the flange: a tread alone may be that of another cone.
+double flange_rms(const std::vector<Vec2>& points, const NominalOutline& n, const Turned& place) {
+  constexpr double kBelowTread = 8e-3;
+  std::vector<double> squares;
+  const double c = std::cos(place.roll), s = std::sin(place.roll);
+  for (const Vec2& p : points) {
+    const double y = c * p.x() - s * p.y() + place.dy, z = s * p.x() + c * p.y() + place.dz;
+    const double t = (y - n.first) / n.step;
+    if (!(z > kBelowTread && t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) continue;
+    const auto i = static_cast<std::size_t>(t);
+    const double slope = (n.z[i + 1] - n.z[i]) / n.step;
+    const double r = z - n.z[i] - slope * (y - n.first - n.step * static_cast<double>(i));
+    if (!std::isnan(slope)) squares.push_back(r * r / (1.0 + slope * slope));
+  }
+  const auto half = static_cast<std::ptrdiff_t>(squares.size() / 2);
+  if (half < 3) return kInfinity;
+  std::nth_element(squares.begin(), squares.begin() + half, squares.end());
+  return std::sqrt(std::accumulate(squares.begin(), squares.begin() + half, 0.0) / static_cast<double>(half));
+}
+
 }  // namespace
 
 NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2> outline) {
@@ -172,11 +193,12 @@ std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutli
     const std::vector<Vec2> outline = points_of(n);
     if (outline.empty()) continue;
     const Vec2 nominal_mark = mark_of(profile.body, outline);
-    out.upright = std::min(out.upright, fitted_to(points, n, start_at(mark, nominal_mark, 0.0), kUsualRoll).rms);
+    out.upright = std::min(out.upright, fitted_to(points, n, start_at(mark, nominal_mark, 0.0), kLevel).rms);
     for (const double roll : kStarts)
       if (const RollFit fit = fitted_to(points, n, start_at(mark, nominal_mark, roll), kMostRoll);
           fit.rms < out.residual) {
         out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll;
+        out.flange = flange_rms(points, n, fit.place);
         out.lost_low = lost_on(points, n, fit.place, -1.0), out.lost_high = lost_on(points, n, fit.place, 1.0);
       }
   }

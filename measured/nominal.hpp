@@ -26,14 +26,15 @@ struct Lean {
   std::string name;       ///< of the nominal section
   double roll = 0.0;      ///< of the measured section, y towards z [rad]
   double residual = 0.0;  ///< rms of the better six tenths of the points, rolled back so [m]
-  double upright = 0.0;   ///< the least such rms that any nominal section reaches within kUsualRoll [m]
+  double flange = 0.0;    ///< rms of the better half of the points on the flange of a wheel, rolled back so [m]
+  double upright = 0.0;   ///< the least such rms that any nominal section reaches within kLevel [m]
   /// Metal that is missing on the flanks of a rail, 4 to 13 mm below its top, on the side of small and of great y: mean
   /// across the nominal section [m].
   double lost_low = 0.0, lost_high = 0.0;
 };
 
-/// An axis of a measuring frame may be off by so much, and a rail may be inclined by 1:20 [rad].
-inline constexpr double kUsualRoll = 3.0 * 3.14159265358979323846 / 180.0;
+/// A wheel that is rolled by less stands upright; the flange height of one that is not changes by 0.5 mm [rad].
+inline constexpr double kLevel = 7e-3;
 
 /// Least trimmed squares (Rousseeuw 1984) of the section upon each nominal one, by shift and roll: worn parts are
 /// among what is left out. Nothing where fewer than 20 mm of the section can be compared. Thread-safe.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -300,6 +301,17 @@ void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
   if (*high - *low > kStraight) marks.back_lean = -std::atan(slope_of(straight_z, straight_y));
 }
 
+/// Of the line through the lowest points of both halves of a section.
+double tips_lean(const SectionPoints& p) {
+  const auto [low, high] = std::ranges::minmax(p.y);
+  std::array<std::size_t, 2> tip{p.y.size(), p.y.size()};
+  for (std::size_t i = 0; i < p.y.size(); ++i) {
+    std::size_t& of = tip[p.y[i] > 0.5 * (low + high)];
+    if (of == p.y.size() || p.z[i] > p.z[of]) of = i;
+  }
+  return std::atan2(p.z[tip[1]] - p.z[tip[0]], p.y[tip[1]] - p.y[tip[0]]);
+}
+
 /// Of the tread at y = 0: mean of what was measured within a millimetre beside it, sloped out.
 std::optional<double> tape_height(const SectionPoints& p) {
   constexpr double kNear = 2e-3;
@@ -396,6 +408,7 @@ class Reader {
     u_.mirrored_y = w_.mirror_y == Turn::yes;
     if (p_.body == Body::rail) return;
     u_.y = wheel_y(p_, u_.wheel.second_flange);
+    if (u_.wheel.second_flange) u_.wheel.tips_lean = tips_lean(p_);
     if (!u_.y.is_turned()) return;
     if (w_.mirror_y == Turn::decide && w_.place) {
       negate(p_.y);

@@ -52,6 +52,7 @@ struct WheelMarks {
   std::optional<double> back_lean;     ///< of its straight part against the upright, positive: rolled so that z grows
                                        ///< with y [rad]; nothing where less than 6 mm of it are measured
   bool second_flange = false;          ///< one on the other side too
+  std::optional<double> tips_lean;     ///< of the line through the tips of two flanges, as back_lean [rad]
   std::optional<double> tape_z;        ///< of the tread at y = 0
 };
 

@@ -284,6 +284,7 @@ struct Fit {
   double variance = 0.0;                                     ///< of a point
   double badness = std::numeric_limits<double>::infinity();  ///< -2 log of the likelihood, but for a constant
   Band precision{1};                                         ///< of the coefficients times the variance, factorised
+  Values weights, scores;                                    ///< of the points: weight, weight times what is left
 };
 
 /// How restless the curvature is at each cell: its variance a length, but for one factor. Roughness grows with how much
@@ -326,20 +327,27 @@ double log_normal_share(double from, double to, double& slope, double& bend) {
   return std::log(share);
 }
 
+/// A place where the curve may change its slope at once, by how much, and how many standard deviations that is.
+struct Corner {
+  double s = 0.0, turn = 0.0, significance = 0.0;
+};
+
 /// One smoothing problem: heights over s, the penalties but for their factor.
 class Problem {
  public:
-  Problem(const Straightened& line, Values restless)
+  /// third_differences: standard deviations of those that are known otherwise; 0 for all others.
+  Problem(const Straightened& line, Values restless, Values third_differences)
       : line_(line),
         restless_(std::move(restless)),
+        third_differences_(std::move(third_differences)),
         products_(line.knots.size()),
         right_(products_with(line.knots, line.s, line.height)) {
     add_products(line.knots, line.s, Values(line.s.size(), 1.0), products_);
   }
 
   /// White noise of unknown variance.
-  Fit white(double log_factor) const {
-    Fit fit = begin(log_factor);
+  Fit white(double log_factor, double noise) const {
+    Fit fit = begin(log_factor, noise);
     Band matrix = products_;
     add_penalty(penalties_, matrix);
     if (!matrix.factor()) return fit;
@@ -352,6 +360,10 @@ class Problem {
     }
     const auto free = static_cast<double>(line_.s.size() - 3);
     fit.variance = sum / free;
+    fit.weights.assign(line_.s.size(), 1.0);
+    fit.scores.clear();
+    for (std::size_t i = 0; i < line_.s.size(); ++i)
+      fit.scores.push_back(line_.height[i] - line_.knots.value(fit.heights, line_.s[i]));
     fit.badness = free * std::log(fit.variance) + matrix.log_determinant() - log_penalties_;
     fit.precision = std::move(matrix);
     return fit;
@@ -361,7 +373,7 @@ class Problem {
   Fit rounded(double log_factor, double noise, const Values& start) const {
     constexpr int kMost = 30;
     constexpr double kSame = 1e-5;
-    Fit fit = begin(log_factor);
+    Fit fit = begin(log_factor, 1.0);
     fit.variance = 1.0;
     Values now = start;
     double badness = std::numeric_limits<double>::infinity();
@@ -397,21 +409,52 @@ class Problem {
       if (next_value <= value) now = next, value = next_value;
       badness = value + matrix.log_determinant() - log_penalties_;
       fit.precision = std::move(matrix);
+      fit.weights = weights;
       if (done) break;
     }
+    value_of(now);
+    for (double& score : slope) score /= noise;
+    fit.scores = std::move(slope);
     fit.heights = now;
     fit.badness = badness;
     return fit;
   }
 
+  /// The most significant corner of a fit: of the points' likelihood the score of a change of slope, over what it would
+  /// scatter by if there were none (Rao 1948).
+  Corner likeliest_corner(const Fit& fit) const {
+    constexpr double kEnds = 2.0;  ///< no corner is told from a bend so near an end
+    Corner best;
+    const double first = line_.knots.first, last = line_.knots.last();
+    Values wedge(line_.s.size()), weighted(line_.s.size());
+    for (int k = 0; k <= line_.knots.cells; ++k) {
+      const double s = line_.knots.node(k);
+      if (s < first + kEnds || s > last - kEnds) continue;
+      double score = 0.0, information = 0.0;
+      for (std::size_t i = 0; i < line_.s.size(); ++i) {
+        wedge[i] = 0.5 * std::fabs(line_.s[i] - s);
+        weighted[i] = fit.weights[i] * wedge[i];
+        score += fit.scores[i] * wedge[i];
+        information += weighted[i] * wedge[i];
+      }
+      information -= fit.precision.inverse_square(products_with(line_.knots, line_.s, weighted));
+      if (!(information > 0.0)) continue;
+      if (const double t = std::fabs(score) / std::sqrt(information * fit.variance); t > best.significance)
+        best = {s, std::fabs(score) / information, t};
+    }
+    return best;
+  }
+
  private:
-  Fit begin(double log_factor) const {
+  Fit begin(double log_factor, double noise) const {
     Fit fit;
     fit.penalty = std::exp(log_factor);
     penalties_.clear();
     log_penalties_ = 0.0;
-    for (const double r : restless_) {
-      penalties_.push_back(fit.penalty / (r * std::pow(line_.knots.step, 5)));
+    for (std::size_t k = 0; k < restless_.size(); ++k) {
+      penalties_.push_back(fit.penalty / (restless_[k] * std::pow(line_.knots.step, 5)));
+      if (const double known = third_differences_[k]; known > 0.0)
+        penalties_.back() = std::min(penalties_.back(), std::pow(noise / known, 2));
       log_penalties_ += std::log(penalties_.back());
     }
     return fit;
@@ -423,7 +466,7 @@ class Problem {
   }
 
   const Straightened& line_;
-  Values restless_;
+  Values restless_, third_differences_;
   Band products_;
   Values right_;
   mutable Values penalties_;
@@ -459,9 +502,23 @@ struct Laid {
   Fit fit;
 };
 
-/// level: the curvature may change as much anywhere, as in the head of a rail, whose arcs of 80 and 300 mm meet in a
-/// jump.
-std::optional<Laid> lay_curve(Points points, const PointNoise& noise, bool level) {
+/// Lets the slope change by about as much as each corner does, across two cells to each side of it.
+void free_corners(const Knots& knots, const Corner& corner, Values& third_differences) {
+  constexpr double kCells = 2.0, kTimesCorner = 3.0;
+  for (int k = 0; k < knots.cells; ++k)
+    if (std::fabs(knots.node(k) + 0.5 * knots.step - corner.s) < kCells * knots.step)
+      third_differences[at(k)] = std::max(third_differences[at(k)], kTimesCorner * corner.turn * knots.step);
+}
+
+/// What is assumed of a curve before its points are seen.
+struct Assumptions {
+  /// The curvature may change as much anywhere, as in the head of a rail, whose arcs of 80 and 300 mm meet in a jump.
+  bool level = false;
+  double least_corner = 0.0;  ///< standard deviations from which on a corner is believed
+};
+
+std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assumptions& assumed) {
+  constexpr std::size_t kMostCorners = 12;
   constexpr double kFirstCutoff = 1.0;  ///< wavelength that the first curve halves, which only has to lie near
   constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kNarrow = 3.0, kFine = 1.0;
   constexpr double kOfStep = 0.1;  ///< least noise before rounding, of the step
@@ -478,32 +535,44 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, bool level
   const bool by_halves = rounded > 0.5 * across;
   const double before = std::sqrt(std::max(across * across - rounded * rounded, std::pow(kOfStep * rounding, 2)));
   double found = 0.0;
-  Values restless;
+  std::vector<std::pair<std::size_t, Corner>> corners;  ///< and the point nearest to each
   for (int round = 0; round < kRounds; ++round) {
     std::optional<Straightened> straight = straighten(points, laid.curve, knot_step);
     if (!straight) return std::nullopt;
     Straightened line = std::move(*straight);
-    restless = level || round == 0 ? Values(at(line.knots.cells), 1.0)
-                                   : restlessness(line.knots, laid.line.knots, laid.fit.heights);
-    const Problem problem(line, restless);
-    const bool wide = round < 2;
-    const auto search = [&](auto&& fit_of) {
-      const auto badness = [&](double x) { return fit_of(x).badness; };
-      found =
-          wide ? lowest(kLowest, kHighest, kCoarse, badness) : lowest(found - kNarrow, found + kNarrow, kFine, badness);
-      return fit_of(found);
-    };
-    if (by_halves) {
-      Values start = problem.white(6.0 * std::log(cutoff) - std::log(points.step)).heights;
-      laid.fit = search([&](double x) {
-        Fit fit = problem.rounded(x, before, start);
-        if (!fit.heights.empty()) start = fit.heights;
-        return fit;
-      });
-    } else {
-      laid.fit = search([&](double x) { return problem.white(x); });
+    Values restless = assumed.level || round == 0 ? Values(at(line.knots.cells), 1.0)
+                                                  : restlessness(line.knots, laid.line.knots, laid.fit.heights);
+    Values third_differences(at(line.knots.cells), 0.0);
+    for (auto& [point, corner] : corners) {
+      corner.s = line.s[point];
+      free_corners(line.knots, corner, third_differences);
     }
-    if (laid.fit.heights.empty() || !std::isfinite(laid.fit.badness)) return std::nullopt;
+    for (bool wide = round < 2;; wide = false) {
+      const Problem problem(line, restless, third_differences);
+      const auto search = [&](auto&& fit_of) {
+        const auto badness = [&](double x) { return fit_of(x).badness; };
+        found = wide ? lowest(kLowest, kHighest, kCoarse, badness)
+                     : lowest(found - kNarrow, found + kNarrow, kFine, badness);
+        return fit_of(found);
+      };
+      if (by_halves) {
+        Values start = problem.white(6.0 * std::log(cutoff) - std::log(points.step), across).heights;
+        laid.fit = search([&](double x) {
+          Fit fit = problem.rounded(x, before, start);
+          if (!fit.heights.empty()) start = fit.heights;
+          return fit;
+        });
+      } else {
+        laid.fit = search([&](double x) { return problem.white(x, across); });
+      }
+      if (laid.fit.heights.empty() || !std::isfinite(laid.fit.badness)) return std::nullopt;
+      if (round == 0 || corners.size() == kMostCorners) break;
+      const Corner corner = problem.likeliest_corner(laid.fit);
+      if (corner.significance < assumed.least_corner) break;
+      const auto nearest = std::ranges::min_element(line.s, {}, [&](double s) { return std::fabs(s - corner.s); });
+      corners.emplace_back(static_cast<std::size_t>(nearest - line.s.begin()), corner);
+      free_corners(line.knots, corner, third_differences);
+    }
     laid.curve = moved_curve(line, laid.fit.heights);
     if (laid.curve.y.empty()) return std::nullopt;
     laid.line = std::move(line);
@@ -535,8 +604,10 @@ Profile smoothed_by_noise(Profile profile) {
   points.rounding_y = kMm * noise.rounding_y;
   points.rounding_z = kMm * noise.rounding_z;
   points.step = kMm * noise.step;
+  constexpr double kCorner = 4.5, kPerhapsCorner = 3.0;
   const bool level = profile.body == Body::rail;
-  const std::optional<Laid> laid = lay_curve(points, noise, level), other = lay_curve(points, noise, !level);
+  const std::optional<Laid> laid = lay_curve(points, noise, {level, kCorner}),
+                            other = lay_curve(points, noise, {!level, kPerhapsCorner});
   if (!laid) return profile;
   double squares = 0.0;
   for (std::size_t i = 0; i < n; ++i) {

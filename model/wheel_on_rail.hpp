@@ -97,7 +97,7 @@ enum class SearchMethod {
 
 /// Size of elements, and the rules by which they make patches.
 struct ElementGrid {
-  double dx = 0.5e-3, ds = 0.5e-3;               ///< element sizes [m]
+  double dx = 0.5e-3, ds = 0.5e-3;  ///< element sizes [m]
   /// Each patch gets a dx or ds of its own, chosen from its size; dx, ds are for patches that have to share a raster.
   bool choose_dx = false, choose_ds = false;
   double dq_relative = 1.0;                      ///< rolling step over dx

@@ -56,6 +56,26 @@ void add_noise(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run
   }
 }
 
+class NeverCancelled final : public CancellationToken {
+ public:
+  bool requested() const noexcept override { return false; }
+};
+
+/// What is to be said of results on surfaces that are there: moments, for which those of a cancelled run are kept.
+void describe_results(const io::CaseFile& file, const ProfilesOfRun& profiles, SurfaceStore& store,
+                      io::RunResult& run) {
+  const NeverCancelled never;
+  const CancellationScope scope(&never);
+  add_profile_doubts(file, profiles, store, run);
+  auto c = file.cases.begin();
+  for (io::CaseResult& result : run.cases) {
+    while (c->number != result.number) ++c;
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c->content))
+      doubt_contact_beyond_data(*input, store, result);
+  }
+  add_noise(file, store, run);
+}
+
 /// A result that says where it comes from, without cases.
 io::RunResult head_of(const io::CaseFile& file) {
   io::RunResult run;
@@ -84,6 +104,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   // Geometry first: a broken file is found before hours of work.
   std::vector<std::optional<wheelrail::Geometry>> geometries(file.cases.size());
   io::RunResult run;
+  ProfilesOfRun profiles;
   try {
     const CancellationScope scope(progress.stop);
     for (std::size_t i = 0; i < file.cases.size(); ++i) {
@@ -91,18 +112,12 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
       if (const auto* input = std::get_if<io::WheelRailCase>(&file.cases[i].content))
         geometries[i] = geometry_of(*input, store, regions);
     }
+    profiles = check_profiles_of_run(file);
     run = solve_cases(file, geometries, progress);
-    add_profile_doubts(file, store, run);
-    auto c = file.cases.begin();
-    for (io::CaseResult& result : run.cases) {
-      while (c->number != result.number) ++c;
-      if (const auto* input = std::get_if<io::WheelRailCase>(&c->content))
-        doubt_contact_beyond_data(*input, store, result);
-    }
-    add_noise(file, store, run);
   } catch (const Cancelled&) {  // what is finished is whole
     run = head_of(file);
   }
+  describe_results(file, profiles, store, run);
   run.geometry_sha256 = store.hashes();
   run.surfaces = store.uses();
   run.seconds = seconds_since(start);

@@ -96,8 +96,8 @@ bool tell_profile_doubts(const io::SimulationFile& file, const std::function<voi
   const auto look = [&](const io::SurfaceSource& source, Body body) {
     const io::ExpectedProfile expected =
         body == Body::wheel
-            ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true}
-            : io::ExpectedProfile{{}, {}, contact.track.gauge_based};
+            ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true, {}}
+            : io::ExpectedProfile{{}, {}, contact.track.gauge_based, contact.track.cant};
     for (const std::string& doubt : app::source_doubts(source, body, expected))
       if (told.insert(doubt).second) tell(doubt);
   };

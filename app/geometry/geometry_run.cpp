@@ -303,7 +303,7 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request) {
     if (std::ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name) || !is_profile_file(name))
       continue;
     seen.push_back(name);
-    const CheckedProfile checked = check_profile(name, body);
+    const CheckedProfile checked = check_profile(name, body, {}, {{}, {}, true, request.cant});
     for (const io::ProfileRemark& remark : checked.judgement.remarks)
       if (remark.name != "gauge_point")  // refused where it is needed
         out.push_back(fmt::format("{}: {}: {}", checked.name, remark.name, remark.text));

@@ -54,6 +54,7 @@ ReadMeasured read_points(const std::string& name, const MeasureRequest& request)
   out.kind = "profile";
   out.notes = read.source.notes;
   for (const io::ProfileRemark& doubt : doubts_of(read)) {
+    if (doubt.name == "noise") continue;  // sections smooth it
     out.notes.push_back(fmt::format("doubt: {}: {}", doubt.name, doubt.text));
     out.doubtful = true;
   }

@@ -91,9 +91,11 @@ Nearness nearness(const measures::Section& section, const Standard& standard) {
   } catch (const Error&) {
     // a head alone has not enough of it
   }
-  constexpr double kHeadBeside = 10e-3, kWorn = 20e-3;
-  const bool in_its_axes =
-      std::fabs(section.y_min() + section.y_max()) < kHeadBeside && std::fabs(section.z_min()) < kWorn;
+  // the field side does not wear, and the top wears downwards
+  constexpr double kBeside = 3e-3, kAbove = 0.5e-3, kWorn = 20e-3;
+  const bool in_its_axes = (std::fabs(section.y_min() + section.y_max()) < kBeside ||
+                            std::fabs(section.y_max() - standard.section.y_max()) < kBeside) &&
+                           section.z_min() > -kAbove && section.z_min() < kWorn;
   return by(in_its_axes ? measures::RailAlignment::none : measures::RailAlignment::top);
 }
 
@@ -128,25 +130,64 @@ void add_nearest(const Profile& profile, io::ProfileJudgement& to) {
                                                 best.wear, kMicro * best.lost, kMicro * best.gained));
 }
 
-/// A section that fits a nominal one much better when it is rolled was measured in a frame that is tilted; a rail that
-/// is worn on the side of great y alone shows the gauge side there.
-void judge_against_nominal(const io::SourcedProfile& sourced, io::ProfileJudgement& to) {
-  constexpr double kTimesBetter = 3.0, kBadUpright = 0.05e-3, kWorn = 1e-3, kAsNew = 0.3e-3;
-  constexpr double kFits = 0.3e-3;  // a worse fit shows nothing
+/// How a section is rolled, and what shows it.
+struct Roll {
+  double roll = 0.0;  ///< [rad]
+  bool sure = false;  ///< of the section against a nominal one: it does not fit as it is
+  std::string seen;
+};
+
+/// By a nominal section where so much is there that it shows: the top of a rail rolls as it is shifted. By the flanges
+/// of a wheel where none fits.
+std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::Lean* lean) {
+  constexpr double kRail = 0.05e-3, kWheel = 0.15e-3, kLarge = 0.05, kOfLargeRoll = 0.3e-3, kDeep = 10e-3;
+  constexpr double kTimesBetter = 1.5, kLevelTips = 0.012, kUprightBack = 0.05;
+  const Profile& profile = sourced.profile;
+  const measured::WheelMarks& marks = sourced.source.understood.wheel;
+  const auto [top, bottom] = std::ranges::minmax(profile.z);
+  if (lean != nullptr && !marks.second_flange && bottom - top > kDeep) {
+    const double fits = profile.body == Body::rail ? kRail : std::fabs(lean->roll) > kLarge ? kOfLargeRoll : kWheel;
+    if (lean->residual <= fits && (profile.body == Body::rail || lean->flange <= fits))
+      return Roll{lean->roll, lean->upright > kTimesBetter * lean->residual,
+                  fmt::format("against {}: {:.2g} mm off it when rolled back, {:.2g} mm as it is", lean->name,
+                              kMilli * lean->residual, kMilli * lean->upright)};
+  }
+  if (marks.tips_lean)
+    return Roll{*marks.tips_lean, std::fabs(*marks.tips_lean) > kLevelTips, "by the tips of its flanges"};
+  if (marks.back_lean)
+    return Roll{*marks.back_lean, std::fabs(*marks.back_lean) > kUprightBack, "by the back of its flange"};
+  return std::nullopt;
+}
+
+/// A section that is rolled was measured in a frame that is tilted, or of a rail that is inclined.
+void judge_roll(const Roll& roll, Body body, const io::ExpectedProfile& expected, io::ProfileJudgement& to) {
+  constexpr double kMostInclined = 0.055, kUpright = 1e-3;
+  const std::string seen =
+      fmt::format("by {:.1f} mrad ({:.1f} degrees) {}", kMilli * roll.roll, roll.roll * 180.0 / kPi, roll.seen);
+  const bool may_be_inclined = body == Body::rail && std::fabs(roll.roll) < kMostInclined;
+  if (!roll.sure || std::fabs(roll.roll) < measured::kLevel)
+    to.facts.emplace_back("roll", seen);
+  else if (may_be_inclined && !expected.cant)
+    to.facts.emplace_back("roll", seen + "; if the rail is inclined, track.cant is 0");
+  else if (!may_be_inclined || std::fabs(*expected.cant) > kUpright)
+    to.remarks.push_back({"rolled", fmt::format("the section is rolled {}; {}", seen,
+                                                may_be_inclined ? "is its inclination in the points? set cant = 0"
+                                                                : "was the measuring frame upright? turn the points")});
+}
+
+/// By nominal sections: roll; and a rail that is worn on the side of great y alone shows the gauge side there.
+void judge_against_nominal(const io::SourcedProfile& sourced, const io::ExpectedProfile& expected,
+                           io::ProfileJudgement& to) {
+  constexpr double kFits = 0.05e-3;  // a worse fit shows nothing
+  constexpr double kWorn = 1e-3, kAsNew = 0.3e-3;
   const Profile& profile = sourced.profile;
   std::vector<measured::NominalOutline> outlines;
   for (const Standard& standard : standards(profile.body))
     if (standard.upright) outlines.push_back(standard.outline);
   const std::optional<measured::Lean> lean = measured::lean_of(profile, outlines);
+  if (const std::optional<Roll> roll = roll_of(sourced, lean ? &*lean : nullptr))
+    judge_roll(*roll, profile.body, expected, to);
   if (!lean || lean->residual > kFits) return;
-  if (std::fabs(lean->roll) > measured::kUsualRoll && lean->upright > kBadUpright &&
-      lean->upright > kTimesBetter * lean->residual)
-    to.remarks.push_back(
-        {"rolled",
-         fmt::format("the section is rolled by {:.0f} mrad ({:.1f} degrees) against {}: {:.2g} mm off it when "
-                     "rolled back, {:.2g} mm as it is; was the measuring frame upright? turn the points",
-                     kMilli * lean->roll, lean->roll * 180.0 / kPi, lean->name, kMilli * lean->residual,
-                     kMilli * lean->upright)});
   if (profile.body == Body::rail && !sourced.source.mirrored_y && lean->lost_high > kWorn && lean->lost_low < kAsNew)
     to.remarks.push_back(
         {"gauge_side",
@@ -161,24 +202,16 @@ CheckedProfile checked(const io::SourcedProfile& profile, const std::filesystem:
                        const io::ExpectedProfile& expected, Nearest nearest) {
   CheckedProfile out{fmt::format("{} profile {}", body_name(profile.profile.body), file.string()), profile.profile.body,
                      io::judge_profile(profile, expected)};
-  judge_against_nominal(profile, out.judgement);
+  judge_against_nominal(profile, expected, out.judgement);
   if (nearest == Nearest::yes) add_nearest(profile.profile, out.judgement);
   return out;
 }
 
-/// One use of a file: the same file may be turned or scaled otherwise elsewhere.
-struct ProfileUse {
-  io::GeometryFile file;
-  Body body;
-  io::ExpectedProfile expected;
-  SourcePosition where;
-
-  bool same_as(const ProfileUse& other) const {
-    return file.file == other.file.file && file.options == other.file.options && body == other.body &&
-           expected.flange_back == other.expected.flange_back &&
-           expected.nominal_radius == other.expected.nominal_radius && expected.by_gauge == other.expected.by_gauge;
-  }
-};
+bool same_use(const ProfileUse& a, const ProfileUse& b) {
+  return a.file.file == b.file.file && a.file.options == b.file.options && a.body == b.body &&
+         a.expected.flange_back == b.expected.flange_back && a.expected.nominal_radius == b.expected.nominal_radius &&
+         a.expected.by_gauge == b.expected.by_gauge && a.expected.cant == b.expected.cant;
+}
 
 void collect(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected,
              std::vector<ProfileUse>& uses) {
@@ -189,7 +222,7 @@ void collect(const io::SurfaceSource& source, Body body, const io::ExpectedProfi
       io::is_slices_file(file->file) || io::is_spline_file(file->file))
     return;
   ProfileUse use{*file, body, expected, source.where};
-  if (std::none_of(uses.begin(), uses.end(), [&](const ProfileUse& u) { return u.same_as(use); }))
+  if (std::none_of(uses.begin(), uses.end(), [&](const ProfileUse& u) { return same_use(u, use); }))
     uses.push_back(std::move(use));
 }
 
@@ -197,18 +230,18 @@ std::vector<ProfileUse> uses_of(const io::Case& c) {
   std::vector<ProfileUse> uses;
   const auto* input = std::get_if<io::WheelRailCase>(&c.content);
   if (input == nullptr) return uses;
-  collect(input->rail, Body::rail, {{}, {}, input->track.gauge_based}, uses);
-  collect(input->wheel, Body::wheel, {input->wheelset.flange_back_position, profile_radius(*input, Body::wheel), true},
-          uses);
+  collect(input->rail, Body::rail, {{}, {}, input->track.gauge_based, input->track.cant}, uses);
+  collect(input->wheel, Body::wheel,
+          {input->wheelset.flange_back_position, profile_radius(*input, Body::wheel), true, {}}, uses);
   return uses;
 }
 
 /// Every profile of the cases once.
-std::vector<std::pair<ProfileUse, CheckedProfile>> checked_uses(const io::CaseFile& file, Nearest nearest) {
-  std::vector<std::pair<ProfileUse, CheckedProfile>> out;
+ProfilesOfRun checked_uses(const io::CaseFile& file, Nearest nearest) {
+  ProfilesOfRun out;
   for (const io::Case& c : file.cases)
     for (ProfileUse& use : uses_of(c)) {
-      if (std::ranges::any_of(out, [&](const auto& known) { return known.first.same_as(use); })) continue;
+      if (std::ranges::any_of(out, [&](const auto& known) { return same_use(known.first, use); })) continue;
       CheckedProfile one = checked(io::read_sourced_profile(use.file.file, use.body, use.file.options, use.where),
                                    use.file.file, use.expected, nearest);
       out.emplace_back(std::move(use), std::move(one));
@@ -227,9 +260,9 @@ bool is_profile_file(const std::filesystem::path& file) {
 }
 
 CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body,
-                             const io::ProfileOptions& options) {
+                             const io::ProfileOptions& options, const io::ExpectedProfile& expected) {
   if (!body) body = io::profile_body(file);
-  if (body) return checked(io::read_sourced_profile(file, *body, options, {}), file, {}, Nearest::yes);
+  if (body) return checked(io::read_sourced_profile(file, *body, options, {}), file, expected, Nearest::yes);
   // as rails are half as wide as wheels, and few files can be read as both
   std::optional<io::SourcedProfile> rail, wheel;
   std::optional<Error> trouble;
@@ -246,7 +279,7 @@ CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Bo
   const std::vector<double>& y = (rail ? rail : wheel)->profile.y;
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   const bool is_wheel = !rail || (wheel && *high - *low > kWidestHead);
-  CheckedProfile out = checked(is_wheel ? *wheel : *rail, file, {}, Nearest::yes);
+  CheckedProfile out = checked(is_wheel ? *wheel : *rail, file, expected, Nearest::yes);
   out.judgement.notes.insert(
       out.judgement.notes.begin(),
       fmt::format("taken for a {} by its shape: say --body if it is none", is_wheel ? "wheel" : "rail"));
@@ -264,7 +297,7 @@ std::optional<Body> body_by_shape(const std::filesystem::path& file) {
 }
 
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile) {
-  return checked(profile, {}, {{}, {}, false}, Nearest::no).judgement.remarks;
+  return checked(profile, {}, {{}, {}, false, {}}, Nearest::no).judgement.remarks;
 }
 
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) {
@@ -296,9 +329,18 @@ std::string doubt_of_slices(const io::SurfaceSource& source, Body body, double r
   const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, radius);
   const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
   if (slices == nullptr || slices->profiles.empty()) return {};
-  const Profile& middle = slices->profiles[slices->profiles.size() / 2];
-  measured::SectionPoints points{body, middle.y, middle.z};
-  const measured::Understanding seen = measured::understand(points, {});
+  // what all sections agree in: those of a crossing are of different rails
+  constexpr std::size_t kLooked = 7;
+  const std::size_t step = std::max<std::size_t>(1, slices->profiles.size() / kLooked);
+  measured::Understanding seen;
+  for (std::size_t i = 0; i < slices->profiles.size(); i += step) {
+    measured::SectionPoints points{body, slices->profiles[i].y, slices->profiles[i].z};
+    measured::Understanding one = measured::understand(points, {});
+    const bool agrees = i == 0 || (one.mirrored_z == seen.mirrored_z && one.mirrored_y == seen.mirrored_y &&
+                                   (one.shift_y != 0.0) == (seen.shift_y != 0.0));
+    if (!agrees) return {};
+    seen = std::move(one);
+  }
   std::string what;
   if (seen.mirrored_z && seen.z.sure())
     what = "upside_down: turned over a section shows " + seen.z.evidence;
@@ -314,8 +356,25 @@ std::string doubt_of_slices(const io::SurfaceSource& source, Body body, double r
 
 }  // namespace
 
-void add_profile_doubts(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run) {
-  const auto known = checked_uses(file, Nearest::no);
+ProfilesOfRun check_profiles_of_run(const io::CaseFile& file) { return checked_uses(file, Nearest::no); }
+
+namespace {
+
+/// Whether contact comes near a part of a section; nobody knows without contact.
+bool may_touch(const io::CaseResult& result, Side side, Body body, const std::pair<double, double>& place) {
+  constexpr double kNear = 3e-3;  // [m] as far as a bridge changes the curve beside it
+  return result.patches.empty() || std::ranges::any_of(result.patches, [&](const io::PatchResult& patch) {
+           const Grid2& grid = patch.fields.grid;
+           const double y = (side == Side::left ? -1.0 : 1.0) * (body == Body::wheel ? patch.y_wheel : patch.y_rail),
+                        half = std::max(std::fabs(grid.y(0) - patch.reference_s),
+                                        std::fabs(grid.y(grid.ny - 1) - patch.reference_s));
+           return y + half + kNear > place.first && y - half - kNear < place.second;
+         });
+}
+
+}  // namespace
+
+void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, SurfaceStore& store, io::RunResult& run) {
   for (io::CaseResult& result : run.cases) {
     const auto given = std::ranges::find(file.cases, result.number, &io::Case::number);
     if (given == file.cases.end()) continue;
@@ -328,9 +387,10 @@ void add_profile_doubts(const io::CaseFile& file, SurfaceStore& store, io::RunRe
         result.remarks.push_back({RemarkKind::profile_doubtful, 0, std::move(doubt)});
     for (const ProfileUse& use : uses_of(*given))
       for (const auto& [same, profile] : known) {
-        if (!same.same_as(use)) continue;
+        if (!same_use(same, use)) continue;
         for (const io::ProfileRemark& remark : profile.judgement.remarks)
-          if (remark.name != "gauge_point")
+          if (remark.name != "gauge_point" &&
+              (!remark.place || may_touch(result, input->side, same.body, *remark.place)))
             result.remarks.push_back(
                 {RemarkKind::profile_doubtful, 0, fmt::format("{}: {}: {}", profile.name, remark.name, remark.text)});
       }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "treadmark/app/surfaces/surface_store.hpp"
@@ -26,7 +27,7 @@ bool is_profile_file(const std::filesystem::path& file);
 /// Reads and judges one file. Without a body it is judged by extension, then by shape. Errors as read_profile;
 /// Error(configuration) where the file could be either.
 CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body,
-                             const io::ProfileOptions& options = {});
+                             const io::ProfileOptions& options = {}, const io::ExpectedProfile& expected = {});
 
 /// What is doubtful about a profile by itself, wherever it is to be placed. Never throws; thread-safe.
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile);
@@ -44,9 +45,24 @@ std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body bod
 /// The doubts and notes of check_profiles as notes of a run.
 std::vector<std::string> profile_doubts(const io::CaseFile& file);
 
+/// One use of a file: the same file may be turned or scaled otherwise elsewhere.
+struct ProfileUse {
+  io::GeometryFile file;
+  Body body;
+  io::ExpectedProfile expected;
+  SourcePosition where;
+};
+
+/// The profile files of a run, each use once, without their nearest standard profiles.
+using ProfilesOfRun = std::vector<std::pair<ProfileUse, CheckedProfile>>;
+
+/// Errors as read_profile.
+ProfilesOfRun check_profiles_of_run(const io::CaseFile& file);
+
 /// The doubts of check_profiles as remarks on the cases of a run in which the profiles are used; those that a contact
 /// has remarks of its own for are left to it.
 /// store: of the surfaces of the run; slices are judged by one in their middle.
-void add_profile_doubts(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run);
+void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& profiles, SurfaceStore& store,
+                        io::RunResult& run);
 
 }  // namespace treadmark::app

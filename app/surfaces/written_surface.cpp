@@ -53,6 +53,9 @@ void require_as_written(const std::filesystem::path& file, const std::string& ki
 
 std::filesystem::path StagedOutputs::place(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (std::filesystem::is_regular_file(folder))
+    throw Error(ErrorKind::configuration, fmt::format("cannot write {}: its folder is a file", file.string()), {},
+                "choose another output folder");
   if (io::is_slices_file(file)) slices_.push_back(file);
   return folders_.try_emplace(folder, folder, OutputFolder::Old::kept).first->second.path() / file.filename();
 }

@@ -32,7 +32,7 @@ assert abs(np.nanmin(fitted.values) + 0.5e-3) < 0.05e-3
 
 row = np.unravel_index(np.nanargmin(fitted.values), fitted.values.shape)[0]
 middle = np.linspace(fitted.a_min, fitted.a_max, len(fitted.values))[row]
-pair = tm.Pair(rail, tm.Surface.standard("S1002"), tm.Problem(vertical_force=80e3, speed=20.0, pitch_rate=-43.478, track__cant=0.025, dx=1e-3, ds=1e-3))
+pair = tm.Pair(rail, tm.Surface.standard("S1002"), tm.Problem(vertical_force=80e3, speed=20.0, pitch_rate=-43.478, track__cant=0.025, track__rail_y=0.7535, dx=1e-3, ds=1e-3))
 solution = pair.solve(s=middle)
 print(solution, *solution.patches, sep="\n")
 assert solution.ok

@@ -108,8 +108,8 @@ struct ImportReport {
   std::vector<std::string> warnings;
 
   // placement
-  std::string nominal;  ///< name of the nominal profile or "none"
-  Pose X_CS;            ///< surface frame in the cloud's [m]
+  std::string nominal;                                           ///< name of the nominal profile or "none"
+  Pose X_CS;                                                     ///< surface frame in the cloud's [m]
   double nominal_radius = 0.0, radius_error = 0.0;               ///< of a wheel, with its standard error [m]
   double axis_position_error = 0.0, axis_direction_error = 0.0;  ///< standard errors [m], [rad]
   double scatter = 0.0, undamaged = 0.0;  ///< of the points about the section [m]; part of them that fixed the axis

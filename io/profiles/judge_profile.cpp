@@ -57,6 +57,11 @@ class Judge {
  private:
   void fact(const char* name, std::string value) { out_.facts.emplace_back(name, std::move(value)); }
   void remark(const char* name, std::string text) { out_.remarks.push_back({name, std::move(text)}); }
+  /// Of points first to last.
+  void remark_at(const char* name, std::string text, std::size_t first, std::size_t last) {
+    out_.remarks.push_back(
+        {name, std::move(text), std::pair(std::min(p_.y[first], p_.y[last]), std::max(p_.y[first], p_.y[last]))});
+  }
 
   void what_was_read() {
     fact("kind", source_.kind);
@@ -174,13 +179,14 @@ class Judge {
   void lump() {
     const std::optional<measured::Lump>& found = source_.lump;
     if (!found) return;
-    remark("lump",
-           fmt::format(
-               "{} of {:.2g} mm at y = {:.2f} mm ({}), {}: dirt or damage? where it touches, the pressure is "
-               "that of it; clean the profile, or remove the points",
-               found->height > 0.0 ? "a lump" : "a notch", kMm * std::fabs(found->height), kMm * p_.y[found->first],
-               where(found->first, found->last),
-               found->first == found->last ? "one point" : fmt::format("{} points", found->last - found->first + 1)));
+    remark_at("lump",
+              fmt::format(
+                  "{} of {:.2g} mm at y = {:.2f} mm ({}), {}: dirt or damage? where it touches, the pressure is "
+                  "that of it; clean the profile, or remove the points",
+                  found->height > 0.0 ? "a lump" : "a notch", kMm * std::fabs(found->height), kMm * p_.y[found->first],
+                  where(found->first, found->last),
+                  found->first == found->last ? "one point" : fmt::format("{} points", found->last - found->first + 1)),
+              found->first, found->last);
   }
 
   /// Lines of the file that points come from.
@@ -201,10 +207,11 @@ class Judge {
     fact("steps", fmt::format("{:.3g} mm, largest {:.3g} mm at y = {:.2f} mm ({})", kMm * usual, kMm * steps[largest],
                               kMm * p_.y[largest], lines));
     if (steps[largest] > kGap && steps[largest] > kTimes * usual)
-      remark("gap",
-             fmt::format("a gap of {:.3g} mm at y = {:.2f} to {:.2f} mm ({}) is bridged: measure the missing part, "
-                         "or keep contact away from it",
-                         kMm * steps[largest], kMm * p_.y[largest], kMm * p_.y[largest + 1], lines));
+      remark_at("gap",
+                fmt::format("a gap of {:.3g} mm at y = {:.2f} to {:.2f} mm ({}) is bridged: measure the missing part, "
+                            "or keep contact away from it",
+                            kMm * steps[largest], kMm * p_.y[largest], kMm * p_.y[largest + 1], lines),
+                largest, largest + 1);
   }
 
   /// A profile that was smoothed says what its points were like.
@@ -214,6 +221,12 @@ class Judge {
                                                  : measured::profile_noise(p_);
     fact("noise", fmt::format("{:.2g} mm{}", kMm * across,
                               std::max(y, z) > 0.0 ? fmt::format(", rounded to {:.3g} mm", kMm * std::max(y, z)) : ""));
+    constexpr double kFelt =
+        0.25e-6;  // white noise that changes the pressure of a curve through all points by percents
+    if (!p_.scatter && p_.smoothing.strength == 0.0 && across > kFelt)
+      remark("noise", fmt::format("the points scatter by {:.2g} mm and the curve runs through all of them: pressures "
+                                  "are too large; set smoothing = \"auto\", or smooth them in the file",
+                                  kMm * across));
     if (p_.scatter && p_.scatter->removed > 0.0)
       fact("smoothed", fmt::format("points moved by {:.2g} mm (rms)", kMm * p_.scatter->removed));
   }

@@ -13,9 +13,11 @@ namespace treadmark::io {
 
 /// A doubt about a profile.
 struct ProfileRemark {
-  std::string name;  ///< "flange_back", "nominal_radius", "unit", "exchanged", "gap", "gauge_side", and those of
-                     ///< measured::Doubt
+  std::string name;  ///< "flange_back", "nominal_radius", "unit", "exchanged", "gap", "gauge_side", "noise", and those
+                     ///< of measured::Doubt
   std::string text;  ///< what is seen, where, and what to set
+  /// From where to where in y, of a fault that matters only to contact there [m].
+  std::optional<std::pair<double, double>> place = {};
 };
 
 /// What was understood of a profile.
@@ -30,6 +32,7 @@ struct ExpectedProfile {
   std::optional<double> flange_back;     ///< y in the profile's coordinates [m]
   std::optional<double> nominal_radius;  ///< [m]
   bool by_gauge = true;                  ///< whether a rail is placed by the gauge
+  std::optional<double> cant = {};       ///< by which a rail will be inclined [rad]
 };
 
 /// Facts and doubts about a profile that has been read. Never throws; thread-safe.

@@ -169,7 +169,7 @@ struct PatchResult {
   std::optional<Sensitivities> sensitivities;
   /// Relative changes with ever smaller elements, as far as coarser ones tell.
   struct Refinement {
-    double pmax = 0.0, area = 0.0, force = 0.0;
+    double pmax = 0.0, area = 0.0, force = 0.0;  ///< of the largest pressure, of the contact area, of forces
   };
   std::optional<Refinement> refinement;
   /// Standard deviations of what noise of the measured profiles has left uncertain.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace treadmark::scans {
 namespace {
@@ -138,6 +139,26 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
   out.last_column = columns;
   while (out.first_column < columns && part[out.first_column] < settings.least_filled) ++out.first_column;
   while (out.last_column > out.first_column && part[out.last_column - 1] < settings.least_filled) --out.last_column;
+
+  // random points cover far beyond their last ones: as much of the length has to have points in the next column at
+  // least
+  const auto block = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(out.gap_a / points.cell_a)));
+  std::vector<std::size_t> lows, highs;
+  for (std::size_t from = 0; from < rows; from += block) {
+    lows.push_back(columns);
+    highs.push_back(0);
+    for (std::size_t cell = from * columns; cell < std::min(rows, from + block) * columns; ++cell) {
+      if (present[cell] == 0) continue;
+      lows.back() = std::min(lows.back(), cell % columns);
+      highs.back() = std::max(highs.back(), cell % columns + 1);
+    }
+  }
+  const auto reached = static_cast<std::ptrdiff_t>(settings.least_filled * static_cast<double>(lows.size() - 1));
+  std::nth_element(lows.begin(), lows.begin() + reached, lows.end());
+  std::nth_element(highs.begin(), highs.begin() + reached, highs.end(), std::greater<>());
+  const std::size_t low = lows[static_cast<std::size_t>(reached)], high = highs[static_cast<std::size_t>(reached)];
+  out.first_column = std::max(out.first_column, low - std::min<std::size_t>(low, 1));
+  out.last_column = std::max(out.first_column, std::min(out.last_column, high + 1));
 
   // connected cells that are not covered
   std::vector<std::uint8_t> seen(rows * columns, 0);

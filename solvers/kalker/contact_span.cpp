@@ -45,6 +45,17 @@ std::size_t largest_pressure(std::span<const double> pressure) {
   return at;
 }
 
+PeakSharpness peak_sharpness(const Grid2& g, std::span<const double> pressure) {
+  const std::size_t at = largest_pressure(pressure), row = static_cast<std::size_t>(g.nx);
+  const int ix = static_cast<int>(at % row), iy = static_cast<int>(at / row);
+  const auto sharpness = [&](std::size_t step, int before, int after) {
+    if (before + after == 0 || !(pressure[at] > 0.0)) return 0.0;
+    const double lower = before > 0 ? pressure[at - step] : 0.0, upper = after > 0 ? pressure[at + step] : 0.0;
+    return 2.0 - (lower + upper) / pressure[at];
+  };
+  return {sharpness(1, ix, g.nx - 1 - ix), sharpness(row, iy, g.ny - 1 - iy)};
+}
+
 ContactSpan contact_span(const Grid2& g, std::span<const double> pressure) {
   const std::size_t at = largest_pressure(pressure), row = static_cast<std::size_t>(g.nx);
   const int ix = static_cast<int>(at % row), iy = static_cast<int>(at / row);

@@ -56,6 +56,7 @@ double relative(double coarse, double fine) { return fine > 0.0 ? std::abs(coars
 /// What the number of elements across says by itself. Bounds of what ellipses anywhere on their elements show
 /// (tests/solvers/kalker/refinement_test.cpp).
 constexpr int kTold = 2 * kRatio;  ///< from this number on thirds of them tell more
+constexpr double kOfPeak = 0.4;    ///< of what the highest element stands out by: peaks at edges are narrower than two
 double normal_by_number(double n) { return n < 3.0 ? 3.0 / n : 1.0 / (n * n); }
 double area_by_number(double n) { return (n < kTold ? 1.7 : 1.0) / n; }
 double tangential_by_number(double n) { return (n < kTold ? 1.0 : 0.5) / n; }
@@ -72,6 +73,10 @@ Refinement estimate_refinement(const ContactProblem& problem, const ContactSolut
   Refinement out{normal_by_number(across), area_by_number(across), 0.0};
   if (force_sought) out.force = normal_by_number(across);
   if (tractions) out.force = std::max(out.force, tangential_by_number(across));
+  if (across >= kTold) {
+    const PeakSharpness peak = peak_sharpness(g, s.pressure);
+    out.pressure = std::max(out.pressure, kOfPeak * std::max(peak.x, peak.y));
+  }
   if (across < kTold || problem.influence.kind == InfluenceSettings::Kind::table) return out;
 
   const Coarse coarse(g, largest_pressure(s.pressure));

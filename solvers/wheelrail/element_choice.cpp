@@ -30,6 +30,17 @@ double rounded_down(double size) {
   return octave;
 }
 
+/// What the highest element may stand out by; what it is to stand out by then.
+constexpr double kSharp = 0.1, kAimedSharp = 0.04;
+
+/// A side of elements on which a peak that is too sharp on those of the side `now` is not.
+double for_peak(double side, double sharpness, double now, double extent) {
+  constexpr double kMostAtOnce = 4.0;
+  if (sharpness <= kSharp) return side;
+  const double wanted = now / std::min(kMostAtOnce, std::sqrt(sharpness / kAimedSharp));
+  return std::min(side, rounded_down(std::max({wanted, extent / kMostAcross, kShortestElement})));
+}
+
 bool overlap(const Rectangle& a, const Rectangle& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
@@ -91,8 +102,14 @@ bool ElementChoice::learn(std::span<const PatchSolution* const> patches) {
     const kalker::ContactSpan span = kalker::contact_span(patch->grid, patch->contact.pressure);
     ElementSize size{patch->grid.dx, patch->grid.dy};
     const bool coarse = (given_.choose_dx && span.nx < kLeastAcross) || (given_.choose_ds && span.ny < kLeastAcross);
-    if (rounds_ == 0 || coarse) {
-      size = told(elements_for(span.length, span.width, longest_));
+    const kalker::PeakSharpness peak = kalker::peak_sharpness(patch->grid, patch->contact.pressure);
+    const bool sharp = (given_.choose_dx && peak.x > kSharp) || (given_.choose_ds && peak.y > kSharp);
+    if (rounds_ == 0 || coarse || sharp) {
+      if (rounds_ == 0 || coarse) size = elements_for(span.length, span.width, longest_);
+      // a peak within the patch, as at the edge of a profile that bends away
+      size.dx = for_peak(size.dx, peak.x, patch->grid.dx, span.length);
+      size.ds = for_peak(size.ds, peak.y, patch->grid.dy, span.width);
+      size = told(size);
       // Of a contact that is measured no better by smaller elements, as at an edge, they shrink for ever.
       changed = changed || rounds_ == 0 || size.dx < patch->grid.dx || size.ds < patch->grid.dy;
     }

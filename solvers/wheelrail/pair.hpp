@@ -46,7 +46,7 @@ struct PatchSolution {
   Vec3 reference_wheelset = Vec3::Zero();  ///< in wheelset axes [m]
   double reference_s = 0.0;                ///< arc length along the rail profile from y = 0 [m]
   double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
-  std::optional<kalker::Refinement> refinement;  ///< where it was asked for
+  std::optional<kalker::Refinement> refinement;                      ///< where it was asked for
   std::optional<ContactShape> rail_shape, wheel_shape;  ///< at the contact reference; none where a surface ends there
 };
 

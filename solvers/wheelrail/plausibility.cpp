@@ -140,10 +140,16 @@ void judge_place(const Geometry& geometry, const Problem& p, PairSolution& solut
             "the rail's section ends less than {:.3g} mm below its top, where the gauge is measured: the rail was "
             "placed by its end; measure deeper, or set track.rail_y_mm",
             kMilli * p.track.gauge_height));
-  // a crossing lifts the wheel, a roller has its own height
+  // a crossing lifts the wheel, and so does a flange that climbs; a roller has its own height
+  constexpr double kSteep = 20.0 * kPi / 180.0;
+  const bool climbs =
+      std::ranges::any_of(solution.patches, [&](const PatchSolution& s) { return std::fabs(s.angle_wheel) > kSteep; });
   if (p.track.gauge_based && !p.roller && geometry.prismatic_rail) {
-    const double off = solution.z + p.state.wheel_offset.z - p.track.dz;
-    if (std::fabs(off) > kOffHeight)
+    // of the wheel, which stands aside of the middle of a wheelset that rolls
+    const double aside =
+        0.5 * p.wheelset.flange_back_distance - p.wheelset.flange_back_position + p.state.wheel_offset.y;
+    const double off = solution.z + aside * std::sin(p.state.position.roll) + p.state.wheel_offset.z - p.track.dz;
+    if (std::fabs(off) > kOffHeight && !(climbs && off < 0.0))
       add(RemarkKind::off_nominal_height,
           fmt::format(
               "the wheel stands {:.4g} mm {} its nominal height: is y = 0 of its profile the tape line, and z = 0 "

@@ -61,7 +61,7 @@ TEST(ChosenElements, DoNotDependOnThreads) {
   for (const io::CaseResult& c : single.cases) {
     EXPECT_TRUE(c.remarks.empty()) << to_line(c.remarks.front());
     for (const io::PatchResult& p : c.patches) {
-      EXPECT_LT(p.refinement->pmax, 0.02);
+      EXPECT_LT(p.refinement->pmax, 0.05);
       EXPECT_LT(p.refinement->force, 0.03);
     }
   }

@@ -19,7 +19,7 @@ def test_a_pair_solves_as_a_file_does(pair):
     told = tm.run({**CASE, "wheelset.y_mm": 3.0}).cases[0]
     assert solution.ok and solution.force == pytest.approx(told.force, rel=1e-12) and solution.z == told.z
     for mine, theirs in zip(solution.patches, told.patches, strict=True):
-        assert {n: v for n, v in mine.numbers.items()} == theirs.numbers
+        assert mine.numbers == {n: v for n, v in theirs.numbers.items() if not n.endswith("_refinement")}
         assert all((mine.fields[name] == theirs.fields[name]).all() for name in ("pressure", "traction_x", "state"))
 
 
