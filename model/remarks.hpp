@@ -108,7 +108,7 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::unusual_value, "unusual_value", true,
      "a number of the problem that no railway has, as in another unit: a load, gauge, radius, speed, angle or place"},
     {RemarkKind::noisy_profile, "noisy_profile", true,
-     "noise of a measured profile leaves a standard deviation of more than 3.5 % of the largest pressure"},
+     "noise of a measured profile leaves a standard deviation of more than 3 % of the largest pressure"},
 };
 
 /// One remark on one result.

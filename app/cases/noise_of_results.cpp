@@ -72,7 +72,7 @@ io::PatchResult::Noise NoiseOfResults::of_patch(const io::WheelRailCase& input, 
 }
 
 void NoiseOfResults::add(const io::WheelRailCase& input, io::CaseResult& result) const {
-  constexpr double kLarge = 0.035;  // so that hardly any error of 5 % is not doubted
+  constexpr double kLarge = 0.03;  // so that hardly any error of 5 % is not doubted
   if (!any()) return;
   for (std::size_t k = 0; k < result.patches.size(); ++k) {
     io::PatchResult& patch = result.patches[k];

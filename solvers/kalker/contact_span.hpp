@@ -20,8 +20,8 @@ ContactSpan contact_span(const Grid2& grid, std::span<const double> pressure);
 /// Index of the largest pressure, the first of several.
 std::size_t largest_pressure(std::span<const double> pressure);
 
-/// What the largest pressure stands out by above the mean of its neighbours, over itself, along x and y: (2 / n)^2 of an
-/// ellipse of n elements across; more where a peak or the edge of contact is narrower than a few elements. 0 along a
+/// What the largest pressure stands out by above the mean of its neighbours, over itself, along x and y: (2 / n)^2 of
+/// an ellipse of n elements across; more where a peak or the edge of contact is narrower than a few elements. 0 along a
 /// single element.
 struct PeakSharpness {
   double x = 0.0, y = 0.0;

@@ -25,6 +25,11 @@ constexpr Pressures kHollow{1588.0, 1265.0, 2263.0, 3320.0};  // noise_0.csv
 constexpr Pressures kNew{1697.0, 1777.0, 1305.0, 1711.0};     // s1002c.csv
 constexpr double kClean = 0.002, kNoisy = 0.05;
 
+Told run_on_chosen_elements(const fs::path& shared, const char* name) {
+  const fs::path folder = shared / "found/first-use";
+  return told_by_run(folder / "my.toml", {"wheel.shape.file=" + (folder / name).string()});
+}
+
 Told run_with(const fs::path& shared, const char* name) {
   const fs::path folder = shared / "found/first-use";
   // the numbers are those of elements of 0.5 mm
@@ -47,18 +52,27 @@ TEST(FirstUseProfiles, CleanPointsStayAsTheyAre) {
   }
 }
 
-TEST(FirstUseProfiles, NoiseOfThreeMicrometresChangesLittle) {
+// Where contact ends at a sharp bend, elements of 0.5 mm are 20 % off, noise or not.
+TEST(FirstUseProfiles, NoiseChangesLittleOrIsDoubted) {
   TREADMARK_REQUIRE_SHARED();
-  for (const auto& [name, right] : {std::pair{"noise_0.003.csv", kHollow}, {"s1002n1.csv", kNew}}) {
-    const Told told = run_with(*shared, name);
-    if (!told.doubted("noise")) expect_pressures(told, right, kNoisy);
+  for (const auto& [noisy, clean] : {std::pair{"noise_0.003.csv", "noise_0.csv"},
+                                     {"s1002n1.csv", "s1002c.csv"},
+                                     {"noise_0.01.csv", "noise_0.csv"}}) {
+    const Told told = run_on_chosen_elements(*shared, noisy), right = run_on_chosen_elements(*shared, clean);
+    ASSERT_EQ(told.cases.size(), right.cases.size()) << told.err;
+    for (std::size_t k = 0; k < right.cases.size(); ++k) {
+      if (told.cases[k].status == "doubtful") continue;
+      EXPECT_NEAR(told.cases[k].pmax_MPa, right.cases[k].pmax_MPa, kNoisy * right.cases[k].pmax_MPa) << noisy << k;
+    }
   }
 }
 
-TEST(FirstUseProfiles, NoiseOfTenMicrometresChangesLittle) {
+// Against elements of 0.1 mm.
+TEST(FirstUseProfiles, ChosenElementsHoldWhereContactEndsAtABend) {
   TREADMARK_REQUIRE_SHARED();
-  const Told told = run_with(*shared, "noise_0.01.csv");
-  if (!told.doubted("noise")) expect_pressures(told, kHollow, kNoisy);
+  const Told told = run_on_chosen_elements(*shared, "s1002c.csv");
+  ASSERT_EQ(told.cases.size(), 4u) << told.err;
+  EXPECT_NEAR(told.cases[3].pmax_MPa, 2077.0, 0.02 * 2077.0);
 }
 
 TEST(FirstUseProfiles, AWheelMeasuredFromItsBackStandsOnItsTread) {
