@@ -142,7 +142,8 @@ std::string conicity_csv(const GeometryResult& result) {
     const Conicity& c = a.conicity[i];
     const double wave = geometry::wavelength(c.tan_gamma, a.wheel_origins, 0.5 * (a.radius_right + a.radius_left));
     out += fmt::format("{},{},{},{},{},{},{},{}\n", cell(kMilli * c.amplitude), cell(c.tan_gamma),
-                       result.noise ? cell(result.noise->of_amplitude[i]) : "", a.harmonic.empty() ? "" : cell(a.harmonic[i]), std::isfinite(wave) ? cell(kMilli * wave) : "",
+                       result.noise ? cell(result.noise->of_amplitude[i]) : "",
+                       a.harmonic.empty() ? "" : cell(a.harmonic[i]), std::isfinite(wave) ? cell(kMilli * wave) : "",
                        cell(kMilli * c.low), cell(kMilli * c.high), io::csv_cell(c.reason));
   }
   return out;
@@ -201,9 +202,9 @@ std::string geometry_text(const GeometryResult& result) {
                                a.rule, a.single.reason.empty() ? "" : ", " + a.single.reason));
   line("conicity at 3 mm", shown(a.at_3mm.tan_gamma, 4));
   if (result.noise)
-    line("  from noise", fmt::format("+-{} at {:.3g} mm, +-{} at 3 mm (standard deviations)",
-                                     shown(result.noise->single, 4), kMilli * a.single.amplitude,
-                                     shown(result.noise->at_3mm, 4)));
+    line("  from noise",
+         fmt::format("+-{} at {:.3g} mm, +-{} at 3 mm (standard deviations)", shown(result.noise->single, 4),
+                     kMilli * a.single.amplitude, shown(result.noise->at_3mm, 4)));
   if (result.with_new)
     line("with new profiles",
          fmt::format(
