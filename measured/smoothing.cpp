@@ -674,4 +674,13 @@ double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s
   return std::sqrt(Band(scatter.factor).inverse_square(std::move(sum)));
 }
 
+std::vector<double> deviations(const ProfileScatter& scatter) {
+  std::vector<double> out;
+  const double one = 1.0;
+  for (std::size_t i = 0; i < scatter.s.size(); ++i)
+    out.push_back(std::hypot(deviation_of_sum(scatter, {&scatter.s[i], 1}, {&one, 1}),
+                             scatter.other.empty() ? 0.0 : scatter.other[i]));
+  return out;
+}
+
 }  // namespace treadmark::measured

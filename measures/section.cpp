@@ -6,38 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
-
 #include "treadmark/core/error.hpp"
+#include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::measures {
 namespace {
-
-constexpr double kSmooth = 0.5e-6;              // [m] noise below which points are taken as they are
-constexpr double kRough = 10e-6;                // [m] noise from which the wider window is taken
-constexpr double kWindow = 1e-3, kWide = 2e-3;  // [m] half widths
-constexpr double kNormal = 1.4826;              // standard deviation over median of sizes, of normal numbers
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// Distance of each point from the parabola through three neighbours, over that of unit scatter.
-double noise_of(const std::vector<Vec2>& p) {
-  std::vector<double> sizes;
-  for (std::size_t i = 1; i + 2 < p.size(); ++i) {
-    const Vec2 along = (p[i + 1] - p[i - 1]).normalized();
-    const double a = (p[i - 1] - p[i]).dot(along), b = (p[i + 1] - p[i]).dot(along), c = (p[i + 2] - p[i]).dot(along);
-    if (!(a < 0.0 && b > 0.0 && c > b)) continue;
-    const double wa = b * c / ((a - b) * (a - c)), wb = a * c / ((b - a) * (b - c)), wc = a * b / ((c - a) * (c - b));
-    const double off =
-        wa * cross(along, p[i - 1] - p[i]) + wb * cross(along, p[i + 1] - p[i]) + wc * cross(along, p[i + 2] - p[i]);
-    sizes.push_back(std::fabs(off) / std::sqrt(1.0 + wa * wa + wb * wb + wc * wc));
-  }
-  if (sizes.empty()) return 0.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return kNormal * *middle;
-}
 
 /// Unit tangent at the middle of three points, of the parabola over the chord length.
 Vec2 parabola_tangent(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -45,71 +19,43 @@ Vec2 parabola_tangent(const Vec2& a, const Vec2& b, const Vec2& c) {
   return ((b - a) * (k / h) + (c - b) * (h / k)).normalized();
 }
 
-/// Least squares parabola about point i in the frame of its chord, through all points nearer than half along the curve.
-/// Returns point, tangent, and how much of the points' standard deviation remains.
-struct Smoothed {
-  Vec2 p, tangent;
-  double share = 1.0;
-};
-Smoothed smoothed(const std::vector<Vec2>& p, const std::vector<double>& s, std::size_t i, double half) {
-  std::size_t first = i, last = i;
-  while (first > 0 && s[i] - s[first - 1] <= half) --first;
-  while (last + 1 < p.size() && s[last + 1] - s[i] <= half) ++last;
-  while (last - first < 4 && (first > 0 || last + 1 < p.size())) {
-    if (first > 0) --first;
-    if (last + 1 < p.size()) ++last;
-  }
-  const Vec2 along = (p[last] - p[first]).normalized();
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  const double scale = std::max((p[last] - p[first]).norm(), 1e-9);
-  for (std::size_t j = first; j <= last; ++j) {
-    const double a = (p[j] - p[i]).dot(along) / scale, w = cross(along, p[j] - p[i]);
-    const Eigen::Vector3d row(1.0, a, a * a);
-    normal += row * row.transpose();
-    right += row * w;
-  }
-  const Eigen::Matrix3d inverse = normal.inverse();
-  const Eigen::Vector3d c = inverse * right;
-  const Vec2 across(-along.y(), along.x());
-  return {p[i] + c[0] * across, (along + c[1] / scale * across).normalized(), std::sqrt(std::max(0.0, inverse(0, 0)))};
-}
-
 }  // namespace
 
 double Section::Place::angle() const { return std::atan2(tangent.y(), tangent.x()); }
 
 Section::Section(const Profile& points, double noise) : body_(points.body) {
-  std::vector<Vec2> p;
+  Profile curve;
+  curve.body = points.body;
   for (std::size_t i = 0; i < points.y.size(); ++i) {
-    const Vec2 next(points.y[i], points.z[i]);
-    if (p.empty() || (next - p.back()).norm() > 1e-9) p.push_back(next);
+    if (i > 0 && std::hypot(points.y[i] - curve.y.back(), points.z[i] - curve.z.back()) <= 1e-9) continue;
+    curve.y.push_back(points.y[i]);
+    curve.z.push_back(points.z[i]);
   }
+  const std::size_t n = curve.y.size();
   constexpr std::size_t kFewest = 8;
-  if (p.size() < kFewest)
-    throw Error(ErrorKind::input_data, "a section of so few points cannot be measured: " + std::to_string(p.size()),
+  if (n < kFewest)
+    throw Error(ErrorKind::input_data, "a section of so few points cannot be measured: " + std::to_string(n),
                 {points.name, 0, 0});
-  if (p.back().x() < p.front().x()) std::reverse(p.begin(), p.end());
-  noise_ = noise >= 0.0 ? noise : noise_of(p);
-  std::vector<double> s(p.size(), 0.0);
-  for (std::size_t i = 1; i < p.size(); ++i) s[i] = s[i - 1] + (p[i] - p[i - 1]).norm();
-  nodes_.resize(p.size());
-  if (noise_ < kSmooth) {
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      const std::size_t m = std::clamp<std::size_t>(i, 1, p.size() - 2);
-      Vec2 tangent = parabola_tangent(p[m - 1], p[m], p[m + 1]);
-      if (m != i) {  // the parabola's end
-        const Vec2 chord = (i < m ? p[m] - p[i] : p[i] - p[m]).normalized();
-        tangent = (2.0 * chord.dot(tangent) * chord - tangent).normalized();
-      }
-      nodes_[i] = {p[i], tangent, noise_};
-    }
-  } else {
-    const double half = noise_ < kRough ? kWindow : kWide;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      const Smoothed one = smoothed(p, s, i, half);
-      nodes_[i] = {one.p, one.tangent, one.share * noise_};
-    }
+  std::vector<double> errors;
+  noise_ = std::max(0.0, noise);
+  if (noise < 0.0) {
+    curve = measured::smoothed_by_noise(std::move(curve));
+    if (curve.scatter) errors = measured::deviations(*curve.scatter), noise_ = curve.scatter->white;
+  }
+  errors.resize(n, errors.empty() ? noise_ : 0.0);
+  nodes_.resize(n);
+  const bool backwards = curve.y.back() < curve.y.front();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t k = backwards ? n - 1 - i : i;
+    nodes_[i] = {Vec2(curve.y[k], curve.z[k]), Vec2::UnitX(), errors[k]};
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t m = std::clamp<std::size_t>(i, 1, n - 2);
+    Vec2& tangent = nodes_[i].tangent;
+    tangent = parabola_tangent(nodes_[m - 1].p, nodes_[m].p, nodes_[m + 1].p);
+    if (m == i) continue;  // the parabola's end
+    const Vec2 chord = (i < m ? nodes_[m].p - nodes_[i].p : nodes_[i].p - nodes_[m].p).normalized();
+    tangent = (2.0 * chord.dot(tangent) * chord - tangent).normalized();
   }
   find_extent();
 }

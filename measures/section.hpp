@@ -30,8 +30,8 @@ struct Measure {
 /// moving; safe from any thread.
 class Section {
  public:
-  /// noise: standard deviation of the points across the curve [m]; negative: found from third differences of
-  /// neighbours. Points with noise are smoothed by parabolas over 1 to 2 mm to both sides.
+  /// noise: standard deviation of the points across the curve, which runs through them [m]; negative: they are smoothed
+  /// by their own noise (measured/smoothing.hpp).
   /// Errors: Error(input_data) for fewer than 8 points.
   explicit Section(const Profile& points, double noise = -1.0);
 

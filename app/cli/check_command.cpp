@@ -72,7 +72,7 @@ void add_profile(const app::CheckedProfile& profile, CheckedInput& to) {
 }
 
 std::size_t doubts_of(const CheckedInput& input) {
-  std::size_t count = 0;
+  std::size_t count = input.doubts.size();
   for (const auto& [name, judgement] : input.profiles) count += judgement.remarks.size();
   return count;
 }
@@ -104,7 +104,7 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
   }
   for (const std::string& doubt : app::value_doubts(file)) {
     std::cout << "  doubt  " << doubt << '\n';
-    input.notes.push_back(doubt);
+    input.doubts.push_back(doubt);
   }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
   for (const app::CheckedProfile& surface : app::check_surfaces(file)) add_profile(surface, input);

@@ -2,10 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <optional>
-#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -18,7 +16,6 @@
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
-#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -89,25 +86,6 @@ void write_snapshots_vtk(const std::filesystem::path& folder, const io::Simulati
   io::write_vtk_bodies(folder, result.snapshots, "bodies", result.snapshot_times);
 }
 
-/// Whether there were any.
-bool tell_profile_doubts(const io::SimulationFile& file, const std::function<void(const std::string&)>& tell) {
-  std::set<std::string> told;
-  const io::WheelRailCase& contact = file.contact;
-  const auto look = [&](const io::SurfaceSource& source, Body body) {
-    const io::ExpectedProfile expected =
-        body == Body::wheel
-            ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true, {}}
-            : io::ExpectedProfile{{}, {}, contact.track.gauge_based, contact.track.cant};
-    for (const std::string& doubt : app::source_doubts(source, body, expected))
-      if (told.insert(doubt).second) tell(doubt);
-  };
-  look(contact.wheel, Body::wheel);
-  if (file.other_wheel) look(*file.other_wheel, Body::wheel);
-  look(file.rail(Side::left), Body::rail);
-  look(file.rail(Side::right), Body::rail);
-  return !told.empty();
-}
-
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
   require_different({options.file}, {options.json_file, options.report_file});
   if (options.resume && options.output_folder.empty())
@@ -137,12 +115,12 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   run.settings = overrides;
   run.tables = &tables;
   run.doubt = [](const std::string& message) { std::cerr << "doubt: " << message << '\n'; };
-  const bool doubtful = tell_profile_doubts(file, run.doubt);
+  const int found = app::simulation_doubts(file).empty() ? kOk : kFailed;
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
     print_summary(options.json_file, app::to_json(result, {}),
                   app::statics_text(result) + '\n' + app::modes_text(result));
-    return kOk;
+    return found;
   }
 
   app::check_vehicle(file, store);  // what is refused leaves no folder behind
@@ -192,7 +170,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
         "see why\n",
         steps);
   const int status = exit_status(result);
-  return status == kOk && doubtful ? kFailed : status;
+  return status == kOk ? found : status;
 }
 
 }  // namespace

@@ -189,6 +189,13 @@ std::string geometry_json(const GeometryResult& result, const GaugeSweep* sweep)
                       {"rule", a.rule},
                       {"reason", json_reason(a.single.reason)}};
   g["conicity_3mm"] = json_number(a.at_3mm.tan_gamma);
+  if (const auto& noise = result.noise) {
+    GeometryJson list = GeometryJson::array();
+    for (const double value : noise->of_amplitude) list.push_back(json_number(value));
+    g["conicity"]["noise"] = std::move(list);
+    g["conicity_at"]["noise"] = json_number(noise->single);
+    g["conicity_3mm_noise"] = json_number(noise->at_3mm);
+  }
   if (const auto& fresh = result.with_new) {
     const double mean = 0.5 * (fresh->radius_right + fresh->radius_left);
     g["with_new"] = {{"wheel", result.request.new_wheel},

@@ -188,7 +188,8 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
     overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Remark:", note});
   report::Cards cards{
       {{"Equivalent conicity", number_or_dash(a.single.tan_gamma, "{:.3f}"),
-        fmt::format("at {:.3g} mm", kMilli * a.single.amplitude)},
+        fmt::format("at {:.3g} mm{}", kMilli * a.single.amplitude,
+                    result.noise ? fmt::format(", noise leaves +-{:.2g}", result.noise->single) : "")},
        {"Nonlinearity", number_or_dash(kMillimetre * a.nonlinearity, "{:.4f} 1/mm"), "between 2 and 4 mm"},
        {"Gauge", number_or_dash(kMilli * a.gauge, "{:.2f} mm"),
         fmt::format("clearance {} mm", number_or_dash(kMilli * (a.gauge - a.active_faces), "{:.2f}"))},

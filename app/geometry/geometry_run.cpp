@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -21,8 +22,10 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/body_name.hpp"
 #include "treadmark/model/magnitudes.hpp"
+#include "treadmark/model/profile_scatter.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -63,10 +66,30 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
   return named_surface(name, said);
 }
 
+/// The profile that was smoothed by its noise, if it is one.
+const Profile* noisy_profile(const NaturalSurface& natural) {
+  const auto* profile = std::get_if<Profile>(&natural.spec.shape);
+  return profile != nullptr && profile->scatter && !profile->scatter->s.empty() ? profile : nullptr;
+}
+
+/// With errors that its points may have across themselves.
+NaturalSurface with_errors(const NaturalSurface& natural, int draw) {
+  SurfaceSpec spec = natural.spec;
+  auto& profile = std::get<Profile>(spec.shape);
+  const auto last = static_cast<std::size_t>(draw);
+  const measured::ErrorDraws draws(*profile.scatter, draw + 1, profile.body == Body::wheel ? 1 : 2);
+  const std::vector<double> y = profile.y, z = profile.z;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, y.size() - 1);
+    const double length = std::hypot(y[b] - y[a], z[b] - z[a]), error = draws.at(last, profile.scatter->s[i]);
+    profile.y[i] -= error * (z[b] - z[a]) / length;
+    profile.z[i] += error * (y[b] - y[a]) / length;
+  }
+  return create_natural(std::move(spec));
+}
+
 geometry::Section section_of(const GeometryRequest& request, const std::string& name, Body body, double cant,
-                             std::string& note) {
-  const NaturalSurface natural = surface_of(request, name, body);
-  note = natural.note;
+                             const NaturalSurface& natural) {
   std::shared_ptr<const Surface> surface = natural.surface;
   if (request.backend.empty() && request.resolution > 0.0) refuse_idle_resolution();
   if (!request.backend.empty()) {
@@ -187,17 +210,27 @@ std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest
   const std::string key =
       fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", name, body_name(body), body == Body::rail ? cant : 0.0, request.pitch,
                   request.x, request.scale_to_mm, request.backend, request.resolution);
+  std::optional<NaturalSurface> noisy;
   {
     const std::lock_guard lock(mutex_);
-    if (const auto found = sections_.find(key); found != sections_.end()) return found->second;
+    if (const auto found = noisy_.find(name); found != noisy_.end() && request.draw > 0) noisy = found->second;
+    // a draw of an exact shape is the shape
+    if (const auto found = sections_.find(key); found != sections_.end() && !noisy) return found->second;
   }
-  std::string note;
-  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, note));
+  const NaturalSurface natural = noisy ? with_errors(*noisy, request.draw) : surface_of(request, name, body);
+  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, natural));
+  if (noisy) return section;
   constexpr std::size_t kMost = 2000;  // of long lists whose files come once
   const std::lock_guard lock(mutex_);
-  if (!note.empty()) notes_[name] = note;
-  if (sections_.size() >= kMost) sections_.clear();
+  if (!natural.note.empty()) notes_[name] = natural.note;
+  if (sections_.size() >= kMost) sections_.clear(), noisy_.clear();
+  if (noisy_profile(natural) != nullptr) noisy_.try_emplace(name, natural);
   return sections_.try_emplace(key, std::move(section)).first->second;
+}
+
+bool SectionStore::is_noisy(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return noisy_.contains(name);
 }
 
 std::string SectionStore::note_of(const std::string& name) {
@@ -273,9 +306,45 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
   return out;
 }
 
+namespace {
+
+/// From draws of the profiles' errors, as results of runs have it.
+std::optional<ConicityNoise> noise_of_conicity(const GeometryResult& result, SectionStore& store) {
+  constexpr std::size_t kDraws = 8;
+  const GeometryRequest& r = result.request;
+  if (std::ranges::none_of(std::array{&r.wheel, &r.wheel_left, &r.rail, &r.rail_left},
+                           [&](const std::string* name) { return store.is_noisy(*name); }))
+    return std::nullopt;
+  std::vector<geometry::Analysis> draws(kDraws);
+  parallel_for(kDraws, [&](std::size_t k) {
+    GeometryRequest drawn = r;
+    drawn.draw = static_cast<int>(k) + 1;
+    drawn.settings.wanted_amplitude = result.analysis.single.amplitude;
+    drawn.settings.harmonic = false;
+    const GeometryResult placed = read_geometry(drawn, store);
+    draws[k] = geometry::analyse(placed.right, placed.left, placed.placement, placed.request.settings);
+  });
+  const auto deviation = [&](double base, auto&& of) {
+    double squares = 0.0;
+    for (const geometry::Analysis& one : draws) squares += std::pow(of(one) - base, 2);
+    return std::sqrt(squares / kDraws);
+  };
+  const geometry::Analysis& a = result.analysis;
+  ConicityNoise out;
+  for (std::size_t i = 0; i < a.conicity.size(); ++i)
+    out.of_amplitude.push_back(
+        deviation(a.conicity[i].tan_gamma, [i](const auto& one) { return one.conicity.at(i).tan_gamma; }));
+  out.single = deviation(a.single.tan_gamma, [](const auto& one) { return one.single.tan_gamma; });
+  out.at_3mm = deviation(a.at_3mm.tan_gamma, [](const auto& one) { return one.at_3mm.tan_gamma; });
+  return out;
+}
+
+}  // namespace
+
 GeometryResult run_geometry(const GeometryRequest& request, SectionStore& store) {
   GeometryResult out = read_geometry(request, store);
   out.analysis = geometry::analyse(out.right, out.left, out.placement, out.request.settings);
+  out.noise = noise_of_conicity(out, store);
   std::size_t beyond = 0;
   for (const geometry::Conicity& c : out.analysis.conicity) beyond += c.reason.empty() ? 0U : 1U;
   if (beyond > 0)

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "treadmark/app/lists/result_list.hpp"
+#include "treadmark/backends/create.hpp"
 #include "treadmark/geometry/analysis.hpp"
 #include "treadmark/geometry/loaded_wheelset.hpp"
 #include "treadmark/io/cases/case_model.hpp"
@@ -33,10 +34,17 @@ struct GeometryRequest {
   double resolution = 0.0;                            ///< [m]; 0: the backend's
   std::vector<std::string> overrides;                 ///< of the case
   std::optional<double> axle_load;                    ///< what both wheels carry [N]; none: geometry alone
+  int draw = 0;                                       ///< of the errors that noise may have left; 0: none
   geometry::AnalysisSettings settings;
 };
 
 inline constexpr double kUsualDiameter = 0.92;  ///< where none is given [m]
+
+/// Standard deviations of what noise of measured profiles leaves uncertain.
+struct ConicityNoise {
+  std::vector<double> of_amplitude;  ///< of the conicity at the amplitudes asked for
+  double single = 0.0, at_3mm = 0.0;
+};
 
 /// Sections that have been read, so that lists of pairs read each file once. Thread-safe.
 class SectionStore {
@@ -45,12 +53,15 @@ class SectionStore {
   /// for a wheel given as a rail or the reverse.
   std::shared_ptr<const geometry::Section> get(const GeometryRequest& request, const std::string& name, Body body,
                                                double cant);
+  /// Whether noise was smoothed away from the profile of a wheel or rail, which was asked for before.
+  bool is_noisy(const std::string& name);
   /// What reading a wheel or rail changed in it, which was asked for before; empty: nothing.
   std::string note_of(const std::string& name);
 
  private:
   std::mutex mutex_;
   std::map<std::string, std::string> notes_;
+  std::map<std::string, NaturalSurface> noisy_;  ///< what errors are drawn of
   std::map<std::string, std::shared_ptr<const geometry::Section>> sections_;
 };
 
@@ -63,6 +74,7 @@ struct GeometryResult {
   geometry::Analysis analysis;
   std::optional<geometry::Analysis> with_new;     ///< the same with new profiles, where they were named
   std::optional<geometry::LoadedFunctions> load;  ///< where a load was given
+  std::optional<ConicityNoise> noise;             ///< where a profile was smoothed by its noise
   std::vector<std::string> notes;
 };
 

@@ -137,11 +137,12 @@ std::string functions_csv(const GeometryResult& result) {
 
 std::string conicity_csv(const GeometryResult& result) {
   const geometry::Analysis& a = result.analysis;
-  std::string out = "amplitude_mm,tan_gamma_e,harmonic,wavelength_mm,turns_left_mm,turns_right_mm,reason\n";
+  std::string out = "amplitude_mm,tan_gamma_e,noise,harmonic,wavelength_mm,turns_left_mm,turns_right_mm,reason\n";
   for (std::size_t i = 0; i < a.conicity.size(); ++i) {
     const Conicity& c = a.conicity[i];
     const double wave = geometry::wavelength(c.tan_gamma, a.wheel_origins, 0.5 * (a.radius_right + a.radius_left));
-    out += fmt::format("{},{},{},{},{},{},{}\n", cell(kMilli * c.amplitude), cell(c.tan_gamma),
+    out += fmt::format("{},{},{},{},{},{},{},{}\n", cell(kMilli * c.amplitude), cell(c.tan_gamma),
+                       result.noise ? cell(result.noise->of_amplitude[i]) : "",
                        a.harmonic.empty() ? "" : cell(a.harmonic[i]), std::isfinite(wave) ? cell(kMilli * wave) : "",
                        cell(kMilli * c.low), cell(kMilli * c.high), io::csv_cell(c.reason));
   }
@@ -200,6 +201,10 @@ std::string geometry_text(const GeometryResult& result) {
   line("conicity", fmt::format("{} at {:.3g} mm ({}){}", shown(a.single.tan_gamma, 4), kMilli * a.single.amplitude,
                                a.rule, a.single.reason.empty() ? "" : ", " + a.single.reason));
   line("conicity at 3 mm", shown(a.at_3mm.tan_gamma, 4));
+  if (result.noise)
+    line("  from noise",
+         fmt::format("+-{} at {:.3g} mm, +-{} at 3 mm (standard deviations)", shown(result.noise->single, 4),
+                     kMilli * a.single.amplitude, shown(result.noise->at_3mm, 4)));
   if (result.with_new)
     line("with new profiles",
          fmt::format(

@@ -13,6 +13,7 @@
 #include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -32,6 +33,24 @@ std::string energy_doubt(const vehicle::EnergyBalance& now, const vehicle::Energ
       "energies do not balance: {:.2g} of the turnover is missing (energy.contact_error_J, "
       "energy.integration_error_J), so forces are doubtful; try shorter steps or smaller elements",
       off / now.turnover);
+}
+
+std::vector<std::string> simulation_doubts(const io::SimulationFile& file) {
+  std::vector<std::string> out;
+  const io::WheelRailCase& contact = file.contact;
+  const auto look = [&](const io::SurfaceSource& source, Body body) {
+    const io::ExpectedProfile expected =
+        body == Body::wheel
+            ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true}
+            : io::ExpectedProfile{{}, {}, contact.track.gauge_based, contact.track.cant};
+    for (std::string& doubt : source_doubts(source, body, expected))
+      if (std::ranges::find(out, doubt) == out.end()) out.push_back(std::move(doubt));
+  };
+  look(contact.wheel, Body::wheel);
+  if (file.other_wheel) look(*file.other_wheel, Body::wheel);
+  look(file.rail(Side::left), Body::rail);
+  look(file.rail(Side::right), Body::rail);
+  return out;
 }
 
 namespace {
@@ -58,6 +77,8 @@ class Run {
         result_.modes.push_back({mode.frequency, mode.damping_ratio, vehicle::describe(mode, built_.vehicle.system)});
     }
     say_if_unstable();
+    for (const std::string& doubt : simulation_doubts(file))
+      result_.message += (result_.message.empty() ? "" : "; ") + doubt;
     if (options_.doubt && !result_.message.empty()) options_.doubt(result_.message);
   }
 

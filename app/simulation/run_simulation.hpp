@@ -63,6 +63,10 @@ bool is_finished(const std::filesystem::path& store, const io::SimulationFile& f
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,
                                     const SimulationOptions& options);
 
+/// What is doubtful about the profiles of wheels and rails that are files; it is part of the message of results. Errors
+/// as read_profile.
+std::vector<std::string> simulation_doubts(const io::SimulationFile& file);
+
 /// What makes forces doubtful where energies do not balance since the start; empty: they do.
 std::string energy_doubt(const vehicle::EnergyBalance& now, const vehicle::EnergyBalance& start);
 

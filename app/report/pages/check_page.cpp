@@ -10,11 +10,14 @@ namespace treadmark::app::report {
 namespace {
 
 void add_banners(const std::vector<CheckedInput>& inputs, Section& overview) {
-  for (const CheckedInput& input : inputs)
+  for (const CheckedInput& input : inputs) {
+    for (const std::string& doubt : input.doubts)
+      overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Doubtful:", doubt});
     for (const auto& [name, judgement] : input.profiles)
       for (const io::ProfileRemark& remark : judgement.remarks)
         overview.blocks.emplace_back(
             Banner{Banner::Kind::warning, "Doubtful:", fmt::format("{}: {}: {}", name, remark.name, remark.text)});
+  }
 }
 
 Section section_of(const CheckedInput& input, std::size_t number) {

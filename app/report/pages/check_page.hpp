@@ -16,6 +16,7 @@ struct CheckedInput {
   std::string file;
   std::string outcome;                                                 ///< "3 cases, no errors"; may be empty
   std::vector<std::string> notes;                                      ///< of the reader
+  std::vector<std::string> doubts;                                     ///< about numbers of cases
   std::vector<std::pair<std::string, io::ProfileJudgement>> profiles;  ///< "wheel profile FILE" and what is seen of it
   std::vector<std::pair<std::string, std::string>> positions;          ///< "Case 1" and SVG of wheel over rail
 };

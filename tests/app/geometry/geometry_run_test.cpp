@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "treadmark/app/geometry/geometry_run.hpp"
@@ -217,6 +218,35 @@ TEST(GeometryRun, AnswersDoNotDependOnStepAndSides) {
   EXPECT_NEAR(*a.equilibrium, -*b.equilibrium, 1e-9);
   EXPECT_LT(*a.equilibrium, -1e-4);
   EXPECT_NEAR(a.at_3mm.tan_gamma, b.at_3mm.tan_gamma, 1e-9);
+}
+
+// The errors of 24 noisy measurements of one wheel against what each of them says of itself.
+TEST(GeometryRun, StatesWhatNoiseLeavesUncertain) {
+  const treadmark::testing::TemporaryFolder folder;
+  const std::string file = (folder.path() / "wheel.csv").string();
+  const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 0.2e-3);
+  const std::vector<double> right = conicity_of(standard_pair("S1002", "60E1", 1.0 / 40.0, 1435.0));
+  std::mt19937 random(1);
+  int inside = 0, all = 0;
+  for (const double noise : {3e-6, 10e-6})
+    for (int seed = 0; seed < 12; ++seed) {
+      std::normal_distribution<double> normal(0.0, noise);
+      std::string text = "y [mm],z [mm]\n";
+      for (std::size_t i = 0; i < points.y.size(); ++i)
+        text += fmt::format("{:.6f},{:.6f}\n", 1e3 * points.y[i], 1e3 * (points.z[i] + normal(random)));
+      folder.write("wheel.csv", text);
+      SectionStore store;
+      const GeometryResult found = run_geometry(standard_pair(file, "60E1", 1.0 / 40.0, 1435.0), store);
+      ASSERT_TRUE(found.noise);
+      for (std::size_t i = 0; i < right.size(); ++i, ++all) {
+        const double stated = found.noise->of_amplitude.at(i);
+        EXPECT_LT(stated, 0.05);
+        inside += std::fabs(found.analysis.conicity[i].tan_gamma - right[i]) < 2.0 * stated ? 1 : 0;
+      }
+    }
+  EXPECT_GE(inside, 9 * all / 10);
+  SectionStore store;
+  EXPECT_FALSE(run_geometry(standard_pair("S1002", "60E1", 1.0 / 40.0, 1435.0), store).noise) << "it is exact";
 }
 
 TEST(GeometryRun, RefusesByName) {
