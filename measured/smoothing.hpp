@@ -25,8 +25,8 @@ Profile smoothed_by_noise(Profile profile);
 /// scatter.s). 0 where the points were not smoothed.
 double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s, std::span<const double> weights);
 
-/// Standard deviations of the curve across itself at its points, what other assumptions make of them included [m]. Empty
-/// where the points were not smoothed.
+/// Standard deviations of the curve across itself at its points, what other assumptions make of them included [m].
+/// Empty where the points were not smoothed.
 std::vector<double> deviations(const ProfileScatter& scatter);
 
 /// Errors that the curve may have across itself, each as probable as any other. Immutable; the same in every run.

@@ -145,7 +145,7 @@ TEST(RailMeasures, ErrorsLieInsideTheStatedUncertainty) {
     w1 += std::fabs(m.w1.value - 2e-3) <= m.w1.uncertainty ? 1 : 0;
     w2 += std::fabs(m.w2.value) <= m.w2.uncertainty ? 1 : 0;
     inclined += std::fabs(m.inclination.value - 0.02) <= m.inclination.uncertainty ? 1 : 0;
-    EXPECT_LT(m.w1.uncertainty, 0.05e-3);
+    EXPECT_LT(m.w1.uncertainty, 0.06e-3);  // what other assumptions make of the points included
   }
   EXPECT_GE(w1, 34);
   EXPECT_GE(w2, 34);
