@@ -99,8 +99,8 @@ geometry::Section section_of(const GeometryRequest& request, const std::string& 
     wanted.region.u_max = body == Body::wheel ? request.pitch + kHalfAngle : request.x + kHalfLength;
     surface = represent(natural, wanted).surface;
   }
-  const geometry::Section section = body == Body::wheel ? geometry::wheel_section(*surface, request.pitch)
-                                                        : geometry::rail_section(*surface, cant, request.x);
+  geometry::Section section = body == Body::wheel ? geometry::wheel_section(*surface, request.pitch)
+                                                  : geometry::rail_section(*surface, cant, request.x);
   if (const std::string why = geometry::wrong_body(section); !why.empty())
     throw Error(ErrorKind::input_data, fmt::format("this is no {}: {}", body_name(body), why), {name},
                 fmt::format("give the profile of a {} here", body_name(body)));
@@ -302,7 +302,8 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
   out.left = side(wheel_left, rail_left, r.diameter_left ? r.diameter_left : r.diameter);
   if (out.left.radius == out.right.radius && wheel_left == r.wheel) out.left.wheel = out.right.wheel;
   for (const std::string& name : std::set<std::string>{r.wheel, wheel_left, r.rail, rail_left})
-    if (const std::string note = store.note_of(name); !note.empty()) out.notes.push_back(name + ": " + note);
+    if (const std::string note = store.note_of(name); !note.empty())
+      out.notes.push_back(fmt::format("{}: {}", name, note));
   return out;
 }
 
