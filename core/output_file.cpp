@@ -356,7 +356,8 @@ void OutputFolder::replace(const fs::path& as) {
   if (!temporary_.empty()) remove_quietly(std::exchange(temporary_, {}));
 }
 
-void OutputFolder::move_into(const std::string& last) {
+void OutputFolder::move_into(const std::string& last, const std::function<void()>& then) {
+  const FolderLock lock(target_);
   std::error_code error;
   std::vector<fs::path> files;
   std::vector<fs::path> folders{target_};
@@ -374,7 +375,6 @@ void OutputFolder::move_into(const std::string& last) {
   std::stable_sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return std::distance(a.begin(), a.end()) > std::distance(b.begin(), b.end());
   });
-  const FolderLock lock(target_);
   const auto folder_written = [&](const fs::path& folder) {
     if (const int failed = folder_to_disk(folder); failed != 0) cannot_write(folder, failed);
   };
@@ -400,6 +400,7 @@ void OutputFolder::move_into(const std::string& last) {
     move(last);
     folder_written(target_);
   }
+  if (then) then();
   made_.clear();
   remove_quietly(std::exchange(temporary_, {}));
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -66,7 +67,8 @@ class OutputFolder {
 
   /// Moves the files into the target, each in place of its namesake, those in folders first. The one named last comes
   /// last, and its old namesake goes first: where it stands, the others are of the same making. Empty: there is none.
-  void move_into(const std::string& last = {});
+  /// then: done before other writers may go on.
+  void move_into(const std::string& last = {}, const std::function<void()>& then = {});
 
  private:
   [[noreturn]] void fail(const std::error_code& error) const;

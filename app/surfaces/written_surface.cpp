@@ -61,8 +61,11 @@ std::filesystem::path StagedOutputs::place(const std::filesystem::path& file) {
 }
 
 void StagedOutputs::commit() {
-  for (auto& [name, folder] : folders_) folder.move_into();
-  for (const std::filesystem::path& file : slices_) io::remove_other_slices(file);
+  for (auto& [name, folder] : folders_)
+    folder.move_into({}, [&, &within = name] {
+      for (const std::filesystem::path& file : slices_)
+        if ((file.has_parent_path() ? file.parent_path() : ".") == within) io::remove_other_slices(file);
+    });
 }
 
 }  // namespace treadmark::app

