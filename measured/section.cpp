@@ -200,6 +200,20 @@ Readings rail_z(const SectionPoints& p) {
   if (std::max(as_it_is, turned) > kSides)
     return {kMilli * std::max(0.0, as_it_is), kMilli * std::max(0.0, turned),
             fmt::format("sides that fall {:.1f} mm below the head", kMilli * std::max(as_it_is, turned)), true};
+  // of a groove beside a head that was not measured to its side the rims are up
+  constexpr double kGrooved = 15e-3, kNearTop = 8e-3;
+  const double top = quantile(up.height, 0.0), bottom = quantile(up.height, 1.0);
+  if (bottom - top > kGrooved) {
+    const auto width = [&](auto&& belongs) {
+      return kStep * static_cast<double>(std::ranges::count_if(up.height, belongs));
+    };
+    const double near_top = width([&](double z) { return z < top + kNearTop; }),
+                 near_bottom = width([&](double z) { return z > bottom - kNearTop; });
+    return {
+        kMilli * near_top, kMilli * near_bottom,
+        fmt::format("{:.1f} mm near its top and {:.1f} mm near its bottom", kMilli * near_top, kMilli * near_bottom),
+        true};
+  }
   const double bend = bend_of(up);
   return {std::max(0.0, -bend), std::max(0.0, bend),
           fmt::format("a crown whose curvature is {:.2g} times its standard deviation", std::fabs(bend)), true};

@@ -18,6 +18,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
+#include "treadmark/measured/noise.hpp"
 #include "treadmark/measured/nominal.hpp"
 #include "treadmark/measures/rail.hpp"
 #include "treadmark/measures/wheel.hpp"
@@ -141,11 +142,15 @@ struct Roll {
 /// of a wheel where none fits.
 std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::Lean* lean) {
   constexpr double kRail = 0.05e-3, kWheel = 0.15e-3, kLarge = 0.05, kOfLargeRoll = 0.3e-3, kDeep = 10e-3;
+  constexpr double kAlike = 0.02e-3, kFarOff = 0.1e-3;
   constexpr double kTimesBetter = 1.5, kLevelTips = 0.012, kUprightBack = 0.05;
   const Profile& profile = sourced.profile;
   const measured::WheelMarks& marks = sourced.source.understood.wheel;
   const auto [top, bottom] = std::ranges::minmax(profile.z);
-  if (lean != nullptr && !marks.second_flange && bottom - top > kDeep) {
+  // of a top alone only a large roll is told from a shift
+  const bool shows = bottom - top > kDeep || (lean != nullptr && std::fabs(lean->roll) > kLarge &&
+                                              lean->residual < kAlike && lean->upright > kFarOff);
+  if (lean != nullptr && !marks.second_flange && shows) {
     const double fits = profile.body == Body::rail ? kRail : std::fabs(lean->roll) > kLarge ? kOfLargeRoll : kWheel;
     if (lean->residual <= fits && (profile.body == Body::rail || lean->flange <= fits))
       return Roll{lean->roll, lean->upright > kTimesBetter * lean->residual,
@@ -322,8 +327,27 @@ std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body bod
 
 namespace {
 
+/// What noise or a tilted frame would do to a section of slices, which are not smoothed.
+std::string doubt_of_section(const Profile& section, measured::Understanding seen,
+                             const io::ExpectedProfile& expected) {
+  constexpr double kFelt = 2e-6;  // [m] neighbouring sections take some away
+  io::SourcedProfile sourced;
+  sourced.profile = section;
+  sourced.source.understood = std::move(seen);
+  io::ProfileJudgement judged;
+  judge_against_nominal(sourced, expected, judged);
+  if (!judged.remarks.empty()) return judged.remarks.front().name + ": " + judged.remarks.front().text;
+  const double noise = measured::profile_noise(section).across;
+  if (section.smoothing.strength > 0.0 || noise < kFelt) return {};
+  return fmt::format(
+      "noise: the points scatter by {:.2g} mm and the surface runs through all of them: pressures are too "
+      "large; smooth the sections in the file, or import the points anew",
+      kMilli * noise);
+}
+
 /// Slices lie as they are in their file: a section in their middle shows whether that is the place of a wheel or rail.
-std::string doubt_of_slices(const io::SurfaceSource& source, Body body, double radius, SurfaceStore& store) {
+std::string doubt_of_slices(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected,
+                            double radius, SurfaceStore& store) {
   const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
   if (!source.parts.empty() || file == nullptr || !io::is_slices_file(file->file)) return {};
   const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, radius);
@@ -349,6 +373,7 @@ std::string doubt_of_slices(const io::SurfaceSource& source, Body body, double r
   else if (seen.shift_y != 0.0)
     what = fmt::format("tape_line: y = 0 lies {:.2f} mm from the tape line, 70 mm from the back of the flange",
                        kMilli * std::fabs(seen.shift_y));
+  if (what.empty()) what = doubt_of_section(slices->profiles[slices->profiles.size() / 2], std::move(seen), expected);
   return what.empty() ? what
                       : fmt::format("{} slices {}: {}; slices are taken as they lie", body_name(body),
                                     file->file.string(), what);
@@ -381,8 +406,10 @@ void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, Su
     const auto* input = std::get_if<io::WheelRailCase>(&given->content);
     if (input == nullptr) continue;
     for (const Body body : {Body::rail, Body::wheel})
-      if (std::string doubt = doubt_of_slices(body == Body::wheel ? input->wheel : input->rail, body,
-                                              profile_radius(*input, body), store);
+      if (std::string doubt = doubt_of_slices(
+              body == Body::wheel ? input->wheel : input->rail, body,
+              {{}, {}, input->track.gauge_based, body == Body::rail ? std::optional(input->track.cant) : std::nullopt},
+              profile_radius(*input, body), store);
           !doubt.empty())
         result.remarks.push_back({RemarkKind::profile_doubtful, 0, std::move(doubt)});
     for (const ProfileUse& use : uses_of(*given))

@@ -73,7 +73,7 @@ class Judge {
   }
 
   void ranges() {
-    constexpr double kNarrow = 15e-3;
+    constexpr double kNarrow = 20e-3, kUpright = 3.0;
     constexpr double kWidthRail = 0.072, kWidthWheel = 0.130;
     fact("y", fmt::format("{:.2f} to {:.2f} mm, to the right", kMm * y_.low, kMm * y_.high));
     fact("z", fmt::format("{:.2f} to {:.2f} mm, down", kMm * z_.low, kMm * z_.high));
@@ -81,7 +81,7 @@ class Judge {
     if (source_.scale_to_mm != 1.0)
       unit += fmt::format("; numbers of the file times {:.6g} are mm", source_.scale_to_mm);
     fact("unit", unit);
-    if (y_.size() >= kNarrow || z_.size() >= kNarrow) return;
+    if (y_.size() >= kNarrow || z_.size() >= kUpright * y_.size()) return;
     const double usual = p_.body == Body::wheel ? kWidthWheel : kWidthRail;
     const auto off = [&](double factor) { return std::fabs(std::log(factor * y_.size() / usual)); };
     const bool inches = off(25.4) < off(10.0);
@@ -223,7 +223,8 @@ class Judge {
                               std::max(y, z) > 0.0 ? fmt::format(", rounded to {:.3g} mm", kMm * std::max(y, z)) : ""));
     constexpr double kFelt =
         0.25e-6;  // white noise that changes the pressure of a curve through all points by percents
-    if (!p_.scatter && p_.smoothing.strength == 0.0 && across > kFelt)
+    const bool smoothed = p_.scatter && !p_.scatter->s.empty();
+    if (!smoothed && p_.smoothing.strength == 0.0 && across > kFelt)
       remark("noise", fmt::format("the points scatter by {:.2g} mm and the curve runs through all of them: pressures "
                                   "are too large; set smoothing = \"auto\", or smooth them in the file",
                                   kMm * across));
