@@ -202,13 +202,13 @@ Readings rail_z(const SectionPoints& p) {
             fmt::format("sides that fall {:.1f} mm below the head", kMilli * std::max(as_it_is, turned)), true};
   // of a groove beside a head that was not measured to its side the rims are up
   constexpr double kGrooved = 15e-3, kNearTop = 8e-3;
-  const double top = quantile(up.height, 0.0), bottom = quantile(up.height, 1.0);
-  if (bottom - top > kGrooved) {
+  const double top = quantile(up.height, 1.0), bottom = quantile(up.height, 0.0);
+  if (top - bottom > kGrooved) {
     const auto width = [&](auto&& belongs) {
       return kStep * static_cast<double>(std::ranges::count_if(up.height, belongs));
     };
-    const double near_top = width([&](double z) { return z < top + kNearTop; }),
-                 near_bottom = width([&](double z) { return z > bottom - kNearTop; });
+    const double near_top = width([&](double h) { return h > top - kNearTop; }),
+                 near_bottom = width([&](double h) { return h < bottom + kNearTop; });
     return {
         kMilli * near_top, kMilli * near_bottom,
         fmt::format("{:.1f} mm near its top and {:.1f} mm near its bottom", kMilli * near_top, kMilli * near_bottom),

@@ -73,7 +73,7 @@ class Judge {
   }
 
   void ranges() {
-    constexpr double kNarrow = 20e-3, kUpright = 3.0;
+    constexpr double kNarrow = 16e-3, kUpright = 3.0;
     constexpr double kWidthRail = 0.072, kWidthWheel = 0.130;
     fact("y", fmt::format("{:.2f} to {:.2f} mm, to the right", kMm * y_.low, kMm * y_.high));
     fact("z", fmt::format("{:.2f} to {:.2f} mm, down", kMm * z_.low, kMm * z_.high));
