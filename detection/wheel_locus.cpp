@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/median.hpp"
 #include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 #include "treadmark/detection/rail_sections.hpp"
@@ -109,21 +110,55 @@ Line line_of(const BodyPair& bodies, double nominal_radius) {
   return line;
 }
 
-/// Keeps the part about the middle over which y of T increases.
-void trim(Line& line) {
-  if (line.points.size() < 2) return;
+/// Drops points that have jumped along the track away from their neighbours, as onto the steep flank of a section.
+void drop_strays(Line& line) {
+  constexpr std::size_t kBeside = 4;
+  constexpr double kJump = 10e-3;  // [m]
+  const std::vector<Vec3> all = line.points;
+  std::vector<double> near;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    near.clear();
+    for (std::size_t k = i - std::min(i, kBeside); k <= std::min(i + kBeside, all.size() - 1); ++k)
+      near.push_back(all[k].x());
+    if (std::abs(all[i].x() - median_of(near)) > kJump) continue;
+    line.profile[kept] = line.profile[i];
+    line.points[kept++] = all[i];
+  }
+  line.profile.resize(kept);
+  line.points.resize(kept);
+}
+
+/// Keeps the points from the middle outwards over which y of T increases, and passes over few that go back.
+void keep_increasing(Line& line) {
+  constexpr std::size_t kPassedOver = 10;
+  const std::size_t n = line.points.size();
+  if (n < 2) return;
   double mean = 0.0;
-  for (const Vec3& p : line.points) mean += p.y() / static_cast<double>(line.points.size());
+  for (const Vec3& p : line.points) mean += p.y() / static_cast<double>(n);
   const auto nearest = std::ranges::min_element(line.points, {}, [&](const Vec3& p) { return std::abs(p.y() - mean); });
-  std::size_t first = static_cast<std::size_t>(nearest - line.points.begin()), last = first;
-  while (first > 0 && line.points[first - 1].y() < line.points[first].y()) --first;
-  while (last + 1 < line.points.size() && line.points[last + 1].y() > line.points[last].y()) ++last;
-  const auto cut = [&](auto& list) {
-    list.erase(list.begin() + static_cast<std::ptrdiff_t>(last) + 1, list.end());
-    list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(first));
+  const auto middle = static_cast<std::size_t>(nearest - line.points.begin());
+  std::vector<char> keep(n, 0);
+  keep[middle] = 1;
+  const auto walk = [&](std::size_t count, double sign, auto index) {
+    double last = line.points[middle].y();
+    for (std::size_t k = 1, passed = 0; k <= count && passed <= kPassedOver; ++k) {
+      const std::size_t i = index(k);
+      const bool goes_on = sign * (line.points[i].y() - last) > 0.0;
+      passed = goes_on ? 0 : passed + 1;
+      if (goes_on) keep[i] = 1, last = line.points[i].y();
+    }
   };
-  cut(line.profile);
-  cut(line.points);
+  walk(middle, -1.0, [&](std::size_t k) { return middle - k; });
+  walk(n - 1 - middle, 1.0, [&](std::size_t k) { return middle + k; });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (keep[i] == 0) continue;
+    line.profile[kept] = line.profile[i];
+    line.points[kept++] = line.points[i];
+  }
+  line.profile.resize(kept);
+  line.points.resize(kept);
 }
 
 /// Ends of the line and sharp corners with nothing but gentle turns about them.
@@ -151,7 +186,8 @@ std::vector<std::size_t> section_ends(const std::vector<Vec2>& profile, const st
 
 WheelLocus::WheelLocus(const BodyPair& bodies, double nominal_radius) {
   Line line = line_of(bodies, nominal_radius);
-  trim(line);
+  drop_strays(line);
+  keep_increasing(line);
   if (line.points.size() < 2) return;
   for (std::size_t i = 0; i + 1 < line.profile.size(); ++i)
     steps_.push_back((line.profile[i + 1] - line.profile[i]).norm());

@@ -99,6 +99,7 @@ class PairStep {
   void describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch);
   void link(const Rectangle& box, Patch& patch) const;
   void measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const;
+  std::vector<Vec2> places_on_rail(const detection::BodyPair& bodies, const Patch& patch) const;
   double deepest() const;
   void move(Patch& patch) const;
   kalker::ContactProblem contact_problem(const Patch& patch) const;
@@ -123,9 +124,9 @@ class PairStep {
   std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };
 
-/// Elements of each part of a patch, a little enlarged, and how much the parts feel of each other.
-/// Empty for a patch of one part.
+/// The part of a patch that each element belongs to, the nearest one, and how much the parts feel of each other.
+/// places: where the elements lie on the rail, in T [m].
 kalker::SubPatches sub_patches(const Discretisation& discretisation, const detection::ContactPatch& region,
-                               const detection::ContactFrame& frame, const Vec2& reference_C, const Grid2& grid);
+                               std::span<const Vec2> places);
 
 }  // namespace treadmark::wheelrail

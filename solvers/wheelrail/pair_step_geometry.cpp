@@ -98,9 +98,32 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
   }
   link(from_wheelset, patch);
   if (patch.history) s.grid = extended(s.grid, *patch.history);
-  patch.parts = sub_patches(d, region, s.frame, s.reference_C, s.grid);
 
   measure_distance(bodies, own, patch);
+}
+
+/// Of the elements, in T; where there is no rail on the reference surface. On a steep plane a place is far from the
+/// foot of its element.
+std::vector<Vec2> PairStep::places_on_rail(const detection::BodyPair& bodies, const Patch& patch) const {
+  const PatchSolution& s = patch.solution;
+  const Grid2& grid = s.grid;
+  const Pose& X_TC = s.frame.X_TC;
+  std::vector<double> rail = patch.surfaces.rail;
+  const Pose X_CP{{-s.reference_C.x(), -s.reference_C.y(), 0.0}, Mat3::Identity()};
+  if (rail.empty()) {
+    rail.resize(grid.size());
+    bodies.rail->heights({bodies.X_TR.inverse() * X_TC * X_CP, grid}, {rail, {}, {}});
+  }
+  std::vector<Vec2> places;
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const Pose X_TL = X_TC * (patch.reference ? patch.reference->X_CL(iy) : X_CP);
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const double n = rail[grid.index(ix, iy)];
+      const Vec3 p = X_TL.apply({grid.x(ix), patch.reference ? 0.0 : grid.y(iy), std::isnan(n) ? 0.0 : n});
+      places.emplace_back(p.x(), p.y());
+    }
+  }
+  return places;
 }
 
 /// Undeformed distance on the grid, of a tangent plane or a curve, and the part of it that may touch.
@@ -126,6 +149,8 @@ void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectang
     }
     if (curved) s.row_angle = patch.reference->angles();
   }
+  patch.parts = {};
+  if (s.region.parts.size() > 1) patch.parts = sub_patches(d, s.region, places_on_rail(bodies, patch));
   patch.part_hidden = leave_out_other_parts(deepest(), undeformed);
   s.distance = std::move(undeformed.distance);
   s.approach = undeformed.approach;
