@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -214,6 +216,37 @@ TEST_F(DisguisedProfiles, MeasureAsTheShapeOrAreRefused) {
       ADD_FAILURE() << trial.words << off;
   }
   EXPECT_GT(right, kMeasured / 2);
+}
+
+// Sections of slices are taken as they lie and are not smoothed: they are right, or doubted.
+TEST_F(DisguisedProfiles, SlicesOfOneSectionAreRightOrDoubted) {
+  const std::array<std::function<void(Disguise&)>, 4> ways{
+      [](Disguise& d) { d.noise = 10e-3; }, [](Disguise& d) { d.rounded = 10e-3; },
+      [](Disguise& d) { d.tilt_deg = 4.0; }, [](Disguise& d) { d.tilt_deg = -10.0; }};
+  for (const char* name : {"new", "60E1", "hollow by 2 mm", "side worn by 4 mm"})
+    for (std::size_t k = 0; k <= ways.size(); ++k) {
+      const BaseShape& base = base_shape(name);
+      Disguise how;
+      how.reader = Disguise::Reader::simpack;
+      how.unit_said = true;
+      how.rounded = 1e-6;
+      if (k < ways.size()) ways[k](how);
+      const DisguisedFile file = disguised(base, how, k);
+      const std::string section = "section" + file.ending;
+      folder_.write(section, file.bytes);
+      const bool wheel = base.body == Body::wheel;
+      std::string text = "0.0 1.0\n5\n0 0 0\n1\n";
+      for (const double part : {-1.0, -0.4, 0.0, 0.4, 1.0})
+        text += fmt::format("{} '{}'\n", part * (wheel ? 3.14159 : 500.0), section);
+      const fs::path slices = folder_.write(wheel ? "sections.slcw" : "sections.slcs", text);
+      const RunAnswer answer = run(base, slices, "[0]");
+      if (answer.refused || answer.doubted) {
+        EXPECT_LT(k, ways.size()) << name << ' ' << answer.why;
+        continue;
+      }
+      const auto& right = truth(base, 0.0);
+      EXPECT_TRUE(as_in(right, answer.contacts.at(0), allowance(how))) << name << ' ' << k;
+    }
 }
 
 }  // namespace

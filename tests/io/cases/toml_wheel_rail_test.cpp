@@ -52,7 +52,7 @@ TEST(TomlElements, AreChosenUnlessTheyAreGiven) {
 
 TEST(TomlElements, ShareARasterInTime) {
   const auto chosen = [](const std::string& text, std::size_t i) {
-    const DiscretisationInput& d = at(parse(kRail + "wheelset.velocity_m_s = 1\n" + text), i).discretisation;
+    const DiscretisationInput d = at(parse(kRail + "wheelset.velocity_m_s = 1\n" + text), i).discretisation;
     EXPECT_EQ(d.choose_dx, d.choose_ds);
     return d.choose_dx;
   };
