@@ -19,9 +19,13 @@ namespace {
 constexpr std::size_t kFewest = 8;
 constexpr double kUniform = 0.28867513459481287;  // standard deviation of what rounding to 1 takes away
 
+/// Where a profile runs nearer to y than to z, or elsewhere.
+enum class Part { all, flat, steep };
+
 /// Standard deviation across the profile, from divided differences of an order over every stride-th point. They vanish
 /// for polynomials of a lower degree, and their weights say what noise makes of them.
-double difference_noise(const Profile& p, const std::vector<double>& s, std::size_t order, std::size_t stride) {
+double difference_noise(const Profile& p, const std::vector<double>& s, std::size_t order, std::size_t stride,
+                        Part part) {
   constexpr double kNormal = 0.6744897501960817;  // median of the size of a standard normal number
   std::vector<double> sizes;
   const std::size_t reach = order * stride;
@@ -38,15 +42,18 @@ double difference_noise(const Profile& p, const std::vector<double>& s, std::siz
     }
     const double ty = p.y[i + reach] - p.y[i], tz = p.z[i + reach] - p.z[i];
     const double length = std::hypot(ty, tz);
+    if (part != Part::all && (part == Part::flat) != (std::fabs(ty) > std::fabs(tz))) continue;
     if (length > 0.0 && std::isfinite(squares) && std::isfinite(y) && std::isfinite(z))
       sizes.push_back(std::fabs(z * ty - y * tz) / (length * std::sqrt(squares)));
   }
   return sizes.size() < kFewest / 2 ? std::numeric_limits<double>::infinity() : median_of(sizes) / kNormal;
 }
 
-double least_noise(const Profile& p, const std::vector<double>& s, std::size_t highest, std::size_t stride) {
+double least_noise(const Profile& p, const std::vector<double>& s, std::size_t highest, std::size_t stride,
+                   Part part = Part::all) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t order = 3; order <= highest; ++order) least = std::min(least, difference_noise(p, s, order, stride));
+  for (std::size_t order = 3; order <= highest; ++order)
+    least = std::min(least, difference_noise(p, s, order, stride, part));
   return std::isfinite(least) ? least : 0.0;
 }
 
@@ -106,6 +113,8 @@ PointNoise profile_noise(const Profile& p) {
   for (std::size_t i = 1; i < n; ++i) steps.push_back(s[i] - s[i - 1]);
   noise.step = median_of(steps);
   noise.across = least_noise(p, s, kHighest, 1);
+  noise.flat = least_noise(p, s, kHighest, 1, Part::flat);
+  noise.steep = least_noise(p, s, kHighest, 1, Part::steep);
   noise.rounding_y = rounding_of(p.y);
   noise.rounding_z = rounding_of(p.z);
   const double rounded = kUniform * std::max(noise.rounding_y, noise.rounding_z);

@@ -13,6 +13,8 @@ struct PointNoise {
   double across = 0.0;                        ///< standard deviation across the profile, rounding included
   double rounding_y = 0.0, rounding_z = 0.0;  ///< steps to which the numbers were rounded; 0: none are seen
   double step = 0.0;                          ///< usual distance of neighbours
+  double flat = 0.0, steep = 0.0;  ///< across where the profile runs nearer to y than to z, and elsewhere: instruments
+                                   ///< that tell heights scatter in z
 };
 
 /// From differences of third to seventh order of successive points, scaled by their distances: the median of their

@@ -201,6 +201,7 @@ struct Straightened {
   Values node_y, node_z, angle;  ///< of the curve at the knots
   Values node_height;            ///< the curve itself, straightened
   Values s, height, half_step;   ///< of the points; half of what rounding leaves open, across the curve
+  Values weight;                 ///< of the points: the usual variance over theirs
 };
 
 double unwrapped(double angle, double near) { return angle + 2.0 * kPi * std::round((near - angle) / (2.0 * kPi)); }
@@ -208,6 +209,7 @@ double unwrapped(double angle, double near) { return angle + 2.0 * kPi * std::ro
 struct Points {
   Values y, z, s;
   double rounding_y = 0.0, rounding_z = 0.0, step = 1.0;
+  double variance_y = 1.0, variance_z = 1.0;  ///< over the usual one
   std::size_t size() const { return y.size(); }
 };
 
@@ -278,6 +280,7 @@ std::optional<Straightened> straighten(Points& points, const Curve& curve, doubl
     const double s = feet[i], ty = curve.at_y(s, 1), tz = curve.at_z(s, 1), length = std::hypot(ty, tz);
     const double across = ((points.z[i] - curve.at_z(s)) * ty - (points.y[i] - curve.at_y(s)) * tz) / length;
     out.height.push_back(height_at(points.s[i]) + across);
+    out.weight.push_back(length * length / (points.variance_y * tz * tz + points.variance_z * ty * ty));
     out.half_step.push_back(0.5 * (points.rounding_y * std::fabs(tz) + points.rounding_z * std::fabs(ty)) / length);
   }
   return out;
@@ -358,8 +361,8 @@ class Problem {
         restless_(std::move(restless)),
         third_differences_(std::move(third_differences)),
         products_(line.knots.size()),
-        right_(products_with(line.knots, line.s, line.height)) {
-    add_products(line.knots, line.s, Values(line.s.size(), 1.0), products_);
+        right_(products_with(line.knots, line.s, weighted(line))) {
+    add_products(line.knots, line.s, line.weight, products_);
   }
 
   /// White noise of unknown variance.
@@ -373,7 +376,7 @@ class Problem {
     double sum = penalty_of(fit.heights);
     for (std::size_t i = 0; i < line_.s.size(); ++i) {
       const double rest = line_.height[i] - line_.knots.value(fit.heights, line_.s[i]);
-      sum += rest * rest;
+      sum += line_.weight[i] * rest * rest;
     }
     const auto free = static_cast<double>(line_.s.size() - 3);
     fit.variance = sum / free;
@@ -454,6 +457,11 @@ class Problem {
   }
 
  private:
+  static Values weighted(const Straightened& line) {
+    Values out;
+    for (std::size_t i = 0; i < line.s.size(); ++i) out.push_back(line.weight[i] * line.height[i]);
+    return out;
+  }
   Fit begin(double log_factor, double noise) const {
     Fit fit;
     fit.penalty = std::exp(log_factor);
@@ -612,6 +620,16 @@ Profile smoothed_by_noise(Profile profile) {
   points.rounding_y = kMm * noise.rounding_y;
   points.rounding_z = kMm * noise.rounding_z;
   points.step = kMm * noise.step;
+  // as far as both parts are long enough to tell
+  constexpr double kMostApart = 5.0;
+  if (noise.flat > 0.0 && noise.steep > 0.0) {
+    const double usual = noise.across * noise.across;
+    const auto over_usual = [&](double part) {
+      return std::clamp(part * part / usual, 1.0 / (kMostApart * kMostApart), kMostApart * kMostApart);
+    };
+    points.variance_z = over_usual(noise.flat);
+    points.variance_y = over_usual(noise.steep);
+  }
   constexpr double kCorner = 4.5, kPerhapsCorner = 3.0;
   const bool level = profile.body == Body::rail;
   const std::optional<Laid> laid = lay_curve(points, noise, {level, kCorner}),

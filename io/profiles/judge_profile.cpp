@@ -216,11 +216,15 @@ class Judge {
 
   /// A profile that was smoothed says what its points were like.
   void noise() {
-    const auto [across, y, z, step] = p_.scatter ? measured::PointNoise{p_.scatter->white, p_.scatter->rounding_y,
-                                                                        p_.scatter->rounding_z, p_.scatter->step}
-                                                 : measured::profile_noise(p_);
+    measured::PointNoise found;
+    if (p_.scatter)
+      found.across = p_.scatter->white, found.rounding_y = p_.scatter->rounding_y,
+      found.rounding_z = p_.scatter->rounding_z;
+    else
+      found = measured::profile_noise(p_);
+    const double across = found.across, rounding = std::max(found.rounding_y, found.rounding_z);
     fact("noise", fmt::format("{:.2g} mm{}", kMm * across,
-                              std::max(y, z) > 0.0 ? fmt::format(", rounded to {:.3g} mm", kMm * std::max(y, z)) : ""));
+                              rounding > 0.0 ? fmt::format(", rounded to {:.3g} mm", kMm * rounding) : ""));
     constexpr double kFelt =
         0.25e-6;  // white noise that changes the pressure of a curve through all points by percents
     const bool smoothed = p_.scatter && !p_.scatter->s.empty();
