@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -213,7 +212,7 @@ std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest
   std::optional<NaturalSurface> noisy;
   {
     const std::lock_guard lock(mutex_);
-    if (const auto found = noisy_.find(name); found != noisy_.end() && request.draw > 0) noisy = found->second;
+    if (const auto found = noisy_.find({name, body}); found != noisy_.end() && request.draw > 0) noisy = found->second;
     // a draw of an exact shape is the shape
     if (const auto found = sections_.find(key); found != sections_.end() && !noisy) return found->second;
   }
@@ -224,13 +223,13 @@ std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest
   const std::lock_guard lock(mutex_);
   if (!natural.note.empty()) notes_[name] = natural.note;
   if (sections_.size() >= kMost) sections_.clear(), noisy_.clear();
-  if (noisy_profile(natural) != nullptr) noisy_.try_emplace(name, natural);
+  if (noisy_profile(natural) != nullptr) noisy_.try_emplace({name, body}, natural);
   return sections_.try_emplace(key, std::move(section)).first->second;
 }
 
-bool SectionStore::is_noisy(const std::string& name) {
+bool SectionStore::is_noisy(const std::string& name, Body body) {
   const std::lock_guard lock(mutex_);
-  return noisy_.contains(name);
+  return noisy_.contains({name, body});
 }
 
 std::string SectionStore::note_of(const std::string& name) {
@@ -313,8 +312,8 @@ namespace {
 std::optional<ConicityNoise> noise_of_conicity(const GeometryResult& result, SectionStore& store) {
   constexpr std::size_t kDraws = 8;
   const GeometryRequest& r = result.request;
-  if (std::ranges::none_of(std::array{&r.wheel, &r.wheel_left, &r.rail, &r.rail_left},
-                           [&](const std::string* name) { return store.is_noisy(*name); }))
+  if (!store.is_noisy(r.wheel, Body::wheel) && !store.is_noisy(r.wheel_left, Body::wheel) &&
+      !store.is_noisy(r.rail, Body::rail) && !store.is_noisy(r.rail_left, Body::rail))
     return std::nullopt;
   std::vector<geometry::Analysis> draws(kDraws);
   parallel_for(kDraws, [&](std::size_t k) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "treadmark/app/lists/result_list.hpp"
@@ -54,14 +55,14 @@ class SectionStore {
   std::shared_ptr<const geometry::Section> get(const GeometryRequest& request, const std::string& name, Body body,
                                                double cant);
   /// Whether noise was smoothed away from the profile of a wheel or rail, which was asked for before.
-  bool is_noisy(const std::string& name);
+  bool is_noisy(const std::string& name, Body body);
   /// What reading a wheel or rail changed in it, which was asked for before; empty: nothing.
   std::string note_of(const std::string& name);
 
  private:
   std::mutex mutex_;
   std::map<std::string, std::string> notes_;
-  std::map<std::string, NaturalSurface> noisy_;  ///< what errors are drawn of
+  std::map<std::pair<std::string, Body>, NaturalSurface> noisy_;  ///< what errors are drawn of; a case names both
   std::map<std::string, std::shared_ptr<const geometry::Section>> sections_;
 };
 

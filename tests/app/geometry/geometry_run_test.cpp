@@ -249,6 +249,31 @@ TEST(GeometryRun, StatesWhatNoiseLeavesUncertain) {
   EXPECT_FALSE(run_geometry(standard_pair("S1002", "60E1", 1.0 / 40.0, 1435.0), store).noise) << "it is exact";
 }
 
+// The case names wheel and rail alike.
+TEST(GeometryRun, OfACaseStatesTheSameNoise) {
+  const treadmark::testing::TemporaryFolder folder;
+  const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 0.2e-3);
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal(0.0, 5e-6);
+  std::string text = "y [mm],z [mm]\n";
+  for (std::size_t i = 0; i < points.y.size(); ++i)
+    text += fmt::format("{:.6f},{:.6f}\n", 1e3 * points.y[i], 1e3 * (points.z[i] + normal(random)));
+  folder.write("wheel.csv", text);
+  folder.write("case.toml",
+               "wheel.shape.file = \"wheel.csv\"\nrail.shape.standard = \"60E1\"\n"
+               "[track]\ncant = \"1:40\"\ngauge_mm = 1435\n"
+               "[wheelset]\nnominal_radius_mm = 460\nvertical_force_N = 80e3\nvelocity_m_s = 20\nrolling = \"free\"\n");
+  GeometryRequest request;
+  request.case_file = (folder.path() / "case.toml").string();
+  SectionStore store, other;
+  const GeometryResult found = run_geometry(request, store);
+  const GeometryResult named =
+      run_geometry(standard_pair((folder.path() / "wheel.csv").string(), "60E1", 1.0 / 40.0, 1435.0), other);
+  ASSERT_TRUE(found.noise && named.noise);
+  EXPECT_GT(found.noise->at_3mm, 0.0);
+  EXPECT_NEAR(found.noise->at_3mm, named.noise->at_3mm, 0.01 * named.noise->at_3mm);
+}
+
 TEST(GeometryRun, RefusesByName) {
   TREADMARK_REQUIRE_SHARED();
   const auto error_with = [&](const auto& change) {
