@@ -153,6 +153,54 @@ double flange_rms(const std::vector<Vec2>& points, const NominalOutline& n, cons
   return std::sqrt(std::accumulate(squares.begin(), squares.begin() + half, 0.0) / static_cast<double>(half));
 }
 
+/// Of a section with two rims the points of the wider one, which is the head; none of any other section.
+std::vector<Vec2> head_beside_groove(const std::vector<Vec2>& points) {
+  constexpr double kDeep = 14e-3, kRim = 3e-3;
+  double top = kInfinity;
+  for (const Vec2& p : points) top = std::min(top, p.y());
+  std::vector<Vec2> head, run;
+  int rims = 0;
+  const auto width = [](const std::vector<Vec2>& r) { return r.empty() ? 0.0 : std::fabs(r.back().x() - r[0].x()); };
+  const auto close = [&] {
+    if (width(run) > kRim) ++rims;
+    if (width(run) > width(head)) head = run;
+    run.clear();
+  };
+  for (const Vec2& p : points)
+    if (p.y() - top < kDeep)
+      run.push_back(p);
+    else
+      close();
+  close();
+  return rims > 1 ? head : std::vector<Vec2>{};
+}
+
+std::optional<Lean> lean_of_points(const std::vector<Vec2>& points, Body body,
+                                   std::span<const NominalOutline> nominals) {
+  constexpr std::size_t kFewest = 20;
+  constexpr std::array<double, 5> kStarts{0.0, 0.1, -0.1, 0.2, -0.2};
+  constexpr double kMostRoll = 0.5;
+  if (points.size() < kFewest) return std::nullopt;
+  const Vec2 mark = mark_of(body, points);
+  Lean out;
+  out.residual = out.upright = kInfinity;
+  for (const NominalOutline& n : nominals) {
+    const std::vector<Vec2> outline = points_of(n);
+    if (outline.empty()) continue;
+    const Vec2 nominal_mark = mark_of(body, outline);
+    out.upright = std::min(out.upright, fitted_to(points, n, start_at(mark, nominal_mark, 0.0), kLevel).rms);
+    for (const double roll : kStarts)
+      if (const RollFit fit = fitted_to(points, n, start_at(mark, nominal_mark, roll), kMostRoll);
+          fit.rms < out.residual) {
+        out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll, out.shift_y = fit.place.dy;
+        out.flange = flange_rms(points, n, fit.place);
+        out.lost_low = lost_on(points, n, fit.place, -1.0), out.lost_high = lost_on(points, n, fit.place, 1.0);
+      }
+  }
+  if (!(out.upright < kInfinity) && !(out.residual < kInfinity)) return std::nullopt;
+  return out;
+}
+
 }  // namespace
 
 NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2> outline) {
@@ -181,28 +229,13 @@ NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2
 }
 
 std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutline> nominals) {
-  constexpr std::size_t kFewest = 20;
-  constexpr std::array<double, 5> kStarts{0.0, 0.1, -0.1, 0.2, -0.2};
-  constexpr double kMostRoll = 0.5;
+  constexpr double kFits = 0.05e-3;
   const std::vector<Vec2> points = apart(profile);
-  if (points.size() < kFewest) return std::nullopt;
-  const Vec2 mark = mark_of(profile.body, points);
-  Lean out;
-  out.residual = out.upright = kInfinity;
-  for (const NominalOutline& n : nominals) {
-    const std::vector<Vec2> outline = points_of(n);
-    if (outline.empty()) continue;
-    const Vec2 nominal_mark = mark_of(profile.body, outline);
-    out.upright = std::min(out.upright, fitted_to(points, n, start_at(mark, nominal_mark, 0.0), kLevel).rms);
-    for (const double roll : kStarts)
-      if (const RollFit fit = fitted_to(points, n, start_at(mark, nominal_mark, roll), kMostRoll);
-          fit.rms < out.residual) {
-        out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll;
-        out.flange = flange_rms(points, n, fit.place);
-        out.lost_low = lost_on(points, n, fit.place, -1.0), out.lost_high = lost_on(points, n, fit.place, 1.0);
-      }
-  }
-  if (!(out.upright < kInfinity) && !(out.residual < kInfinity)) return std::nullopt;
+  std::optional<Lean> out = lean_of_points(points, profile.body, nominals);
+  if (profile.body == Body::rail && !(out && out->residual < kFits))
+    if (std::optional<Lean> head = lean_of_points(head_beside_groove(points), profile.body, nominals);
+        head && (!out || head->residual < out->residual))
+      return head;
   return out;
 }
 

@@ -25,6 +25,7 @@ NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2
 struct Lean {
   std::string name;       ///< of the nominal section
   double roll = 0.0;      ///< of the measured section, y towards z [rad]
+  double shift_y = 0.0;   ///< that lays the measured section upon it, after rolling it back [m]
   double residual = 0.0;  ///< rms of the better six tenths of the points, rolled back so [m]
   double flange = 0.0;    ///< rms of the better half of the points on the flange of a wheel, rolled back so [m]
   double upright = 0.0;   ///< the least such rms that any nominal section reaches within kLevel [m]
@@ -37,7 +38,8 @@ struct Lean {
 inline constexpr double kLevel = 7e-3;
 
 /// Least trimmed squares (Rousseeuw 1984) of the section upon each nominal one, by shift and roll: worn parts are
-/// among what is left out. Nothing where fewer than 20 mm of the section can be compared. Thread-safe.
+/// among what is left out. Of a rail with a groove that is like no nominal one the head alone. Nothing where fewer than
+/// 20 mm of the section can be compared. Thread-safe.
 std::optional<Lean> lean_of(const Profile& profile, std::span<const NominalOutline> nominals);
 
 }  // namespace treadmark::measured

@@ -65,8 +65,8 @@ struct Flange {
   double width = 0.0, middle = 0.0, reach = 0.0, second_width = 0.0, second_middle = 0.0;
 };
 
-/// The line along which most of an envelope lies: level, or sloped as in a tilted frame (slope by Theil 1950, Sen
-/// 1968).
+/// The line along which most of an envelope lies, level or sloped as in a tilted frame: least median of squares
+/// (Rousseeuw 1984), which half of the section may miss.
 struct Rest {
   double height = 0.0, slope = 0.0;  ///< at the first place; per step
   double at(std::size_t i) const { return height + slope * static_cast<double>(i); }
@@ -74,25 +74,42 @@ struct Rest {
 
 Rest rest_of(const Envelope& e) {
   constexpr std::size_t kSamples = 64;
+  constexpr int kSlopes = 40;  // to each side of level
+  constexpr double kSteepest = 0.2;
   std::vector<std::size_t> at;
-  for (std::size_t k = 0; k < kSamples; ++k)
+  for (std::size_t k = 0; k < kSamples && !e.height.empty(); ++k)
     if (const std::size_t i = k * (e.height.size() - 1) / (kSamples - 1); !std::isnan(e.height[i]))
       if (at.empty() || at.back() != i) at.push_back(i);
-  std::vector<double> slopes;
-  for (std::size_t a = 0; a < at.size(); ++a)
-    for (std::size_t b = a + 1; b < at.size(); ++b)
-      slopes.push_back((e.height[at[b]] - e.height[at[a]]) / static_cast<double>(at[b] - at[a]));
-  const auto on = [&](double slope) {
-    std::vector<double> rest;
-    for (const std::size_t i : at) rest.push_back(e.height[i] - slope * static_cast<double>(i));
-    const Rest line{quantile(rest, 0.5), slope};
-    for (double& r : rest) r = std::fabs(r - line.height);
-    return std::pair{line, quantile(std::move(rest), 0.5)};
+  if (at.empty()) return {};
+  const std::size_t half = at.size() / 2;
+  Rest best;
+  double narrowest = kInfinity;
+  std::vector<double> rest(at.size());
+  const auto attempt = [&](double slope) {
+    for (std::size_t k = 0; k < at.size(); ++k) rest[k] = e.height[at[k]] - slope * static_cast<double>(at[k]);
+    std::ranges::sort(rest);
+    for (std::size_t k = 0; k + half < rest.size(); ++k)
+      if (const double width = rest[k + half] - rest[k]; width < narrowest)
+        narrowest = width, best = {0.5 * (rest[k] + rest[k + half]), slope};
   };
-  const auto level = on(0.0);
-  if (slopes.empty()) return level.first;
-  const auto sloped = on(quantile(std::move(slopes), 0.5));
-  return sloped.second < level.second ? sloped.first : level.first;
+  for (int k = 0; k <= kSlopes; ++k)
+    for (const double sign : {1.0, -1.0}) attempt(sign * kStep * kSteepest * k / kSlopes);
+  return best;
+}
+
+/// Mean slope dh/dy of the places that belong, by pairs of them half of their extent apart (Theil 1950, Sen 1968);
+/// nothing where they are less than `least` wide.
+template <class Belongs>
+std::optional<double> trend_of(const Envelope& e, double least, Belongs belongs) {
+  std::vector<std::size_t> at;
+  for (std::size_t i = 0; i < e.height.size(); ++i)
+    if (!std::isnan(e.height[i]) && belongs(i)) at.push_back(i);
+  if (at.size() < 4 || kStep * static_cast<double>(at.back() - at.front()) < least) return std::nullopt;
+  const std::size_t half = at.size() / 2;
+  std::vector<double> slopes;
+  for (std::size_t k = 0; k + half < at.size(); ++k)
+    slopes.push_back((e.height[at[k + half]] - e.height[at[k]]) / (kStep * static_cast<double>(at[k + half] - at[k])));
+  return quantile(std::move(slopes), 0.5);
 }
 
 Flange flange_of(const Envelope& e) {
@@ -346,8 +363,13 @@ std::optional<double> tape_height(const SectionPoints& p) {
 }
 
 void find_marks(const SectionPoints& p, WheelMarks& marks) {
-  const Flange f = flange_of(envelope(p, 1.0));
+  constexpr double kOfTread = 5e-3, kLeastTread = 30e-3;
+  const Envelope e = envelope(p, 1.0);
+  const Flange f = flange_of(e);
+  const Rest rest = rest_of(e);
   marks.tape_z = tape_height(p);
+  marks.tread_slope =
+      trend_of(e, kLeastTread, [&](std::size_t i) { return std::fabs(e.height[i] - rest.at(i)) < kOfTread; });
   if (f.width <= 0.0) return;
   const auto tip = static_cast<std::size_t>(std::max_element(p.z.begin(), p.z.end()) - p.z.begin());
   marks.tip_y = p.y[tip], marks.tip_z = p.z[tip];
@@ -371,7 +393,11 @@ class Reader {
     if (p_.y.size() < 2) return std::move(u_);
     turn_z();
     turn_y();
-    if (p_.body == Body::wheel) {
+    if (p_.body == Body::rail) {
+      const Envelope up = envelope(p_, -1.0);
+      if (const std::optional<double> rise = trend_of(up, kLeastHead, [](std::size_t) { return true; }))
+        u_.head_slope = -*rise;
+    } else {
       find_marks(p_, u_.wheel);
       if (w_.place || w_.z_is_radius) place_wheel();
       judge_place();
@@ -415,6 +441,7 @@ class Reader {
   /// A sketch of fewer points or a piece of a tread shows nothing, and is taken as it is.
   static constexpr std::size_t kFewest = 10;
   static constexpr double kRise = 1.0;  ///< of a tread that speaks for the other sense [mm]
+  static constexpr double kLeastHead = 20e-3;
   bool has_evidence() const { return p_.y.size() >= kFewest && u_.z.marked; }
 
   void turn_y() {

@@ -54,6 +54,7 @@ struct WheelMarks {
   bool second_flange = false;          ///< one on the other side too
   std::optional<double> tips_lean;     ///< of the line through the tips of two flanges, as back_lean [rad]
   std::optional<double> tape_z;        ///< of the tread at y = 0
+  std::optional<double> tread_slope;   ///< dz/dy in the mean; nothing where less than 30 mm of it are measured
 };
 
 /// What was understood of a section.
@@ -62,6 +63,7 @@ struct Understanding {
   bool mirrored_y = false, mirrored_z = false;
   double shift_y = 0.0, shift_z = 0.0;  ///< that were added after mirroring [m]
   WheelMarks wheel;                     ///< of a wheel, after all that
+  std::optional<double> head_slope;     ///< dz/dy of the top of a rail in the mean
   std::vector<std::string> notes;       ///< what was done to the points
   std::vector<Doubt> doubts;
 };

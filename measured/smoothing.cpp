@@ -536,7 +536,7 @@ struct Assumptions {
 std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assumptions& assumed) {
   constexpr std::size_t kMostCorners = 12;
   constexpr double kFirstCutoff = 1.0;  ///< wavelength that the first curve halves, which only has to lie near
-  constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kNarrow = 3.0, kFine = 1.0;
+  constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kNarrow = 3.0, kFine = 1.0, kMostMore = 20.0;
   constexpr double kOfStep = 0.1;  ///< least noise before rounding, of the step
   const double knot_step = std::clamp(points.step, kFinestKnots, kCoarsestKnots);
   const Knots knots = Knots::over(points.s.front(), points.s.back(), knot_step);
@@ -572,7 +572,11 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
         return fit_of(found);
       };
       if (by_halves) {
-        Values start = problem.white(6.0 * std::log(cutoff) - std::log(points.step), across).heights;
+        // a penalty that is too small leaves knots without a point undetermined
+        Values start;
+        for (double more = 0.0; start.empty() && more <= kMostMore; more += kCoarse)
+          start = problem.white(6.0 * std::log(cutoff) - std::log(points.step) + more, across).heights;
+        if (start.empty()) return std::nullopt;
         laid.fit = search([&](double x) {
           Fit fit = problem.rounded(x, before, start);
           if (!fit.heights.empty()) start = fit.heights;

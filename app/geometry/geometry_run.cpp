@@ -21,6 +21,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/body_name.hpp"
 #include "treadmark/model/magnitudes.hpp"
@@ -369,10 +370,18 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request) {
   std::vector<std::string> out, seen;
   for (const auto& [name, body] : {std::pair{request.wheel, Body::wheel}, std::pair{request.wheel_left, Body::wheel},
                                    std::pair{request.rail, Body::rail}, std::pair{request.rail_left, Body::rail}}) {
-    if (std::ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name) || !is_profile_file(name))
-      continue;
+    if (std::ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name)) continue;
     seen.push_back(name);
-    const CheckedProfile checked = check_profile(name, body, {}, {{}, {}, true, request.cant});
+    const io::ExpectedProfile expected{{}, {}, true, request.cant};
+    if (io::is_slices_file(name)) {
+      io::ProfileOptions options;
+      options.scale = request.scale_to_mm;
+      if (std::string doubt = doubt_of_slices(io::read_slices(name, body, options), name, body, expected);
+          !doubt.empty())
+        out.push_back(std::move(doubt));
+    }
+    if (!is_profile_file(name)) continue;
+    const CheckedProfile checked = check_profile(name, body, {}, expected);
     for (const io::ProfileRemark& remark : checked.judgement.remarks)
       if (remark.name != "gauge_point")  // refused where it is needed
         out.push_back(fmt::format("{}: {}: {}", checked.name, remark.name, remark.text));

@@ -138,30 +138,39 @@ struct Roll {
   std::string seen;
 };
 
-/// By a nominal section where so much is there that it shows: the top of a rail rolls as it is shifted. By the flanges
-/// of a wheel where none fits.
+/// By a nominal section where so much is there that it shows: the top of a rail rolls as it is shifted. Where none fits
+/// clearly better so, by the flanges of a wheel, and of what has none by the slope of the tread or head.
 std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::Lean* lean) {
   constexpr double kRail = 0.05e-3, kWheel = 0.15e-3, kLarge = 0.05, kOfLargeRoll = 0.3e-3, kDeep = 10e-3;
   constexpr double kAlike = 0.02e-3, kFarOff = 0.1e-3;
   constexpr double kTimesBetter = 1.5, kLevelTips = 0.012, kUprightBack = 0.05;
+  constexpr double kTread = -0.045, kOtherTreads = 0.055;  // treads taper off by 1:10 to level, rails are canted by 1:20
   const Profile& profile = sourced.profile;
   const measured::WheelMarks& marks = sourced.source.understood.wheel;
   const auto [top, bottom] = std::ranges::minmax(profile.z);
   // of a top alone only a large roll is told from a shift
   const bool shows = bottom - top > kDeep || (lean != nullptr && std::fabs(lean->roll) > kLarge &&
                                               lean->residual < kAlike && lean->upright > kFarOff);
+  std::optional<Roll> unsure;
   if (lean != nullptr && !marks.second_flange && shows) {
     const double fits = profile.body == Body::rail ? kRail : std::fabs(lean->roll) > kLarge ? kOfLargeRoll : kWheel;
-    if (lean->residual <= fits && (profile.body == Body::rail || lean->flange <= fits))
-      return Roll{lean->roll, lean->upright > kTimesBetter * lean->residual,
-                  fmt::format("against {}: {:.2g} mm off it when rolled back, {:.2g} mm as it is", lean->name,
-                              kMilli * lean->residual, kMilli * lean->upright)};
+    if (lean->residual <= fits && (profile.body == Body::rail || lean->flange <= fits)) {
+      unsure = Roll{lean->roll, lean->upright > kTimesBetter * lean->residual,
+                    fmt::format("against {}: {:.2g} mm off it when rolled back, {:.2g} mm as it is", lean->name,
+                                kMilli * lean->residual, kMilli * lean->upright)};
+      if (unsure->sure || lean->upright <= fits) return unsure;
+    }
   }
   if (marks.tips_lean)
     return Roll{*marks.tips_lean, std::fabs(*marks.tips_lean) > kLevelTips, "by the tips of its flanges"};
   if (marks.back_lean)
     return Roll{*marks.back_lean, std::fabs(*marks.back_lean) > kUprightBack, "by the back of its flange"};
-  return std::nullopt;
+  if (marks.tread_slope && std::fabs(*marks.tread_slope - kTread) > kOtherTreads)
+    return Roll{*marks.tread_slope - kTread, true, "by the slope of its tread"};
+  const std::optional<double>& head = sourced.source.understood.head_slope;
+  if (head && bottom - top < kDeep && std::fabs(*head) > kOtherTreads)
+    return Roll{*head, true, "by the slope of its top"};
+  return unsure;
 }
 
 /// A section that is rolled was measured in a frame that is tilted, or of a rail that is inclined.
@@ -184,7 +193,8 @@ void judge_roll(const Roll& roll, Body body, const io::ExpectedProfile& expected
 void judge_against_nominal(const io::SourcedProfile& sourced, const io::ExpectedProfile& expected,
                            io::ProfileJudgement& to) {
   constexpr double kFits = 0.05e-3;  // a worse fit shows nothing
-  constexpr double kWorn = 1e-3, kAsNew = 0.3e-3;
+  constexpr double kWorn = 1e-3, kAsNew = 0.3e-3, kShifted = 0.7e-3;
+  const measured::WheelMarks& marks = sourced.source.understood.wheel;
   const Profile& profile = sourced.profile;
   std::vector<measured::NominalOutline> outlines;
   for (const Standard& standard : standards(profile.body))
@@ -193,6 +203,12 @@ void judge_against_nominal(const io::SourcedProfile& sourced, const io::Expected
   if (const std::optional<Roll> roll = roll_of(sourced, lean ? &*lean : nullptr))
     judge_roll(*roll, profile.body, expected, to);
   if (!lean || lean->residual > kFits) return;
+  if (profile.body == Body::wheel && !marks.back_y && lean->flange <= kFits && std::fabs(lean->shift_y) > kShifted &&
+      std::ranges::find(to.remarks, "tape_line", &io::ProfileRemark::name) == to.remarks.end())
+    to.remarks.push_back(
+        {"tape_line", fmt::format("y = 0 lies {:.2f} mm from the tape line of {}, which the section fits, and the back "
+                                  "of the flange is not in the section: measure it too, or shift y",
+                                  kMilli * std::fabs(lean->shift_y), lean->name)});
   if (profile.body == Body::rail && !sourced.source.mirrored_y && lean->lost_high > kWorn && lean->lost_low < kAsNew)
     to.remarks.push_back(
         {"gauge_side",
@@ -210,6 +226,12 @@ CheckedProfile checked(const io::SourcedProfile& profile, const std::filesystem:
   judge_against_nominal(profile, expected, out.judgement);
   if (nearest == Nearest::yes) add_nearest(profile.profile, out.judgement);
   return out;
+}
+
+/// The slices that a source names by itself.
+const io::GeometryFile* slices_file(const io::SurfaceSource& source) {
+  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  return source.parts.empty() && file != nullptr && io::is_slices_file(file->file) ? file : nullptr;
 }
 
 bool same_use(const ProfileUse& a, const ProfileUse& b) {
@@ -311,54 +333,38 @@ std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) {
   return out;
 }
 
-std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body,
-                                       const io::ExpectedProfile& expected) {
-  std::vector<ProfileUse> uses;
-  collect(source, body, expected, uses);
-  std::vector<std::string> out;
-  for (const ProfileUse& use : uses) {
-    const CheckedProfile one = checked(io::read_sourced_profile(use.file.file, body, use.file.options, use.where),
-                                       use.file.file, expected, Nearest::no);
-    for (const io::ProfileRemark& remark : one.judgement.remarks)
-      out.push_back(fmt::format("{}: {}: {}", one.name, remark.name, remark.text));
-  }
-  return out;
-}
-
 namespace {
 
 /// What noise or a tilted frame would do to a section of slices, which are not smoothed.
 std::string doubt_of_section(const Profile& section, measured::Understanding seen,
                              const io::ExpectedProfile& expected) {
-  constexpr double kFelt = 2e-6;  // [m] neighbouring sections take some away
+  constexpr double kFelt = 2e-6;   // [m] neighbouring sections take some away
+  constexpr double kDense = 1e-3;  // [m] points farther apart scatter by the curve between them
   io::SourcedProfile sourced;
   sourced.profile = section;
   sourced.source.understood = std::move(seen);
   io::ProfileJudgement judged;
   judge_against_nominal(sourced, expected, judged);
   if (!judged.remarks.empty()) return judged.remarks.front().name + ": " + judged.remarks.front().text;
-  const double noise = measured::profile_noise(section).across;
-  if (section.smoothing.strength > 0.0 || noise < kFelt) return {};
+  const measured::PointNoise noise = measured::profile_noise(section);
+  if (section.smoothing.strength > 0.0 || noise.across < kFelt || noise.step > kDense) return {};
   return fmt::format(
       "noise: the points scatter by {:.2g} mm and the surface runs through all of them: pressures are too "
       "large; smooth the sections in the file, or import the points anew",
-      kMilli * noise);
+      kMilli * noise.across);
 }
 
-/// Slices lie as they are in their file: a section in their middle shows whether that is the place of a wheel or rail.
-std::string doubt_of_slices(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected,
-                            double radius, SurfaceStore& store) {
-  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
-  if (!source.parts.empty() || file == nullptr || !io::is_slices_file(file->file)) return {};
-  const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, radius);
-  const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
-  if (slices == nullptr || slices->profiles.empty()) return {};
+}  // namespace
+
+std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Body body,
+                            const io::ExpectedProfile& expected) {
+  if (slices.profiles.empty()) return {};
   // what all sections agree in: those of a crossing are of different rails
   constexpr std::size_t kLooked = 7;
-  const std::size_t step = std::max<std::size_t>(1, slices->profiles.size() / kLooked);
+  const std::size_t step = std::max<std::size_t>(1, slices.profiles.size() / kLooked);
   measured::Understanding seen;
-  for (std::size_t i = 0; i < slices->profiles.size(); i += step) {
-    measured::SectionPoints points{body, slices->profiles[i].y, slices->profiles[i].z};
+  for (std::size_t i = 0; i < slices.profiles.size(); i += step) {
+    measured::SectionPoints points{body, slices.profiles[i].y, slices.profiles[i].z};
     measured::Understanding one = measured::understand(points, {});
     const bool agrees = i == 0 || (one.mirrored_z == seen.mirrored_z && one.mirrored_y == seen.mirrored_y &&
                                    (one.shift_y != 0.0) == (seen.shift_y != 0.0));
@@ -373,13 +379,29 @@ std::string doubt_of_slices(const io::SurfaceSource& source, Body body, const io
   else if (seen.shift_y != 0.0)
     what = fmt::format("tape_line: y = 0 lies {:.2f} mm from the tape line, 70 mm from the back of the flange",
                        kMilli * std::fabs(seen.shift_y));
-  if (what.empty()) what = doubt_of_section(slices->profiles[slices->profiles.size() / 2], std::move(seen), expected);
+  if (what.empty()) what = doubt_of_section(slices.profiles[slices.profiles.size() / 2], std::move(seen), expected);
   return what.empty() ? what
-                      : fmt::format("{} slices {}: {}; slices are taken as they lie", body_name(body),
-                                    file->file.string(), what);
+                      : fmt::format("{} slices {}: {}; slices are taken as they lie", body_name(body), file, what);
 }
 
-}  // namespace
+std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body,
+                                       const io::ExpectedProfile& expected) {
+  std::vector<std::string> out;
+  if (const io::GeometryFile* file = slices_file(source))
+    if (std::string doubt = doubt_of_slices(io::read_slices(file->file, body, file->options, source.where),
+                                            file->file.string(), body, expected);
+        !doubt.empty())
+      out.push_back(std::move(doubt));
+  std::vector<ProfileUse> uses;
+  collect(source, body, expected, uses);
+  for (const ProfileUse& use : uses) {
+    const CheckedProfile one = checked(io::read_sourced_profile(use.file.file, body, use.file.options, use.where),
+                                       use.file.file, expected, Nearest::no);
+    for (const io::ProfileRemark& remark : one.judgement.remarks)
+      out.push_back(fmt::format("{}: {}: {}", one.name, remark.name, remark.text));
+  }
+  return out;
+}
 
 ProfilesOfRun check_profiles_of_run(const io::CaseFile& file) { return checked_uses(file, Nearest::no); }
 
@@ -405,13 +427,20 @@ void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, Su
     if (given == file.cases.end()) continue;
     const auto* input = std::get_if<io::WheelRailCase>(&given->content);
     if (input == nullptr) continue;
-    for (const Body body : {Body::rail, Body::wheel})
-      if (std::string doubt = doubt_of_slices(
-              body == Body::wheel ? input->wheel : input->rail, body,
-              {{}, {}, input->track.gauge_based, body == Body::rail ? std::optional(input->track.cant) : std::nullopt},
-              profile_radius(*input, body), store);
+    for (const Body body : {Body::rail, Body::wheel}) {
+      const io::SurfaceSource& source = body == Body::wheel ? input->wheel : input->rail;
+      const io::GeometryFile* file_of = slices_file(source);
+      if (file_of == nullptr) continue;
+      const std::shared_ptr<const NaturalSurface> natural =
+          store.natural(source, body, profile_radius(*input, body));
+      const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
+      if (slices == nullptr) continue;
+      const std::optional<double> cant = body == Body::rail ? std::optional(input->track.cant) : std::nullopt;
+      if (std::string doubt =
+              doubt_of_slices(*slices, file_of->file.string(), body, {{}, {}, input->track.gauge_based, cant});
           !doubt.empty())
         result.remarks.push_back({RemarkKind::profile_doubtful, 0, std::move(doubt)});
+    }
     for (const ProfileUse& use : uses_of(*given))
       for (const auto& [same, profile] : known) {
         if (!same_use(same, use)) continue;

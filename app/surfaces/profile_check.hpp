@@ -12,6 +12,7 @@
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/profiles/judge_profile.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/model/slices.hpp"
 
 namespace treadmark::app {
 
@@ -39,7 +40,12 @@ std::optional<Body> body_by_shape(const std::filesystem::path& file);
 /// The same for every profile file that the cases of a file use, each once. Errors as read_profile.
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file);
 
-/// The doubts about the profile files behind a wheel or rail. Errors as read_profile.
+/// Slices lie as they are in their file: what some of them agree in shows whether that is the place of a wheel or rail,
+/// and whether their points scatter. Empty where nothing is doubtful. Never throws; thread-safe.
+std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Body body,
+                            const io::ExpectedProfile& expected);
+
+/// The doubts about the profile files or slices behind a wheel or rail. Errors as read_profile and read_slices.
 std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected);
 
 /// The doubts and notes of check_profiles as notes of a run.

@@ -171,5 +171,65 @@ TEST(MeasuredSection, RollAgainstANominalSectionIsFound) {
   }
 }
 
+/// What lies between two places.
+SectionPoints part_of(const SectionPoints& p, double low, double high) {
+  SectionPoints out;
+  out.body = p.body;
+  for (std::size_t i = 0; i < p.y.size(); ++i)
+    if (p.y[i] >= low && p.y[i] <= high) out.y.push_back(p.y[i]), out.z.push_back(p.z[i]);
+  return out;
+}
+
+TEST(MeasuredSection, AFlangeIsAsWideAsTheRestOfASectionThatIsCut) {
+  for (const double end : {0.005, 0.020, 0.045})
+    for (const double hollow : {0.0, 4e-3})
+      for (const double tilt : {-8.0, 0.0, 8.0})
+        for (const bool mirror_z : {false, true}) {
+          SectionPoints p = turned(part_of(wheel(hollow), -1.0, end), tilt * kDegree, false, mirror_z, 0.0, 0.0);
+          const Understanding u = understand(p, {});
+          EXPECT_EQ(u.mirrored_z, mirror_z) << end << ' ' << hollow << ' ' << tilt;
+          ASSERT_TRUE(u.wheel.tip_y);
+          EXPECT_LT(*u.wheel.tip_y, -0.04);
+        }
+}
+
+TEST(MeasuredSection, TreadsAndTopsTellTheirSlope) {
+  for (const double tilt : {-5.0, 0.0, 5.0}) {
+    SectionPoints tread = turned(part_of(wheel(0.0), -25e-3, 50e-3), tilt * kDegree, false, false, 0.0, 0.0);
+    const Understanding of_wheel = understand(tread, {Turn::no, Turn::no, true, false});
+    ASSERT_TRUE(of_wheel.wheel.tread_slope);
+    EXPECT_NEAR(*of_wheel.wheel.tread_slope, std::tan(tilt * kDegree - std::atan(0.05)), 2e-3);
+
+    SectionPoints top;
+    for (double y = -20e-3; y <= 20e-3; y += 0.2e-3) top.y.push_back(y), top.z.push_back(y * y / 0.6);
+    top = turned(top, tilt * kDegree, false, false, 0.0, 0.0);
+    const Understanding of_rail = understand(top, {});
+    ASSERT_TRUE(of_rail.head_slope);
+    EXPECT_NEAR(*of_rail.head_slope, std::tan(tilt * kDegree), 2e-3);
+  }
+}
+
+TEST(MeasuredSection, TheHeadBesideAGrooveIsLaidUponANominalOneAlone) {
+  const auto head = [](double y) { return y * y / 0.6 + 400.0 * std::pow(std::max(0.0, std::fabs(y) - 20e-3), 2); };
+  std::vector<Vec2> outline;
+  for (double y = -30e-3; y <= 30e-3; y += 0.25e-3) outline.emplace_back(y, head(y));
+  const std::vector<NominalOutline> nominals{nominal_outline("head", Body::rail, outline)};
+  for (const double degrees : {-4.0, 4.0}) {
+    SectionPoints p;
+    for (double y = -26e-3; y <= 75e-3; y += 0.2e-3) {
+      const double keeper = y > 60e-3 ? 2e-3 : 1.0;
+      p.y.push_back(y), p.z.push_back(std::min({std::max(0.0, head(y)), 40e-3, keeper}));
+    }
+    p = turned(p, degrees * kDegree, false, false, 0.0, 0.0);
+    Profile profile;
+    profile.body = Body::rail;
+    profile.y = p.y, profile.z = p.z;
+    const std::optional<Lean> lean = lean_of(profile, nominals);
+    ASSERT_TRUE(lean);
+    EXPECT_NEAR(lean->roll, degrees * kDegree, 2e-3);
+    EXPECT_LT(lean->residual, 20e-6);
+  }
+}
+
 }  // namespace
 }  // namespace treadmark::measured

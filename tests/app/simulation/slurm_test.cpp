@@ -127,9 +127,10 @@ TEST_F(SlurmCluster, ANodeThatDiesInTheMiddleLeavesTheBytesAsTheyAre) {
   // Slurm would find out by itself, and would let the task wait two minutes.
   shell("scontrol update NodeName=" + node + " State=DOWN Reason=dead");
   const auto requeued = [&] {
-    return shell("squeue -h -t PD -o '%K %r' | grep -q '^" + task + " BeginTime'").status == 0;
+    // until its end is cleared away it still counts as completing
+    return shell("squeue -h -o '%K %T %r' | grep -q '^" + task + " .*BeginTime'").status == 0;
   };
-  ASSERT_TRUE(until(requeued)) << shell("squeue").out;
+  ASSERT_TRUE(until(requeued)) << node << ' ' << task << '\n' << shell("squeue -o '%i %K %T %N %r'; sinfo").out << logs();
   shell("scontrol update JobId=$(head -1 " + input.path("out/slurm/jobs") + ")_" + task + " StartTime=now");
 
   ASSERT_TRUE(until([&] { return fs::exists(input.path("out/written.id")); })) << logs() << shell("squeue; sinfo").out;
