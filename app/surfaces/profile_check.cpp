@@ -144,33 +144,34 @@ std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::L
   constexpr double kRail = 0.05e-3, kWheel = 0.15e-3, kLarge = 0.05, kOfLargeRoll = 0.3e-3, kDeep = 10e-3;
   constexpr double kAlike = 0.02e-3, kFarOff = 0.1e-3;
   constexpr double kTimesBetter = 1.5, kLevelTips = 0.012, kUprightBack = 0.05;
-  constexpr double kTread = -0.045, kOtherTreads = 0.055;  // treads taper off by 1:10 to level, rails are canted by 1:20
+  constexpr double kTread = -0.045,
+                   kOtherTreads = 0.055;  // treads taper off by 1:10 to level, rails are canted by 1:20
   const Profile& profile = sourced.profile;
   const measured::WheelMarks& marks = sourced.source.understood.wheel;
   const auto [top, bottom] = std::ranges::minmax(profile.z);
   // of a top alone only a large roll is told from a shift
   const bool shows = bottom - top > kDeep || (lean != nullptr && std::fabs(lean->roll) > kLarge &&
                                               lean->residual < kAlike && lean->upright > kFarOff);
-  std::optional<Roll> unsure;
+  std::vector<Roll> seen;
   if (lean != nullptr && !marks.second_flange && shows) {
     const double fits = profile.body == Body::rail ? kRail : std::fabs(lean->roll) > kLarge ? kOfLargeRoll : kWheel;
-    if (lean->residual <= fits && (profile.body == Body::rail || lean->flange <= fits)) {
-      unsure = Roll{lean->roll, lean->upright > kTimesBetter * lean->residual,
-                    fmt::format("against {}: {:.2g} mm off it when rolled back, {:.2g} mm as it is", lean->name,
-                                kMilli * lean->residual, kMilli * lean->upright)};
-      if (unsure->sure || lean->upright <= fits) return unsure;
-    }
+    if (lean->residual <= fits && (profile.body == Body::rail || lean->flange <= fits))
+      seen.push_back({lean->roll, lean->upright > kTimesBetter * lean->residual,
+                      fmt::format("against {}: {:.2g} mm off it when rolled back, {:.2g} mm as it is", lean->name,
+                                  kMilli * lean->residual, kMilli * lean->upright)});
   }
   if (marks.tips_lean)
-    return Roll{*marks.tips_lean, std::fabs(*marks.tips_lean) > kLevelTips, "by the tips of its flanges"};
-  if (marks.back_lean)
-    return Roll{*marks.back_lean, std::fabs(*marks.back_lean) > kUprightBack, "by the back of its flange"};
-  if (marks.tread_slope && std::fabs(*marks.tread_slope - kTread) > kOtherTreads)
-    return Roll{*marks.tread_slope - kTread, true, "by the slope of its tread"};
-  const std::optional<double>& head = sourced.source.understood.head_slope;
-  if (head && bottom - top < kDeep && std::fabs(*head) > kOtherTreads)
-    return Roll{*head, true, "by the slope of its top"};
-  return unsure;
+    seen.push_back({*marks.tips_lean, std::fabs(*marks.tips_lean) > kLevelTips, "by the tips of its flanges"});
+  else if (marks.back_lean)
+    seen.push_back({*marks.back_lean, std::fabs(*marks.back_lean) > kUprightBack, "by the back of its flange"});
+  else if (marks.tread_slope && std::fabs(*marks.tread_slope - kTread) > kOtherTreads)
+    seen.push_back({*marks.tread_slope - kTread, true, "by the slope of its tread"});
+  else if (const auto& head = sourced.source.understood.head_slope;
+           head && bottom - top < kDeep && std::fabs(*head) > kOtherTreads)
+    seen.push_back({*head, true, "by the slope of its top"});
+  if (seen.empty()) return std::nullopt;
+  const auto sure = std::ranges::find(seen, true, &Roll::sure);
+  return sure != seen.end() ? *sure : seen.front();
 }
 
 /// A section that is rolled was measured in a frame that is tilted, or of a rail that is inclined.
@@ -431,8 +432,7 @@ void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, Su
       const io::SurfaceSource& source = body == Body::wheel ? input->wheel : input->rail;
       const io::GeometryFile* file_of = slices_file(source);
       if (file_of == nullptr) continue;
-      const std::shared_ptr<const NaturalSurface> natural =
-          store.natural(source, body, profile_radius(*input, body));
+      const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, profile_radius(*input, body));
       const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
       if (slices == nullptr) continue;
       const std::optional<double> cant = body == Body::rail ? std::optional(input->track.cant) : std::nullopt;

@@ -130,7 +130,8 @@ TEST_F(SlurmCluster, ANodeThatDiesInTheMiddleLeavesTheBytesAsTheyAre) {
     // until its end is cleared away it still counts as completing
     return shell("squeue -h -o '%K %T %r' | grep -q '^" + task + " .*BeginTime'").status == 0;
   };
-  ASSERT_TRUE(until(requeued)) << node << ' ' << task << '\n' << shell("squeue -o '%i %K %T %N %r'; sinfo").out << logs();
+  ASSERT_TRUE(until(requeued)) << node << ' ' << task << '\n'
+                               << shell("squeue -o '%i %K %T %N %r'; sinfo").out << logs();
   shell("scontrol update JobId=$(head -1 " + input.path("out/slurm/jobs") + ")_" + task + " StartTime=now");
 
   ASSERT_TRUE(until([&] { return fs::exists(input.path("out/written.id")); })) << logs() << shell("squeue; sinfo").out;
