@@ -97,10 +97,9 @@ Rest rest_of(const Envelope& e) {
   return best;
 }
 
-/// Mean slope dh/dy of the places that belong, by pairs of them half of their extent apart (Theil 1950, Sen 1968);
-/// nothing where they are less than `least` wide.
+/// Of the places that belong (Theil 1950, Sen 1968); nothing where they are less than `least` wide.
 template <class Belongs>
-std::optional<double> trend_of(const Envelope& e, double least, Belongs belongs) {
+std::optional<Trend> trend_of(const Envelope& e, double least, Belongs belongs) {
   std::vector<std::size_t> at;
   for (std::size_t i = 0; i < e.height.size(); ++i)
     if (!std::isnan(e.height[i]) && belongs(i)) at.push_back(i);
@@ -109,7 +108,10 @@ std::optional<double> trend_of(const Envelope& e, double least, Belongs belongs)
   std::vector<double> slopes;
   for (std::size_t k = 0; k + half < at.size(); ++k)
     slopes.push_back((e.height[at[k + half]] - e.height[at[k]]) / (kStep * static_cast<double>(at[k + half] - at[k])));
-  return quantile(std::move(slopes), 0.5);
+  Trend trend{quantile(slopes, 0.5), 0.0};
+  for (double& s : slopes) s = std::fabs(s - trend.slope);
+  trend.spread = quantile(std::move(slopes), 0.5);
+  return trend;
 }
 
 Flange flange_of(const Envelope& e) {
@@ -368,8 +370,7 @@ void find_marks(const SectionPoints& p, WheelMarks& marks) {
   const Flange f = flange_of(e);
   const Rest rest = rest_of(e);
   marks.tape_z = tape_height(p);
-  marks.tread_slope =
-      trend_of(e, kLeastTread, [&](std::size_t i) { return std::fabs(e.height[i] - rest.at(i)) < kOfTread; });
+  marks.tread = trend_of(e, kLeastTread, [&](std::size_t i) { return std::fabs(e.height[i] - rest.at(i)) < kOfTread; });
   if (f.width <= 0.0) return;
   const auto tip = static_cast<std::size_t>(std::max_element(p.z.begin(), p.z.end()) - p.z.begin());
   marks.tip_y = p.y[tip], marks.tip_z = p.z[tip];
@@ -395,8 +396,8 @@ class Reader {
     turn_y();
     if (p_.body == Body::rail) {
       const Envelope up = envelope(p_, -1.0);
-      if (const std::optional<double> rise = trend_of(up, kLeastHead, [](std::size_t) { return true; }))
-        u_.head_slope = -*rise;
+      u_.head = trend_of(up, kLeastHead, [](std::size_t) { return true; });
+      if (u_.head) u_.head->slope *= -1.0;
     } else {
       find_marks(p_, u_.wheel);
       if (w_.place || w_.z_is_radius) place_wheel();

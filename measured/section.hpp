@@ -43,6 +43,12 @@ struct Doubt {
   std::string text;
 };
 
+/// Slope of a tread or top, by pairs of points half of its extent apart.
+struct Trend {
+  double slope = 0.0;   ///< dz/dy, median
+  double spread = 0.0;  ///< median deviation from it: that of a hollow tread is large
+};
+
 /// The marks of a wheel's section, z down [m].
 struct WheelMarks {
   std::optional<double> tip_y, tip_z;  ///< of the flange, where there is one
@@ -54,7 +60,7 @@ struct WheelMarks {
   bool second_flange = false;          ///< one on the other side too
   std::optional<double> tips_lean;     ///< of the line through the tips of two flanges, as back_lean [rad]
   std::optional<double> tape_z;        ///< of the tread at y = 0
-  std::optional<double> tread_slope;   ///< dz/dy in the mean; nothing where less than 30 mm of it are measured
+  std::optional<Trend> tread;          ///< nothing where less than 30 mm of it are measured
 };
 
 /// What was understood of a section.
@@ -63,7 +69,7 @@ struct Understanding {
   bool mirrored_y = false, mirrored_z = false;
   double shift_y = 0.0, shift_z = 0.0;  ///< that were added after mirroring [m]
   WheelMarks wheel;                     ///< of a wheel, after all that
-  std::optional<double> head_slope;     ///< dz/dy of the top of a rail in the mean
+  std::optional<Trend> head;            ///< of the top of a rail
   std::vector<std::string> notes;       ///< what was done to the points
   std::vector<Doubt> doubts;
 };

@@ -164,11 +164,11 @@ std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::L
     seen.push_back({*marks.tips_lean, std::fabs(*marks.tips_lean) > kLevelTips, "by the tips of its flanges"});
   else if (marks.back_lean)
     seen.push_back({*marks.back_lean, std::fabs(*marks.back_lean) > kUprightBack, "by the back of its flange"});
-  else if (marks.tread_slope && std::fabs(*marks.tread_slope - kTread) > kOtherTreads)
-    seen.push_back({*marks.tread_slope - kTread, true, "by the slope of its tread"});
-  else if (const auto& head = sourced.source.understood.head_slope;
-           head && bottom - top < kDeep && std::fabs(*head) > kOtherTreads)
-    seen.push_back({*head, true, "by the slope of its top"});
+  else if (marks.tread && std::fabs(marks.tread->slope - kTread) > kOtherTreads + marks.tread->spread)
+    seen.push_back({marks.tread->slope - kTread, true, "by the slope of its tread"});
+  else if (const auto& head = sourced.source.understood.head;
+           head && bottom - top < kDeep && std::fabs(head->slope) > kOtherTreads)
+    seen.push_back({head->slope, true, "by the slope of its top"});
   if (seen.empty()) return std::nullopt;
   const auto sure = std::ranges::find(seen, true, &Roll::sure);
   return sure != seen.end() ? *sure : seen.front();

@@ -197,15 +197,15 @@ TEST(MeasuredSection, TreadsAndTopsTellTheirSlope) {
   for (const double tilt : {-5.0, 0.0, 5.0}) {
     SectionPoints tread = turned(part_of(wheel(0.0), -25e-3, 50e-3), tilt * kDegree, false, false, 0.0, 0.0);
     const Understanding of_wheel = understand(tread, {Turn::no, Turn::no, true, false});
-    ASSERT_TRUE(of_wheel.wheel.tread_slope);
-    EXPECT_NEAR(*of_wheel.wheel.tread_slope, std::tan(tilt * kDegree - std::atan(0.05)), 2e-3);
+    ASSERT_TRUE(of_wheel.wheel.tread);
+    EXPECT_NEAR(of_wheel.wheel.tread->slope, std::tan(tilt * kDegree - std::atan(0.05)), 2e-3);
 
     SectionPoints top;
     for (double y = -20e-3; y <= 20e-3; y += 0.2e-3) top.y.push_back(y), top.z.push_back(y * y / 0.6);
     top = turned(top, tilt * kDegree, false, false, 0.0, 0.0);
     const Understanding of_rail = understand(top, {});
-    ASSERT_TRUE(of_rail.head_slope);
-    EXPECT_NEAR(*of_rail.head_slope, std::tan(tilt * kDegree), 2e-3);
+    ASSERT_TRUE(of_rail.head);
+    EXPECT_NEAR(of_rail.head->slope, std::tan(tilt * kDegree), 2e-3);
   }
 }
 
