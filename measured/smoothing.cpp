@@ -347,9 +347,10 @@ double log_normal_share(double from, double to, double& slope, double& bend) {
   return std::log(share);
 }
 
-/// A place where the curve may change its slope at once, by how much, and how many standard deviations that is.
-struct Corner {
-  double s = 0.0, turn = 0.0, significance = 0.0;
+/// A place where the curve may change its slope (a corner) or its curvature (where two arcs meet) at once, by how much,
+/// and how many standard deviations that is.
+struct Break {
+  double s = 0.0, turn = 0.0, bend = 0.0, significance = 0.0;
 };
 
 /// One smoothing problem: heights over s, the penalties but for their factor.
@@ -432,26 +433,34 @@ class Problem {
     return fit;
   }
 
-  /// The most significant corner of the fit that was made last: what freeing its two third differences would gain
-  /// (score test, Rao 1948).
-  Corner likeliest_corner(const Fit& fit) const {
+  /// The most significant break of the fit that was made last: what freeing two third differences, of a corner, or one,
+  /// of a bend, would gain (score test, Rao 1948). Beside a bend the test of a corner would find one as well.
+  Break likeliest_break(const Fit& fit) const {
     constexpr double kEnds = 2.0;  ///< no corner is told from a bend so near an end
     constexpr double kTold = 1e-9;
     constexpr double kDifference[] = {-1.0, 3.0, -3.0, 1.0};
-    Corner best;
+    Break best;
     const double first = line_.knots.first, last = line_.knots.last(), step = line_.knots.step;
+    const auto judge = [&](int k, double s, double score, double whole, std::span<const double> pull, bool corner) {
+      if (s < first + kEnds || s > last - kEnds) return;
+      const double information = whole - fit.precision.inverse_square_of_few(at(k), pull);
+      if (!(information > kTold * whole)) return;
+      const double t = std::fabs(score) / std::sqrt(information * fit.variance), size = std::fabs(score) / information;
+      if (t > best.significance) best = {s, corner ? size : 0.0, corner ? 0.0 : size / (step * step), t};
+    };
+    for (int k = 0; k < line_.knots.cells; ++k) {
+      const double penalty = penalties_[at(k)], score = penalty * third_difference(fit.heights, k);
+      std::array<double, 4> pull{};
+      for (std::size_t m = 0; m < 4; ++m) pull[m] = penalty * kDifference[m];
+      judge(k, line_.knots.node(k) + 0.5 * step, score, penalty, pull, false);
+    }
     for (int k = 1; k < line_.knots.cells; ++k) {
-      const double s = line_.knots.node(k);
-      if (s < first + kEnds || s > last - kEnds) continue;
       const double before = step * penalties_[at(k - 1)], after = step * penalties_[at(k)];
-      const double score = before * third_difference(fit.heights, k - 1) - after * third_difference(fit.heights, k);
       std::array<double, 5> pull{};
       for (std::size_t m = 0; m < 4; ++m) pull[m] += before * kDifference[m], pull[m + 1] -= after * kDifference[m];
-      const double whole = step * (before + after),
-                   information = whole - fit.precision.inverse_square_of_few(at(k - 1), pull);
-      if (!(information > kTold * whole)) continue;
-      if (const double t = std::fabs(score) / std::sqrt(information * fit.variance); t > best.significance)
-        best = {s, std::fabs(score) / information, t};
+      judge(k - 1, line_.knots.node(k),
+            before * third_difference(fit.heights, k - 1) - after * third_difference(fit.heights, k),
+            step * (before + after), pull, true);
     }
     return best;
   }
@@ -518,23 +527,25 @@ struct Laid {
   Fit fit;
 };
 
-/// Lets the slope change by about as much as each corner does, across two cells to each side of it.
-void free_corners(const Knots& knots, const Corner& corner, Values& third_differences) {
-  constexpr double kCells = 2.0, kTimesCorner = 3.0;
+/// Lets slope or curvature change by about as much as a break does, across two cells to each side of a corner.
+void free_break(const Knots& knots, const Break& found, Values& third_differences) {
+  constexpr double kCells = 2.0, kCellsOfBend = 1.25, kTimes = 3.0;
+  const bool corner = found.turn > 0.0;
+  const double size = corner ? found.turn * knots.step : found.bend * knots.step * knots.step;
   for (int k = 0; k < knots.cells; ++k)
-    if (std::fabs(knots.node(k) + 0.5 * knots.step - corner.s) < kCells * knots.step)
-      third_differences[at(k)] = std::max(third_differences[at(k)], kTimesCorner * corner.turn * knots.step);
+    if (std::fabs(knots.node(k) + 0.5 * knots.step - found.s) < (corner ? kCells : kCellsOfBend) * knots.step)
+      third_differences[at(k)] = std::max(third_differences[at(k)], kTimes * size);
 }
 
 /// What is assumed of a curve before its points are seen.
 struct Assumptions {
   /// The curvature may change as much anywhere, as in the head of a rail, whose arcs of 80 and 300 mm meet in a jump.
   bool level = false;
-  double least_corner = 0.0;  ///< standard deviations from which on a corner is believed
+  double least_break = 0.0;  ///< standard deviations from which on a break is believed
 };
 
 std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assumptions& assumed) {
-  constexpr std::size_t kMostCorners = 12;
+  constexpr std::size_t kMostBreaks = 12;
   constexpr double kFirstCutoff = 1.0;  ///< wavelength that the first curve halves, which only has to lie near
   constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kNarrow = 3.0, kFine = 1.0, kMostMore = 20.0;
   constexpr double kOfStep = 0.1;  ///< least noise before rounding, of the step
@@ -551,7 +562,7 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
   const bool by_halves = rounded > 0.5 * across;
   const double before = std::sqrt(std::max(across * across - rounded * rounded, std::pow(kOfStep * rounding, 2)));
   double found = 0.0;
-  std::vector<std::pair<std::size_t, Corner>> corners;  ///< and the point nearest to each
+  std::vector<std::pair<std::size_t, Break>> breaks;  ///< and the point nearest to each
   for (int round = 0; round < kRounds; ++round) {
     std::optional<Straightened> straight = straighten(points, laid.curve, knot_step);
     if (!straight) return std::nullopt;
@@ -559,9 +570,9 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
     Values restless = assumed.level || round == 0 ? Values(at(line.knots.cells), 1.0)
                                                   : restlessness(line.knots, laid.line.knots, laid.fit.heights);
     Values third_differences(at(line.knots.cells), 0.0);
-    for (auto& [point, corner] : corners) {
-      corner.s = line.s[point];
-      free_corners(line.knots, corner, third_differences);
+    for (auto& [point, known] : breaks) {
+      known.s = line.s[point];
+      free_break(line.knots, known, third_differences);
     }
     for (bool wide = round < 2;; wide = false) {
       const Problem problem(line, restless, third_differences);
@@ -586,12 +597,12 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
         laid.fit = search([&](double x) { return problem.white(x, across); });
       }
       if (laid.fit.heights.empty() || !std::isfinite(laid.fit.badness)) return std::nullopt;
-      if (round == 0 || corners.size() == kMostCorners) break;
-      const Corner corner = problem.likeliest_corner(laid.fit);
-      if (corner.significance < assumed.least_corner) break;
-      const auto nearest = std::ranges::min_element(line.s, {}, [&](double s) { return std::fabs(s - corner.s); });
-      corners.emplace_back(static_cast<std::size_t>(nearest - line.s.begin()), corner);
-      free_corners(line.knots, corner, third_differences);
+      if (round == 0 || breaks.size() == kMostBreaks) break;
+      const Break found_break = problem.likeliest_break(laid.fit);
+      if (found_break.significance < assumed.least_break) break;
+      const auto nearest = std::ranges::min_element(line.s, {}, [&](double s) { return std::fabs(s - found_break.s); });
+      breaks.emplace_back(static_cast<std::size_t>(nearest - line.s.begin()), found_break);
+      free_break(line.knots, found_break, third_differences);
     }
     laid.curve = moved_curve(line, laid.fit.heights);
     if (laid.curve.y.empty()) return std::nullopt;

@@ -100,6 +100,16 @@ TEST(SmoothingByNoise, HoldsCornersThatStandOut) {
   EXPECT_LT(most, 25e-6);  // a parabola over 2 mm to both sides would take 75
 }
 
+TEST(SmoothingByNoise, TakesTheMeetingOfTwoArcsForNoCorner) {
+  constexpr double kSharpest = 1.0 / 0.080;
+  for (const double noise : {0.5e-6, 1e-6, 3e-6})
+    for (unsigned seed = 1; seed <= 30; ++seed) {
+      const Profile smooth = smoothed_by_noise(with_noise(head(0.2e-3), noise, seed));
+      for (double y = -14e-3; y <= 14e-3; y += 0.25e-3)
+        EXPECT_LT(bend(smooth, y, 0.7e-3), 1.6 * kSharpest) << noise << ' ' << seed << ' ' << y;
+    }
+}
+
 TEST(SmoothingByNoise, IsTheSameWhicheverWayThePointsRun) {
   const Profile noisy = with_noise(head(0.3e-3), 10e-6, 8);
   Profile turned = noisy;
