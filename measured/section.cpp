@@ -534,11 +534,12 @@ std::vector<std::size_t> head_of_outline(const SectionPoints& p) {
   constexpr double kHigh = 90e-3, kEnd = 15e-3, kShoulder = 30e-3, kDeep = 10e-3, kInwards = 1e-3, kClosed = 5e-3;
   const std::size_t n = p.y.size();
   if (p.body != Body::rail || n < 20) return {};
-  const auto [low, high] = std::minmax_element(p.z.begin(), p.z.end());
-  if (*high - *low < kHigh) return {};
+  const auto ends = std::minmax_element(p.z.begin(), p.z.end());
+  const double low = *ends.first, high = *ends.second;
+  if (high - low < kHigh) return {};
   // the foot is wider than the head
   const auto width = [&](double sign, double within) {
-    const double end = sign > 0.0 ? *low : *high;
+    const double end = sign > 0.0 ? low : high;
     double left = kInfinity, right = -kInfinity;
     for (std::size_t i = 0; i < n; ++i)
       if (sign * (p.z[i] - end) < within) left = std::min(left, p.y[i]), right = std::max(right, p.y[i]);
@@ -549,7 +550,7 @@ std::vector<std::size_t> head_of_outline(const SectionPoints& p) {
   const double sign = r1 - l1 <= r2 - l2 ? 1.0 : -1.0;
   const auto [left, right] = width(sign, kShoulder);
   const double middle = 0.5 * (left + right);
-  const auto depth = [&](std::size_t i) { return sign * p.z[i] - (sign > 0.0 ? *low : -*high); };
+  const auto depth = [&](std::size_t i) { return sign * p.z[i] - (sign > 0.0 ? low : -high); };
   const bool closed = std::hypot(p.y.front() - p.y.back(), p.z.front() - p.z.back()) < kClosed;
   std::size_t top = 0;
   for (std::size_t i = 1; i < n; ++i)

@@ -102,9 +102,16 @@ TEST(SmoothingByNoise, HoldsCornersThatStandOut) {
 
 TEST(SmoothingByNoise, TakesTheMeetingOfTwoArcsForNoCorner) {
   constexpr double kSharpest = 1.0 / 0.080;
-  for (const double noise : {0.5e-6, 1e-6, 3e-6})
+  Profile even;  // points 0.2 mm apart along the head
+  for (double y = -35.7e-3; y < 35.7e-3; y += 0.2e-3 / std::hypot(1.0, head_at(y).slope))
+    even.y.push_back(y), even.z.push_back(head_at(y).z);
+  for (const double noise : {0.7e-6, 1e-6, 3e-6})
     for (unsigned seed = 1; seed <= 30; ++seed) {
-      const Profile smooth = smoothed_by_noise(with_noise(head(0.2e-3), noise, seed));
+      Profile noisy = with_noise(even, noise, seed);
+      std::mt19937 random(seed + 100);
+      std::normal_distribution<double> normal(0.0, noise);
+      for (double& y : noisy.y) y += normal(random);
+      const Profile smooth = smoothed_by_noise(noisy);
       for (double y = -14e-3; y <= 14e-3; y += 0.25e-3)
         EXPECT_LT(bend(smooth, y, 0.7e-3), 1.6 * kSharpest) << noise << ' ' << seed << ' ' << y;
     }
