@@ -47,12 +47,12 @@ TEST(CheckProfiles, ShowsWhatWasUnderstoodOfACase) {
   EXPECT_THAT(r.out,
               HasSubstr("rail profile " + (input.folder() / "rail.prr").string() + "\n  kind         Simpack\n"));
   EXPECT_THAT(r.out, HasSubstr("  y            -70.00 to 60.00 mm, to the right\n"));
-  EXPECT_THAT(r.out, HasSubstr("a flange that reaches 30.2 mm beyond the tread"));
+  EXPECT_THAT(r.out, HasSubstr("a flange that reaches 30.4 mm beyond the tread"));
   EXPECT_THAT(r.out, Not(HasSubstr("doubt")));
   // the wheel of the left side
   input.edit("case.inp", "'wheel.txt'   0 ", "'wheel.txt'   1 ");
   r = run_program({"check", input.inp().string()});
-  EXPECT_THAT(r.out, HasSubstr("doubt     flange_side: the flange at y = 63.4 mm, on the side of great y"));
+  EXPECT_THAT(r.out, HasSubstr("doubt     flange_side: the flange at y = 63.2 mm, on the side of great y"));
   EXPECT_THAT(run_program({"run", input.inp().string()}).err, HasSubstr("flange_side"));
 }
 
@@ -80,7 +80,7 @@ TEST(CheckProfiles, ReportHasFactsDoubtsAndPositions) {
       {"check", input.inp().string(), (input.folder() / "rail.prr").string(), "--report", html, "-o", pictures});
   ASSERT_EQ(r.status, 1) << "doubts";
   const std::string page = input.read("check.html");
-  EXPECT_THAT(page, HasSubstr("flange_side: the flange at y = 63.4 mm, on the side of great y"));
+  EXPECT_THAT(page, HasSubstr("flange_side: the flange at y = 63.2 mm, on the side of great y"));
   EXPECT_THAT(page, HasSubstr("-60.00 to 70.00 mm, to the right"));
   EXPECT_THAT(page, HasSubstr("id=\"position-1-1\""));
   EXPECT_THAT(page, HasSubstr("2 cases, no errors, 1 doubt"));
