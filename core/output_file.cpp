@@ -167,9 +167,10 @@ bool same_file(int descriptor, const fs::path& path) {
          open_one.st_ino == named.st_ino;
 }
 
-/// Waits for who looks whether its maker is dead. Where the file system knows no locks, nobody is taken for dead.
+/// Waits for who looks whether its maker is dead. Where the file system knows no locks, nobody is taken for dead. Shared:
+/// once renamed, the file may be read by who locks what it reads (HDF5) before its writer lets go.
 void hold(int descriptor) {
-  while (::flock(descriptor, LOCK_EX) != 0 && errno == EINTR) {
+  while (::flock(descriptor, LOCK_SH) != 0 && errno == EINTR) {
   }
 }
 

@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/core/check_point.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <numeric>
@@ -54,6 +57,18 @@ TEST(OutputFile, IsLeftBetweenPiecesOfALargeFile) {
   EXPECT_EQ(std::filesystem::file_size(file), 3u) << "the old one";
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
             1);
+}
+
+TEST(OutputFile, MayBeReadWithALockAndIsNotTakenForDeadWhileItIsWritten) {
+  const treadmark::testing::TemporaryFolder folder;
+  OutputFile file(folder.path() / "result.h5");
+  file.write("half");
+  const auto hidden = std::filesystem::directory_iterator(folder.path())->path();
+  const int reader = ::open(hidden.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  EXPECT_EQ(::flock(reader, LOCK_SH | LOCK_NB), 0) << "as HDF5 does, should it meet a file just renamed";
+  EXPECT_NE(::flock(reader, LOCK_EX | LOCK_NB), 0) << "as who removes what dead writers left";
+  ::close(reader);
 }
 
 }  // namespace
