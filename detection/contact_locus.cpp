@@ -323,23 +323,35 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
   const auto gap = [&](int i) {
     return i >= 0 && i < rows.count ? outline_.gap[static_cast<std::size_t>(i)] - wheel_dz : kNaN;
   };
+  // Where a rail is steep, curvatures of the gap along z are as many times larger.
+  const auto steepness = [&](int i) {
+    constexpr double kSteepest = 6.0;
+    double slope = 0.0;
+    for (int k = std::max(0, i - 1); k <= std::min(rows.count - 1, i + 1); ++k)
+      slope = std::fmax(slope, std::abs(outline_.rail_slope[static_cast<std::size_t>(k)]));
+    return std::pow(1.0 + std::min(slope, kSteepest) * std::min(slope, kSteepest), 1.5);
+  };
   Found found;
   double closest = kNaN;
   // Where the bodies do not touch, all rows are looked at closely that may hold the least gap between them.
   const double may_be_closest = std::max(look_below, outline_.least - wheel_dz + look_below);
   for (int i = 0; i < rows.count; ++i) {
     check_cancelled();
-    if (!(gap(i) < may_be_closest)) continue;
+    const double here = gap(i);
+    const bool is_minimum = !(gap(i - 1) <= here || gap(i + 1) < here);
+    if (!(here < may_be_closest) &&
+        !(is_minimum && here < kInfinity && here < may_be_closest + (steepness(i) - 1.0) * look_below))
+      continue;
     // A run of rows below zero, or a local minimum above it.
     const int first = i;
     if (gap(i) < 0.0) {
       while (gap(i + 1) < 0.0) ++i;
-    } else if (gap(i - 1) <= gap(i) || gap(i + 1) < gap(i)) {
+    } else if (!is_minimum) {
       continue;
     }
     const Outline& fine = fine_outline(std::max(0, first - 1), std::min(rows.count - 1, i + 1));
     closest = std::fmin(closest, fine.closest - wheel_dz);
-    // On steep flanks a shallow contact may lie deeper below the rows than that.
+    // On steep flanks a shallow contact may lie deeper below the rows.
     if (gap(first) < look_below || fine.closest < wheel_dz)
       weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
   }

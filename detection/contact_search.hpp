@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/contact_patch.hpp"
 #include "treadmark/detection/interpenetration.hpp"
@@ -30,7 +31,8 @@ struct SearchSettings {
   double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
   /// On the first grid, for agreement with the reference program; refined grids are always exact.
   std::optional<SearchMesh> mesh;
-  /// The locus on these rows instead of Treadmark's own, for agreement with that program; needs constant profiles.
+  /// The locus on these rows instead of Treadmark's own, for agreement with that program; needs a round wheel. On a
+  /// rail that changes along the track the grid decides instead where it shows other contact than the locus.
   std::optional<LocusRows> locus_rows;
   std::optional<DistanceMesh> distance_mesh;  ///< passed on to bodies_at()
   /// The contact reference is the point of deepest penetration instead of the weighted centre.
@@ -68,6 +70,15 @@ class ContactSearch {
   /// Patches with the wheel moved by wheel_dz [m] along z of T from the position given at construction.
   SearchResult at(double wheel_dz);
 
+  /// Rows between two points in T in which the locus of the reference program missed contact, or found some where there
+  /// is none.
+  struct WrongLocus {
+    Vec3 low, high;
+    bool grid_decides;  ///< false: no wheel could roll over what was missed
+  };
+  /// By the last at().
+  const std::optional<WrongLocus>& wrong_locus() const { return wrong_; }
+
   /// The bodies with the wheel moved.
   BodyPair bodies_at(double wheel_dz) const;
 
@@ -75,7 +86,8 @@ class ContactSearch {
   std::size_t points_evaluated() const { return gap_ ? gap_->points_known() : 0; }
 
  private:
-  SearchResult on_locus(double wheel_dz, double look_below);
+  SearchResult found_on_locus(ContactLocus::Found found) const;
+  bool is_wrong(double wheel_dz, const std::vector<ContactPatch>& found);
   SearchResult on_grid(double wheel_dz, double look_below);
   const GapField& refined(const Region& region);
   double closest_on_grid();
@@ -85,6 +97,8 @@ class ContactSearch {
   std::optional<ContactLocus> locus_;
   std::optional<ReferenceLocus> reference_locus_;
   std::optional<PrunedGap> gap_;
+  double agreed_ = -kInfinity;  ///< greatest wheel_dz at which locus and grid show the same contact
+  std::optional<WrongLocus> wrong_;
   std::optional<double> closest_;  ///< at the position given at construction [m]; found out when needed
   struct Refined {
     Grid2 grid;

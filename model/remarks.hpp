@@ -40,6 +40,8 @@ enum class RemarkKind : std::uint8_t {
   on_flange_back,
   unusual_value,
   noisy_profile,
+  locus_incomplete,
+  contact_overlooked,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -109,6 +111,12 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "a number of the problem that no railway has, as in another unit: a load, gauge, radius, speed, angle or place"},
     {RemarkKind::noisy_profile, "noisy_profile", true,
      "noise of a measured profile leaves a standard deviation of more than 3 % of the largest pressure"},
+    {RemarkKind::locus_incomplete, "locus_incomplete", false,
+     "on a rail that changes along the track a grid shows contact of more than 3 um that the locus search of CONTACT's "
+     "input (D = 2, 3, 4, 7) missed, or none where it found some: the refined grid search decides"},
+    {RemarkKind::contact_overlooked, "contact_overlooked", true,
+     "a grid shows contact that this search missed, more than 2 % of the wheel's radius deep and 5 % of it ahead or "
+     "behind: no wheel rolls over that, an artefact between sections is likely; the locus decides"},
 };
 
 /// One remark on one result.

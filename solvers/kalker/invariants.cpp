@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::kalker {
 namespace {
@@ -86,6 +89,30 @@ ElementSums sums_of(const ContactProblem& problem, const ContactSolution& s) {
   return sums;
 }
 
+/// Penetration of the rigid bodies [m], and what gap and displacement leave of it where there is no pressure. Elements
+/// without a gap do not count.
+struct Depths {
+  double rigid = 0.0, outside = 0.0;
+};
+
+Depths depths(std::span<const double> gap, const ContactSolution& s) {
+  // Several minima, which do not wait for each other.
+  constexpr std::size_t kLanes = 8;
+  double rigid[kLanes], outside[kLanes];
+  std::ranges::fill(rigid, kInfinity);
+  std::ranges::fill(outside, kInfinity);
+  const auto look = [&](std::size_t i, std::size_t k) {
+    const double h = gap[i], left = s.pressure[i] > 0.0 ? kInfinity : h + s.displacement_n[i];
+    rigid[k] = h < rigid[k] ? h : rigid[k];
+    outside[k] = left < outside[k] ? left : outside[k];
+  };
+  std::size_t i = 0;
+  for (; i + kLanes <= gap.size(); i += kLanes)
+    for (std::size_t k = 0; k < kLanes; ++k) look(i + k, k);
+  for (; i < gap.size(); ++i) look(i, 0);
+  return {s.approach - *std::ranges::min_element(rigid), s.approach - *std::ranges::min_element(outside)};
+}
+
 std::optional<Violation> broken(Invariant invariant, double amount, std::string text) {
   return Violation{invariant, amount, std::move(text)};
 }
@@ -132,8 +159,8 @@ std::optional<Violation> broken_tangentially(const ContactProblem& problem, cons
 }  // namespace
 
 std::string_view to_string(Invariant invariant) {
-  constexpr std::string_view kNames[] = {"finite",  "pressure",         "normal_force", "traction_bound",
-                                         "sliding", "tangential_force", "dissipation"};
+  constexpr std::string_view kNames[] = {"finite",         "pressure", "penetration",      "normal_force",
+                                         "traction_bound", "sliding",  "tangential_force", "dissipation"};
   return kNames[static_cast<std::size_t>(invariant)];
 }
 
@@ -148,6 +175,15 @@ std::optional<Violation> broken_invariant(const ContactProblem& problem, const C
   if (sums.most_outside > 0.0)
     return broken(Invariant::pressure, sums.most_outside,
                   fmt::format("a pressure of {:.6g} Pa acts outside contact", sums.most_outside));
+  const std::size_t n = problem.gap.size();
+  if (problem.normal_model == NormalModel::full && s.pressure.size() == n && s.displacement_n.size() == n) {
+    constexpr double kLeastDepth = 1e-6;
+    const Depths found = depths(problem.gap, s);
+    if (found.outside > (10.0 * problem.settings.eps + kLeastDepth) * found.rigid)
+      return broken(Invariant::penetration, found.outside / found.rigid,
+                    fmt::format("without pressure an element lies {:.3g} um deep, of {:.3g} um of the rigid bodies",
+                                kMicro * found.outside, kMicro * found.rigid));
+  }
   constexpr double kForce = 1e-3;
   if (problem.force_prescribed && problem.normal_model == NormalModel::full) {
     const double miss = std::abs(sums.pressure * problem.grid.cell_area() - problem.normal_force);

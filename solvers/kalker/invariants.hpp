@@ -14,6 +14,7 @@ namespace treadmark::kalker {
 enum class Invariant {
   finite,            ///< every number of the solution
   pressure,          ///< nowhere negative, and zero outside contact
+  penetration,       ///< none where there is no pressure, over all elements (solved pressures; others do not ask)
   normal_force,      ///< a prescribed one is that of the pressures (solved pressures; assumed ones may miss it)
   traction_bound,    ///< no traction exceeds friction, nor does the force (not of the linear theory)
   sliding,           ///< tractions of slipping elements are as large as friction (not of a plastic layer)
@@ -31,11 +32,12 @@ struct Violation {
   std::string text;     ///< what was found, with numbers
 };
 
-/// The first invariant that a solution breaks by more than the accuracy settings.eps of the problem allows: excess of
-/// tractions 10 eps of the greatest bound, what slipping elements lack 100 eps of their bounds' sum, prescribed forces
-/// 100 eps and a thousandth (tangential ones 10 eps and a millionth of friction), energy that of a slip of eps and a
-/// millionth. Of a solution without Status::ok only numbers that are not finite count, and nothing without contact.
-/// One pass over the elements. Thread-safe.
+/// The first invariant that a solution breaks by more than the accuracy settings.eps of the problem allows: penetration
+/// 10 eps and a millionth of the greatest one of the rigid bodies (the normal solver lets pass a hundredth of eps,
+/// parts of a patch agree to eps), excess of tractions 10 eps of the greatest bound, what slipping elements lack 100
+/// eps of their bounds' sum, prescribed forces 100 eps and a thousandth (tangential ones 10 eps and a millionth of
+/// friction), energy that of a slip of eps and a millionth. Of a solution without Status::ok only numbers that are not
+/// finite count, and nothing without contact. One pass over the elements. Thread-safe.
 std::optional<Violation> broken_invariant(const ContactProblem& problem, const ContactSolution& solution);
 
 /// Gives a solution that breaks an invariant Status::failed, in itself and in the report of its last solver, with a

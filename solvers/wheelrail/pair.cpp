@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/sampled_profile.hpp"
 #include "treadmark/solvers/wheelrail/damping.hpp"
@@ -73,6 +74,17 @@ void locate(const Placement& placed, PatchSolution& patch) {
   patch.angle_rail = roll_angle(placed.X_TR.rotation.transpose() * X_TC.rotation);
   patch.angle_wheelset = roll_angle(placed.X_TWs.rotation.transpose() * X_TC.rotation);
   patch.angle_wheel = roll_angle(placed.X_TW.rotation.transpose() * X_TC.rotation);
+}
+
+Remark locus_remark(const detection::ContactSearch::WrongLocus& wrong, const Pose& X_TS) {
+  const Vec3 low = X_TS.apply_inverse(wrong.low), high = X_TS.apply_inverse(wrong.high);
+  return {wrong.grid_decides ? RemarkKind::locus_incomplete : RemarkKind::contact_overlooked, 0,
+          fmt::format("at y = {:.5g} to {:.5g} mm, u = {:.5g} mm of the rail a grid shows other contact than the locus "
+                      "search: {}",
+                      kMilli * low.y(), kMilli * high.y(), kMilli * low.x(),
+                      wrong.grid_decides
+                          ? "the grid search decides"
+                          : "no wheel could roll over it, an artefact between sections is likely; the locus decides")};
 }
 
 void note(PairSolution& solution, Status status, const std::string& message) {
@@ -173,6 +185,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   solution.pitch_rate = balance.pitch_rate;
   solution.least_gap = step.closest();
   solution.hidden_patches = step.hidden_patches();
+  if (const auto wrong = step.wrong_locus()) solution.remarks.push_back(locus_remark(*wrong, step.placement().X_TS));
   solution.rail_deflection_y = balance.rail_dy;
   solution.rail_deflection_z = balance.rail_dz;
   solution.force_iterations = std::move(balance.iterations);

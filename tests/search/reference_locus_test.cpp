@@ -226,6 +226,50 @@ TEST(ReferenceLocus, OfAStraightRailToldInSlicesIsThatOfTheRail) {
     }
 }
 
+/// A crowned rail with a hump of some height ahead of the wheel.
+std::shared_ptr<const Surface> with_hump(double height) {
+  SliceSet slices;
+  slices.body = Body::rail;
+  for (int k = -48; k <= 48; ++k) {
+    const double u = 2.5e-3 * k, from_top = (u - 40e-3) / 10e-3;
+    slices.u.push_back(u);
+    slices.profiles.push_back(crown());
+    for (double& z : slices.profiles.back().z) z -= height * std::exp(-from_top * from_top);
+  }
+  return create_surface({Body::rail, 0.0, slices, {}}, "spline");
+}
+
+TEST(ReferenceLocus, WhereItIsWrongTheGridDecides) {
+  const Heads heads;
+  SearchSettings by_grid = settings();
+  by_grid.grid_T.y0 = -0.02, by_grid.grid_T.ny = 667;
+  SearchSettings by_locus = by_grid;
+  by_locus.locus_rows = LocusRows{-0.02, 0.06e-3, 667, kLocusRadius};
+  int agreed = 0, wrong = 0;
+  for (double height = 0.0; height < 3.1e-3; height += 0.25e-3) {
+    const auto rail = with_hump(height);
+    for (const double yaw : {0.0, 0.003}) {
+      const detection::BodyPair pair{
+          rail.get(), heads.wheel.get(), {}, {{0.0, 0.0, -kLocusRadius}, rotation({0.0, yaw, 0.5})}};
+      ContactSearch grid(pair, by_grid), locus(pair, by_locus);
+      const double least = grid.least_gap();
+      EXPECT_NEAR(locus.least_gap(), least, 3.1e-6) << height;
+      // Deep enough for the humps that are not touched at once.
+      for (const double depth : {5e-5, 4e-4, 5e-5}) {
+        const auto a = grid.at(least + depth), b = locus.at(least + depth);
+        EXPECT_EQ(a.patches.size(), b.patches.size()) << height << ' ' << yaw << ' ' << depth;
+        ++(locus.wrong_locus() ? wrong : agreed);
+        if (locus.wrong_locus()) {
+          EXPECT_TRUE(locus.wrong_locus()->grid_decides);
+          EXPECT_EQ(difference(a, b, 0.0), "");
+        }
+      }
+    }
+  }
+  EXPECT_GT(agreed, 20);
+  EXPECT_GT(wrong, 20);
+}
+
 TEST(ReferenceLocus, OnARollerMeetsTheWheelWhereTheSearchOnAGridDoes) {
   // Two bodies of revolution: contact of a yawed wheel lies nearer to the axle than on a rail, by the roller's share.
   const StandardPair p;

@@ -94,6 +94,12 @@ TEST(Invariants, EveryBrokenOneIsNamed) {
       {Invariant::finite, [&](ContactSolution& s) { s.force_x = nan; }},
       {Invariant::pressure, [](ContactSolution& s) { s.pressure[first_of(s, ElementState::adhesion)] *= -1.0; }},
       {Invariant::pressure, [](ContactSolution& s) { s.pressure[first_of(s, ElementState::exterior)] = 1.0; }},
+      {Invariant::penetration, [](ContactSolution& s) { s.approach *= 1.01; }},
+      {Invariant::penetration,
+       [&](ContactSolution& s) {
+         const std::size_t i = first_of(s, ElementState::adhesion);
+         s.pressure[i] = 0.0, s.state[i] = ElementState::exterior, s.displacement_n[i] *= 0.99;
+       }},
       {Invariant::normal_force,
        [](ContactSolution& s) {
          for (double& pressure : s.pressure) pressure *= 1.02;
