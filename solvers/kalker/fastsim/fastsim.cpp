@@ -110,8 +110,7 @@ Vec2 Sweep::run(const Creepage& creepage, bool blended) {
     row(iy, creepage, mu, flex);
   }
   if (problem_.tangential_model == TangentialModel::fastrip && mu * normal_force_ > 0.0)
-    apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, flex.slope, normal_force_, equivalent_, sign_),
-                       solution_);
+    apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, normal_force_, equivalent_, sign_), solution_);
   const auto sum = [](const std::vector<double>& field) { return std::accumulate(field.begin(), field.end(), 0.0); };
   return Vec2(sum(solution_.traction_x), sum(solution_.traction_y)) * grid.cell_area();
 }
@@ -158,7 +157,7 @@ void Sweep::element(std::size_t i, double x, double y, const Creepage& creepage,
   Vec2 traction = u.cwiseQuotient(flexibility);
   const double bound = mu * solution_.pressure[i], size = traction.norm();
   solution_.state[i] = ElementState::adhesion;
-  if (size > bound && problem_.tangential_model != TangentialModel::linear) {
+  if (size > bound) {
     traction *= bound / size;
     u = traction.cwiseProduct(flexibility);
     solution_.state[i] = ElementState::slip;
@@ -225,15 +224,6 @@ void find_creepage(const ContactProblem& problem, Sweep& sweep, ContactSolution&
   report.message = "no creepage was found for the prescribed tangential force";
 }
 
-/// What friction cannot carry is no force of a contact.
-void check_linear(const ContactProblem& problem, double normal_force, ContactSolution& solution) {
-  const auto sum = [](const std::vector<double>& field) { return std::accumulate(field.begin(), field.end(), 0.0); };
-  const double force = std::hypot(sum(solution.traction_x), sum(solution.traction_y)) * problem.grid.cell_area();
-  if (force <= problem.friction.static_friction() * normal_force) return;
-  solution.tangential.status = solution.status = Status::not_converged;
-  solution.tangential.message = "the linear theory gives more force than friction: the creepage is beyond it";
-}
-
 }  // namespace
 
 void solve_fastsim(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous) {
@@ -245,8 +235,7 @@ void solve_fastsim(const ContactProblem& problem, ContactSolution& solution, con
   if (problem.fx_relative || problem.fy_relative)
     find_creepage(problem, sweep, solution);
   else
-    sweep.run(problem.creepage, problem.tangential_model != TangentialModel::linear);
-  if (problem.tangential_model == TangentialModel::linear) check_linear(problem, sweep.normal_force(), solution);
+    sweep.run(problem.creepage, true);
 }
 
 }  // namespace treadmark::kalker

@@ -83,8 +83,7 @@ Flexibilities flexibilities(const ContactProblem& problem, const Creepage& creep
   Flexibilities result = problem.tangential_model == TangentialModel::fastsim_one_flexibility
                              ? Flexibilities{one, one, 1.0, 1.0, 1.0}
                              : of_linear_theory(problem, creepage, bound, equivalent, blended);
-  if (problem.tangential_model != TangentialModel::linear)
-    result.slope = reduced_slope(problem, creepage, bound, equivalent);
+  result.slope = reduced_slope(problem, creepage, bound, equivalent);
   return result;
 }
 
