@@ -48,6 +48,7 @@ OwnedProblem reference_problem(const Reference& reference) {
   owned.problem.hertz = shape;
   owned.problem.normal_model = reference.normal;
   owned.problem.tangential_model = reference.tangential;
+  owned.problem.fastsim.first_step = FastsimSettings::FirstStep::whole;
   owned.problem.regime = Regime::steady;
   owned.problem.creepage = {0.0, -6.25e-4, 0.625};
   return owned;
