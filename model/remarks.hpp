@@ -40,6 +40,7 @@ enum class RemarkKind : std::uint8_t {
   on_flange_back,
   unusual_value,
   noisy_profile,
+  beyond_theory,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -109,6 +110,11 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "a number of the problem that no railway has, as in another unit: a load, gauge, radius, speed, angle or place"},
     {RemarkKind::noisy_profile, "noisy_profile", true,
      "noise of a measured profile leaves a standard deviation of more than 3 % of the largest pressure"},
+    {RemarkKind::beyond_theory, "beyond_theory", false,
+     "an approximate theory where it misses the exact one by more than a tenth of the friction bound: FASTSIM and "
+     "FaStrip under spin on patches that are too wide or too long for them, one flexibility that is not that of the "
+     "creepages, tractions of the linear theory that exceed friction; KPEC on long patches, whose pressure is off by "
+     "more than 5 %"},
 };
 
 /// One remark on one result.
