@@ -41,6 +41,7 @@ enum class RemarkKind : std::uint8_t {
   unusual_value,
   noisy_profile,
   beyond_theory,
+  edge_pressure,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -115,6 +116,9 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "FaStrip under spin on patches that are too wide or too long for them, one flexibility that is not that of the "
      "creepages, tractions of the linear theory that exceed friction; KPEC on long patches, whose pressure is off by "
      "more than 5 %"},
+    {RemarkKind::edge_pressure, "edge_pressure", false,
+     "the largest pressure grows without limit with smaller elements, as at an edge, a kink or the end of a surface; "
+     "forces and mean pressures do not"},
 };
 
 /// One remark on one result.

@@ -204,6 +204,14 @@ void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vect
 }
 
 void judge_refinement(const Refinement& r, int patch, std::vector<Remark>& remarks) {
+  constexpr double kGrowing = 0.2;
+  if (r.peak_exponent > kGrowing)
+    remarks.push_back(
+        {RemarkKind::edge_pressure, patch,
+         fmt::format("the largest pressure, at x = {:.4g}, s = {:.4g} mm of the grid, grows with smaller "
+                     "elements as their size to the power of -{:.2f}, as at an edge, a kink or the end of "
+                     "a surface: it has no limit; forces and mean pressures have",
+                     kMilli * r.peak.x(), kMilli * r.peak.y(), r.peak_exponent)});
   if (r.pressure <= kMuchRefinement && r.force <= kMuchRefinement) return;
   remarks.push_back({RemarkKind::coarse_elements, patch,
                      fmt::format("smaller elements would change the largest pressure by about {:.2g} % and forces by "
