@@ -36,10 +36,15 @@ enum class HistoryUse {
 
 /// FASTSIM with slope reduction (Spiryagin et al. 2013).
 struct FastsimSettings {
+  /// From the leading edge to the middle of the first element. half: half an element, and spin acts midway in each
+  /// step: without slip of second order in the size of elements. whole: of first order, as the reference program
+  /// (CONTACT) has it.
+  enum class FirstStep { half, whole };
   double k0 = 1.0;           ///< what is left of the slope at small creepage [-]
   double alpha = 1.0;        ///< slope at large creepage over that at small creepage [-]
   double beta = 1.0;         ///< how fast it falls with creepage [-]
   double flexibility = 0.0;  ///< fastsim_one_flexibility: L [m/Pa]
+  FirstStep first_step = FirstStep::half;
   friend bool operator==(const FastsimSettings&, const FastsimSettings&) = default;
 };
 

@@ -42,6 +42,8 @@ enum class RemarkKind : std::uint8_t {
   noisy_profile,
   locus_incomplete,
   contact_overlooked,
+  beyond_theory,
+  edge_pressure,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -117,6 +119,14 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::contact_overlooked, "contact_overlooked", true,
      "a grid shows contact that this search missed, more than 2 % of the wheel's radius deep and 5 % of it ahead or "
      "behind: no wheel rolls over that, an artefact between sections is likely; the locus decides"},
+    {RemarkKind::beyond_theory, "beyond_theory", false,
+     "an approximate theory where it misses the exact one by more than a tenth of the friction bound: FASTSIM and "
+     "FaStrip under spin on patches that are too wide or too long for them, one flexibility that is not that of the "
+     "creepages, tractions of the linear theory that exceed friction; KPEC on long patches, whose pressure is off by "
+     "more than 5 %"},
+    {RemarkKind::edge_pressure, "edge_pressure", false,
+     "the largest pressure grows without limit with smaller elements, as at an edge, a kink or the end of a surface; "
+     "forces and mean pressures do not"},
 };
 
 /// One remark on one result.

@@ -80,7 +80,7 @@ inline constexpr Theory<TangentialModel> kTangentialTheories[] = {
      {.steady_only = true}},
     {TangentialModel::linear,
      "linear",
-     "linear theory: no friction bound, for creep coefficients",
+     "Kalker's linear theory: no slip and no friction bound, for creep coefficients",
      {},
      {.steady_only = true}},
 };
@@ -114,6 +114,11 @@ constexpr const Theory<TangentialModel>& theory(TangentialModel id) {
 constexpr const Theory<Regime>& theory(Regime id) { return kRegimes[static_cast<std::size_t>(id)]; }
 constexpr const Theory<InfluenceSettings::Kind>& theory(InfluenceSettings::Kind id) {
   return kInfluenceKinds[static_cast<std::size_t>(id)];
+}
+
+/// Tractions deform half-spaces, not springs row by row.
+constexpr bool on_half_spaces(TangentialModel id) {
+  return id == TangentialModel::full || id == TangentialModel::linear;
 }
 
 /// The theory that a control digit asks for; the first of the table where the digit asks for no other.

@@ -171,7 +171,8 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   const double modulus = kalker::contact_modulus(p.material);
   kalker::judge({p.grid, p.material, p.friction.static_friction(), rolling, p.regime == Regime::shift,
                  modulus < kSoftestSolid ? kInfinity : kNotSmall * modulus,
-                 modulus < kSoftestMetal ? kInfinity : kYields * modulus},
+                 modulus < kSoftestMetal ? kInfinity : kYields * modulus, p.normal_model, p.tangential_model,
+                 p.fastsim.flexibility},
                 solution, 1, result.remarks);
   const kalker::Refinement refinement = kalker::estimate_refinement(p, solution, p.force_prescribed, coarse_solver_);
   r.refinement = {refinement.pressure, refinement.area, refinement.force};

@@ -86,7 +86,7 @@ void put_common(const Problem& p, Content& c) {
   c.history = history_of(p);
   c.normal_model = of_contact_digit(kNormalTheories, p.flags[CNTC_ic_bound]);
   c.tangential_model = of_contact_digit(kTangentialTheories, p.material_digit);
-  c.fastsim = {in.k0, in.alpha, in.beta, in.flexibility};
+  c.fastsim = {in.k0, in.alpha, in.beta, in.flexibility, FastsimSettings::FirstStep::whole};
   c.influence.kind = of_contact_digit(kInfluenceKinds, p.flags[CNTC_ic_inflcf]);
   c.influence.linear = p.flags[CNTC_ic_ifmeth] == 0;
   c.influence.variant = p.flags[CNTC_ic_ifvari];

@@ -123,6 +123,7 @@ void ContactReader::read_material() {
     if (simplified == TangentialModel::fastsim_one_flexibility)
       kept.simplified_flexibility = positive_value(text, "FLX") * kFlexibility;
     FastsimSettings s;
+    s.first_step = FastsimSettings::FirstStep::whole;  // as the reference program
     s.k0 = text.real("K0_MF");
     s.alpha = text.real("ALFAMF");
     s.beta = text.real("BETAMF");

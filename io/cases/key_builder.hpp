@@ -43,6 +43,12 @@ void add_simplified_theory(KeyList& list, const std::string& prefix) {
   list.number<Content>(prefix + "fastsim_flexibility_mm_per_MPa", kPositive,
                        "flexibility of \"fastsim_one_flexibility\"",
                        [](Content& c) -> double& { return c.fastsim.flexibility; });
+  using FirstStep = FastsimSettings::FirstStep;
+  list.choice<Content, FirstStep>(prefix + "fastsim_first_step",
+                                  {{"half", FirstStep::half}, {"whole", FirstStep::whole}},
+                                  "FASTSIM: from the leading edge to the middle of the first element: half an element, "
+                                  "or a whole one as CONTACT (and .inp) has it, of first order",
+                                  [](Content& c) -> FirstStep& { return c.fastsim.first_step; });
 }
 
 /// Keys by subject; see the .cpp of the same name.

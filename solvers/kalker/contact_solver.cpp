@@ -13,6 +13,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/model/magnitudes.hpp"
+#include "treadmark/model/theories.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
 #include "treadmark/solvers/kalker/heat/surface_temperature.hpp"
 #include "treadmark/solvers/kalker/invariants.hpp"
@@ -193,7 +194,7 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
 }
 
 void ContactSolver::Workspace::solve_once(const ContactProblem& problem, ContactSolution& solution) {
-  if (problem.tangential_model != TangentialModel::full)
+  if (!on_half_spaces(problem.tangential_model))
     solve_fastsim(problem, solution, previous);
   else if (tangential.couples(problem))
     solve_in_turns(problem, solution);

@@ -6,9 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
+#include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 
 namespace treadmark::kalker {
 namespace {
@@ -67,6 +70,70 @@ Exchange exchange(const ContactSolution& s) {
   return sum;
 }
 
+/// Where docs/verification.md sees an error of more than a tenth of the friction bound under spin. Spin in units of
+/// what the linear theory needs for the bound.
+struct SpinRange {
+  double widest, wide_spin;  ///< a/b, and the spin below it
+  double longest, long_spin;
+};
+constexpr SpinRange kFastsimRange{0.2, 0.2, 5.0, 0.7}, kFastripRange{0.3, 0.2, 2.5, 0.7};
+/// A flexibility that differs by more from that of a creepage which takes this share of the bound.
+constexpr double kOtherFlexibility = 0.15, kShareOfBound = 0.2;
+constexpr double kMostExcess = 0.1;   ///< of tractions of the linear theory beyond friction, over friction
+constexpr double kLongestKpec = 5.0;  ///< a/b
+
+/// Sum of what tractions exceed friction by, over that of friction.
+double excess_over_friction(const ContactSolution& s) {
+  double excess = 0.0, bound = 0.0;
+  for (std::size_t i = 0; i < std::min(s.pressure.size(), s.traction_x.size()); ++i) {
+    const double most = s.friction[i] * s.pressure[i];
+    bound += most;
+    excess += std::max(0.0, std::hypot(s.traction_x[i], s.traction_y[i]) - most);
+  }
+  return bound > 0.0 ? excess / bound : 0.0;
+}
+
+/// What is beyond the theory of the tractions; empty: nothing.
+std::string beyond_tangential(const PatchSetting& p, const ContactSolution& s, const EquivalentEllipse& ellipse) {
+  using Model = TangentialModel;
+  if (p.tangential_model == Model::linear) {
+    const double excess = excess_over_friction(s);
+    return excess <= kMostExcess ? std::string()
+                                 : fmt::format(
+                                       "tractions of the linear theory exceed friction by {:.2g} of it: the "
+                                       "creepages are too large for it, take another theory",
+                                       excess);
+  }
+  const CombinedMaterial material = combine(p.material);
+  const KalkerCoefficients k = kalker_coefficients(ellipse.a, ellipse.b, material.poisson);
+  const double c = std::sqrt(ellipse.a * ellipse.b), ratio = ellipse.a / ellipse.b,
+               unit = material.shear_modulus * c * c / (p.static_friction * s.force_n);
+  const double xi = unit * k.c11 * std::abs(s.creepage.xi), eta = unit * k.c22 * std::abs(s.creepage.eta),
+               spin = unit * c * k.c23 * std::abs(s.creepage.phi);
+  if (p.tangential_model == Model::fastsim_one_flexibility) {
+    const LinearFlexibilities three = linear_flexibilities(k, material.shear_modulus, ellipse.a, ellipse.b);
+    double other = 0.0;
+    for (const auto& [share, flexibility] :
+         {std::pair{xi, three.l1}, std::pair{eta, three.l2}, std::pair{spin, three.l3}})
+      if (share > kShareOfBound) other = std::max(other, std::abs(p.flexibility / flexibility - 1.0));
+    return other <= kOtherFlexibility
+               ? std::string()
+               : fmt::format(
+                     "the one flexibility of FASTSIM differs by {:.2g} % from those of the linear theory: take "
+                     "three flexibilities",
+                     1e2 * other);
+  }
+  const bool strips = p.tangential_model == Model::fastrip;
+  const SpinRange& range = strips ? kFastripRange : kFastsimRange;
+  const bool wide = ratio < range.widest && spin > range.wide_spin,
+             too_long = ratio > range.longest && spin > range.long_spin;
+  return wide || too_long ? fmt::format(
+                                "{} under spin on a patch of a/b = {:.2g} misses the exact theory by more than "
+                                "a tenth of the friction bound: take the full tangential model",
+                                strips ? "FaStrip" : "FASTSIM", ratio)
+                          : std::string();
+}
+
 }  // namespace
 
 double contact_modulus(const Material& material) {
@@ -118,6 +185,15 @@ void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vect
     add(RemarkKind::unusual_friction,
         fmt::format("the coefficient of friction is {:.3g}: is a decimal point missing?", p.static_friction));
 
+  const EquivalentEllipse ellipse = equivalent_ellipse(p.grid, s.pressure);
+  if (p.normal_model == NormalModel::kpec && ellipse.a > kLongestKpec * ellipse.b)
+    add(RemarkKind::beyond_theory,
+        fmt::format("KPEC on a patch {:.2g} times as long as wide: the largest pressure is off by more than 5 %",
+                    ellipse.a / ellipse.b));
+  if (p.rolling && p.tangential_model != TangentialModel::full && p.static_friction > 0.0 && s.force_n > 0.0)
+    if (std::string text = beyond_tangential(p, s, ellipse); !text.empty())
+      add(RemarkKind::beyond_theory, std::move(text));
+
   const Exchange e = exchange(s);
   // Slip below a millionth of rolling (shift: of a millimetre) is what rounding leaves.
   const double noise = 1e-6 * (p.shift ? 1e-3 : 1.0) * p.static_friction * s.force_n / p.grid.cell_area();
@@ -128,6 +204,14 @@ void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vect
 }
 
 void judge_refinement(const Refinement& r, int patch, std::vector<Remark>& remarks) {
+  constexpr double kGrowing = 0.2;
+  if (r.peak_exponent > kGrowing)
+    remarks.push_back(
+        {RemarkKind::edge_pressure, patch,
+         fmt::format("the largest pressure, at x = {:.4g}, s = {:.4g} mm of the grid, grows with smaller "
+                     "elements as their size to the power of -{:.2f}, as at an edge, a kink or the end of "
+                     "a surface: it has no limit; forces and mean pressures have",
+                     kMilli * r.peak.x(), kMilli * r.peak.y(), r.peak_exponent)});
   if (r.pressure <= kMuchRefinement && r.force <= kMuchRefinement) return;
   remarks.push_back({RemarkKind::coarse_elements, patch,
                      fmt::format("smaller elements would change the largest pressure by about {:.2g} % and forces by "

@@ -21,6 +21,9 @@ struct PatchSetting {
   double pressure_limit = 0;  ///< beyond_half_space above it [Pa]
   /// beyond_yield above it and up to the former [Pa]
   double yield_limit = std::numeric_limits<double>::infinity();
+  NormalModel normal_model = NormalModel::full;
+  TangentialModel tangential_model = TangentialModel::full;
+  double flexibility = 0.0;  ///< of FASTSIM with one flexibility [m/Pa]
 };
 
 /// Appends what is doubtful about the solution of one patch to remarks; patch: its number there. Thread-safe.

@@ -55,8 +55,9 @@ double relative(double coarse, double fine) { return fine > 0.0 ? std::abs(coars
 
 /// What the number of elements across says by itself. Bounds of what ellipses anywhere on their elements show
 /// (tests/solvers/kalker/refinement_test.cpp).
-constexpr int kTold = 2 * kRatio;  ///< from this number on thirds of them tell more
-constexpr double kOfPeak = 0.4;    ///< of what the highest element stands out by: peaks at edges are narrower than two
+constexpr int kTold = 2 * kRatio;        ///< from this number on thirds of them tell more
+constexpr int kTellsPeaks = 3 * kRatio;  ///< from this number on they tell how a peak grows
+constexpr double kOfPeak = 0.4;  ///< of what the highest element stands out by: peaks at edges are narrower than two
 double normal_by_number(double n) { return n < 3.0 ? 3.0 / n : 1.0 / (n * n); }
 double area_by_number(double n) { return (n < kTold ? 1.7 : 1.0) / n; }
 double tangential_by_number(double n) { return (n < kTold ? 1.0 : 0.5) / n; }
@@ -70,7 +71,7 @@ Refinement estimate_refinement(const ContactProblem& problem, const ContactSolut
   const double across = g.nx == 1 && g.ny > 1 ? n.ny : g.ny == 1 && g.nx > 1 ? n.nx : std::min(n.nx, n.ny);
   const bool force_sought = !problem.force_prescribed && !load_given,
              tractions = problem.regime != Regime::frictionless && problem.friction.static_friction() > 0.0;
-  Refinement out{normal_by_number(across), area_by_number(across), 0.0};
+  Refinement out{normal_by_number(across), area_by_number(across)};
   if (force_sought) out.force = normal_by_number(across);
   if (tractions) out.force = std::max(out.force, tangential_by_number(across));
   if (across >= kTold) {
@@ -112,6 +113,11 @@ Refinement estimate_refinement(const ContactProblem& problem, const ContactSolut
   const double load = s.force_n / c.force_n, size = std::cbrt(load);
   const double fine_area = s.elements_contact * g.cell_area(), area = c.elements_contact * p.grid.cell_area();
   out.pressure = std::max(out.pressure, kLeft * relative(c.max_pressure * size, s.max_pressure));
+  if (across >= kTellsPeaks) {
+    out.peak_exponent = std::log(s.max_pressure / (c.max_pressure * size)) / std::log(kRatio);
+    const std::size_t at = largest_pressure(s.pressure), nx = static_cast<std::size_t>(g.nx);
+    out.peak = {g.x(static_cast<int>(at % nx)), g.y(static_cast<int>(at / nx))};
+  }
   out.area = std::max(out.area, kLeft * relative(area * size * size, fine_area));
   if (force_sought) out.force = std::max(out.force, kLeft * relative(c.force_n, s.force_n));
   if (!tangential) return out;

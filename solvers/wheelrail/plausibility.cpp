@@ -98,7 +98,8 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
   const bool rolling = p.regime == kalker::Regime::steady || p.regime == kalker::Regime::transient;
   const double modulus = kalker::contact_modulus(p.material), ratio = s.contact.max_pressure / modulus;
   kalker::judge({s.grid, p.material, p.friction.static_friction(), rolling && s.kinematics.velocity > 0.0,
-                 p.regime == kalker::Regime::shift, kNotSmall * modulus, kYields * modulus},
+                 p.regime == kalker::Regime::shift, kNotSmall * modulus, kYields * modulus, p.normal_model,
+                 p.tangential_model, p.fastsim.flexibility},
                 s.contact, number, solution.remarks);
   if (s.refinement) kalker::judge_refinement(*s.refinement, number, solution.remarks);
   const SixMotion& moving = p.state.velocity;

@@ -69,8 +69,8 @@ void put_one(ByteWriter& out, const kalker::SolverSettings& settings) {
   put_all(out, eps, iterations, outer, force, coupling, method, first_slip, quirks);
 }
 void put_one(ByteWriter& out, const kalker::FastsimSettings& settings) {
-  const auto& [k0, alpha, beta, flexibility] = settings;
-  put_all(out, k0, alpha, beta, flexibility);
+  const auto& [k0, alpha, beta, flexibility, first_step] = settings;
+  put_all(out, k0, alpha, beta, flexibility, first_step);
 }
 void put_one(ByteWriter& out, const kalker::InfluenceSettings& influence) {
   const auto& [kind, position, inclination, variant, linear, table] = influence;

@@ -15,6 +15,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {
@@ -73,6 +74,11 @@ class InputWriter {
         const std::string value = key.text ? key.text(case_) : key.written(case_, folder_);
         if (!value.empty() && value != meant) out_ += fmt::format(" %treadmark {} = {}\n", path, value);
       }
+  }
+
+  template <class Content>
+  void fastsim_first_step(const Content& c, std::string_view path) {
+    if (!on_half_spaces(c.tangential_model)) own_settings({{path, toml_text("whole")}});
   }
 
   template <class Content>
@@ -341,6 +347,7 @@ class InputWriter {
                   {"rail.resolution_mm", "0"},
                   {"wheel.backend", ""},
                   {"wheel.resolution_mm", "0"}});
+    fastsim_first_step(c, "solver.fastsim_first_step");
     const DiscretisationInput& elements = c.discretisation;
     own_settings({{"discretisation.dx_mm", exact_text(elements.dx, kMillimetre)},
                   {"discretisation.ds_mm", exact_text(elements.ds, kMillimetre)}});
@@ -499,6 +506,7 @@ class InputWriter {
     refuse_if(slip && c.spin_slip != SpinSlip::both, "extra slip of elements together with patch.spin_slip");
     const int extra = slip ? 9 : c.spin_slip == SpinSlip::longitudinal ? 2 : c.spin_slip == SpinSlip::lateral ? 3 : 0;
     own_settings({{"case.sensitivities", "false"}, {"case.reference_ways", c.thermal ? "true" : "false"}});
+    fastsim_first_step(c, "patch.fastsim_first_step");
     put(Record().add("P-B-T-N-F-S", fmt::format("{}{}{}{}{}{}", history_digit(c), bound, theory(c.regime).digit.value,
                                                 c.normal_force_prescribed ? 1 : 0,
                                                 c.fy_relative   ? 2

@@ -65,12 +65,17 @@ class Sweep {
         solution_(solution),
         previous_(previous),
         steady_(problem.regime == Regime::steady),
+        halved_(problem.fastsim.first_step == FastsimSettings::FirstStep::half),
         sign_(steady_ ? rolling_sign(problem) : 1.0),
         dq_(steady_ ? problem.grid.dx : problem.rolling.step),
         shift_x_(dq_ * (steady_ ? sign_ : std::cos(problem.rolling.chi))),
         shift_y_(steady_ ? 0.0 : dq_ * std::sin(problem.rolling.chi)),
         equivalent_(equivalent_ellipse(problem.grid, solution.pressure)) {
     normal_force_ = std::accumulate(solution.pressure.begin(), solution.pressure.end(), 0.0) * problem.grid.cell_area();
+    const double columns = std::abs(shift_x_) / problem.grid.dx, rows = std::abs(shift_y_) / problem.grid.dy;
+    const double stretch = 1.0 / std::min(1.0, std::max(columns, rows));
+    ahead_x_ = static_cast<int>(std::copysign(std::round(stretch * columns), shift_x_));
+    ahead_y_ = static_cast<int>(std::copysign(std::round(stretch * rows), shift_y_));
   }
 
   double normal_force() const { return normal_force_; }
@@ -80,15 +85,17 @@ class Sweep {
 
  private:
   void bring_along(const Flexibilities& flex);
+  bool comes_in(int ix, int iy) const;
   void row(int iy, const Creepage& creepage, double mu, const Flexibilities& flex);
-  void element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex,
-               Vec2& u);
+  void element(std::size_t i, double x, double y, double share, const Creepage& creepage, double mu,
+               const Flexibilities& flex, Vec2& u);
 
   const ContactProblem& problem_;
   ContactSolution& solution_;
   const ContactHistory& previous_;
-  bool steady_;
+  bool steady_, halved_;
   double sign_, dq_, shift_x_, shift_y_;
+  int ahead_x_ = 0, ahead_y_ = 0;            ///< where material comes from, at least an element further on
   std::vector<double> before_x_, before_y_;  ///< displacement of the material a step ago [m]; empty: none
   EquivalentEllipse equivalent_;
   double normal_force_ = 0.0;
@@ -110,8 +117,7 @@ Vec2 Sweep::run(const Creepage& creepage, bool blended) {
     row(iy, creepage, mu, flex);
   }
   if (problem_.tangential_model == TangentialModel::fastrip && mu * normal_force_ > 0.0)
-    apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, flex.slope, normal_force_, equivalent_, sign_),
-                       solution_);
+    apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, normal_force_, equivalent_, sign_), solution_);
   const auto sum = [](const std::vector<double>& field) { return std::accumulate(field.begin(), field.end(), 0.0); };
   return Vec2(sum(solution_.traction_x), sum(solution_.traction_y)) * grid.cell_area();
 }
@@ -139,30 +145,41 @@ void Sweep::row(int iy, const Creepage& creepage, double mu, const Flexibilities
     const std::size_t i = grid.index(ix, iy);
     if (!steady_) u = before_x_.empty() || before_y_.empty() ? Vec2(0.0, 0.0) : Vec2(before_x_[i], before_y_[i]);
     if (solution_.pressure[i] > 0.0)
-      element(i, grid.x(ix), grid.y(iy), creepage, mu, flex, u);
+      element(i, grid.x(ix), grid.y(iy), halved_ && comes_in(ix, iy) ? 0.5 : 1.0, creepage, mu, flex, u);
     else
       u.setZero();
   }
 }
 
-void Sweep::element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex,
-                    Vec2& u) {
-  const double lever_x = x - creepage.spin_x + problem_.rolling.spin_offset_factor * shift_x_;
-  const double lever_y = y - creepage.spin_y + problem_.rolling.spin_offset_factor * shift_y_;
+/// The material of an element was not in contact a step ago: on average it has been for half of the step.
+bool Sweep::comes_in(int ix, int iy) const {
+  const Grid2& grid = problem_.grid;
+  const int jx = ix + ahead_x_, jy = iy + ahead_y_;
+  if (jx < 0 || jy < 0 || jx >= grid.nx || jy >= grid.ny) return true;
+  const std::vector<double>& pressure = steady_ || previous_.empty() ? solution_.pressure : previous_.pressure;
+  return !(pressure[grid.index(jx, jy)] > 0.0);
+}
+
+/// share: of the step during which the material has been in contact.
+void Sweep::element(std::size_t i, double x, double y, double share, const Creepage& creepage, double mu,
+                    const Flexibilities& flex, Vec2& u) {
+  const double midway = halved_ ? 0.5 * share : problem_.rolling.spin_offset_factor, way = share * dq_;
+  const double lever_x = x - creepage.spin_x + midway * shift_x_;
+  const double lever_y = y - creepage.spin_y + midway * shift_y_;
   const auto extra = [i](const auto& slip) { return slip.empty() ? 0.0 : slip[i]; };
   const Vec2 rigid(creepage.xi - flex.spin_x * creepage.phi * lever_y + extra(problem_.extra_slip_x),
                    creepage.eta + flex.spin_y * creepage.phi * lever_x + extra(problem_.extra_slip_y));
   const Vec2 ahead = u;
   const Vec2 flexibility(flex.lx / flex.slope, flex.ly / flex.slope);
-  u = ahead - dq_ * rigid;
+  u = ahead - way * rigid;
   Vec2 traction = u.cwiseQuotient(flexibility);
   const double bound = mu * solution_.pressure[i], size = traction.norm();
   solution_.state[i] = ElementState::adhesion;
-  if (size > bound && problem_.tangential_model != TangentialModel::linear) {
+  if (size > bound) {
     traction *= bound / size;
     u = traction.cwiseProduct(flexibility);
     solution_.state[i] = ElementState::slip;
-    const Vec2 slip = (u - ahead) / dq_ + rigid;
+    const Vec2 slip = (u - ahead) / way + rigid;
     solution_.slip_x[i] = slip.x();
     solution_.slip_y[i] = slip.y();
   }
@@ -225,15 +242,6 @@ void find_creepage(const ContactProblem& problem, Sweep& sweep, ContactSolution&
   report.message = "no creepage was found for the prescribed tangential force";
 }
 
-/// What friction cannot carry is no force of a contact.
-void check_linear(const ContactProblem& problem, double normal_force, ContactSolution& solution) {
-  const auto sum = [](const std::vector<double>& field) { return std::accumulate(field.begin(), field.end(), 0.0); };
-  const double force = std::hypot(sum(solution.traction_x), sum(solution.traction_y)) * problem.grid.cell_area();
-  if (force <= problem.friction.static_friction() * normal_force) return;
-  solution.tangential.status = solution.status = Status::not_converged;
-  solution.tangential.message = "the linear theory gives more force than friction: the creepage is beyond it";
-}
-
 }  // namespace
 
 void solve_fastsim(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous) {
@@ -245,8 +253,7 @@ void solve_fastsim(const ContactProblem& problem, ContactSolution& solution, con
   if (problem.fx_relative || problem.fy_relative)
     find_creepage(problem, sweep, solution);
   else
-    sweep.run(problem.creepage, problem.tangential_model != TangentialModel::linear);
-  if (problem.tangential_model == TangentialModel::linear) check_linear(problem, sweep.normal_force(), solution);
+    sweep.run(problem.creepage, true);
 }
 
 }  // namespace treadmark::kalker

@@ -14,9 +14,7 @@ namespace treadmark::kalker {
 ///   creepage;
 /// - fastsim_one_flexibility: FASTSIM with fastsim.flexibility in both directions and for spin;
 /// - fastrip: FaStrip (Sichani, Enblom & Berg 2016): tractions of strip theory where it finds adhesion, the directions
-///   of FASTSIM elsewhere (strip_theory.hpp);
-/// - linear: the three flexibilities without a friction bound: forces of the linear theory (Kalker 1967), right for
-///   vanishing creepage. All elements adhere. A force beyond friction times the normal force: Status::not_converged.
+///   of FASTSIM elsewhere (strip_theory.hpp); slope reduction turns these directions, sizes are those of strip theory.
 /// Thread-safe: no state is kept.
 ///
 /// previous: what transient rolling goes on from, on the problem's grid; empty: the bodies come together from rest. The

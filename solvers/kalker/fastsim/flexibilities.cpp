@@ -35,9 +35,14 @@ EquivalentEllipse equivalent_ellipse(const Grid2& grid, std::span<const double> 
   return {c * ratio, c / ratio};
 }
 
+LinearFlexibilities linear_flexibilities(const KalkerCoefficients& c, double shear_modulus, double a, double b) {
+  return {8.0 * a / (3.0 * c.c11 * shear_modulus), 8.0 * a / (3.0 * c.c22 * shear_modulus),
+          pi * a * std::sqrt(a / b) / (4.0 * c.c23 * shear_modulus)};
+}
+
 namespace {
 
-/// Chosen so that small creepage gives the forces of the linear theory (Kalker 1990).
+/// Of the linear theory, blended with a single one where creepages are large (Kalker 1990).
 Flexibilities of_linear_theory(const ContactProblem& problem, const Creepage& creepage, double bound,
                                const EquivalentEllipse& equivalent, bool blended) {
   const CombinedMaterial material = combine(problem.material);
@@ -46,8 +51,7 @@ Flexibilities of_linear_theory(const ContactProblem& problem, const Creepage& cr
   const double a = hertzian ? problem.hertz->semi_axis_x : equivalent.a;
   const double b = hertzian ? problem.hertz->semi_axis_y : equivalent.b;
   const KalkerCoefficients c = kalker_coefficients(a, b, material.poisson);
-  double l1 = 8.0 * a / (3.0 * c.c11 * g), l2 = 8.0 * a / (3.0 * c.c22 * g),
-         l3 = pi * a * std::sqrt(a / b) / (4.0 * c.c23 * g);
+  auto [l1, l2, l3] = linear_flexibilities(c, g, a, b);
 
   const double xi = creepage.xi, eta = creepage.eta, phi = creepage.phi;
   if (blended && (xi != 0.0 || eta != 0.0 || phi != 0.0) && bound > 0.0) {
@@ -83,8 +87,7 @@ Flexibilities flexibilities(const ContactProblem& problem, const Creepage& creep
   Flexibilities result = problem.tangential_model == TangentialModel::fastsim_one_flexibility
                              ? Flexibilities{one, one, 1.0, 1.0, 1.0}
                              : of_linear_theory(problem, creepage, bound, equivalent, blended);
-  if (problem.tangential_model != TangentialModel::linear)
-    result.slope = reduced_slope(problem, creepage, bound, equivalent);
+  result.slope = reduced_slope(problem, creepage, bound, equivalent);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -18,35 +19,40 @@ using std::numbers::pi;
 /// sqrt(half^2 - x^2), 0 beyond the ends.
 double half_circle(double half, double x) { return std::sqrt(std::max(0.0, half * half - x * x)); }
 
-/// A run of elements in contact within one row.
-struct Run {
-  int iy, first, count;
+/// Elements in contact of one part of the patch within one row.
+struct Strip {
+  int row;
+  std::vector<int> columns;  ///< rising, not empty
+
+  double middle(const Grid2& grid) const { return 0.5 * (grid.x(columns.front()) + grid.x(columns.back())); }
+  double half_length(const Grid2& grid) const { return 0.5 * (columns.back() - columns.front() + 1) * grid.dx; }
 };
 
 /// Tractions of the adhesion area; false if the theory exceeds its own bound somewhere.
-bool adhesion_tractions(const Grid2& grid, const Run& run, double middle, const StripTheory& theory,
+bool adhesion_tractions(const Grid2& grid, const Strip& elements, const StripTheory& theory,
                         const StripTheory::Solution& strip, std::vector<Vec2>& traction) {
-  traction.assign(static_cast<std::size_t>(run.count), Vec2::Zero());
-  for (int k = 0; k < run.count; ++k) {
-    const double x = theory.sign() * (grid.x(run.first + k) - middle);
+  traction.assign(elements.columns.size(), Vec2::Zero());
+  const double middle = elements.middle(grid);
+  for (std::size_t k = 0; k < traction.size(); ++k) {
+    const double x = theory.sign() * (grid.x(elements.columns[k]) - middle);
     if (!strip.adheres(x)) continue;
-    traction[static_cast<std::size_t>(k)] = theory.traction(strip, x);
-    if (traction[static_cast<std::size_t>(k)].norm() > theory.greatest()) return false;
+    traction[k] = theory.traction(strip, x);
+    if (traction[k].norm() > theory.greatest()) return false;
   }
   return true;
 }
 
-void apply_to_run(const ContactProblem& problem, const StripTheory& theory, const Run& run, std::vector<Vec2>& traction,
-                  ContactSolution& solution) {
+void apply_to_strip(const ContactProblem& problem, const StripTheory& theory, const Strip& elements,
+                    std::vector<Vec2>& traction, ContactSolution& solution) {
   const Grid2& grid = problem.grid;
-  const double middle = 0.5 * (grid.x(run.first) + grid.x(run.first + run.count - 1));
-  const StripTheory::Solution strip = theory.solve(0.5 * run.count * grid.dx, grid.y(run.iy) - problem.creepage.spin_y,
-                                                   middle - problem.creepage.spin_x);
-  if (!adhesion_tractions(grid, run, middle, theory, strip, traction)) return;
-  for (int k = 0; k < run.count; ++k) {
-    const std::size_t i = grid.index(run.first + k, run.iy);
-    const bool adheres = strip.adheres(theory.sign() * (grid.x(run.first + k) - middle));
-    Vec2 p = adheres ? traction[static_cast<std::size_t>(k)] : Vec2(solution.traction_x[i], solution.traction_y[i]);
+  const double middle = elements.middle(grid);
+  const StripTheory::Solution strip = theory.solve(
+      elements.half_length(grid), grid.y(elements.row) - problem.creepage.spin_y, middle - problem.creepage.spin_x);
+  if (!adhesion_tractions(grid, elements, theory, strip, traction)) return;
+  for (std::size_t k = 0; k < traction.size(); ++k) {
+    const std::size_t i = grid.index(elements.columns[k], elements.row);
+    const bool adheres = strip.adheres(theory.sign() * (grid.x(elements.columns[k]) - middle));
+    Vec2 p = adheres ? traction[k] : Vec2(solution.traction_x[i], solution.traction_y[i]);
     const double bound = solution.friction[i] * solution.pressure[i], size = p.norm();
     // The ends of a strip lie within half an element, where the adhesion traction can exceed the pressure's bound.
     if (size > bound || (!adheres && size > 0.0)) p *= bound / size;
@@ -59,14 +65,14 @@ void apply_to_run(const ContactProblem& problem, const StripTheory& theory, cons
 
 }  // namespace
 
-StripTheory::StripTheory(const ContactProblem& problem, const Creepage& creepage, double mu, double slope,
-                         double normal_force, const EquivalentEllipse& equivalent, double sign)
+StripTheory::StripTheory(const ContactProblem& problem, const Creepage& creepage, double mu, double normal_force,
+                         const EquivalentEllipse& equivalent, double sign)
     : sign_(sign), a_(equivalent.a) {
   const CombinedMaterial material = combine(problem.material);
   poisson_ = material.poisson;
   greatest_ = mu * 1.5 * normal_force / (pi * equivalent.a * equivalent.b);
   const KalkerCoefficients c = kalker_coefficients(equivalent.a, equivalent.b, poisson_);
-  const double stiffness = slope * material.shear_modulus / (2.0 * greatest_);
+  const double stiffness = material.shear_modulus / (2.0 * greatest_);
   // Traction opposes creepage; a strip that rolls along -x is mirrored, which turns longitudinal creepage and spin.
   xi_ = -sign * stiffness * 4.0 * (1.0 - poisson_) * c.c11 / (pi * pi) * creepage.xi;
   eta_ = -stiffness * 4.0 * (1.0 - poisson_) * c.c22 / (pi * pi) * creepage.eta;
@@ -102,14 +108,19 @@ Vec2 StripTheory::traction(const Solution& strip, double x) const {
 
 void apply_strip_theory(const ContactProblem& problem, const StripTheory& theory, ContactSolution& solution) {
   const Grid2& grid = problem.grid;
-  const auto in_contact = [&](int ix, int iy) { return solution.pressure[grid.index(ix, iy)] > 0.0; };
+  const std::vector<std::uint8_t>& parts = problem.sub_patches.part;
+  const auto part_of = [&](std::size_t i) {
+    if (!(solution.pressure[i] > 0.0)) return 0;
+    return parts.empty() ? 1 : static_cast<int>(parts[i]);
+  };
   std::vector<Vec2> traction;
-  for (int iy = 0; iy < grid.ny; ++iy)
-    for (int ix = 0; ix < grid.nx; ++ix) {
-      if (!in_contact(ix, iy)) continue;
-      Run run{iy, ix, 0};
-      for (; ix < grid.nx && in_contact(ix, iy); ++ix) ++run.count;
-      apply_to_run(problem, theory, run, traction, solution);
+  Strip strip;
+  for (strip.row = 0; strip.row < grid.ny; ++strip.row)
+    for (int part = 1; part <= std::max(1, problem.sub_patches.count); ++part) {
+      strip.columns.clear();
+      for (int ix = 0; ix < grid.nx; ++ix)
+        if (part_of(grid.index(ix, strip.row)) == part) strip.columns.push_back(ix);
+      if (!strip.columns.empty()) apply_to_strip(problem, theory, strip, traction, solution);
     }
 }
 

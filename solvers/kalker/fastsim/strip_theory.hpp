@@ -13,9 +13,8 @@ namespace treadmark::kalker {
 class StripTheory {
  public:
   /// equivalent: ellipse with the area and extents of the contact; its Hertzian pressure for normal_force [N] is the
-  /// theory's scale. slope: reduction of the initial slope. sign: +1 for rolling along +x of the grid, -1 along -x.
-  /// mu and normal_force must be positive.
-  StripTheory(const ContactProblem& problem, const Creepage& creepage, double mu, double slope, double normal_force,
+  /// theory's scale. sign: +1 for rolling along +x of the grid, -1 along -x. mu and normal_force must be positive.
+  StripTheory(const ContactProblem& problem, const Creepage& creepage, double mu, double normal_force,
               const EquivalentEllipse& equivalent, double sign);
 
   /// What holds in one strip.
@@ -41,8 +40,9 @@ class StripTheory {
 };
 
 /// Replaces the tractions of FASTSIM in a solution by those of strip theory in its adhesion areas, and scales them to
-/// the friction bound elsewhere; slip is that of FASTSIM, 0 in adhesion. A strip where the theory gives more than
-/// greatest() keeps FASTSIM. Tractions never exceed the friction bound.
+/// the friction bound elsewhere; slip is that of FASTSIM, 0 in adhesion. A strip is what a row has of one part of the
+/// patch, from its first to its last element in contact. A strip where the theory gives more than greatest() keeps
+/// FASTSIM. Tractions never exceed the friction bound.
 void apply_strip_theory(const ContactProblem& problem, const StripTheory& theory, ContactSolution& solution);
 
 }  // namespace treadmark::kalker

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/theories.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {
@@ -56,7 +57,7 @@ ContactHistory history_of(const ContactProblem& problem, const ContactSolution& 
   out.plastic_x = solution.plastic_x;
   out.plastic_y = solution.plastic_y;
   out.yield_stress = solution.yield_stress;
-  if (problem.tangential_model != TangentialModel::full) {
+  if (!on_half_spaces(problem.tangential_model)) {
     out.layer_x = solution.displacement_x;
     out.layer_y = solution.displacement_y;
   }

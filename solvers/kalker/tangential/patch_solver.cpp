@@ -21,6 +21,7 @@ constexpr double kSensitivityAccuracy = 0.03;
 constexpr int kSensitivityIterations = 60;
 constexpr double kExactSensitivity = 1e-6;
 constexpr int kExactIterations = 200;
+constexpr int kMostCorrections = 20;
 constexpr double kSmallestRelaxation = 0.02;
 
 }  // namespace
@@ -104,7 +105,35 @@ std::vector<double> PatchSolver::new_slip_speed() const {
   return speed;
 }
 
+/// The no-slip equations W + A p = 0, by corrections that are each as exact as a sensitivity.
+bool PatchSolver::adhere(double eps) {
+  const std::size_t n = friction_.size();
+  state_.traction.resize(2 * n);
+  state_.slip.resize(2 * n);
+  state_.slipping.assign(n, 0);
+  state_.direction.assign(2 * n, 0.0);
+  state_.excess.assign(n, 0.0);
+  for (int round = 0; round < kMostCorrections; ++round) {
+    ++steps_;
+    matrix_.slip(state_.traction, state_.slip);
+    for (std::size_t k = 0; k < 2 * n; ++k) state_.slip[k] += problem_.rigid_slip[k];
+    const Field2 change = friction_solve_.newton().sensitivity(problem_, state_, state_.slip, {}, kSensitivityAccuracy,
+                                                               kSensitivityIterations);
+    for (std::size_t k = 0; k < 2 * n; ++k) state_.traction[k] += change[k];
+    state_.violation = rms(change);
+    if (state_.violation > eps * rms(state_.traction)) continue;
+    std::fill(state_.slip.begin(), state_.slip.end(), 0.0);
+    return true;
+  }
+  return false;
+}
+
 bool PatchSolver::solve(const Creepage& creepage, double eps) {
+  if (input_.tangential_model == TangentialModel::linear) {
+    creepage_ = creepage;
+    problem_.rigid_slip = conditions_.known_slip.at(creepage);
+    return adhere(eps);
+  }
   const bool fixed = laws_.constant() && !layer_.hardens();
   const auto adapt = [&] {
     if (!laws_.constant()) {

@@ -57,8 +57,8 @@ class PatchSolver {
   /// Slip speed of all elements to start from [m/s].
   void set_slip_speed(double speed) { slip_speed_.assign(slip_speed_.size(), speed); }
 
-  /// Tractions for given creepages to a relative accuracy eps, with friction that fits the slip. False if the accuracy
-  /// was not reached.
+  /// Tractions for given creepages to a relative accuracy eps, with friction that fits the slip; by the linear theory
+  /// those without any slip, whatever friction carries. False if the accuracy was not reached.
   bool solve(const Creepage& creepage, double eps);
 
   /// Sum of tractions relative to the static bound: x, y.
@@ -92,6 +92,7 @@ class PatchSolver {
 
  private:
   void set_bound();
+  bool adhere(double eps);
   bool solve_at_fixed_friction(double eps, bool updated = false);
   std::vector<double> new_slip_speed() const;
   std::vector<double> friction_bound() const;

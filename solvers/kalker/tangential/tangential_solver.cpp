@@ -36,6 +36,8 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
                    "solve the normal problem first");
   if (!solution.state.empty() && solution.state.size() != grid.size())
     refuse_problem("element states do not fit the contact grid", "solve the normal problem first");
+  if (problem.tangential_model == TangentialModel::linear && problem.regime != Regime::steady)
+    refuse_problem("the linear theory is for steady rolling", "use the full tangential model");
   const CombinedMaterial combined = combine(problem.material);
   if (!(combined.shear_modulus > 0.0)) refuse_problem("the shear modulus must be positive", "check the material");
   const Creepage& c = problem.creepage;
@@ -256,6 +258,11 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
   } else {
     outcome.creepage = problem.creepage;
     if (!solver.solve(problem.creepage, problem.settings.eps)) outcome.status = Status::not_converged;
+  }
+  if (problem.tangential_model == TangentialModel::linear &&
+      std::hypot(solver.relative_force()[0], solver.relative_force()[1]) > 1.0) {
+    outcome.status = Status::not_converged;
+    outcome.message = "the linear theory gives more force than friction: the creepage is beyond it";
   }
   if (outcome.status != Status::ok && outcome.message.empty())
     outcome.message = solver.friction_unsettled()

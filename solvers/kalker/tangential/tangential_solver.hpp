@@ -37,6 +37,8 @@ class TangentialSolver {
   /// Out: traction_x/y, displacement_x/y (elements of the contact area's bounding box, else 0), slip_x/y, friction,
   /// state, creepage, rolling_step and the report `tangential`: residual is the rms violation of the friction
   /// conditions relative to the rms friction bound. A solution that misses the accuracy has Status::not_converged.
+  /// TangentialModel::linear: Kalker's linear theory (1967), steady rolling without slip in any element, right for
+  /// vanishing creepage; a force beyond friction times the normal force has Status::not_converged.
   /// previous: the instant before, on the problem's grid or empty. frictional_power is that of slip and plastic shear.
   /// Errors: Error(configuration) for inconsistent sizes, directions of steady rolling other than 0 and pi, steps or
   /// velocities that are not positive.

@@ -90,8 +90,8 @@ TEST(FastsimTable, SimplifiedTheoriesStayCloseToFullTheory) {
   for (const Line& line : documented()) {
     SCOPED_TRACE(markdown(line));
     EXPECT_NEAR(line.forces[1], line.forces[0], 0.06);
-    EXPECT_NEAR(line.forces[2], line.forces[0], 0.06);
-    EXPECT_NEAR(line.forces[3], line.forces[0], 0.11);
+    EXPECT_NEAR(line.forces[2], line.forces[0], line.phi == 0.0 ? 0.045 : 0.08);
+    EXPECT_NEAR(line.forces[3], line.forces[0], 0.09);
     EXPECT_NEAR(line.forces[4], line.forces[0], line.phi == 0.0 ? 0.015 : 0.05);
   }
 }

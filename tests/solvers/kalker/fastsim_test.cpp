@@ -220,10 +220,10 @@ TEST(Fastsim, FallingFrictionLowersTheForce) {
 
 TEST(Fastsim, SlopeReductionWeakensSmallCreepageOnly) {
   Case c = rolling(44);
-  const double plain_small = force_at(c, {1e-4, 0, 0}).norm(), plain_large = force_at(c, {0.1, 0, 0}).norm();
+  const double plain_small = force_at(c, {1e-4, 0, 0}).norm(), plain_large = force_at(c, {0.5, 0, 0}).norm();
   c.problem.fastsim = {0.5, 0.2, 0.6};
   EXPECT_LT(force_at(c, {1e-4, 0, 0}).norm(), 0.6 * plain_small);
-  EXPECT_NEAR(force_at(c, {0.1, 0, 0}).norm(), plain_large, 1e-6 * plain_large);
+  EXPECT_NEAR(force_at(c, {0.5, 0, 0}).norm(), plain_large, 1e-6 * plain_large);
 }
 
 TEST(Fastsim, EquivalentEllipseOfAnEllipseIsThatEllipse) {
@@ -256,7 +256,8 @@ TEST(Fastsim, FromRestTractionsGrowWithTheDistanceRolled) {
       for (int ix = g.nx - 1, in_contact = 0; ix >= 0; --ix) {
         const std::size_t i = g.index(ix, iy);
         in_contact = c.solution.pressure[i] > 0.0 ? in_contact + 1 : 0;
-        const double expected = -xi * dx * std::min(in_contact, steps) / l;
+        // the leading edge lies half an element before the middle of the first element
+        const double expected = in_contact > 0 ? -xi * dx * std::min(in_contact - 0.5, 1.0 * steps) / l : 0.0;
         ASSERT_NEAR(c.solution.traction_x[i], expected, 1e-12 * std::abs(xi * dx / l) * steps);
       }
   }

@@ -5,10 +5,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "treadmark/solvers/kalker/contact_solver.hpp"
+#include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
+#include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {
@@ -30,7 +35,8 @@ OwnedProblem plain_patch(double enlarged = 1.2, double force = 80e3, int element
 std::vector<RemarkKind> judged(const ContactProblem& problem, const ContactSolution& solution) {
   std::vector<Remark> remarks;
   judge({problem.grid, problem.material, problem.friction.static_friction(), problem.regime == Regime::steady,
-         problem.regime == Regime::shift, kLimit},
+         problem.regime == Regime::shift, kLimit, std::numeric_limits<double>::infinity(), problem.normal_model,
+         problem.tangential_model, problem.fastsim.flexibility},
         solution, 1, remarks);
   std::vector<RemarkKind> kinds;
   for (const Remark& r : remarks) {
@@ -115,6 +121,59 @@ TEST(Plausibility, LargeCreepage) {
   EXPECT_THAT(judged(patch.problem), Contains(RemarkKind::large_creepage));
   patch.problem.creepage = {0.0, 0.0, 30.0};  // times sqrt(6 mm 4 mm)
   EXPECT_THAT(judged(patch.problem), Contains(RemarkKind::large_creepage));
+}
+
+/// Creepages by what the linear theory needs for the friction bound, on an ellipse of a/b.
+std::vector<RemarkKind> judged_by_theory(double ratio, TangentialModel model, const Creepage& scaled) {
+  const double c = 5e-3, a = c * std::sqrt(ratio), b = c / std::sqrt(ratio);
+  const CombinedMaterial material = combine(Material{});
+  const HertzShape shape = hertz_from_semi_axes(a, b, {true, 80e3}, material);
+  const KalkerCoefficients k = kalker_coefficients(a, b, material.poisson);
+  OwnedProblem patch = testing::hertzian(shape, hertz_grid(shape, 36, 36, 1.125));
+  const double unit = 0.3 * 80e3 / (material.shear_modulus * c * c);
+  patch.problem.creepage = {scaled.xi * unit / k.c11, scaled.eta * unit / k.c22, scaled.phi * unit / (c * k.c23)};
+  patch.problem.regime = Regime::steady;
+  patch.problem.tangential_model = model;
+  patch.problem.fastsim.flexibility = linear_flexibilities(k, material.shear_modulus, a, b).l1;
+  return judged(patch.problem);
+}
+
+// The errors behind these are in docs/verification.md and its test, theory_errors_test.cpp.
+TEST(Plausibility, TheoriesBeyondWhatTheyAreKnownFor) {
+  using Model = TangentialModel;
+  const auto doubted = [](double ratio, Model model, const Creepage& scaled) {
+    const std::vector<RemarkKind> kinds = judged_by_theory(ratio, model, scaled);
+    return std::ranges::find(kinds, RemarkKind::beyond_theory) != kinds.end();
+  };
+  const Creepage slipping{1.0, 1.0, 0.0}, turning{0.0, 1.0, 0.5}, spinning{0.5, -0.5, 1.0};
+  for (const double ratio : {0.1, 0.5, 2.0, 10.0})
+    for (const Model model : {Model::full, Model::fastsim, Model::fastrip})
+      EXPECT_FALSE(doubted(ratio, model, slipping)) << ratio;
+  for (const double ratio : {0.1, 10.0})
+    for (const Model model : {Model::fastsim, Model::fastrip}) EXPECT_TRUE(doubted(ratio, model, spinning)) << ratio;
+  EXPECT_TRUE(doubted(0.1, Model::fastsim, turning));
+  for (const Model model : {Model::full, Model::fastsim, Model::fastrip}) EXPECT_FALSE(doubted(1.0, model, spinning));
+  EXPECT_FALSE(doubted(4.0, Model::fastsim, spinning));
+  EXPECT_TRUE(doubted(4.0, Model::fastrip, spinning));
+  // One flexibility, that of longitudinal creepage.
+  EXPECT_FALSE(doubted(0.2, Model::fastsim_one_flexibility, {1.0, 0.0, 0.0}));
+  EXPECT_TRUE(doubted(0.2, Model::fastsim_one_flexibility, {0.0, 1.0, 0.0}));
+  EXPECT_TRUE(doubted(1.0, Model::fastsim_one_flexibility, {0.0, 0.0, 0.5}));
+  EXPECT_FALSE(doubted(1.0, Model::linear, {0.2, 0.1, 0.1}));
+  EXPECT_TRUE(doubted(1.0, Model::linear, {0.6, 0.0, 0.0}));
+  EXPECT_TRUE(doubted(1.0, Model::linear, {0.0, 0.5, -0.5})) << "though both give hardly any force together";
+}
+
+TEST(Plausibility, KpecOnLongPatches) {
+  for (const double ratio : {0.2, 3.0, 8.0}) {
+    const HertzShape shape =
+        hertz_from_semi_axes(5e-3 * std::sqrt(ratio), 5e-3 / std::sqrt(ratio), {true, 80e3}, combine(Material{}));
+    OwnedProblem patch = testing::hertzian(shape, hertz_grid(shape, 36, 36, 1.125));
+    patch.problem.force_prescribed = false;
+    patch.problem.approach = shape.approach;
+    patch.problem.normal_model = NormalModel::kpec;
+    EXPECT_EQ(std::ranges::count(judged(patch.problem), RemarkKind::beyond_theory), ratio > 5.0 ? 1 : 0) << ratio;
+  }
 }
 
 TEST(Plausibility, UnusualFriction) {

@@ -97,6 +97,7 @@ TEST(ReferenceCases, FastsimTractionCurves) {
   ContactProblem& problem = owned.problem;
   problem.normal_model = NormalModel::parabolic;
   problem.tangential_model = TangentialModel::fastsim;
+  problem.fastsim.first_step = FastsimSettings::FirstStep::whole;
   problem.regime = Regime::steady;
   ContactSolver solver;
   for (std::size_t k = 60; k < 120; ++k) {
@@ -104,7 +105,7 @@ TEST(ReferenceCases, FastsimTractionCurves) {
     const auto& patch = patches.at(k);
     if (k == 90) {  // slope reduction and falling friction
       problem.friction = {FrictionLaw::Kind::exponential, 0.1368, 0.2232, 0.0, 0.990, 0.0};
-      problem.fastsim = {0.54, 0.02, 0.62};
+      problem.fastsim = {0.54, 0.02, 0.62, 0.0, FastsimSettings::FirstStep::whole};
     }
     problem.creepage.xi = patch.at("kinematics").at("xi");
     const ContactSolution solution = solver.solve(problem);
@@ -138,6 +139,7 @@ TEST(ReferenceCases, FastsimWithSpin) {
     problem.hertz = shape;
     problem.normal_model = c.model;
     problem.tangential_model = TangentialModel::fastsim;
+    problem.fastsim.first_step = FastsimSettings::FirstStep::whole;
     problem.regime = Regime::steady;
     problem.rolling.chi = patch.at("kinematics").at("chi_rad").get<double>() > 1.0 ? std::acos(-1.0) : 0.0;
     problem.creepage.eta = patch.at("kinematics").at("eta");

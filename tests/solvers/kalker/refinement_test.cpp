@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/kalker/plausibility.hpp"
 
 namespace treadmark::kalker {
 namespace {
@@ -51,6 +53,7 @@ TEST(Refinement, BoundsTheErrorsOfEllipses) {
         EXPECT_LE(error(s.max_pressure, hertz_max_pressure(e.shape)), r.pressure);
         EXPECT_LE(error(area_of(s, e.problem.grid), e.area()), r.area);
         EXPECT_EQ(r.force, 0.0) << "it is given";
+        EXPECT_LT(std::abs(r.peak_exponent), 0.1);
         e.problem.force_prescribed = false;
         s = solver.solve(e.problem);
         if (s.status == Status::no_contact) continue;  // between the middles of elements
@@ -107,6 +110,28 @@ TEST(Refinement, IsLargeWhereSurfacesAreRough) {
   ContactSolver solver, coarse;
   const Refinement r = estimate_refinement(e.problem, solver.solve(e.problem), false, coarse);
   EXPECT_GT(r.pressure, 0.05);
+}
+
+// At an edge of a rigid body pressure grows with 1/sqrt of the distance (Sneddon 1948), and so with 1/sqrt of the size
+// of elements.
+TEST(Refinement, SeesPressureWithoutLimitAtAnEdge) {
+  ContactSolver solver, coarse;
+  for (const double across : {20.0, 40.0, 60.0}) {
+    SCOPED_TRACE(across);
+    Ellipse e(1.0, across, across, {0.2, 0.4});
+    const Grid2& g = e.problem.grid;
+    const double end = 0.3 * e.shape.semi_axis_x;
+    for (int iy = 0; iy < g.ny; ++iy)
+      for (int ix = 0; ix < g.nx; ++ix)
+        if (g.x(ix) > end) e.gap[g.index(ix, iy)] = std::nan("");
+    const ContactSolution s = solver.solve(e.problem);
+    const Refinement r = estimate_refinement(e.problem, s, true, coarse);
+    EXPECT_NEAR(r.peak_exponent, 0.5, 0.15);
+    EXPECT_NEAR(r.peak.x(), end, g.dx);
+    std::vector<Remark> remarks;
+    judge_refinement(r, 1, remarks);
+    EXPECT_TRUE(std::ranges::any_of(remarks, [](const Remark& one) { return one.kind == RemarkKind::edge_pressure; }));
+  }
 }
 
 TEST(Refinement, DoesNotRememberTheCallBefore) {
