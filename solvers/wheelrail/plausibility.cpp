@@ -173,7 +173,7 @@ void judge_place(const Geometry& geometry, const Problem& p, PairSolution& solut
 
 }  // namespace
 
-void judge(const Geometry& geometry, const Problem& p, PairSolution& solution) {
+void judge(const Geometry& geometry, const Problem& p, double balanced, PairSolution& solution) {
   judge_values(p, solution.remarks);
   for (std::size_t i = 0; i < solution.patches.size(); ++i) judge_patch(geometry, p, static_cast<int>(i) + 1, solution);
   if (solution.hidden_patches > 0) {
@@ -191,9 +191,11 @@ void judge(const Geometry& geometry, const Problem& p, PairSolution& solution) {
     return;
   }
   judge_place(geometry, p, solution);
-  if (solution.status != Status::ok) return;
-  if (p.vertical_force)
-    kalker::judge_force("vertical force", *p.vertical_force, solution.load.track.force.z(), solution.remarks);
+  if (solution.status != Status::ok || !p.vertical_force) return;
+  const double found = solution.load.track.force.z();
+  kalker::judge_force("vertical force", *p.vertical_force, balanced, solution.remarks);
+  if (p.damping)
+    kalker::judge_force("vertical force", *p.vertical_force, found, solution.remarks, "damping comes on top of it");
 }
 
 }  // namespace treadmark::wheelrail
