@@ -16,6 +16,7 @@ namespace treadmark {
 enum class RemarkKind : std::uint8_t {
   grid_cuts_contact,
   grid_touches_contact,
+  grid_bounds_contact,
   surface_ends_in_contact,
   hole_in_contact,
   contact_hidden,
@@ -31,6 +32,7 @@ enum class RemarkKind : std::uint8_t {
   friction_adds_energy,
   force_not_reached,
   no_contact_under_load,
+  force_differs,
   elements_enlarged,
   step_rule,
   profile_doubtful,
@@ -61,6 +63,9 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::grid_touches_contact, "grid_touches_contact", false,
      "contact reaches the border of the potential contact area with no more pressure than at the edge of a patch"},
     {RemarkKind::surface_ends_in_contact, "surface_ends_in_contact", true,
+    {RemarkKind::grid_bounds_contact, "grid_bounds_contact", false,
+     "the bodies are under pressure at the border of the potential contact area, and may not touch beyond it "
+     "(patch.grid_border = \"closed\", which input of CONTACT means)"},
      "contact reaches the end of a surface's data: pressures there depend on where the data end"},
     {RemarkKind::hole_in_contact, "hole_in_contact", true,
      "a surface is missing inside or beside the patch: the case fails"},
@@ -98,6 +103,9 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::elements_enlarged, "elements_enlarged", false,
      "elements were enlarged to keep their number below max_elements"},
     {RemarkKind::step_rule, "step_rule", false, "a step of transient rolling is longer than dt = 2 dx / V"},
+    {RemarkKind::force_differs, "force_differs", false,
+     "the same, as it is meant: damping comes on top of the prescribed force, or pressures by a formula are summed "
+     "over elements"},
     {RemarkKind::profile_doubtful, "profile_doubtful", true,
      "what a profile means is in doubt: its orientation, its place, its unit; see treadmark check"},
     {RemarkKind::gauge_unseen, "gauge_unseen", true,

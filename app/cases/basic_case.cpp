@@ -4,7 +4,6 @@
 #include "treadmark/app/cases/basic_case.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -12,6 +11,7 @@
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
@@ -51,12 +51,6 @@ std::optional<kalker::HertzShape> hertz_shape(const io::BasicCase& input) {
 }
 
 namespace {
-
-double timed(const auto& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The problem of a case; gap and slip are kept beside it.
 struct PosedProblem {
@@ -132,10 +126,16 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   const kalker::ContactProblem& p = posed.problem;
   kalker::ContactSolution solution;
   io::CaseResult result;
-  result.normal_s = timed([&] { solution = solver_.solve_normal(p); });
+  {
+    const Stopwatch watch(result.normal_s);
+    solution = solver_.solve_normal(p);
+  }
   result.normal_solves = 1;
   result.status = solution.status;
-  result.tangential_s = timed([&] { solver_.solve_tangential(p, solution); });
+  {
+    const Stopwatch watch(result.tangential_s);
+    solver_.solve_tangential(p, solution);
+  }
   if (solution.status == Status::no_contact) {
     result.status = Status::no_contact;
     result.message = "the bodies do not touch";
@@ -171,14 +171,17 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   const double modulus = kalker::contact_modulus(p.material);
   kalker::judge({p.grid, p.material, p.friction.static_friction(), rolling, p.regime == Regime::shift,
                  modulus < kSoftestSolid ? kInfinity : kNotSmall * modulus,
-                 modulus < kSoftestMetal ? kInfinity : kYields * modulus, p.normal_model, p.tangential_model,
-                 p.fastsim.flexibility},
+                 modulus < kSoftestMetal ? kInfinity : kYields * modulus, input.grid_border == io::GridBorder::closed,
+                 p.normal_model, p.tangential_model, p.fastsim.flexibility},
                 solution, 1, result.remarks);
   const kalker::Refinement refinement = kalker::estimate_refinement(p, solution, p.force_prescribed, coarse_solver_);
   r.refinement = {refinement.pressure, refinement.area, refinement.force};
   kalker::judge_refinement(refinement, 1, result.remarks);
   if (result.status == Status::ok && p.force_prescribed)
-    kalker::judge_force("normal force", p.normal_force, solution.force_n, result.remarks);
+    kalker::judge_force("normal force", p.normal_force, solution.force_n, result.remarks,
+                        p.normal_model == NormalModel::full
+                            ? ""
+                            : "the pressure follows a formula and is summed over elements, take smaller ones");
   result.patches.push_back(std::move(r));
   return result;
 }

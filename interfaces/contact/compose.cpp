@@ -30,6 +30,7 @@ Problem::Problem(int ire, int icp, int which) : element(ire), number(icp), modul
   b.velocity = 1.0;
   b.dq = b.dx = b.dy = 2e-3;
   b.mx = b.my = 1;
+  b.grid_border = io::GridBorder::closed;
   given.potential_contact = 1;
   given.gap = io::GapInput{io::GapInput::Kind::quadratic, std::vector<double>(6, 0.0)};
   io::HertzInput& h = given.hertz;
@@ -91,6 +92,7 @@ void put_common(const Problem& p, Content& c) {
   c.influence.linear = p.flags[CNTC_ic_ifmeth] == 0;
   c.influence.variant = p.flags[CNTC_ic_ifvari];
   c.solver = p.given.solver;
+  c.solver.reference_quirks = true;
   c.friction = p.given.friction.laws.front();
   c.sensitivities = p.flags[CNTC_ic_sens] >= 2;
   c.subsurface = {};

@@ -142,9 +142,9 @@ constexpr FoundRow kFoundRows[] = {
      [](const wheelrail::PairSolution& s, double* out) {
        *out = sum_over_patches(s, &kalker::ContactSolution::elastic_energy);
      }},
-    {"frictional_power", "W", "power of friction, negative: dissipated",
+    {"friction", "W", "power that friction dissipates",
      [](const wheelrail::PairSolution& s, double* out) {
-       *out = sum_over_patches(s, &kalker::ContactSolution::frictional_power);
+       *out = 0.0 - sum_over_patches(s, &kalker::ContactSolution::frictional_power);
      }},
     {"patches", "1", "number of contact patches, also of those beyond the arrays",
      [](const wheelrail::PairSolution& s, double* out) { *out = static_cast<double>(s.patches.size()); }, 0, true},

@@ -136,7 +136,8 @@ void written_with_heat(CaseKey& key) {
 void add_reference_ways(KeyList& list) {
   KeyInfo info = key_info("case.reference_ways", KeyType::flag,
                           "details as the reference program (CONTACT) has them, as in its input files: spin moments of "
-                          "grids that are aligned in time, transient steps of more than two elements, temperatures");
+                          "grids that are aligned in time, transient steps of more than two elements, temperatures; of a "
+                          "[patch] also KPEC, ANALYN and sub-patches");
   info.default_text = "false";
   CaseKey& key = list.add(info);
   key.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
@@ -147,11 +148,14 @@ void add_reference_ways(KeyList& list) {
         c.content);
     if (auto* rail = std::get_if<WheelRailCase>(&c.content))
       rail->moments_about_grid_origin = rail->long_steps = v.flag();
+    else
+      std::get<BasicCase>(c.content).solver.reference_quirks = v.flag();
   };
   key.text = [](const Case& c) {
     const auto* rail = std::get_if<WheelRailCase>(&c.content);
     const bool heat = std::visit([](auto& one) { return one.thermal && one.thermal->reference_quirks; }, c.content);
-    return std::string((rail != nullptr && rail->long_steps) || heat ? "true" : "false");
+    const bool ways = rail != nullptr ? rail->long_steps : std::get<BasicCase>(c.content).solver.reference_quirks;
+    return std::string(ways || heat ? "true" : "false");
   };
 }
 

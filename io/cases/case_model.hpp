@@ -207,6 +207,10 @@ struct GapInput {
 /// In which direction the spin of a patch makes its surfaces slide.
 enum class SpinSlip { both, longitudinal, lateral };
 
+/// What lies beyond the grid of a patch: bodies that go on, so that contact there is cut off, or nothing that may
+/// touch.
+enum class GridBorder { open, closed };
+
 /// One patch with given geometry (module 3).
 struct BasicCase {
   bool normal_force_prescribed = true;
@@ -225,7 +229,8 @@ struct BasicCase {
   double spin_offset_factor = 1.0 / 6.0;          ///< FACPHI
   int mx = 0, my = 0;                             ///< columns and rows of elements
   double x0 = 0.0, y0 = 0.0, dx = 0.0, dy = 0.0;  ///< centre of the first element and steps [m] (IPOTCN > 0)
-  std::variant<GapInput, HertzInput> geometry;    ///< HertzInput: grid follows from it
+  GridBorder grid_border = GridBorder::open;
+  std::variant<GapInput, HertzInput> geometry;  ///< HertzInput: grid follows from it
   Material material;
   FrictionLaw friction;
   SolverSettings solver;

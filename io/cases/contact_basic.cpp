@@ -111,6 +111,7 @@ void put_models(ContactReader& r, BasicCase& b) {
   b.influence = r.kept.influence;
   b.thermal = r.effective_heat();
   b.solver = r.kept.solver;
+  b.solver.reference_quirks = true;
   if (problem["TANG"] >= 2 && !r.kept.has_rolling)
     r.fail_at(problem, "TANG", "needs the rolling line CHI DQ VELOC, but no case has given it",
               "use C (INFLCF) = 2 here");
@@ -142,6 +143,7 @@ BasicCase read_basic(ContactReader& r) {
   r.read_subsurface();
 
   BasicCase b = r.kept.basic;
+  b.grid_border = GridBorder::closed;
   put_geometry(r, b);
   put_models(r, b);
   put_friction(r, b);

@@ -144,7 +144,12 @@ double contact_modulus(const Material& material) {
 void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vector<Remark>& remarks) {
   const auto add = [&](RemarkKind kind, std::string text) { remarks.push_back({kind, patch, std::move(text)}); };
 
-  if (const AtBorder border = at_border(p.grid, s); border.cut > 0)
+  if (const AtBorder border = at_border(p.grid, s); border.cut > 0 && p.closed_border)
+    add(RemarkKind::grid_bounds_contact,
+        fmt::format("{} of {} elements in contact are under pressure at the border of the potential contact area, "
+                    "beyond which the bodies may not touch",
+                    border.cut, s.elements_contact));
+  else if (border.cut > 0)
     add(RemarkKind::grid_cuts_contact,
         fmt::format(
             "{} of {} elements in contact are under pressure at the border of the potential contact area, which "
@@ -219,11 +224,12 @@ void judge_refinement(const Refinement& r, int patch, std::vector<Remark>& remar
                                  1e2 * r.pressure, 1e2 * r.force)});
 }
 
-void judge_force(const char* name, double wanted, double found, std::vector<Remark>& remarks) {
+void judge_force(const char* name, double wanted, double found, std::vector<Remark>& remarks, std::string_view meant) {
   const double scale = std::abs(wanted);
   if (std::abs(found - wanted) > kForceTolerance * scale)
-    remarks.push_back({RemarkKind::force_not_reached, 0,
-                       fmt::format("a {} of {:.6g} N is prescribed, found are {:.6g} N", name, wanted, found)});
+    remarks.push_back({meant.empty() ? RemarkKind::force_not_reached : RemarkKind::force_differs, 0,
+                       fmt::format("a {} of {:.6g} N is prescribed, found are {:.6g} N{}{}", name, wanted, found,
+                                   meant.empty() ? "" : ": ", meant)});
 }
 
 }  // namespace treadmark::kalker

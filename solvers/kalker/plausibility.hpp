@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/model/remarks.hpp"
@@ -21,6 +22,7 @@ struct PatchSetting {
   double pressure_limit = 0;  ///< beyond_half_space above it [Pa]
   /// beyond_yield above it and up to the former [Pa]
   double yield_limit = std::numeric_limits<double>::infinity();
+  bool closed_border = false;  ///< the bodies may not touch beyond the grid
   NormalModel normal_model = NormalModel::full;
   TangentialModel tangential_model = TangentialModel::full;
   double flexibility = 0.0;  ///< of FASTSIM with one flexibility [m/Pa]
@@ -35,7 +37,8 @@ void judge_refinement(const Refinement& refinement, int patch, std::vector<Remar
 /// E' = G / (1 - nu) of both bodies [Pa].
 double contact_modulus(const Material& material);
 
-/// A force that was asked for and the one that was found [N].
-void judge_force(const char* name, double wanted, double found, std::vector<Remark>& remarks);
+/// A force that was asked for and the one that was found [N]. meant: why they may differ; empty: they may not.
+void judge_force(const char* name, double wanted, double found, std::vector<Remark>& remarks,
+                 std::string_view meant = {});
 
 }  // namespace treadmark::kalker

@@ -195,6 +195,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   next->last.end_slope = balance.end_slope;
   if (p.refinement) step.estimate_refinement(coarse_solver_);
   solution.placement = step.placement();
+  const double balanced = step.force_T().z();
   solution.patches = step.take_patches();
   if (solution.patches.empty()) note(solution, Status::no_contact, "the bodies do not touch at this position");
   if (solution.status == Status::no_contact)
@@ -202,7 +203,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   add_damping(p, next->previous, next->last, solution.patches);
   move_down(solution, balance.rail_dz);
   complete(geometry_, solution);
-  judge(geometry_, p, solution);
+  judge(geometry_, p, balanced, solution);
   state_ = std::move(next);
   return solution;
 }

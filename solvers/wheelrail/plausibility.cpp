@@ -98,7 +98,7 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
   const bool rolling = p.regime == kalker::Regime::steady || p.regime == kalker::Regime::transient;
   const double modulus = kalker::contact_modulus(p.material), ratio = s.contact.max_pressure / modulus;
   kalker::judge({s.grid, p.material, p.friction.static_friction(), rolling && s.kinematics.velocity > 0.0,
-                 p.regime == kalker::Regime::shift, kNotSmall * modulus, kYields * modulus, p.normal_model,
+                 p.regime == kalker::Regime::shift, kNotSmall * modulus, kYields * modulus, false, p.normal_model,
                  p.tangential_model, p.fastsim.flexibility},
                 s.contact, number, solution.remarks);
   if (s.refinement) kalker::judge_refinement(*s.refinement, number, solution.remarks);
@@ -174,7 +174,7 @@ void judge_place(const Geometry& geometry, const Problem& p, PairSolution& solut
 
 }  // namespace
 
-void judge(const Geometry& geometry, const Problem& p, PairSolution& solution) {
+void judge(const Geometry& geometry, const Problem& p, double balanced, PairSolution& solution) {
   judge_values(p, solution.remarks);
   for (std::size_t i = 0; i < solution.patches.size(); ++i) judge_patch(geometry, p, static_cast<int>(i) + 1, solution);
   if (solution.hidden_patches > 0) {
@@ -192,9 +192,11 @@ void judge(const Geometry& geometry, const Problem& p, PairSolution& solution) {
     return;
   }
   judge_place(geometry, p, solution);
-  if (solution.status != Status::ok) return;
-  if (p.vertical_force)
-    kalker::judge_force("vertical force", *p.vertical_force, solution.load.track.force.z(), solution.remarks);
+  if (solution.status != Status::ok || !p.vertical_force) return;
+  const double found = solution.load.track.force.z();
+  kalker::judge_force("vertical force", *p.vertical_force, balanced, solution.remarks);
+  if (p.damping)
+    kalker::judge_force("vertical force", *p.vertical_force, found, solution.remarks, "damping comes on top of it");
 }
 
 }  // namespace treadmark::wheelrail

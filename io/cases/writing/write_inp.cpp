@@ -505,7 +505,8 @@ class InputWriter {
     const bool slip = !c.extra_slip_x.empty(), rolling = c.regime == Regime::transient || c.regime == Regime::steady;
     refuse_if(slip && c.spin_slip != SpinSlip::both, "extra slip of elements together with patch.spin_slip");
     const int extra = slip ? 9 : c.spin_slip == SpinSlip::longitudinal ? 2 : c.spin_slip == SpinSlip::lateral ? 3 : 0;
-    own_settings({{"case.sensitivities", "false"}, {"case.reference_ways", c.thermal ? "true" : "false"}});
+    const std::string closed = toml_text("closed");
+    own_settings({{"case.sensitivities", "false"}, {"case.reference_ways", "true"}, {"patch.grid_border", closed}});
     fastsim_first_step(c, "patch.fastsim_first_step");
     put(Record().add("P-B-T-N-F-S", fmt::format("{}{}{}{}{}{}", history_digit(c), bound, theory(c.regime).digit.value,
                                                 c.normal_force_prescribed ? 1 : 0,

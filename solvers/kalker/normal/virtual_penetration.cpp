@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "treadmark/core/error.hpp"
@@ -35,6 +36,28 @@ void check_penetration_problem(const ContactProblem& problem) {
     if (std::isinf(h) && h < 0.0) refuse("the gap is not finite", "mark elements without contact by NaN");
 }
 
+/// Shape and depth of the contact are judged from where the bodies overlap by more than this share of the depth.
+constexpr double kShapeLevel = 0.5;
+
+/// Factor on displacements [m] that makes them the overlap: in the mean, the more the deeper, so that none of several
+/// places of about the same depth decides alone; of the reference program at the deepest element.
+double scale_to_depth(const Interpenetration& overlap, std::span<const double> displacement, bool reference_quirks) {
+  const Grid2& grid = overlap.grid();
+  if (reference_quirks) {
+    const int iy = overlap.deepest_row();
+    return overlap.depth() / displacement[grid.index(overlap.deepest_column(iy), iy)];
+  }
+  double wanted = 0.0, found = 0.0;
+  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy)
+    for (int ix = overlap.box().x0; ix < overlap.box().x1; ++ix) {
+      const double depth = -overlap.distance(ix, iy), weight = depth - kShapeLevel * overlap.depth();
+      if (!(weight > 0.0)) continue;
+      wanted += weight * depth;
+      found += weight * displacement[grid.index(ix, iy)];
+    }
+  return wanted / found;
+}
+
 }  // namespace
 
 void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators,
@@ -55,21 +78,82 @@ void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCach
   }
   half_space_displacement(operators, problem, overlap.box(), solution.pressure, solution.displacement_n);
   if (!kpec) return;
-  const int iy = overlap.deepest_row();
-  const double scale = overlap.depth() / solution.displacement_n[grid.index(overlap.deepest_column(iy), iy)];
+  const double scale = scale_to_depth(overlap, solution.displacement_n, quirks);
   for (double& p : solution.pressure) p *= scale;
   for (double& u : solution.displacement_n) u *= scale;
 }
 
 namespace {
 
-/// Shape of the contact is judged from where the bodies overlap by more than this share of the depth.
-constexpr double kShapeLevel = 0.5;
-
 /// From a to b, where a level lies between the distances at both, as a share of the way; half the way without a
 /// neighbour.
 double share_to_level(double inside, double outside, double level) {
   return std::isfinite(outside) ? (level - inside) / (outside - inside) : 0.5;
+}
+
+/// What Hertz' ellipse is found from. Where it is not the reference program's, all of it is continuous in the gap.
+struct Outline {
+  double curvature_x = kLeastCurvature;   ///< A of A x^2 [1/m]
+  double middle = 0.0, half_width = 0.0;  ///< across, of where the bodies overlap beyond the level [m]
+  double deepest = 0.0;                   ///< how far from the middle they overlap most [m]
+};
+
+/// A by least squares, every row of elements with a height and a slope of its own. An element weighs as the deepest of
+/// itself and its neighbours along the row lies beyond the level: a row that does has three.
+double fitted_curvature(const Interpenetration& overlap, double level) {
+  const Grid2& grid = overlap.grid();
+  const ElementBox& box = overlap.box();
+  double product = 0.0, square = 0.0;
+  for (int iy = box.y0; iy < box.y1; ++iy) {
+    const int middle = overlap.deepest_column(iy);
+    int count = 0;
+    double w[5] = {}, g[3] = {};  // sums of the weight times powers of k, and times the distance
+    for (int ix = std::max(0, box.x0 - 1); ix < std::min(grid.nx, box.x1 + 1); ++ix) {
+      const double here = overlap.distance(ix, iy);
+      const double weight = level - std::min({overlap.distance(ix - 1, iy), here, overlap.distance(ix + 1, iy)});
+      if (!(weight > 0.0) || !std::isfinite(here)) continue;
+      const double k = ix - middle;
+      double power = weight;
+      ++count;
+      for (int i = 0; i < 5; ++i, power *= k) {
+        w[i] += power;
+        if (i < 3) g[i] += power * (here - level);
+      }
+    }
+    if (count < 3) continue;
+    const double det = w[0] * w[2] - w[1] * w[1];
+    // k^2 less what a constant and a slope have of it
+    const double constant = (w[2] * w[2] - w[1] * w[3]) / det, slope = (w[0] * w[3] - w[1] * w[2]) / det;
+    product += g[2] - constant * g[0] - slope * g[1];
+    square += w[4] - constant * w[2] - slope * w[3];
+  }
+  const double a = product / (square * grid.dx * grid.dx);
+  return a > kLeastCurvature ? a : kLeastCurvature;
+}
+
+Outline outline(const Interpenetration& overlap, double level) {
+  const Grid2& grid = overlap.grid();
+  const auto least = [&](int iy) { return iy < 0 || iy >= grid.ny ? HUGE_VAL : overlap.least_distance(iy); };
+  Outline out;
+  out.curvature_x = fitted_curvature(overlap, level);
+  double width = 0.0, moment = 0.0;
+  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy) {
+    if (!(least(iy) < level)) continue;
+    for (const int side : {-1, 1}) {
+      const double beside = least(iy + side),
+                   length = grid.dy * (beside < level ? 0.5 : share_to_level(least(iy), beside, level));
+      width += length;
+      moment += length * (grid.y(iy) + 0.5 * side * length);
+    }
+  }
+  out.middle = moment / width;
+  out.half_width = 0.5 * width;
+  constexpr double kNear = 0.1;  // of the depth
+  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy) {
+    const double share = 1.0 - (overlap.depth() + least(iy)) / (kNear * overlap.depth());
+    if (share > 0.0) out.deepest = std::max(out.deepest, share * std::abs(grid.y(iy) - out.middle));
+  }
+  return out;
 }
 
 /// A of A x^2 through the deepest element and two at the same distance on both sides, beyond the level.
@@ -99,6 +183,19 @@ double lateral_end(const Interpenetration& overlap, int iy, int direction, doubl
   return overlap.grid().y(iy) + direction * share * overlap.grid().dy;
 }
 
+Outline reference_outline(const Interpenetration& overlap, double level) {
+  int first = overlap.deepest_row(), last = first;
+  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy)
+    if (overlap.least_distance(iy) < level) {
+      first = std::min(first, iy);
+      last = std::max(last, iy);
+    }
+  const double low = lateral_end(overlap, first, -1, level), high = lateral_end(overlap, last, 1, level);
+  const double middle = 0.5 * (low + high);
+  return {curvature_along(overlap, level), middle, 0.5 * (high - low),
+          std::abs(overlap.grid().y(overlap.deepest_row()) - middle)};
+}
+
 /// Share of the depth at which a row is cut, linear in y^2 between what Hertz' ellipse has at its ends along x and y.
 struct CutLevel {
   double along = 0.0, across = 0.0;  ///< A a^2, B b^2 over the depth
@@ -110,26 +207,16 @@ struct CutLevel {
   }
 };
 
-CutLevel cut_level(const Interpenetration& overlap, const CombinedMaterial& material) {
-  const Grid2& grid = overlap.grid();
+CutLevel cut_level(const Interpenetration& overlap, const CombinedMaterial& material, bool reference_quirks) {
   const double depth = overlap.depth(), level = -kShapeLevel * depth;
-  int first = overlap.deepest_row(), last = first;
-  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy)
-    if (overlap.least_distance(iy) < level) {
-      first = std::min(first, iy);
-      last = std::max(last, iy);
-    }
-  const double low = lateral_end(overlap, first, -1, level), high = lateral_end(overlap, last, 1, level);
-  const double half_width = 0.5 * (high - low);
-
-  const double curvature_x = curvature_along(overlap, level);
-  const double curvature_y = std::max(kLeastCurvature, (level + depth) / (half_width * half_width));
-  const HertzShape hertz = hertz_from_curvatures(curvature_x, curvature_y, {false, depth}, material);
+  const Outline o = reference_quirks ? reference_outline(overlap, level) : outline(overlap, level);
+  const double curvature_y = std::max(kLeastCurvature, (level + depth) / (o.half_width * o.half_width));
+  const HertzShape hertz = hertz_from_curvatures(o.curvature_x, curvature_y, {false, depth}, material);
   CutLevel cut;
-  cut.middle = 0.5 * (low + high);
+  cut.middle = o.middle;
   // In a very narrow contact the ellipse must still reach the deepest row.
-  cut.b = std::max(hertz.semi_axis_y, 1.1 * std::abs(grid.y(overlap.deepest_row()) - cut.middle));
-  cut.along = curvature_x * hertz.semi_axis_x * hertz.semi_axis_x / depth;
+  cut.b = std::max(hertz.semi_axis_y, 1.1 * o.deepest);
+  cut.along = o.curvature_x * hertz.semi_axis_x * hertz.semi_axis_x / depth;
   cut.across = curvature_y * cut.b * cut.b / depth;
   return cut;
 }
@@ -151,7 +238,7 @@ void fill_run(const Interpenetration& overlap, int iy, int first, int last, doub
 std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material,
                                       bool reference_quirks) {
   const Grid2& grid = overlap.grid();
-  const CutLevel cut = cut_level(overlap, material);
+  const CutLevel cut = cut_level(overlap, material, reference_quirks);
   std::vector<double> distribution(grid.size(), 0.0);
   for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy) {
     const double share = cut.at(grid.y(iy)), level = -(1.0 - std::clamp(share, 0.0, 1.0)) * overlap.depth();

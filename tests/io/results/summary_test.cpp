@@ -27,14 +27,14 @@ TEST(Summary, NamesQuantitiesWithUnitsAndOneColumnAPatch) {
   EXPECT_THAT(text, ContainsRegex("force on rail x, y, z +\\[N\\] +7499.0 +322.10 +125000\n"));
   EXPECT_THAT(text, ContainsRegex("position y_tr +\\[mm\\] +759.3304 +770.3304\n"));
   EXPECT_THAT(text, ContainsRegex("creepage xi +\\[-\\] +-0.0004157 +-0.0004157\n"));
-  EXPECT_THAT(text, ContainsRegex("frictional power +\\[W\\] +-4.846 +-4.846\n"));
+  EXPECT_THAT(text, ContainsRegex("dissipated by friction +\\[W\\] +4.846 +4.846\n"));
 }
 
 TEST(Summary, ShiftCasesSpeakOfLengthsAndWork) {
   const std::string text = io::summary(testing::sample_run().cases[1]);
   EXPECT_THAT(text, HasSubstr("case 2: not_converged (the outer loop stopped after 100 rounds), 1 doubt, "));
   EXPECT_THAT(text, ContainsRegex("shift x +\\[mm\\] +0.008155\n"));
-  EXPECT_THAT(text, ContainsRegex("frictional work +\\[J\\] +-2.75e-06\n"));
+  EXPECT_THAT(text, ContainsRegex("dissipated by friction +\\[J\\] +2.75e-06\n"));
   EXPECT_THAT(text, Not(HasSubstr("wheelset")));
 }
 

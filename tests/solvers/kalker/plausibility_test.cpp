@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
@@ -32,10 +33,11 @@ OwnedProblem plain_patch(double enlarged = 1.2, double force = 80e3, int element
   return testing::hertzian(shape, hertz_grid(shape, elements, elements, enlarged));
 }
 
-std::vector<RemarkKind> judged(const ContactProblem& problem, const ContactSolution& solution) {
+std::vector<RemarkKind> judged(const ContactProblem& problem, const ContactSolution& solution,
+                               bool closed_border = false) {
   std::vector<Remark> remarks;
   judge({problem.grid, problem.material, problem.friction.static_friction(), problem.regime == Regime::steady,
-         problem.regime == Regime::shift, kLimit, std::numeric_limits<double>::infinity(), problem.normal_model,
+         problem.regime == Regime::shift, kLimit, kInfinity, closed_border, problem.normal_model,
          problem.tangential_model, problem.fastsim.flexibility},
         solution, 1, remarks);
   std::vector<RemarkKind> kinds;
@@ -64,6 +66,13 @@ TEST(Plausibility, OrdinaryPatchIsWithoutDoubt) {
 
 TEST(Plausibility, GridThatCutsThePatch) {
   EXPECT_THAT(judged(plain_patch(0.8).problem), Contains(RemarkKind::grid_cuts_contact));
+}
+
+TEST(Plausibility, GridThatIsAllWhereBodiesMayTouch) {
+  const OwnedProblem patch = plain_patch(0.8);
+  const std::vector<RemarkKind> kinds = judged(patch.problem, ContactSolver().solve(patch.problem), true);
+  EXPECT_THAT(kinds, Contains(RemarkKind::grid_bounds_contact));
+  EXPECT_THAT(kinds, Not(Contains(RemarkKind::grid_cuts_contact)));
 }
 
 // The outermost rows end beyond the patch, and their middle lies in it.
@@ -202,6 +211,11 @@ TEST(Plausibility, ForceThatWasNotReached) {
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_EQ(remarks.front().kind, RemarkKind::force_not_reached);
   EXPECT_TRUE(any_grave(remarks));
+  remarks.clear();
+  judge_force("normal force", 1000.0, 1003.0, remarks, "as it is meant");
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_EQ(remarks.front().kind, RemarkKind::force_differs);
+  EXPECT_FALSE(any_grave(remarks));
 }
 
 TEST(Remarks, RowsLieInTheOrderOfTheirKindsAndHaveNamesOfTheirOwn) {

@@ -73,6 +73,42 @@ TEST(PairPlausibility, PlaneOnAStronglyCurvedPatch) {
               Not(Contains(RemarkKind::strongly_curved)));
 }
 
+TEST(PairPlausibility, DampingComesOnTopOfThePrescribedForce) {
+  Problem p = standard_problem();
+  p.damping = Damping{1e-5, 1e-5, 1e9, 1e9};
+  Pair pair(standard_geometry());
+  pair.solve(p);
+  p.history = kalker::HistoryUse::keep_going;
+  p.vertical_force = 9e4;
+  const PairSolution s = pair.solve(p);
+  ASSERT_EQ(s.status, Status::ok);
+  EXPECT_GT(s.load.track.force.z(), 1.01 * 9e4);
+  EXPECT_THAT(kinds(s), Contains(RemarkKind::force_differs));
+  for (const Remark& r : s.remarks) EXPECT_FALSE(r.grave()) << to_line(r);
+}
+
+// Two places of the head carry about the same, now one, now the other is deeper.
+TEST(PairPlausibility, KpecFindsThePrescribedForceAtEveryShift) {
+  const auto lost = [](bool quirks) {
+    Pair pair(standard_geometry());
+    int count = 0;
+    for (int i = 0; i < 100; ++i) {
+      Problem p = standard_problem();
+      p.vertical_force = 8e4;
+      p.normal_model = kalker::NormalModel::kpec;
+      p.tangential_model = kalker::TangentialModel::fastsim;
+      p.discretisation.dx = p.discretisation.ds = 1e-3;
+      p.solver.reference_quirks = quirks;
+      p.state.position = {0.0, 2.6e-3 * i / 100.0, 0.0, 0.0, 1e-3, 0.0};
+      const PairSolution s = pair.solve(p);
+      if (s.status != Status::ok || std::abs(s.load.track.force.z() - 8e4) > 1e-3 * 8e4) ++count;
+    }
+    return count;
+  };
+  EXPECT_EQ(lost(false), 0);
+  EXPECT_GT(lost(true), 0) << "with the reference program's scale it jumps";
+}
+
 TEST(PairPlausibility, EnlargedElements) {
   Problem p = standard_problem();
   p.discretisation.max_elements = 100;
