@@ -39,13 +39,16 @@ class Shape {
 };
 
 void check(const WheelFlat& f, double R, const Shape& shape) {
-  shape.finite({f.length, f.depth, f.theta_center, f.y_center, f.width});
+  shape.finite({f.length, f.depth, f.theta_center, f.y_center, f.width, f.edge_radius});
   const bool fresh = f.shape == WheelFlat::Shape::fresh;
   shape.require(f.length > 0.0, "the length must be positive");
   shape.require(f.length < (fresh ? 2.0 : 2.0 * kPi) * R, "the length must fit on the wheel");
   shape.require(fresh || (f.depth > 0.0 && f.depth < 0.5 * R),
                 "the depth must be positive and less than half the radius");
   shape.require(f.width >= 0.0, "the width must not be negative");
+  shape.require(f.edge_radius >= 0.0 && f.edge_radius <= 0.5 * R,
+                "the radius of the edges must be at most half of the wheel's, where they meet in the middle");
+  shape.require(fresh || f.edge_radius == 0.0, "a rounded flat has no edges", "leave out edge_radius_mm");
   if (!fresh) shape.gentle(f.depth * kPi / f.length, "the flat is too deep for its length");
   if (!fresh && f.width > 0.0) shape.gentle(f.depth * kPi / f.width, "the flat is too deep for its width");
 }

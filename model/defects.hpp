@@ -26,6 +26,7 @@ struct WheelFlat {
   double theta_center = 0.0;  ///< material angle of the middle
   double y_center = 0.0;      ///< lateral middle
   double width = 0.0;         ///< full lateral width over which the depth fades to 0 by 1/2 (1 + cos)
+  double edge_radius = 0.0;   ///< of the rounded edges of a fresh flat, along the circumference; 0: sharp
   friend bool operator==(const WheelFlat&, const WheelFlat&) = default;
 };
 

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-"""Whether a change leaves every output as it was: runs the examples, and the inputs in a shared folder where there is one, with a program
-and compares all files and texts byte for byte with those of another program. Times and the revision are masked in texts; of HDF5 files, which hold
-times too, only the sizes are compared, and reports (HTML) not at all: they show what the other files hold.
+"""Whether a change leaves every output as it was: runs every verb over the examples, and `run` over the inputs in a shared folder where there is one,
+with a program, and compares all files and texts with those of another program. Texts and pages are compared byte for byte, HDF5 files by their values
+(needs Debian's python3-h5py); times, the revision and the program's own path are masked.
 
 usage: compare-outputs.py run PROGRAM FOLDER [--only PATTERN] [--jobs N]    keeps the outputs of a program
        compare-outputs.py diff BEFORE AFTER                                what differs; exit status 1 when something does
+       compare-outputs.py self-test                                        every verb is run, and every difference is seen
 
 The inputs of the reference program are looked for in $TREADMARK_SHARED or ../shared.
 """
@@ -18,55 +19,94 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHARED = pathlib.Path(os.environ.get("TREADMARK_SHARED", ROOT.parent / "shared"))
-SWEEPS = ("figure5", "figure6", "figure6-track", "figure7", "flat-between-sleepers")  # many runs, minutes to hours
+EXAMPLES = ROOT / "examples"
+TIME_NAMES = r"(?:seconds|(?:build|distance|normal|search|tangential|total|cold|warm)_s)"
 MASKS = [
-    (rb'("(?:seconds|(?:build|distance|normal|search|tangential|total)_s)": ?)[-+.e0-9]+', rb"\1#"),
+    (rb'("' + TIME_NAMES.encode() + rb'": ?)[-+.e0-9]+', rb"\1#"),
     (rb"^(case [^\n]*, )[0-9.]+ s$", rb"\1# s"),
     (rb"^time: [^\n]*$", b"time: #"),
+    (rb"built in [-+.e0-9]+ s", b"built in # s"),
 ]
+MEASURED_TIMES = ("bench-",)  # jobs whose numbers are times: their files are only counted
+
+
+def verbs():
+    return re.findall(r"^VERB\((\w+),", (ROOT / "app/cli/verbs.def").read_text(), re.MULTILINE)
 
 
 def jobs():
-    """Name and arguments of each run; OUT stands for its folder."""
-    for verb in "run compare bench convert import scan simulate sweep report plot check list schema".split():
-        yield f"help-{verb}", [verb, "--help"]
-    yield "help", ["--help"]
-    yield "schema", ["schema"]
-    for topic in "backends defects laws profiles solvers verbs nonsense".split():
-        yield f"list-{topic}", ["list", topic]
+    """Name and commands of each job; OUT stands for its folder."""
     results = ["-o", "OUT/results", "--json", "OUT/result.json", "--report", "OUT/report.html"]
-    for case in sorted((ROOT / "examples").glob("*.toml")):
+
+    def example(name):
+        return str(EXAMPLES / f"{name}.toml")
+
+    yield "help", [["--help"]]
+    for verb in verbs():
+        yield f"help-{verb}", [[verb, "--help"]]
+    yield "schema", [["schema"]]
+    yield "man", [["man"]]
+    for shell in ("bash", "zsh", "fish"):
+        yield f"completion-{shell}", [["completion", shell]]
+    for topic in "backends defects laws profiles solvers verbs nonsense".split():
+        yield f"list-{topic}", [["list", topic]]
+    for kind in "case study vehicle track simulation import backend".split():
+        yield f"new-{kind}", [["new", kind, f"OUT/{kind}.toml"]]
+
+    for case in sorted(EXAMPLES.glob("*.toml")):
         text = case.read_text()
-        if case.stem in SWEEPS:
-            yield f"check-{case.stem}", ["check", str(case)]
-        elif "[evolve]" in text:
-            yield f"check-{case.stem}", ["check", str(case)]
-        elif "[simulation]" in text:
-            yield f"simulate-{case.stem}", ["simulate", str(case), "-o", "OUT/results", "--report", "OUT/report.html"]
-        else:
-            yield f"run-{case.stem}", ["run", str(case), *results]
-    flat = str(ROOT / "examples/wheel-flat.toml")
-    squat = str(ROOT / "examples/squat.toml")
-    yield "compare-squat", ["compare", squat, "-o", "OUT/results", "--report", "OUT/report.html"]
-    yield "scan-flat", ["scan", flat, "--body", "wheel", "-o", "OUT/scan.ply", "--noise-mm", "0.03", "--frame", "random"]
+        yield f"check-{case.stem}", [["check", str(case)]]
+        if not re.search(r"^\[(evolve|study|simulation)", text, re.MULTILINE):
+            yield f"run-{case.stem}", [["run", str(case), *results], ["plot", "OUT/results", "-o", "OUT/plot.svg"], ["report", "OUT/results", "-o", "OUT/again.html"]]
+            yield f"convert-{case.stem}", [["convert", str(case), "-o", "OUT/case.inp"], ["convert", str(case), "-o", "OUT/case.toml"]]
+    yield "compare-squat", [["compare", example("squat"), "-o", "OUT/results", "--report", "OUT/report.html"]]
+    yield "diff-flat", [["run", example("wheel-flat"), "-o", "OUT/a"], ["run", example("wheel-flat"), "-o", "OUT/b", "--set", "friction.coefficient=0.2"], ["diff", "OUT/a", "OUT/b"], ["report", "OUT/a", "OUT/b", "-o", "OUT/overlay.html"]]
+    yield "bench-flat", [["bench", example("wheel-flat"), "-o", "OUT/results", "--report", "OUT/report.html"]]
+    yield "trace-flat", [["trace", example("wheel-flat"), "--body", "wheel", "--line-mm", "0", "--range-deg", "-10", "10"]]
+    yield "geometry-new", [["geometry", "--wheel", "S1002", "--rail", "60E1", "--gauge-mm", "1435", "--cant", "1:40", "-o", "OUT/results", "--json", "OUT/result.json", "--csv", "OUT/table.csv", "--report", "OUT/report.html"]]
+    yield "geometry-gauges", [["geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauges-mm", "1430:1440:2", "--gauge-mm", "1435", "--axle-load-kN", "180", "--json", "OUT/result.json"]]
+    for name in ("crossing", "squat", "wheel-flat"):
+        body = "wheel" if name.startswith("wheel") else "rail"
+        yield f"convert-shape-{name}", [["convert", example(name), "--body", body, "-o", f"OUT/shape{end}"] for end in (".ply", ".vdb", ".slcw" if body == "wheel" else ".slcs")]
+    scan = ["scan", example("wheel-flat"), "--body", "wheel", "--points", "60000", "-o", "OUT/scan.ply", "--noise-mm", "0.03", "--seed", "3"]
+    yield "scan-flat", [[*scan, "--frame", "random"]]
+    yield "import-flat", [scan, ["import", "OUT/scan.ply", "--body", "wheel", "--resolution", "2", "--nominal-radius", "460", "-o", "OUT/wheel.slcw", "OUT/wheel.ply", "--report", "OUT/audit", "--json", "OUT/audit.json"],
+                          ["measure", "wheel", "OUT/wheel.slcw", "--json", "OUT/measured.json", "--csv", "OUT/measured.csv", "--report", "OUT/report.html"], ["plot", "OUT/audit", "-o", "OUT/plot.svg"]]
+    yield "measure-standards", [["measure", "wheel", "S1002", "--json", "OUT/wheel.json"], ["measure", "rail", "60E1", "--json", "OUT/rail.json"]]
+
+    short = ["--set", "simulation.distance_m=0.6"]
+    for case in ("crossing-vehicle", "curve", "flat-at-speed"):
+        yield f"simulate-{case}", [["simulate", example(case), *short, "-o", "OUT/results", "--report", "OUT/report.html"], ["plot", "OUT/results", "-o", "OUT/plot.svg"],
+                                   ["assess", "OUT/results", "-o", "OUT/assessed", "--json", "OUT/assessed.json", "--csv", "OUT/assessed.csv", "--report", "OUT/assessed.html"]]
+    yield "stability-flat", [["stability", example("flat-at-speed"), "--set", "simulation.wheels=[]", "--from", "20", "--to", "60", "-o", "OUT/results", "--json", "OUT/result.json"]]
+    yield "track-fit", [["track", str(EXAMPLES / "tracks/zhai-flexible.toml"), "--fit", "3", "-o", "OUT/results", "--json", "OUT/result.json"]]
+    yield "fmu-flat", [["fmu", example("wheel-flat"), "-o", "OUT/wheel.fmu"]]
+    yield "sweep-creep", [["sweep", example("creep-curves"), "--runs", "1-3", "-o", "OUT/results"], ["sweep", example("creep-curves"), "-o", "OUT/results", "--status"]]
+    yield "evolve-hollow", [["evolve", example("hollow-wheel"), "--set", "evolve.distance_km=4000", "-o", "OUT/results", "--json", "OUT/result.json", "--report", "OUT/report.html"]]
     for folder in ("contact_examples", "contact_testbank"):
         for case in sorted((SHARED / "data" / folder).glob("**/*.inp")):
-            yield f"inp-{case.stem}", ["run", str(case), *results]
+            yield f"inp-{case.stem}", [["run", str(case), *results]]
 
 
-def run(program, name, arguments, folder):
+def run(program, name, commands, folder):
     out = folder / name
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir(parents=True)
-    done = subprocess.run([program, "--threads", "1", "--quiet", *(a.replace("OUT", ".", 1) if a.startswith("OUT") else a for a in arguments)],
-                          cwd=out, capture_output=True)
-    (out / "stdout").write_bytes(done.stdout.replace(program.encode(), b"PROGRAM"))
-    (out / "stderr").write_bytes(done.stderr.replace(program.encode(), b"PROGRAM"))
-    (out / "status").write_text(f"{done.returncode}\n")
-    return name, done.returncode
+    texts, statuses = {"stdout": b"", "stderr": b""}, []
+    for arguments in commands:
+        done = subprocess.run([program, "--threads", "1", "--quiet", *(a.replace("OUT", ".", 1) if a.startswith("OUT") else a for a in arguments)],
+                              cwd=out, capture_output=True)
+        statuses.append(done.returncode)
+        for stream in texts:
+            texts[stream] += getattr(done, stream).replace(program.encode(), b"PROGRAM")
+    for stream, text in texts.items():
+        (out / stream).write_bytes(text)
+    (out / "status").write_text("\n".join(map(str, statuses)) + "\n")
+    return name, statuses
 
 
 def masked(data, revision):
@@ -77,6 +117,30 @@ def masked(data, revision):
     return data
 
 
+def hdf5_values(path, revision):
+    """What is in a file, by its place there."""
+    import h5py  # of by-hand use only
+    values = {}
+
+    def keep(place, value):
+        name = place.rsplit("/", 1)[-1].rsplit("@", 1)[-1]
+        if re.fullmatch(TIME_NAMES, name):
+            return
+        raw = value.tobytes() if hasattr(value, "tobytes") and getattr(value, "dtype", object) != object else str(value if not hasattr(value, "tolist") else value.tolist()).encode()
+        values[place] = masked(raw, revision), str(getattr(value, "dtype", type(value))), getattr(value, "shape", ())
+
+    def visit(name, item):
+        for key, value in item.attrs.items():
+            keep(f"{name}@{key}", value)
+        if isinstance(item, h5py.Dataset):
+            keep(name, item[()])
+
+    with h5py.File(path) as file:
+        visit("", file)
+        file.visititems(visit)
+    return values
+
+
 def differences(before, after):
     revisions = [(folder / "revision").read_bytes().strip() for folder in (before, after)]
     names = sorted({p.relative_to(f) for f in (before, after) for p in f.rglob("*") if p.is_file()} - {pathlib.Path("revision")})
@@ -84,13 +148,34 @@ def differences(before, after):
         old, new = before / name, after / name
         if not old.exists() or not new.exists():
             yield f"{name}: only {'before' if old.exists() else 'after'}"
-        elif name.suffix == ".html":
+        elif name.parts[0].startswith(MEASURED_TIMES):
             continue
         elif name.suffix == ".h5":
-            if old.stat().st_size != new.stat().st_size:
-                yield f"{name}: {old.stat().st_size} bytes before, {new.stat().st_size} after"
+            a, b = (hdf5_values(path, revision) for path, revision in zip((old, new), revisions))
+            places = [place for place in sorted(a.keys() | b.keys()) if a.get(place) != b.get(place)]
+            if places:
+                yield f"{name}: {len(places)} of {len(b)} values differ, first {places[0]}"
         elif masked(old.read_bytes(), revisions[0]) != masked(new.read_bytes(), revisions[1]):
             yield f"{name}: differs"
+
+
+def self_test():
+    run_of = {command[0] for _, commands in jobs() for command in commands if "--help" not in command}
+    missing = [verb for verb in verbs() if verb not in run_of]
+    assert not missing, f"no job runs {', '.join(missing)}"
+    with tempfile.TemporaryDirectory() as folder:
+        sides = [pathlib.Path(folder) / side for side in ("before", "after")]
+        for side, revision in zip(sides, ("aaaaaaa", "bbbbbbb")):
+            (side / "job").mkdir(parents=True)
+            (side / "revision").write_text(revision)
+            (side / "job/r.json").write_text(f'{{"git": "{revision}", "seconds": 0.{len(revision)}, "pmax": 1}}')
+            (side / "job/p.html").write_text("<p>1</p>")
+        (sides[1] / "job/r.json").write_text((sides[1] / "job/r.json").read_text().replace("0.7", "3.1"))
+        assert not list(differences(*sides)), "times and revisions are masked"
+        (sides[1] / "job/p.html").write_text("<p>2</p>")
+        (sides[1] / "job/new").write_text("")
+        assert list(differences(*sides)) == ["job/new: only after", "job/p.html: differs"]
+    print("every verb is run, every difference is seen")
 
 
 def main():
@@ -104,7 +189,10 @@ def main():
     two = commands.add_parser("diff")
     two.add_argument("before", type=pathlib.Path)
     two.add_argument("after", type=pathlib.Path)
+    commands.add_parser("self-test")
     said = parser.parse_args()
+    if said.command == "self-test":
+        return self_test()
     if said.command == "diff":
         found = list(differences(said.before, said.after))
         print("\n".join(found) or "all outputs are the same")
@@ -114,9 +202,9 @@ def main():
     version = subprocess.run([program, "--version"], capture_output=True, text=True, check=True).stdout
     (said.folder / "revision").write_text(re.search(r"\((\w+)\)", version).group(1))
     with concurrent.futures.ThreadPoolExecutor(said.jobs) as pool:
-        wanted = [(n, a) for n, a in jobs() if re.search(said.only, n)]
-        for name, status in pool.map(lambda job: run(program, *job, said.folder), wanted):
-            print(name, status, flush=True)
+        wanted = [(n, c) for n, c in jobs() if re.search(said.only, n)]
+        for name, statuses in pool.map(lambda job: run(program, *job, said.folder), wanted):
+            print(name, *statuses, flush=True)
     return 0
 
 

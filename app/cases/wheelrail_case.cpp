@@ -46,6 +46,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool round_wheel) 
   p.discretisation.reference_at_deepest = d.method == kInitialContactPoint;
   p.discretisation.search = search_grid(d, round_wheel);
   p.discretisation.search_method = search_method(d);
+  p.discretisation.detector = d.detector;
   p.discretisation.distance_on_mesh = d.reference_search_mesh;
 
   p.material = input.material;

@@ -21,7 +21,7 @@ namespace {
 struct CompareOptions {
   std::string case_file;
   std::string output_folder, json_file;
-  std::vector<std::string> backends, wheel_backends, rail_backends;
+  std::vector<std::string> backends, wheel_backends, rail_backends, detectors;
   std::vector<double> resolutions_mm;
   std::string bodies = "auto";
   std::vector<std::string> overrides;
@@ -34,6 +34,7 @@ app::CompareSettings settings_of(const CompareOptions& options) {
   settings.backends = options.backends;
   settings.wheel_backends = options.wheel_backends;
   settings.rail_backends = options.rail_backends;
+  settings.detectors = options.detectors;
   settings.bodies = options.bodies == "wheel"  ? Bodies::wheel
                     : options.bodies == "rail" ? Bodies::rail
                     : options.bodies == "both" ? Bodies::both
@@ -56,6 +57,7 @@ std::vector<std::string> echo(const CompareOptions& options) {
   add("backends", options.backends);
   add("wheel-backends", options.wheel_backends);
   add("rail-backends", options.rail_backends);
+  add("detectors", options.detectors);
   for (const double r : options.resolutions_mm) out.push_back(fmt::format("resolution_mm={:g}", r));
   out.push_back("bodies=" + options.bodies);
   return out;
@@ -111,6 +113,12 @@ Command add_compare(CLI::App& verb) {
   add_values(verb, "--rail-backends", options->rail_backends, "See --wheel-backends", "A,B,...")
       ->excludes(backends)
       ->excludes(bodies);
+  add_values(verb, "--detectors", options->detectors,
+             "Detectors of contact on the surfaces as given, in place of representations (list detectors)", "A,B,...")
+      ->excludes(backends)
+      ->excludes(bodies)
+      ->excludes("--wheel-backends")
+      ->excludes("--rail-backends");
   verb.add_option("-o,--output", options->output_folder,
                   "Folder for compare.json, compare.csv, table.txt and pictures (SVG)")
       ->type_name("FOLDER");

@@ -62,6 +62,7 @@ struct ListedKind {
 };
 constexpr ListedKind kListed[] = {{"backends", "representations of surfaces"},
                                   {"defects", "damage of wheels and rails that cases can ask for, with its keys"},
+                                  {"detectors", "of contact between two surfaces"},
                                   {"laws", "of wear, flow and fatigue, for evolve"},
                                   {"profiles", "of wheels and rails that are built in"},
                                   {"remarks", "what results say of themselves where they are doubtful"},
@@ -75,6 +76,9 @@ int list_command(const std::string& what) {
   } else if (what == "backends") {
     for (const auto name : backend_names()) std::cout << name << '\n';
     for (const Backend* backend : left_out_backends()) print_left_out(backend->name, backend->part);
+  } else if (what == "detectors") {
+    for (const detection::DetectorRow* row : detection::detectors())
+      std::cout << fmt::format("{:<11} {}\n", row->name, row->summary);
   } else if (what == "defects") {
     print_defects();
   } else if (what == "profiles") {
@@ -113,7 +117,7 @@ int list_command(const std::string& what) {
 Command add_list(CLI::App& verb) {
   auto what = std::make_shared<std::string>();
   verb.add_option("WHAT", *what,
-                  "backends, defects, laws, profiles, remarks, solvers or verbs; without it what there is");
+                  "backends, defects, detectors, laws, profiles, remarks, solvers or verbs; without it what there is");
   return [what](const CommonOptions&) { return list_command(*what); };
 }
 

@@ -17,6 +17,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/detection/detector.hpp"
 #include "treadmark/io/results/summary.hpp"
 
 namespace treadmark::app {
@@ -30,6 +31,7 @@ struct Choice {
   std::string name;
   double resolution = 0.0;
   std::optional<std::string> wheel, rail;
+  std::string detector{};  ///< empty: as given
 };
 
 void require_known(const std::vector<std::string>& backends) {
@@ -51,6 +53,10 @@ Compared compared_bodies(const NaturalSurface& wheel, const NaturalSurface& rail
 
 std::vector<Choice> choices(const NaturalSurface& wheel, const NaturalSurface& rail, const CompareSettings& settings) {
   std::vector<Choice> all;
+  if (!settings.detectors.empty()) {
+    for (const std::string& name : settings.detectors) all.push_back({name, 0.0, {}, {}, name});
+    return all;
+  }
   if (!settings.wheel_backends.empty() || !settings.rail_backends.empty()) {
     const std::vector<std::string> as_given{""};
     for (const std::string& w : settings.wheel_backends.empty() ? as_given : settings.wheel_backends)
@@ -79,6 +85,10 @@ io::CaseFile with(io::CaseFile file, const Choice& choice) {
       const bool sampled = !source.backend.empty() && backend_of(source.backend).resample;
       source.resolution = sampled ? choice.resolution : 0.0;
     };
+    if (!choice.detector.empty()) {
+      input->discretisation.detector = choice.detector;
+      continue;
+    }
     apply(input->wheel, choice.wheel);
     apply(input->rail, choice.rail);
   }
@@ -192,6 +202,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   require_known(settings.backends);
   require_known(settings.wheel_backends);
   require_known(settings.rail_backends);
+  for (const std::string& name : settings.detectors) detection::detector_of(name);
   for (const double resolution : settings.resolutions)
     if (!(resolution > 0.0) || !std::isfinite(resolution))
       throw Error(ErrorKind::configuration, "resolutions must be positive");
@@ -213,7 +224,8 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   std::vector<Choice> wanted = choices(wheel, rail, settings);
   wanted.insert(wanted.begin(), Choice{out.truth, 0.0, {}, {}});
   const auto is_truth = [&](const Choice& c) {
-    return c.resolution == 0.0 && c.wheel.value_or(std::string(wheel.surface->backend())) == wheel.surface->backend() &&
+    return c.detector.empty() && c.resolution == 0.0 &&
+           c.wheel.value_or(std::string(wheel.surface->backend())) == wheel.surface->backend() &&
            c.rail.value_or(std::string(rail.surface->backend())) == rail.surface->backend();
   };
   wanted.erase(std::remove_if(wanted.begin() + 1, wanted.end(), is_truth), wanted.end());

@@ -22,6 +22,8 @@ struct CompareSettings {
   Bodies bodies = Bodies::automatic;
   /// Not empty: every one of these for the wheel with every one for the rail, instead of the same backend for both.
   std::vector<std::string> wheel_backends, rail_backends;
+  /// Not empty: these detectors on the surfaces as they are given, in place of representations.
+  std::vector<std::string> detectors;
   bool sample_surfaces = false;  ///< those of the truth become part of the result, for pictures
 };
 
@@ -29,7 +31,7 @@ struct CompareSettings {
 /// Formulas and data as given need no samples: "analytic", and "spline" for measured points, also appear once without a
 /// resolution. A representation that cannot be built, or cases that cannot be solved with it, become a failure of that
 /// candidate. Progress counts candidates times cases. Deterministic but for the times. Errors: those of the truth;
-/// Error(configuration) for unknown backends, bad resolutions, or no wheel-rail case.
+/// Error(configuration) for unknown backends or detectors, bad resolutions, or no wheel-rail case.
 io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& settings, const Progress& progress = {});
 
 }  // namespace treadmark::app

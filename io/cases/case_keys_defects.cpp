@@ -63,6 +63,12 @@ DefectKeys<WheelFlat> keys_of(const std::vector<WheelFlat>&) {
                                 &WheelFlat::depth)};
   append(keys, element_angle<WheelFlat>("theta_center", "angle of the middle on the wheel", &WheelFlat::theta_center));
   append(keys, band_keys<WheelFlat>("wheel"));
+  keys.push_back(
+      with_default(element_number<WheelFlat>(
+                       "edge_radius_mm", kNotNegative,
+                       "radius of the edges of a fresh flat; 0 = sharp, where the largest pressure has no limit",
+                       &WheelFlat::edge_radius),
+                   "0"));
   return {"flats worn into the wheel", std::move(keys)};
 }
 

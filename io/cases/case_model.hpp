@@ -94,6 +94,7 @@ struct DiscretisationInput : ElementGrid {
   bool reference_search_mesh = false;
   /// Grids: heights only where contact cannot be ruled out; false = everywhere (brute force).
   bool prune = true;
+  std::string detector;  ///< of the registry of detectors; empty: as method and prune say
 };
 
 /// Influence coefficients; a table is read when the case is solved.

@@ -54,7 +54,7 @@ void put_one(ByteWriter& out, const ElementGrid& grid) {
 }
 void put_one(ByteWriter& out, const Discretisation& d) {
   put_one(out, static_cast<const ElementGrid&>(d));
-  put_all(out, d.reference_at_deepest, d.search, d.search_method, d.distance_on_mesh, d.usual_dq_relative);
+  put_all(out, d.reference_at_deepest, d.search, d.search_method, d.detector, d.distance_on_mesh, d.usual_dq_relative);
 }
 void put_one(ByteWriter& out, const Material& material) {
   const auto& [g1, g2, nu1, nu2, layer, layer_yield, hardening, sheet, creep1, creep2, time1, time2] = material;

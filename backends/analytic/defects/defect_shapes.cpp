@@ -45,8 +45,7 @@ class FlatsShape final : public OffsetShape {
 
  private:
   static Rectangle support_of(const WheelFlat& f, double nominal_radius) {
-    const double half = f.shape == WheelFlat::Shape::fresh ? std::asin(std::min(1.0, 0.5 * f.length / nominal_radius))
-                                                           : 0.5 * f.length / nominal_radius;
+    const double half = half_angle_of(f, nominal_radius);
     const double center = wrap_angle(f.theta_center);
     return faded_support(center - half, center + half, f.y_center, f.width);
   }

@@ -11,6 +11,23 @@
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::analytic {
+namespace {
+
+double chord_radius_of(const WheelFlat& f, double R) { return std::sqrt((R - 0.5 * f.length) * (R + 0.5 * f.length)); }
+
+double rounding_of(const WheelFlat& f, double R) {
+  if (f.edge_radius <= 0.0) return 0.0;
+  const double slope = 0.5 * f.length / chord_radius_of(f, R);
+  return 0.5 * slope * slope / (1.0 / f.edge_radius - 1.0 / R);
+}
+
+}  // namespace
+
+double half_angle_of(const WheelFlat& f, double R) {
+  if (f.shape != WheelFlat::Shape::fresh) return 0.5 * f.length / R;
+  return f.edge_radius > 0.0 ? std::acos(chord_radius_of(f, R) / (R + rounding_of(f, R)))
+                             : std::asin(std::min(1.0, 0.5 * f.length / R));
+}
 
 FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
   check_defects({.flats = flats}, Body::wheel, R);
@@ -22,8 +39,9 @@ FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
     f.sin_center = std::sin(f.center);
     f.cos_center = std::cos(f.center);
     f.radius = R;
-    f.chord_radius = std::sqrt((R - 0.5 * given.length) * (R + 0.5 * given.length));
-    f.half_angle = fresh ? std::asin(0.5 * given.length / R) : 0.5 * given.length / R;
+    f.chord_radius = chord_radius_of(given, R);
+    f.rounding = fresh ? rounding_of(given, R) : 0.0;
+    f.half_angle = half_angle_of(given, R);
     f.cos_half_angle = std::cos(f.half_angle);
     f.depth = fresh ? 0.25 * given.length * given.length / (R + f.chord_radius) : given.depth;
     f.wave_number = kPi / f.half_angle;
@@ -46,9 +64,16 @@ void FlatDepth::Flat::along(double phi, double& d, double& d1, double& d2) const
     double half, c_half;
     fast_sin_cos(0.5 * phi, half, c_half);
     const double c = 1.0 - 2.0 * half * half, s = 2.0 * half * c_half;
-    d = std::max(0.0, depth - chord_radius * 2.0 * half * half / c);
+    d = depth - chord_radius * 2.0 * half * half / c;
     d1 = -chord_radius * s / (c * c);
     d2 = -chord_radius * (1.0 + s * s) / (c * c * c);
+    if (rounding > 0.0 && d < rounding) {
+      const double over = std::max(0.0, d + rounding), share = 0.5 * over / rounding;
+      d2 = 0.5 * d1 * d1 / rounding + share * d2;
+      d1 *= share;
+      d = 0.5 * share * over;
+    }
+    d = std::max(0.0, d);
   } else {
     double s, c;
     fast_sin_cos(wave_number * phi, s, c);
@@ -114,7 +139,7 @@ DepthJet FlatDepth::jet(double theta, double y) const {
 std::vector<FlatLanes> FlatDepth::lanes() const {
   std::vector<FlatLanes> all;
   for (const Flat& f : flats_) {
-    if (f.half_angle > kWidestFlatLane) return {};
+    if (f.half_angle > kWidestFlatLane || f.rounding > 0.0) return {};
     all.push_back({f.shape == WheelFlat::Shape::fresh, f.sin_center, f.cos_center, f.cos_half_angle, f.depth,
                    f.chord_radius, f.wave_number, f.y_center, f.half_width, f.y_wave_number});
   }
@@ -128,7 +153,7 @@ bool FlatDepth::touches(double theta, double half_range) const {
 }
 
 FunctionRange FlatDepth::Flat::along_range(double near, double far) const {
-  // both shapes are even and fall from the middle to their ends; the derivative of the fresh one grows outwards
+  // both shapes are even and fall from the middle to their ends; the derivative of a chord grows outwards
   if (near >= half_angle) return {};
   const bool ends = far >= half_angle;
   far = std::min(far, half_angle);
@@ -136,7 +161,7 @@ FunctionRange FlatDepth::Flat::along_range(double near, double far) const {
   along(near, high, d1, d2);
   along(far, low, outermost, d2);
   if (ends) low = 0.0;
-  if (shape == WheelFlat::Shape::fresh) return {low, high, std::fabs(outermost)};
+  if (shape == WheelFlat::Shape::fresh) return {low, high, rounding > 0.0 ? steepest : std::fabs(outermost)};
   return {low, high, steepest * cosine_range(wave_number * near, wave_number * far).max_d};
 }
 

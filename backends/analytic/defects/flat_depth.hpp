@@ -17,9 +17,14 @@ struct DepthJet {
   double d_theta_theta = 0.0, d_theta_y = 0.0, d_y_y = 0.0;
 };
 
+/// The angle from the middle of a flat to its end [rad].
+double half_angle_of(const WheelFlat& flat, double nominal_radius);
+
 /// The depths of all flats of one wheel, added up and taken off the radius: r = R + z(y) - D(theta, y).
 /// Fresh: D = R - (R - d0)/cos(phi) at the nominal radius R, a chord of length L with d0 = R - sqrt(R^2 - (L/2)^2).
-/// Rounded: D = d/2 (1 + cos(2 pi R phi/L)). Both times the lateral fading; phi = theta - theta_center.
+/// With edges of radius e, H that depth: D = (H + w)^2/(4 w) for |H| < w, where w = s^2/(2 (1/e - 1/R)) and s is the
+/// slope of H along the circumference at the ends of the chord. Rounded: D = d/2 (1 + cos(2 pi R phi/L)). Both times
+/// the lateral fading; phi = theta - theta_center.
 class FlatDepth {
  public:
   FlatDepth() = default;
@@ -43,7 +48,7 @@ class FlatDepth {
   Range range(double theta, double half_range, double y_min, double y_max) const;
   /// The same for D alone, faster; theta within +-3 pi.
   void depths(double theta, double half_range, double y_min, double y_max, double& low, double& high) const;
-  /// For the kernels; nothing if some flat is too wide for them.
+  /// For the kernels; nothing if some flat is too wide for them or has rounded edges.
   std::vector<FlatLanes> lanes() const;
   std::size_t memory_bytes() const { return flats_.capacity() * sizeof(Flat); }
 
@@ -52,6 +57,7 @@ class FlatDepth {
     WheelFlat::Shape shape;
     double sin_center, cos_center, center, half_angle, cos_half_angle;
     double radius, depth, chord_radius, wave_number, steepest;
+    double rounding;  ///< w of a fresh flat
     double y_center, half_width, y_wave_number;
     void along(double phi, double& d, double& d1, double& d2) const;
     void across(double y, double& w, double& w1, double& w2) const;

@@ -343,6 +343,7 @@ class InputWriter {
                   {"case.reference_ways", "true"},
                   {"discretisation.reference_search_mesh", "true"},
                   {"discretisation.prune", "true"},
+                  {"discretisation.detector", ""},
                   {"rail.backend", ""},
                   {"rail.resolution_mm", "0"},
                   {"wheel.backend", ""},

@@ -50,6 +50,21 @@ inline std::vector<NamedDefects> offset_defects() {
   };
   all.push_back({"fresh_flat", Body::wheel, {.flats = {fresh}}, fresh_offset, -0.08, 0.06, -0.03, 0.04});
 
+  const WheelFlat round_edges{WheelFlat::Shape::fresh, 0.04, 0.0, -0.005, 0.004, 0.05, 0.1};
+  const auto round_edges_offset = [=](double t, double y) {
+    const double chord = std::sqrt(R * R - 0.02 * 0.02), slope = 0.02 / chord;
+    const double w = slope * slope / (2.0 * (1.0 / 0.1 - 1.0 / R)), H = R - chord / std::cos(turn(t + 0.005));
+    return -fade(y - 0.004, 0.05) * (H >= w ? H : H > -w ? (H + w) * (H + w) / (4.0 * w) : 0.0);
+  };
+  all.push_back({"fresh_flat_with_round_edges",
+                 Body::wheel,
+                 {.flats = {round_edges}},
+                 round_edges_offset,
+                 -0.08,
+                 0.06,
+                 -0.03,
+                 0.04});
+
   Polygonization polygon{{{7, 0.1e-3, 0.3}, {20, -0.02e-3, -1.0}}, 0.002, 0.06};
   const auto polygon_offset = [=](double t, double y) {
     return (0.1e-3 * std::cos(7 * t - 0.3) - 0.02e-3 * std::cos(20 * t + 1.0)) * fade(y - 0.002, 0.06);
