@@ -122,13 +122,6 @@ double ContactSearch::least_gap() {
   return locus_ ? locus_->least() : gap_->least();
 }
 
-BodyPair ContactSearch::bodies_at(double wheel_dz) const {
-  BodyPair moved = bodies_;
-  moved.X_TW.origin.z() += wheel_dz;
-  moved.distance_mesh = settings_.distance_mesh;
-  return moved;
-}
-
 SearchResult ContactSearch::at(double wheel_dz) {
   const SearchSettings& s = settings_;
   const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});

@@ -4,13 +4,63 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "treadmark/detection/search_settings.hpp"
+#include "treadmark/detection/contact_patch.hpp"
+#include "treadmark/detection/interpenetration.hpp"
+#include "treadmark/detection/reference_locus.hpp"
+#include "treadmark/detection/search_mesh.hpp"
+#include "treadmark/model/wheel_on_rail.hpp"
 
 namespace treadmark::detection {
+
+using treadmark::SearchMethod;
+
+/// What is looked for, and how finely.
+struct SearchSettings {
+  SearchMethod method = SearchMethod::automatic;
+  Grid2 grid_T;  ///< first grid, seen along z of T; must cover everything that may touch
+  PenetrationWeight weight = PenetrationWeight::squared;
+  PatchRules rules;
+  /// Evaluate every region again on a grid of its own, at least refined_points across in both directions and never
+  /// finer than the given steps; the extents are then the interpolated zero crossings. Off: the first grid decides.
+  bool refine = true;
+  int refined_points = 64;
+  double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
+  /// On the first grid, for agreement with the reference program; refined grids are always exact.
+  std::optional<SearchMesh> mesh;
+  /// The locus on these rows instead of Treadmark's own, for agreement with that program; needs a round wheel. On a
+  /// rail that changes along the track the grid decides instead where it shows other contact than the locus.
+  std::optional<LocusRows> locus_rows;
+  /// The contact reference is the point of deepest penetration instead of the weighted centre.
+  bool reference_at_deepest = false;
+};
+
+/// What was found at one position.
+struct SearchResult {
+  std::vector<ContactPatch> patches;  ///< field side first
+  /// Least gap over the search grid [m]: negative with contact, NaN where the bodies nowhere face each other.
+  double least_gap = 0.0;
+  /// The same between the points of the grid as well: exact to a nanometre unless the mesh or the grid of the reference
+  /// program is asked for, and without jumps where contact comes and goes [m].
+  double closest = 0.0;
+};
+
+/// Rows between two points in T in which the locus of the reference program missed contact, or found some where there
+/// is none.
+struct WrongLocus {
+  Vec3 low, high;
+  bool grid_decides;  ///< false: no wheel could roll over what was missed
+};
+
+/// The bodies with the wheel moved by wheel_dz [m] along z of T.
+inline BodyPair moved(BodyPair bodies, double wheel_dz) {
+  bodies.X_TW.origin.z() += wheel_dz;
+  return bodies;
+}
 
 /// What looks for contact of two bodies, bound to one position of them: a wheel that moves along z of T only shifts
 /// its gap. The surfaces outlive it. One per thread.
@@ -25,8 +75,8 @@ class Detector {
   /// results do not depend on the questions before, but for rounding.
   virtual SearchResult at(double wheel_dz) = 0;
 
-  /// Contact that the last at() passed over, where the detector knows of any.
-  virtual std::optional<Overlooked> overlooked() const { return std::nullopt; }
+  /// What the last at() found wrong with the locus of the reference program, where that is used.
+  virtual std::optional<WrongLocus> wrong_locus() const { return std::nullopt; }
 };
 
 /// One way to look for contact: all that the rest of Treadmark knows of it.

@@ -192,7 +192,7 @@ std::string check_search(const detection::BodyPair& bodies, const detection::Sea
   for (const double dz : {0.0, kWarmStep}) {
     const detection::SearchResult found = search.at(dz);
     if (patches != nullptr) *patches = static_cast<int>(found.patches.size());
-    const std::string reason = compare(found, detection::search_contact(search.bodies_at(dz), full));
+    const std::string reason = compare(found, detection::search_contact(detection::moved(bodies, dz), full));
     if (!reason.empty()) return fmt::format("{} search: {}", dz == 0.0 ? "cold" : "warm", reason);
   }
   return {};

@@ -76,7 +76,7 @@ void locate(const Placement& placed, PatchSolution& patch) {
   patch.angle_wheel = roll_angle(placed.X_TW.rotation.transpose() * X_TC.rotation);
 }
 
-Remark locus_remark(const detection::ContactSearch::WrongLocus& wrong, const Pose& X_TS) {
+Remark locus_remark(const detection::WrongLocus& wrong, const Pose& X_TS) {
   const Vec3 low = X_TS.apply_inverse(wrong.low), high = X_TS.apply_inverse(wrong.high);
   return {wrong.grid_decides ? RemarkKind::locus_incomplete : RemarkKind::contact_overlooked, 0,
           fmt::format("at y = {:.5g} to {:.5g} mm, u = {:.5g} mm of the rail a grid shows other contact than the locus "

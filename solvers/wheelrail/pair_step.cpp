@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/detection/contact_search.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"
@@ -46,10 +49,15 @@ bool PairStep::place(double rail_dy) {
   if (moved.vertical_force) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
   start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
-  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS,       start_.X_TA,
-                                   std::nullopt,         round_wheel_.profile,  round_wheel_.lines};
+  bodies_ = {geometry_.rail.get(),    geometry_.wheel.get(), start_.X_TS,       start_.X_TA,
+             distance_mesh(problem_), round_wheel_.profile,  round_wheel_.lines};
   const Stopwatch watch(times_.search_s);
-  search_.emplace(bodies, search_settings(geometry_, moved, start_));
+  const detection::SearchSettings settings = search_settings(geometry_, moved, start_);
+  const std::string& detector = problem_.discretisation.detector;
+  if (detector.empty())
+    search_ = std::make_unique<detection::ContactSearch>(bodies_, settings);
+  else
+    search_ = detection::detector_of(detector).make(bodies_, settings);
   if (at_given_height()) return true;  // the gap is found together with the patches
   const double gap = search_->least_gap();
   touching_z_ = start_z_ + gap;
@@ -184,7 +192,7 @@ void PairStep::evaluate(double z) {
   too_deep_ = -found.least_gap > deepest() ? -found.least_gap : 0.0;
   if (too_deep_ > 0.0) return;
 
-  const detection::BodyPair bodies = search_->bodies_at(dz);
+  const detection::BodyPair bodies = detection::moved(bodies_, dz);
   for (const detection::ContactPatch& region : found.patches) {
     Patch patch;
     {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/detection/contact_frame.hpp"
+#include "treadmark/detection/detector.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/wheelrail/configuration.hpp"
@@ -70,9 +71,7 @@ class PairStep {
   /// Likewise, between the points of the search grids as well; NaN before evaluate().
   double closest() const { return closest_; }
   /// At the last evaluate(); none before place().
-  std::optional<detection::ContactSearch::WrongLocus> wrong_locus() const {
-    return search_ ? search_->wrong_locus() : std::nullopt;
-  }
+  std::optional<detection::WrongLocus> wrong_locus() const { return search_ ? search_->wrong_locus() : std::nullopt; }
 
   /// Of each patch, after tractions were found.
   void estimate_refinement(kalker::ContactSolver& coarse);
@@ -120,7 +119,8 @@ class PairStep {
   Placement start_, placement_;  ///< at z = start_z_, and as it is
   double start_z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
   double closest_ = std::numeric_limits<double>::quiet_NaN();
-  std::optional<detection::ContactSearch> search_;
+  detection::BodyPair bodies_;  ///< at z = start_z_
+  std::unique_ptr<detection::Detector> search_;
   std::vector<Patch> patches_;
   std::vector<TangentialShare> tangential_share_;
   ElementChoice elements_;

@@ -81,6 +81,11 @@ std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRa
 
 }  // namespace
 
+std::optional<detection::DistanceMesh> distance_mesh(const Problem& p) {
+  if (!p.discretisation.distance_on_mesh) return std::nullopt;
+  return detection::DistanceMesh{p.wheelset.nominal_radius, !p.roller};
+}
+
 detection::SearchSettings search_settings(const Geometry& geometry, const Problem& p, const Placement& placed) {
   const Discretisation& d = p.discretisation;
   if (!(d.dx > 0.0) || !(d.ds > 0.0)) throw Error(ErrorKind::configuration, "element sizes dx, ds must be positive");
@@ -100,7 +105,6 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   s.refined_dy = 0.3 * (chosen && d.choose_ds ? kShortestElement : d.ds);
   s.refined_points = geometry.constant_profiles() ? 64 : 120;
   s.weight = d.linear_weight ? detection::PenetrationWeight::linear : detection::PenetrationWeight::squared;
-  if (d.distance_on_mesh) s.distance_mesh = {p.wheelset.nominal_radius, !p.roller};
   s.reference_at_deepest = d.reference_at_deepest;
   s.rules.angle_separation = d.angle_separation;
   s.rules.separation = d.separation;

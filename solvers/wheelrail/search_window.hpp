@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/detection/contact_search.hpp"
+#include <optional>
+
+#include "treadmark/detection/detector.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
 
 namespace treadmark::wheelrail {
@@ -11,5 +13,8 @@ namespace treadmark::wheelrail {
 /// wheel centre as the wheel can touch the rail.
 detection::SearchSettings search_settings(const Geometry& geometry, const Problem& right_hand_problem,
                                           const Placement& placement);
+
+/// The mesh of the reference program for undeformed distances, where that is asked for.
+std::optional<detection::DistanceMesh> distance_mesh(const Problem& problem);
 
 }  // namespace treadmark::wheelrail

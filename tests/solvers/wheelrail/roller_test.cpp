@@ -153,7 +153,7 @@ TEST(RollerContact, TheReferenceMeshCutsRailsIntoSectionsNotRollers) {
     Problem p = s1002_problem();
     p.discretisation.distance_on_mesh = true;
     if (radius != 0.0) p.roller = Roller{radius, 10.0 / radius};
-    EXPECT_EQ(search_settings(geometry, p, place(geometry, p)).distance_mesh->rail_sections, radius == 0.0);
+    EXPECT_EQ(distance_mesh(p)->rail_sections, radius == 0.0);
   }
 }
 
