@@ -21,15 +21,15 @@ using treadmark::SearchMethod;
 
 /// What is looked for, and how finely.
 struct SearchSettings {
-  SearchMethod method = SearchMethod::automatic;
+  SearchMethod method = SearchMethod::automatic;  ///< of the built-in detectors
   Grid2 grid_T;  ///< first grid, seen along z of T; must cover everything that may touch
-  PenetrationWeight weight = PenetrationWeight::squared;
-  PatchRules rules;
+  PenetrationWeight weight = PenetrationWeight::squared;  ///< of the depth in the contact reference
+  PatchRules rules;                                       ///< which regions make one patch
   /// Evaluate every region again on a grid of its own, at least refined_points across in both directions and never
   /// finer than the given steps; the extents are then the interpolated zero crossings. Off: the first grid decides.
   bool refine = true;
-  int refined_points = 64;
-  double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
+  int refined_points = 64;                    ///< see refine
+  double refined_dx = 0.0, refined_dy = 0.0;  ///< see refine [m]
   /// On the first grid, for agreement with the reference program; refined grids are always exact.
   std::optional<SearchMesh> mesh;
   /// The locus on these rows instead of Treadmark's own, for agreement with that program; needs a round wheel. On a
@@ -52,7 +52,7 @@ struct SearchResult {
 /// Rows between two points in T in which the locus of the reference program missed contact, or found some where there
 /// is none.
 struct WrongLocus {
-  Vec3 low, high;
+  Vec3 low, high;     ///< deepest points of the outermost rows [m]
   bool grid_decides;  ///< false: no wheel could roll over what was missed
 };
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/report.hpp"
+#include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/results/summary.hpp"
 
@@ -129,6 +131,38 @@ ds_mm = 1.0
   expect(used && run.cases.front().status == Status::ok, "rail.backend in a case file");
 }
 
+/// Every point of a grid with half of the usual steps.
+class FineGrid final : public detection::Detector {
+ public:
+  FineGrid(const detection::BodyPair& bodies, detection::SearchSettings settings) {
+    Grid2& grid = settings.grid_T;
+    grid.nx = 2 * grid.nx - 1, grid.ny = 2 * grid.ny - 1, grid.dx *= 0.5, grid.dy *= 0.5;
+    search_ = detection::detector_of("full_grid").make(bodies, settings);
+  }
+  double least_gap() override { return search_->least_gap(); }
+  detection::SearchResult at(double wheel_dz) override { return search_->at(wheel_dz); }
+
+ private:
+  std::unique_ptr<detection::Detector> search_;
+};
+
+/// The same case by a built-in detector and by one of this program.
+void detectors() {
+  detection::register_detector(
+      {"fine-grid", "every point of a grid twice as fine",
+       [](const auto& bodies, const auto& settings) { return std::make_unique<FineGrid>(bodies, settings); }});
+  app::CompareSettings compare;
+  compare.detectors = {"grid", "fine-grid"};
+  const io::Comparison comparison = app::compare_cases(app::bench_case(), compare);
+  expect(comparison.candidates.size() == 3, "the truth and two detectors");
+  for (const auto& candidate : comparison.candidates) {
+    expect(candidate.failure.empty(), "a detector could not be made");
+    std::printf("%s: pmax %+.4f %%, search %.3g s\n", candidate.name.c_str(), 1e2 * candidate.rows.front().pmax_error,
+                candidate.rows.front().search_s);
+    expect(std::fabs(candidate.rows.front().pmax_error) < 5e-3, "detectors agree");
+  }
+}
+
 void refused(void (*call)(), const std::string& words) {
   try {
     call();
@@ -151,6 +185,7 @@ int main() {
     expect(backend_names().back() == "chebyshev", "new backends come last");
     heights();
     cases();
+    detectors();
   } catch (const std::exception& error) {
     std::printf("failed: %s\n", error.what());
     return 1;
