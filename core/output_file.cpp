@@ -167,14 +167,14 @@ bool same_file(int descriptor, const fs::path& path) {
          open_one.st_ino == named.st_ino;
 }
 
-/// Waits for who looks whether its maker is dead. Where the file system knows no locks, nobody is taken for dead. Shared:
-/// once renamed, the file may be read by who locks what it reads (HDF5) before its writer lets go.
-void hold(int descriptor) {
-  while (::flock(descriptor, LOCK_SH) != 0 && errno == EINTR) {
+/// Waits for who looks whether its maker is dead. Where the file system knows no locks, nobody is taken for dead.
+void hold(int descriptor, int operation = LOCK_SH) {
+  while (::flock(descriptor, operation) != 0 && errno == EINTR) {
   }
 }
 
-/// Writers hold a lock on what they write, which ends with them.
+/// Writers hold a lock on what they write, which ends with them; a shared one, as who reads a file just renamed may
+/// lock it too (HDF5).
 void remove_if_dead(const fs::path& path) {
   const int descriptor = open_retrying(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW);
   if (descriptor < 0) return;
@@ -429,7 +429,7 @@ void remove_file(const fs::path& file) {
 FolderLock::FolderLock(const fs::path& folder) {
   if (is_hidden_name(folder.filename().string())) return;  // nobody else writes there, and its maker holds it
   descriptor_ = open_retrying(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (descriptor_ >= 0) hold(descriptor_);
+  if (descriptor_ >= 0) hold(descriptor_, LOCK_EX);
 }
 
 FolderLock::~FolderLock() {
