@@ -7,11 +7,14 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/app/surfaces/section_bridges.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/pose.hpp"
 
@@ -67,6 +70,34 @@ void doubt_contact_beyond_data(const io::WheelRailCase& input, SurfaceStore& sto
                kMilli * beyond * radius, wheel ? "wheel" : "rail", place_text(known->first, body),
                place_text(known->second, body))});
     }
+  }
+}
+
+void doubt_contact_between_sections(const io::WheelRailCase& input, SurfaceStore& store, io::CaseResult& result) {
+  if (!result.bodies || input.roller) return;
+  const auto natural = store.natural(input.rail, Body::rail, profile_radius(input, Body::rail));
+  const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
+  if (slices == nullptr) return;
+  const std::vector<SectionBridge> bridges = section_bridges(*slices);
+  if (bridges.empty()) return;
+  const std::vector<double>& u = slices->u;
+  // A spline through steps swings by 0.27 of them a section farther on: four leave a two-hundredth.
+  constexpr std::size_t kSwings = 4;
+  const auto doubt = [&](const Extent& at, int patch) {
+    for (const SectionBridge& bridge : bridges) {
+      const double from = u[bridge.first - std::min(bridge.first, kSwings)],
+                   to = u[std::min(bridge.first + 1 + kSwings, u.size() - 1)];
+      if (at.second < from || at.first > to) continue;
+      result.remarks.push_back({RemarkKind::between_sections, patch, to_text(bridge)});
+      return;
+    }
+  };
+  for (std::size_t k = 0; k < result.patches.size(); ++k)
+    if (const auto at = touched(result.patches[k], result.bodies->X_TS, Body::rail, 0.0))
+      doubt(*at, static_cast<int>(k) + 1);
+  if (result.patches.empty()) {
+    const double here = result.bodies->X_TS.inverse().origin.x();
+    doubt({here, here}, 0);
   }
 }
 

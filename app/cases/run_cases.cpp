@@ -70,8 +70,10 @@ void describe_results(const io::CaseFile& file, const ProfilesOfRun& profiles, S
   auto c = file.cases.begin();
   for (io::CaseResult& result : run.cases) {
     while (c->number != result.number) ++c;
-    if (const auto* input = std::get_if<io::WheelRailCase>(&c->content))
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c->content)) {
       doubt_contact_beyond_data(*input, store, result);
+      doubt_contact_between_sections(*input, store, result);
+    }
   }
   add_noise(file, store, run);
 }

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/surfaces/contact_files.hpp"
 #include "treadmark/app/surfaces/convert_profile.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
@@ -76,12 +77,14 @@ io::CaseFile read_cases(const ConvertOptions& options) {
 /// Case files into each other, and instants of simulations into case files.
 int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
   const std::filesystem::path output = options.output;
-  const io::CaseFile file = read_cases(options);
+  io::CaseFile file = read_cases(options);
   print_notes(file.notes, common.quiet);
   std::string text;
   if (lower_extension(output) == ".inp") {
+    const auto surfaces = app::put_contact_files(file, output);
     text = io::contact_input_text(file, output.parent_path());
     io::parse_contact_input(text, output);  // nothing that cannot be read is written
+    for (const auto& write : surfaces) std::cout << write() << '\n';
   } else {
     text = io::case_file_text(file, output.parent_path());
     io::parse_case_text(text, output);

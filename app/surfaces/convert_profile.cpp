@@ -29,6 +29,20 @@ struct InputProfile {
   std::optional<NaturalSurface> surface;  ///< that they were sampled from
 };
 
+/// Of a surface whose section is the same everywhere.
+InputProfile section_of(const NaturalSurface& natural, double resolution) {
+  const auto* profile = std::get_if<Profile>(&natural.spec.shape);
+  if (profile != nullptr && resolution == 0.0) return {*profile, {}};
+  const double step = resolution > 0.0 ? resolution : kStep;
+  std::optional<NaturalSurface> straight;  // a roller is written as the rail that its section would be
+  if (natural.spec.roller_radius == 0.0) straight = natural;
+  // Formulas by their length, so that steep sides have as many points.
+  if (natural.spec.defects.empty())
+    if (const std::optional<Profile> formula = sampled_formula(natural.spec, step)) return {*formula, straight};
+  const Representation wanted{"", step, {}};
+  return {Resampling(natural, wanted).section(), straight};
+}
+
 InputProfile input_profile(const std::filesystem::path& input, const std::filesystem::path& output,
                            const ConvertSettings& settings) {
   const auto refuse = [&](const char* what, const char* advice) {
@@ -55,16 +69,7 @@ InputProfile input_profile(const std::filesystem::path& input, const std::filesy
   const NaturalSurface natural = named_surface(input, {body, radius, settings.scale_to_mm, settings.overrides});
   if (!natural.constant_profile())
     refuse("the section is not the same everywhere, and one profile is written", "write triangles, slices or offsets");
-  const auto* profile = std::get_if<Profile>(&natural.spec.shape);
-  if (profile != nullptr && settings.resolution == 0.0) return {*profile, {}};
-  const double step = settings.resolution > 0.0 ? settings.resolution : kStep;
-  std::optional<NaturalSurface> straight;  // a roller is written as the rail that its section would be
-  if (natural.spec.roller_radius == 0.0) straight = natural;
-  // Formulas by their length, so that steep sides have as many points.
-  if (natural.spec.defects.empty())
-    if (const std::optional<Profile> formula = sampled_formula(natural.spec, step)) return {*formula, straight};
-  const Representation wanted{"", step, {}};
-  return {Resampling(natural, wanted).section(), straight};
+  return section_of(natural, settings.resolution);
 }
 
 /// The surface of points of a profile, at any radius.
@@ -97,6 +102,11 @@ void write_checked_points(const std::filesystem::path& output, const Profile& pr
     staged.commit();
 }
 
+std::string in_words(const Profile& profile, bool smoothed) {
+  return fmt::format("{} profile, {} points{}", profile.body == Body::wheel ? "wheel" : "rail", profile.y.size(),
+                     smoothed ? ", smoothed" : "");
+}
+
 }  // namespace
 
 std::string convert_profile(const std::filesystem::path& input, const std::filesystem::path& output,
@@ -121,8 +131,13 @@ std::string convert_profile(const std::filesystem::path& input, const std::files
     derivatives.s = s;
   }
   write_checked_points(output, profile, how.derivatives ? &derivatives : nullptr, *surface, tolerance_of(settings));
-  return fmt::format("{} profile, {} points{}", profile.body == Body::wheel ? "wheel" : "rail", profile.y.size(),
-                     smoothed ? ", smoothed" : "");
+  return in_words(profile, smoothed);
+}
+
+std::string write_section(const NaturalSurface& surface, const std::filesystem::path& output) {
+  const auto [profile, meant] = section_of(surface, 0.0);
+  write_checked_points(output, profile, nullptr, meant ? *meant : surface_of_points(profile), kWrittenTolerance);
+  return in_words(profile, false);
 }
 
 }  // namespace treadmark::app

@@ -22,4 +22,8 @@ struct ProfileConversion {
 std::string convert_profile(const std::filesystem::path& input, const std::filesystem::path& output,
                             const ConvertSettings& settings, const ProfileConversion& how);
 
+/// The same of a surface that is there already and whose section is the same everywhere; of a roller the rail that its
+/// section would be.
+std::string write_section(const NaturalSurface& surface, const std::filesystem::path& output);
+
 }  // namespace treadmark::app

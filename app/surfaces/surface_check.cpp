@@ -12,6 +12,7 @@
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/app/surfaces/section_bridges.hpp"
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
@@ -154,6 +155,8 @@ CheckedProfile described(const io::SurfaceSource& source, const NaturalSurface& 
         {"unit", fmt::format("{:.4g} mm across is no wheel or rail: is the file in mm? shape.scale_to_mm leads to it",
                              kMilli * size)});
   if (!natural.note.empty()) out.judgement.notes.push_back(natural.note);
+  if (const auto* slices = std::get_if<SliceSet>(&natural.spec.shape))
+    for (const SectionBridge& bridge : section_bridges(*slices)) out.judgement.notes.push_back(to_text(bridge));
   return out;
 }
 

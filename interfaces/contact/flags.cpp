@@ -69,8 +69,6 @@ void set_flag(Problem& p, int code, int value) {
   if (code == CNTC_ic_sbsout && value == 3) value = 2;
   if (code == CNTC_ic_force && p.module == 3) value = std::min(value, 2);
   if (code == CNTC_if_ncase) value = std::max(value, 1) - 1;  // that of the last one
-  if (code == CNTC_if_wrtinp && value == 1 && p.flags[code] == 0)
-    warn("WARNING: CNTC_if_wrtinp: the cases are not written into an .inp file");
   p.flags.at(code) = value;
 }
 

@@ -31,6 +31,8 @@ struct MaterialInput {
 struct GivenProfile {
   int code = 1;  ///< 0 good, 1 never set, 2 file not found, 3 else
   std::string name;
+  io::SurfaceSource source;                    ///< the file, or how its points are to be read
+  std::string points;                          ///< as a text of two columns; empty: a file
   std::optional<SurfaceSpec> spec;             ///< but for the radius
   std::optional<spline::ProfileSpline> curve;  ///< of one profile; none of slices
   std::shared_ptr<const NaturalSurface> built;

@@ -95,9 +95,9 @@ void give_points(Problem& p, std::span<const double> values, std::span<const int
   const io::ProfileOptions options = options_of(p, ints, reals);
   const char* name = body == Body::wheel ? "wheel profile of the caller" : "rail profile of the caller";
   const double radius = radius_for(p, body);
+  std::string lines;
   take(p, body, name, radius, [&] {
     require_finite(values, "values");
-    std::string lines;
     for (std::size_t i = 0; i + 1 < values.size(); i += 2)
       fmt::format_to(std::back_inserter(lines), "{:.17g} {:.17g}\n", values[i], values[i + 1]);
     SurfaceSpec spec;
@@ -106,6 +106,9 @@ void give_points(Problem& p, std::span<const double> values, std::span<const int
     spec.shape = io::parse_profile(lines, name, io::ProfileFormat::two_column, body, options);
     return create_natural(std::move(spec));
   });
+  GivenProfile& slot = p.profile(body);
+  slot.points = std::move(lines);
+  slot.source.geometry = io::GeometryFile{{}, options};
 }
 
 }  // namespace
@@ -118,6 +121,7 @@ void give_profile(Problem& p, Body body, const io::SurfaceSource& source) {
     if (!std::filesystem::exists(io::profile_file(file), ignored)) p.profile(body).code = kNotFound;
     return app::read_surface(source, body, radius);
   });
+  p.profile(body).source = source;
   log(Detail::calls, fmt::format("read the {} profile {}", body == Body::wheel ? "wheel" : "rail", file.string()));
 }
 

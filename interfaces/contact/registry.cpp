@@ -14,6 +14,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
+#include "treadmark/interfaces/contact/input_file.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 
 namespace treadmark::contact {
@@ -78,6 +79,7 @@ void stop(Library& l) {
   l.limit.reset();
   l.detail = 0;
   l.threads = 1;
+  close_input();
   close_log();
 }
 

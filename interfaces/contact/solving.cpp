@@ -12,6 +12,7 @@
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
+#include "treadmark/interfaces/contact/input_file.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 #include "treadmark/io/results/write_mat.hpp"
 #include "treadmark/io/results/write_subs.hpp"
@@ -141,6 +142,7 @@ int solve(Problem& p) {
     return 0;
   }
   p.flags.at(CNTC_if_ncase) = c.number;
+  if (p.flags[CNTC_if_wrtinp] != 0) write_input(p, c);
   if (p.module == 1)
     solve_rail(p, c);
   else

@@ -134,10 +134,11 @@ void written_with_heat(CaseKey& key) {
 
 /// Behind the keys of heat, for it changes what they have made.
 void add_reference_ways(KeyList& list) {
-  KeyInfo info = key_info("case.reference_ways", KeyType::flag,
-                          "details as the reference program (CONTACT) has them, as in its input files: spin moments of "
-                          "grids that are aligned in time, transient steps of more than two elements, temperatures; of a "
-                          "[patch] also KPEC, ANALYN and sub-patches");
+  KeyInfo info =
+      key_info("case.reference_ways", KeyType::flag,
+               "details as the reference program (CONTACT) has them, as in its input files: spin moments of "
+               "grids that are aligned in time, transient steps of more than two elements, temperatures; of a "
+               "[patch] also KPEC, ANALYN and sub-patches");
   info.default_text = "false";
   CaseKey& key = list.add(info);
   key.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {

@@ -125,8 +125,6 @@ class Rules {
     refuse_if(p.coupling.size() != patches * patches, CaseSetting::geometry,
               fmt::format("{} sub-patches need {} coupling factors", patches, patches * (patches - 1) / 2),
               "row by row above the diagonal: 1-2, 1-3, ..., 2-3, ...");
-    refuse_if(c.normal_force_prescribed, CaseSetting::load,
-              "sub-patches need a prescribed approach, but the normal force is given");
     refuse_if(c.normal_model != NormalModel::full, CaseSetting::normal_model,
               "sub-patches need the full normal problem");
   }

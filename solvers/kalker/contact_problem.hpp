@@ -69,7 +69,7 @@ struct SubPatches {
 struct ContactProblem {
   Grid2 grid;                   ///< element centres [m]
   std::span<const double> gap;  ///< undeformed distance h [m], size grid.size(); NaN = never in contact
-  SubPatches sub_patches;       ///< with a prescribed approach only
+  SubPatches sub_patches;
   Material material;
   FrictionLaw friction;
 

@@ -109,10 +109,11 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
         remark.text += ": the wheel slides without turning, its pitch rate or rolling is not given";
   if (ratio > kMeaningless && solution.status != Status::failed) {
     solution.status = Status::failed;
+    const Vec3 at = solution.placement.X_TS.inverse().apply(s.frame.X_TC.origin);
     solution.message = fmt::format(
-        "the largest pressure of {:.4g} MPa in patch {} has no meaning: look for spikes or edges in the "
-        "surfaces, or a position that is not meant",
-        kMega * s.contact.max_pressure, number);
+        "the largest pressure of {:.4g} MPa in patch {}, at x = {:.6g}, y = {:.4g}, z = {:.4g} mm of the rail, has no "
+        "meaning: look for spikes or edges in the surfaces, or a position that is not meant",
+        kMega * s.contact.max_pressure, number, kMilli * at.x(), kMilli * at.y(), kMilli * at.z());
   }
 
   const Footprint f = footprint(s.grid, s.contact.pressure);

@@ -17,6 +17,7 @@
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/support/mutation.hpp"
 
 namespace treadmark::testing {
@@ -131,13 +132,35 @@ TEST(ConvertedCases, APatchRunsToTheSameNumbers) {
   expect_same_results(solved(example), solved(inp));
 }
 
+/// What files of points leave out of formulas.
+constexpr double kSampled = 0.01;
+
+TEST(ConvertedCases, ShapesByFormulaAndDefectsBecomeFiles) {
+  SampleInput input;
+  const fs::path toml = input.folder() / "case.toml", inp = input.folder() / "out.inp";
+  const std::string plain = standard_case("1.0");
+  std::string damaged = plain + "[[rail.squats]]\nx_center_mm = 5\ndepth_mm = 0.2\nlength_mm = 40\nwidth_mm = 30\n";
+  damaged.replace(damaged.find("cant ="), 0, "rail_y_mm = 753\n");  // slices have no gauge point
+  for (const auto& [text, rail] :
+       {std::pair{plain, "out_rail_1.prr: rail profile"}, {damaged, "out_rail_1.slcs: slices"}}) {
+    input.write("case.toml", text);
+    const ProgramResult r = run_program({"convert", toml.string(), inp.string()});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_THAT(r.out, HasSubstr(rail));
+    EXPECT_THAT(r.out, HasSubstr("out_wheel_2.prw: wheel profile"));
+    expect_same_results(solved(toml), solved(inp), kSampled);
+  }
+}
+
 TEST(ConvertedCases, RefusedOnesLeaveNothing) {
   SampleInput input;
   const fs::path out = input.folder() / "out.inp";
-  const ProgramResult r = run_program({"convert", TREADMARK_SOURCE_DIR "/examples/wheel-flat.toml", out.string()});
+  input.write("case.toml", standard_case("1.0") + "[solver]\ntangential_model = \"linear\"\n");
+  const ProgramResult r = run_program({"convert", (input.folder() / "case.toml").string(), out.string()});
   EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("cannot be written as input of CONTACT (.inp)"));
   EXPECT_FALSE(fs::exists(out));
+  EXPECT_FALSE(fs::exists(input.folder() / "out_rail_1.prr"));
 }
 
 /// A ball on a plane that rolls with spin; digit: E.

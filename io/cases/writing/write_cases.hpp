@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "treadmark/io/cases/case_model.hpp"
 
@@ -19,5 +20,7 @@ std::string case_file_text(const CaseFile& file, const std::filesystem::path& fo
 /// details) stand in lines that the reference program takes for comments, "%treadmark key = value".
 /// Errors: Error(configuration) at a case with what such a file cannot say, by the name of its setting. Thread-safe.
 std::string contact_input_text(const CaseFile& file, const std::filesystem::path& folder);
+/// One case of such a file; sequence: what stands behind the module on its first line.
+std::string contact_case_text(const Case& c, const std::filesystem::path& folder, std::string_view sequence);
 
 }  // namespace treadmark::io

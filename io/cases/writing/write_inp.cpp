@@ -45,9 +45,9 @@ class InputWriter {
  public:
   InputWriter(const Case& c, const std::filesystem::path& folder) : case_(c), folder_(folder) {}
 
-  std::string text() {
+  std::string text(std::string_view sequence) {
     const bool rail = std::holds_alternative<WheelRailCase>(case_.content);
-    out_ = fmt::format("\n {} {}  MODULE, sequence; case {}\n", rail ? 1 : 3, case_.sequence + 1, case_.number);
+    out_ = fmt::format("\n {} {}  MODULE, sequence; case {}\n", rail ? 1 : 3, sequence, case_.number);
     if (rail)
       wheel_rail(std::get<WheelRailCase>(case_.content));
     else
@@ -690,8 +690,12 @@ std::string contact_input_text(const CaseFile& file, const std::filesystem::path
   std::ranges::replace_if(
       title, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   std::string out = fmt::format("% {}\n", title);
-  for (const Case& c : file.cases) out += InputWriter(c, folder).text();
+  for (const Case& c : file.cases) out += contact_case_text(c, folder, std::to_string(c.sequence + 1));
   return out + "\n 0  MODULE\n";
+}
+
+std::string contact_case_text(const Case& c, const std::filesystem::path& folder, std::string_view sequence) {
+  return InputWriter(c, folder).text(sequence);
 }
 
 }  // namespace treadmark::io

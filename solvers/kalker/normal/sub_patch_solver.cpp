@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
@@ -19,9 +20,8 @@ void check_sub_patches(const ContactProblem& problem) {
   const auto n = static_cast<std::size_t>(s.count);
   using Model = NormalModel;
   const Model model = problem.normal_model;
-  if (problem.force_prescribed || (model != Model::full && model != Model::kpec && model != Model::analyn))
-    throw Error(ErrorKind::configuration,
-                "sub-patches need a prescribed approach and pressures that follow from the gap", {},
+  if (model != Model::full && model != Model::kpec && model != Model::analyn)
+    throw Error(ErrorKind::configuration, "sub-patches need pressures that follow from the gap", {},
                 "use the full normal problem, KPEC or ANALYN");
   if (s.part.size() != problem.grid.size() || s.coupling.size() != n * n)
     throw Error(ErrorKind::configuration, "sub-patches need a part for every element and a factor for every pair");
@@ -34,6 +34,10 @@ void check_sub_patches(const ContactProblem& problem) {
 struct SubPatchSolver::Workspace {
   NormalOperatorCache operators;
   std::vector<NormalSolver> solvers;
+  NormalSolver whole;  ///< of all parts as one patch, under a prescribed force
+
+  void solve_at(const ContactProblem& problem, ContactSolution& solution);
+  void solve_under(const ContactProblem& problem, ContactSolution& solution);
 };
 
 SubPatchSolver::SubPatchSolver() : workspace_(std::make_unique<Workspace>()) {}
@@ -64,12 +68,59 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
     if (workspace_->solvers.empty()) workspace_->solvers.emplace_back();
     return workspace_->solvers.front().solve(whole, solution);
   }
+  if (problem.force_prescribed)
+    workspace_->solve_under(problem, solution);
+  else
+    workspace_->solve_at(problem, solution);
+}
+
+/// By secants of force^(2/3), about linear in the approach, inside a bracket: parts that feel less of each other than
+/// one patch are stiffer than it.
+void SubPatchSolver::Workspace::solve_under(const ContactProblem& problem, ContactSolution& solution) {
+  ContactProblem given = problem;
+  given.sub_patches = {};
+  whole.solve(given, solution);
+  if (solution.status != Status::ok) return;
+  given.sub_patches = problem.sub_patches;
+  given.force_prescribed = false;
+  const double wanted = std::cbrt(problem.normal_force * problem.normal_force);
+  double low = std::numeric_limits<double>::infinity(), low_miss = -wanted, high = solution.approach, high_miss = 0.0;
+  for (const double h : problem.gap)
+    if (h < low) low = h;
+  const double touching = low;
+  bool closed = false;
+  int side = 0;
+  given.approach = high;
+  constexpr int kMost = 60;
+  for (int i = 0; i < kMost; ++i) {
+    check_cancelled();
+    solve_at(given, solution);
+    const double miss = std::cbrt(solution.force_n * solution.force_n) - wanted;
+    if (std::abs(solution.force_n - problem.normal_force) <= problem.settings.eps * problem.normal_force ||
+        (solution.status != Status::ok && solution.status != Status::no_contact))
+      return;
+    // An end that stays counts half (Illinois; Dowell & Jarratt 1971).
+    if (miss > 0.0) {
+      if (side > 0) low_miss *= 0.5;
+      high = given.approach, high_miss = miss, side = 1, closed = true;
+    } else {
+      if (side < 0) high_miss *= 0.5;
+      low = given.approach, low_miss = miss, side = -1;
+    }
+    given.approach = closed ? low - low_miss * (high - low) / (high_miss - low_miss)
+                            : touching + (given.approach - touching) * wanted / (miss + wanted) * 1.001;
+  }
+  solution.status = solution.normal.status = Status::not_converged;
+  solution.normal.message = "no approach of the sub-patches gives the prescribed normal force";
+}
+
+void SubPatchSolver::Workspace::solve_at(const ContactProblem& problem, ContactSolution& solution) {
   const Grid2& grid = problem.grid;
   const SubPatches& sub = problem.sub_patches;
   const auto count = static_cast<std::size_t>(sub.count);
   const std::size_t n = grid.size();
-  while (workspace_->solvers.size() < count) workspace_->solvers.emplace_back();
-  const NormalOperator op = workspace_->operators.get(grid.nx, grid.ny, 0, problem);
+  while (solvers.size() < count) solvers.emplace_back();
+  const NormalOperator op = operators.get(grid.nx, grid.ny, 0, problem);
 
   // Displacement by each part alone, everywhere.
   std::vector<ContactSolution> parts(count);
@@ -90,7 +141,7 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
       part.sub_patches = {};
       part.gap = gap;
       const std::vector<double> before = std::move(parts[k].pressure);
-      workspace_->solvers[k].solve(part, parts[k]);
+      solvers[k].solve(part, parts[k]);
       if (parts[k].status == Status::no_contact) parts[k].pressure.assign(n, 0.0);
       for (std::size_t i = 0; i < n; ++i) {
         largest = std::max(largest, parts[k].pressure[i]);

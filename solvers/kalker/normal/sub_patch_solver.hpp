@@ -10,7 +10,8 @@
 namespace treadmark::kalker {
 
 /// Normal problem of a patch with sub-patches: each one is solved with the displacement that the others cause in it,
-/// scaled by the coupling factors, in turn until nothing changes. The parts lie apart, so that a few rounds suffice.
+/// scaled by the coupling factors, in turn until nothing changes. The parts lie apart, so that a few rounds suffice. A
+/// prescribed force is that of all parts together, at one approach.
 /// Not thread-safe; keeps coefficients and the last solution of every part.
 class SubPatchSolver {
  public:
@@ -20,7 +21,7 @@ class SubPatchSolver {
   SubPatchSolver& operator=(SubPatchSolver&&) noexcept;
 
   /// Fills the solution as NormalSolver does. A part that does not touch stays without pressure.
-  /// Errors: Error(configuration) for a prescribed force, wrong sizes or factors outside 0 .. 1.
+  /// Errors: Error(configuration) for wrong sizes or factors outside 0 .. 1; those of NormalSolver.
   void solve(const ContactProblem& problem, ContactSolution& solution);
   void reset();
   /// What the next problem starts from, part by part, to be saved and restored.

@@ -259,9 +259,6 @@ INSTANTIATE_TEST_SUITE_P(
               "2 sub-patches need 1 coupling factors"},
         Wrong{kGap + "planform = { kind = \"sub_patches\", rectangles_mm = [0, 1, 1, 0], coupling = [] }\n",
               "has no extent"},
-        Wrong{kForce +
-                  "planform = { kind = \"sub_patches\", rectangles_mm = [0, 1, 0, 1, 0, 1, 2, 3], coupling = [0.5] }\n",
-              "sub-patches need a prescribed approach"},
         Wrong{kForce + "planform.coupling = [1.5]\n", "must be at most 1"},
         Wrong{"[patch]\nnormal_force_N = 1\nmx = 3\nmy = 2\nhertz = { given = \"semi_double_elliptic\", semi_axis_x_mm "
               "= 8 }\n",

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -97,7 +98,7 @@ TEST(Quantities, ReachEveryFileOnce) {
     EXPECT_TRUE(keys.insert(std::string(row.object) + '.' + std::string(row.key)).second);
     const json& within = row.object.empty() ? written : written[std::string(row.object)];
     const double expected = row.unit.in_file(row.access.get(result.patches[0]));
-    EXPECT_NEAR(within[std::string(row.key)].get<double>(), expected, 1e-11 * expected);
+    EXPECT_NEAR(within[std::string(row.key)].get<double>(), expected, 1e-11 * std::abs(expected));
   }
 }
 

@@ -107,6 +107,23 @@ TEST(SubPatches, ForceFallsSteadilyWithCoupling) {
   }
 }
 
+TEST(SubPatches, ForceFindsTheApproachThatGivesIt) {
+  for (const double coupling : {0.0, 0.3, 1.0})
+    for (const double approach : {3e-6, 1e-5, 4e-5}) {  // the second bump touches from 2e-6 on
+      TwoBumps bumps(coupling);
+      bumps.problem.approach = approach;
+      const ContactSolution at = ContactSolver().solve_normal(bumps.problem);
+      bumps.problem.force_prescribed = true;
+      bumps.problem.normal_force = at.force_n;
+      bumps.problem.approach = 0.0;
+      const ContactSolution under = ContactSolver().solve_normal(bumps.problem);
+      ASSERT_EQ(under.status, Status::ok) << under.normal.message;
+      EXPECT_NEAR(under.force_n, at.force_n, 2.0 * bumps.problem.settings.eps * at.force_n);
+      EXPECT_NEAR(under.approach, approach, 1e-6 * approach);
+      EXPECT_LT(largest_difference(under.pressure, at.pressure), 1e-4 * at.max_pressure);
+    }
+}
+
 TEST(SubPatches, TakeApproximatePressures) {
   for (const NormalModel model : {NormalModel::kpec, NormalModel::analyn}) {
     TwoBumps full(0.5), fast(0.5);
@@ -122,7 +139,7 @@ TEST(SubPatches, TakeApproximatePressures) {
 
 TEST(SubPatches, RefusesWhatItCannotSolve) {
   TwoBumps bumps(0.5);
-  bumps.problem.force_prescribed = true;
+  bumps.problem.normal_model = NormalModel::elliptic;
   EXPECT_THROW(ContactSolver().solve_normal(bumps.problem), Error);
   TwoBumps wrong(1.5);
   EXPECT_THROW(ContactSolver().solve_normal(wrong.problem), Error);
