@@ -193,12 +193,17 @@ void PairStep::evaluate(double z) {
   if (too_deep_ > 0.0) return;
 
   const detection::BodyPair bodies = detection::moved(bodies_, dz);
-  for (const detection::ContactPatch& region : found.patches) {
-    Patch patch;
+  std::vector<Patch> located(found.patches.size());
+  {
+    const Stopwatch watch(times_.distance_s);
+    for (std::size_t i = 0; i < located.size(); ++i) locate(found.patches[i], bodies, located[i]);
+    for (Patch& patch : located) take_over(located, patch);
+  }
+  for (Patch& patch : located) {
     {
       const Stopwatch watch(times_.distance_s);
       ++times_.distances;
-      describe(region, bodies, patch);
+      measure_distance(bodies, patch);
     }
     // Interpenetration between the element centres only: no contact on this grid.
     if (!(patch.solution.approach > 0.0)) {
@@ -214,7 +219,7 @@ void PairStep::evaluate(double z) {
     if (patch.solution.contact.status == Status::no_contact) continue;
     resolve_forces(patch);
     patch.normal_force_C = patch.predicted_force_C = patch.solution.force_C;
-    patch.predicted_force_C += share_near(region.extent.box) * patch.solution.contact.force_n;
+    patch.predicted_force_C += share_near(patch.solution.region.extent.box) * patch.solution.contact.force_n;
     patch.normal = patch.solution.contact;
     patches_.push_back(std::move(patch));
   }

@@ -99,9 +99,10 @@ class PairStep {
   bool aligned() const;
   bool parts_creep_apart() const;
   Vec3 share_near(const Rectangle& box) const;
-  void describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch);
+  void locate(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch);
   void link(const Rectangle& box, Patch& patch) const;
-  void measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const;
+  void take_over(const std::vector<Patch>& patches, Patch& patch) const;
+  void measure_distance(const detection::BodyPair& bodies, Patch& patch) const;
   std::vector<Vec2> places_on_rail(const detection::BodyPair& bodies, const Patch& patch) const;
   double deepest() const;
   void move(Patch& patch) const;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 // Where the patches of a step lie: contact frame, elements, undeformed distance, and the patches of the previous
 // instant they continue.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -60,22 +61,32 @@ bool inside(const Rectangle& r, double x, double y, double margin_x, double marg
 }  // namespace
 
 void PairStep::link(const Rectangle& box, Patch& patch) const {
+  patch.solution.came_from.clear();
   if (problem_.history == kalker::HistoryUse::start) return;
   // Steady grids have their origin at the contact reference, aligned ones at a place that stays.
   const double shift = problem_.regime == kalker::Regime::shift ? previous_.s : 0.0;
   Rectangle here = box;
   here.x_min -= shift, here.x_max -= shift;
   patch.before = overlapping(previous_, here);
-  patch.solution.came_from.clear();
   for (const PatchMemory* m : patch.before) patch.solution.came_from.push_back(m->id);
+}
+
+/// A patch that has parted leaves to each of its parts the tractions that are there.
+void PairStep::take_over(const std::vector<Patch>& patches, Patch& patch) const {
   if (!aligned() || patch.before.empty()) return;
+  const double shift = problem_.regime == kalker::Regime::shift ? previous_.s : 0.0;
   std::vector<kalker::ContactHistory> parts;
-  for (const PatchMemory* m : patch.before)
-    parts.push_back(on_raster(m->history, shift, problem_.discretisation.dx, problem_.discretisation.ds));
+  for (const PatchMemory* m : patch.before) {
+    std::vector<Rectangle> others;
+    for (const Patch& other : patches)
+      if (&other != &patch && std::ranges::find(other.before, m) != other.before.end()) others.push_back(other.box);
+    parts.push_back(own_share(on_raster(m->history, shift, problem_.discretisation.dx, problem_.discretisation.ds),
+                              patch.box, others));
+  }
   patch.history = united(parts, problem_.friction.static_friction(), problem_.material.layer_yield);
 }
 
-void PairStep::describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch) {
+void PairStep::locate(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch) {
   PatchSolution& s = patch.solution;
   const Discretisation& d = problem_.discretisation;
   s.region = region;
@@ -89,17 +100,13 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
         X_TC.origin.x() + (problem_.regime == kalker::Regime::shift ? problem_.state.position.x : 0.0), s.reference_s};
   s.reference_C = settings.reference;
   s.grid = detection::potential_contact_grid(bodies, region, s.frame, settings);
-  const Rectangle own = extent_of(s.grid);
-  patch.box = own;
-  Rectangle from_wheelset = own;
+  patch.box = extent_of(s.grid);
+  Rectangle from_wheelset = patch.box;
   if (!aligned()) {
     from_wheelset.x_min += X_TC.origin.x(), from_wheelset.x_max += X_TC.origin.x();
     from_wheelset.y_min += s.reference_s, from_wheelset.y_max += s.reference_s;
   }
   link(from_wheelset, patch);
-  if (patch.history) s.grid = extended(s.grid, *patch.history);
-
-  measure_distance(bodies, own, patch);
 }
 
 /// Of the elements, in T; where there is no rail on the reference surface. On a steep plane a place is far from the
@@ -127,8 +134,9 @@ std::vector<Vec2> PairStep::places_on_rail(const detection::BodyPair& bodies, co
 }
 
 /// Undeformed distance on the grid, of a tangent plane or a curve, and the part of it that may touch.
-void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const {
+void PairStep::measure_distance(const detection::BodyPair& bodies, Patch& patch) const {
   PatchSolution& s = patch.solution;
+  if (patch.history) s.grid = extended(s.grid, *patch.history);
   const Discretisation& d = problem_.discretisation;
   const Pose& X_TC = s.frame.X_TC;
   detection::UndeformedDistance undeformed;
@@ -163,7 +171,7 @@ void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectang
   for (int iy = 0; iy < s.grid.ny; ++iy)
     for (int ix = 0; ix < s.grid.nx; ++ix) {
       const std::size_t i = s.grid.index(ix, iy);
-      if (!inside(own, s.grid.x(ix), s.grid.y(iy), margin * d.dx, margin * d.ds))
+      if (!inside(patch.box, s.grid.x(ix), s.grid.y(iy), margin * d.dx, margin * d.ds))
         patch.gap[i] = std::numeric_limits<double>::quiet_NaN();
       else if (patch.gap[i] < least)
         least = patch.gap[i];

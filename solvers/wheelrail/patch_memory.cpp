@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 
 #include "treadmark/core/error.hpp"
 
@@ -29,6 +30,18 @@ Grid2 grid_of(const Lines& l, double dx, double ds) {
   return {static_cast<double>(l.ix_min) * dx,        static_cast<double>(l.iy_min) * ds,       dx, ds,
           static_cast<int>(l.ix_max - l.ix_min + 1), static_cast<int>(l.iy_max - l.iy_min + 1)};
 }
+
+/// How far a point lies from a rectangle, and within it from its middle.
+struct Farness {
+  double outside = 0.0, from_middle = 0.0;
+
+  Farness(const Rectangle& r, double x, double y) {
+    outside = std::hypot(std::max({r.x_min - x, x - r.x_max, 0.0}), std::max({r.y_min - y, y - r.y_max, 0.0}));
+    from_middle = std::hypot((2.0 * x - r.x_min - r.x_max) / (r.x_max - r.x_min),
+                             (2.0 * y - r.y_min - r.y_max) / (r.y_max - r.y_min));
+  }
+  auto operator<=>(const Farness&) const = default;
+};
 
 void add(std::vector<double>& sum, const std::vector<double>& field) {
   if (field.empty()) return;
@@ -58,6 +71,22 @@ kalker::ContactHistory on_raster(const kalker::ContactHistory& history, double s
   moved.grid.x0 = std::round((g.x0 + shift_x) / dx) * dx;
   moved.grid.y0 = std::round(g.y0 / ds) * ds;
   return moved;
+}
+
+kalker::ContactHistory own_share(kalker::ContactHistory history, const Rectangle& box,
+                                 const std::vector<Rectangle>& others) {
+  if (others.empty()) return history;
+  const Grid2& g = history.grid;
+  for (int iy = 0; iy < g.ny; ++iy)
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const double x = g.x(ix), y = g.y(iy);
+      const Farness own(box, x, y);
+      if (std::ranges::none_of(others, [&](const Rectangle& other) { return Farness(other, x, y) < own; })) continue;
+      for (auto* field :
+           {&history.pressure, &history.traction_x, &history.traction_y, &history.layer_x, &history.layer_y})
+        if (!field->empty()) (*field)[g.index(ix, iy)] = 0.0;
+    }
+  return history;
 }
 
 kalker::ContactHistory united(const std::vector<kalker::ContactHistory>& histories, double static_friction,

@@ -50,6 +50,11 @@ std::vector<const PatchMemory*> overlapping(const Instant& instant, const Rectan
 /// Errors: Error(configuration) for elements of another size.
 kalker::ContactHistory on_raster(const kalker::ContactHistory& history, double shift_x, double dx, double ds);
 
+/// What of a history on a raster lies nearer to box than to any of the others; tractions elsewhere are theirs, zero
+/// here. Rectangles in the axes of the raster.
+kalker::ContactHistory own_share(kalker::ContactHistory history, const Rectangle& box,
+                                 const std::vector<Rectangle>& others);
+
 /// Several histories on one raster as one: tractions are added up, friction and yield stress are those of the patch
 /// that presses most.
 kalker::ContactHistory united(const std::vector<kalker::ContactHistory>& histories, double static_friction,

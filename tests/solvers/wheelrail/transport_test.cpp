@@ -117,6 +117,30 @@ TEST(Transport, TractionsStayWithTheMaterialWhilePatchesMergeAndSplit) {
   EXPECT_GT(largest_id, 2u) << "a patch that splits off gets a number of its own";
 }
 
+TEST(Transport, APatchThatPartsKeepsItsForce) {
+  // Elastic bodies without a layer: each part felt the displacements by the other, and stops to feel them. Where
+  // nothing moves and nothing slips, tractions stay.
+  Pair pair(two_crowns());
+  Problem shift = crowns_problem();
+  shift.material.layer_flexibility = 0.0;
+  shift.regime = Regime::shift;
+  shift.state.velocity.x = kShift;
+  group(shift, Grouping::together);
+  const PairSolution one = pair.solve(shift);
+  ASSERT_EQ(one.patches.size(), 1u);
+  const double force = one.load.track.force.x();
+  EXPECT_GT(std::abs(force), 1e3);
+  shift.state.velocity.x = 0.0;
+  shift.history = HistoryUse::keep_going;
+  group(shift, Grouping::apart);
+  for (int step = 0; step < 3; ++step) {
+    const PairSolution parted = pair.solve(shift);
+    ASSERT_EQ(parted.patches.size(), 2u);
+    // Pressures, which feel each other no longer either, move the edges of the parts a little.
+    EXPECT_NEAR(parted.load.track.force.x() / force, 1.0, 5e-3);
+  }
+}
+
 TEST(Transport, WhatLosesContactForgets) {
   Pair pair(two_crowns());
   Problem rolling = crowns_problem();
