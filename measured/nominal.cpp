@@ -155,9 +155,10 @@ double flange_rms(const std::vector<Vec2>& points, const NominalOutline& n, cons
 
 /// Of a section with two rims the points of the wider one, which is the head; none of any other section.
 std::vector<Vec2> head_beside_groove(const std::vector<Vec2>& points) {
-  constexpr double kDeep = 14e-3, kRim = 3e-3;
-  double top = kInfinity;
-  for (const Vec2& p : points) top = std::min(top, p.y());
+  constexpr double kRim = 3e-3;
+  double top = kInfinity, bottom = -kInfinity;
+  for (const Vec2& p : points) top = std::min(top, p.y()), bottom = std::max(bottom, p.y());
+  const double half_deep = 0.5 * (bottom - top);  // the keeper of a rolled rail may lie deep
   std::vector<Vec2> head, run;
   int rims = 0;
   const auto width = [](const std::vector<Vec2>& r) { return r.empty() ? 0.0 : std::fabs(r.back().x() - r[0].x()); };
@@ -167,7 +168,7 @@ std::vector<Vec2> head_beside_groove(const std::vector<Vec2>& points) {
     run.clear();
   };
   for (const Vec2& p : points)
-    if (p.y() - top < kDeep)
+    if (p.y() - top < half_deep)
       run.push_back(p);
     else
       close();

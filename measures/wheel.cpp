@@ -197,7 +197,7 @@ class WheelRuler {
   void tread() {
     constexpr double kStep = 0.25e-3, kFirst = -25e-3;
     double deepest = std::numeric_limits<double>::infinity(), hollow = 0.0;
-    double last = kUnknown;
+    double last = kUnknown, highest = kUnknown;
     const auto count = static_cast<std::size_t>((g_.field_end - kFirst) / kStep) + 1;
     const std::vector<double> all = s_.z_over(kFirst, kStep, count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -205,10 +205,14 @@ class WheelRuler {
       if (std::isnan(z)) continue;
       last = kFirst + kStep * static_cast<double>(i);
       deepest = std::min(deepest, z);  // least radius so far
-      hollow = std::max(hollow, z - deepest);
+      if (z - deepest > hollow) hollow = z - deepest, highest = last;
     }
-    constexpr double kEnough = 40e-3;
-    if (last >= kEnough)
+    constexpr double kEnough = 40e-3, kAtEnd = 1e-3, kFelt = 0.1e-3, kWholeTread = 5e-3;
+    if (hollow > kFelt && last - highest < kAtEnd && last < g_.field_end - kWholeTread)
+      out_.hollow = missing(fmt::format(
+          "the tread still rises where the section ends, {:.3g} mm from the tape line: it is {:.3g} mm at least",
+          1e3 * last, 1e3 * hollow));
+    else if (last >= kEnough)
       out_.hollow = measured(hollow, std::numbers::sqrt2 * tape_.error);
     else
       out_.hollow =

@@ -18,6 +18,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
+#include "treadmark/measured/lumps.hpp"
 #include "treadmark/measured/noise.hpp"
 #include "treadmark/measured/nominal.hpp"
 #include "treadmark/measures/rail.hpp"
@@ -339,9 +340,11 @@ std::vector<CheckedProfile> check_profiles(const io::CaseFile& file) {
 namespace {
 
 /// What noise or a tilted frame would do to a section of slices, which are not smoothed.
-std::string doubt_of_section(const Profile& section, measured::Understanding seen,
+/// next: the section beside it.
+std::string doubt_of_section(const Profile& section, const Profile& next, measured::Understanding seen,
                              const io::ExpectedProfile& expected) {
-  constexpr double kFelt = 2e-6;   // [m] neighbouring sections take some away
+  constexpr double kFelt = 2e-6;  // [m] neighbouring sections take some away
+  constexpr double kSamePlace = 2e-3;
   constexpr double kDense = 1e-3;  // [m] points farther apart scatter by the curve between them
   io::SourcedProfile sourced;
   sourced.profile = section;
@@ -350,6 +353,12 @@ std::string doubt_of_section(const Profile& section, measured::Understanding see
   judge_against_nominal(sourced, expected, judged);
   if (!judged.remarks.empty()) return judged.remarks.front().name + ": " + judged.remarks.front().text;
   const measured::PointNoise noise = measured::profile_noise(section);
+  const std::optional<measured::Lump> lump = measured::highest_lump(section, noise.across),
+                                      beside = measured::highest_lump(next, noise.across);
+  if (lump && beside && std::fabs(section.y[lump->first] - next.y[beside->first]) < kSamePlace)
+    return fmt::format(
+        "lump: {} of {:.2g} mm at y = {:.2f} mm: dirt or damage? where it touches, the pressure is that of it",
+        lump->height > 0.0 ? "a lump" : "a notch", kMilli * std::fabs(lump->height), kMilli * section.y[lump->first]);
   if (section.smoothing.strength > 0.0 || noise.across < kFelt || noise.step > kDense) return {};
   return fmt::format(
       "noise: the points scatter by {:.2g} mm and the surface runs through all of them: pressures are too "
@@ -382,7 +391,10 @@ std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Bod
   else if (seen.shift_y != 0.0)
     what = fmt::format("tape_line: y = 0 lies {:.2f} mm from the tape line, 70 mm from the back of the flange",
                        kMilli * std::fabs(seen.shift_y));
-  if (what.empty()) what = doubt_of_section(slices.profiles[slices.profiles.size() / 2], std::move(seen), expected);
+  const std::size_t middle = slices.profiles.size() / 2;
+  if (what.empty())
+    what = doubt_of_section(slices.profiles[middle], slices.profiles[std::max<std::size_t>(1, middle) - 1],
+                            std::move(seen), expected);
   return what.empty() ? what
                       : fmt::format("{} slices {}: {}; slices are taken as they lie", body_name(body), file, what);
 }

@@ -214,10 +214,10 @@ TEST(MeasuredSection, TheHeadBesideAGrooveIsLaidUponANominalOneAlone) {
   std::vector<Vec2> outline;
   for (double y = -30e-3; y <= 30e-3; y += 0.25e-3) outline.emplace_back(y, head(y));
   const std::vector<NominalOutline> nominals{nominal_outline("head", Body::rail, outline)};
-  for (const double degrees : {-4.0, 4.0}) {
+  for (const double degrees : {-6.0, -4.0, 4.0}) {
     SectionPoints p;
     for (double y = -26e-3; y <= 75e-3; y += 0.2e-3) {
-      const double keeper = y > 60e-3 ? 2e-3 : 1.0;
+      const double keeper = y > 60e-3 ? 7e-3 : 1.0;
       p.y.push_back(y), p.z.push_back(std::min({std::max(0.0, head(y)), 40e-3, keeper}));
     }
     p = turned(p, degrees * kDegree, false, false, 0.0, 0.0);

@@ -125,6 +125,18 @@ TEST(WheelMeasures, HollowAndRollOver) {
   }
   EXPECT_NEAR(measure_wheel(Section(worn, 0.0)).hollow.value, 1.5 * kMm, 0.01 * kMm);
   EXPECT_THAT(measure_wheel(Section(worn, 0.0)).rollover.reason, HasSubstr("outer rim face is not in the section"));
+  // Cut where it still rises, after the 40 mm that a tread without a rise needs.
+  Profile cut = points_of("S1002");
+  for (std::size_t i = 0; i < cut.y.size(); ++i) {
+    const double y = cut.y[i] / kMm;
+    if (y > -20.0) cut.z[i] = -1.5 * kMm * (1.0 - std::pow((y - 20.0) / 40.0, 2));
+  }
+  EXPECT_NEAR(measure_wheel(Section(cut, 0.0)).hollow.value, 1.5 * kMm, 0.02 * kMm);
+  for (std::size_t i = cut.y.size(); i-- > 0;)
+    if (cut.y[i] > 43.0 * kMm)
+      cut.y.erase(cut.y.begin() + static_cast<std::ptrdiff_t>(i)),
+          cut.z.erase(cut.z.begin() + static_cast<std::ptrdiff_t>(i));
+  EXPECT_THAT(measure_wheel(Section(cut, 0.0)).hollow.reason, HasSubstr("still rises where the section ends"));
   // An outer face at 65 mm from -2 to -20 mm, above it metal out to 66.2 mm.
   Profile rolled = points_of("S1002");
   rolled.y.insert(rolled.y.begin(), {65.0 * kMm, 66.2 * kMm, 65.5 * kMm});
