@@ -129,7 +129,7 @@ TEST(WheelMeasures, HollowAndRollOver) {
   Profile cut = points_of("S1002");
   for (std::size_t i = 0; i < cut.y.size(); ++i) {
     const double y = cut.y[i] / kMm;
-    if (y > -20.0) cut.z[i] = -1.5 * kMm * (1.0 - std::pow((y - 20.0) / 40.0, 2));
+    if (y > -20.0) cut.z[i] = -1.5 * kMm * (1.0 - std::pow((y - 17.5) / 37.5, 2));
   }
   EXPECT_NEAR(measure_wheel(Section(cut, 0.0)).hollow.value, 1.5 * kMm, 0.02 * kMm);
   for (std::size_t i = cut.y.size(); i-- > 0;)
