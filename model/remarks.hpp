@@ -93,7 +93,9 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "fewer than 20 elements in contact: the largest pressure is off by several per cent, and with fewer than 5 it is "
      "an order of magnitude only"},
     {RemarkKind::coarse_elements, "coarse_elements", false,
-     "smaller elements would change the largest pressure or the forces by more than 5 %, as far as coarser ones tell"},
+     "smaller elements would change the largest pressure or the forces by more than 5 %, as far as coarser ones tell, "
+     "or "
+     "a contact lies between them and carries nothing"},
     {RemarkKind::large_creepage, "large_creepage", false,
      "creepage, or spin times the patch's radius, above 0.1 in rolling: motions are taken as small against rolling"},
     {RemarkKind::unusual_friction, "unusual_friction", false,

@@ -87,6 +87,17 @@ Remark locus_remark(const detection::WrongLocus& wrong, const Pose& X_TS) {
                           : "no wheel could roll over it, an artefact between sections is likely; the locus decides")};
 }
 
+/// Of a region that is deeper than rounding leaves.
+std::optional<Remark> between_remark(const std::optional<detection::ContactPatch>& region, const Pose& X_TS) {
+  constexpr double kFelt = 1e-6;  // [m]
+  if (!region || -region->least_gap < kFelt) return std::nullopt;
+  const Vec3 place = X_TS.apply_inverse(region->deepest_T);
+  return Remark{RemarkKind::coarse_elements, 0,
+                fmt::format("a contact {:.2g} mm deep at y = {:.5g} mm of the rail lies between elements and carries "
+                            "nothing: take smaller ones",
+                            -kMilli * region->least_gap, kMilli * place.y())};
+}
+
 void note(PairSolution& solution, Status status, const std::string& message) {
   if (solution.status == Status::ok) solution.status = status;
   if (solution.message.empty()) solution.message = message;
@@ -186,6 +197,8 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   solution.least_gap = step.closest();
   solution.hidden_patches = step.hidden_patches();
   if (const auto wrong = step.wrong_locus()) solution.remarks.push_back(locus_remark(*wrong, step.placement().X_TS));
+  if (auto between = between_remark(step.between_elements(), step.placement().X_TS))
+    solution.remarks.push_back(*std::move(between));
   solution.rail_deflection_y = balance.rail_dy;
   solution.rail_deflection_z = balance.rail_dz;
   solution.force_iterations = std::move(balance.iterations);

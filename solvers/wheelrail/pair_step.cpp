@@ -189,6 +189,7 @@ void PairStep::evaluate(double z) {
   least_gap_ = found.least_gap;
   closest_ = found.closest;
   hidden_ = 0;
+  between_.reset();
   too_deep_ = -found.least_gap > deepest() ? -found.least_gap : 0.0;
   if (too_deep_ > 0.0) return;
 
@@ -207,7 +208,11 @@ void PairStep::evaluate(double z) {
     }
     // Interpenetration between the element centres only: no contact on this grid.
     if (!(patch.solution.approach > 0.0)) {
-      if (patch.part_hidden) ++hidden_;
+      const detection::ContactPatch& region = patch.solution.region;
+      if (patch.part_hidden)
+        ++hidden_;
+      else if (!between_ || region.least_gap < between_->least_gap)
+        between_ = region;
       continue;
     }
     move(patch);

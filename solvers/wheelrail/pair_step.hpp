@@ -67,6 +67,8 @@ class PairStep {
   /// Patches of the last evaluate() that were found but cannot be measured: along their normal another part of a
   /// section comes first.
   int hidden_patches() const { return hidden_; }
+  /// The deepest region of the last evaluate() in which no element lies in the other body; nothing if there is none.
+  const std::optional<detection::ContactPatch>& between_elements() const { return between_; }
   double least_gap() const { return least_gap_; }
   /// Likewise, between the points of the search grids as well; NaN before evaluate().
   double closest() const { return closest_; }
@@ -126,6 +128,7 @@ class PairStep {
   std::vector<TangentialShare> tangential_share_;
   ElementChoice elements_;
   int hidden_ = 0;
+  std::optional<detection::ContactPatch> between_;
   std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };
 

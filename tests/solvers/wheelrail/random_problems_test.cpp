@@ -223,11 +223,13 @@ class Violations {
   }
 
   /// Where the rigid bodies lie in each other there is a patch. Depths are normal to the rail. Elements that stay
-  /// aligned in time may lie on both sides of a shallow corner of 5 mm.
+  /// aligned in time may lie on both sides of a shallow corner of 5 mm, which is said.
   void penetration_without_patch(const Geometry& g) {
-    const bool aligned = p_.regime == kalker::Regime::shift || p_.regime == kalker::Regime::transient;
+    const bool said = std::ranges::any_of(s_.remarks, [](const Remark& remark) {
+      return remark.kind == RemarkKind::coarse_elements && remark.patch == 0;
+    });
     constexpr double kCorner = 5e-3, kBeside = 0.5e-3;  // [m]
-    const double slight = aligned ? p_.discretisation.ds * p_.discretisation.ds / (8.0 * kCorner) : 2e-6;
+    const double slight = said ? p_.discretisation.ds * p_.discretisation.ds / (8.0 * kCorner) : 2e-6;
     const LateralRange range = visible_range(*g.rail, s_.placement.X_TS.inverse(), 0.0);
     constexpr double kStepX = 2e-3, kStepY = 0.25e-3;
     const Grid2 grid{-10 * kStepX, range.y_min, kStepX,
