@@ -3,6 +3,7 @@
 #include "treadmark/solvers/wheelrail/problem_bytes.hpp"
 
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -22,6 +23,7 @@ void put_one(ByteWriter& out, const std::optional<T>& value);
 template <class T>
 void put_one(ByteWriter& out, const std::vector<T>& values);
 
+void put_one(ByteWriter& out, const std::string& text) { out.put(text); }
 void put_one(ByteWriter& out, const Track& track) {
   const auto& [by_gauge, innermost, gauge_height, gauge_width, y0, z0, cant, curvature, dy, dz, roll, vy, vz, vroll] =
       track;
