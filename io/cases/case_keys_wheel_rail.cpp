@@ -313,14 +313,16 @@ void add_discretisation(KeyList& list) {
   add_flag(prune, &DiscretisationInput::prune);
   KeyInfo detector = key_info("discretisation.detector", KeyType::text,
                               "what looks for contact, by its name (treadmark list detectors), in place of method and "
-                              "prune; empty = as these say");
+                              "prune");
   detector.scope = KeyScope::wheel_rail;
-  detector.default_text = "\"\"";
   CaseKey& detected = list.add(detector);
   detected.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).discretisation.detector = v.text();
   };
-  detected.text = [](const Case& c) { return toml_text(std::get<W>(c.content).discretisation.detector); };
+  detected.text = [](const Case& c) {
+    const std::string& name = std::get<W>(c.content).discretisation.detector;
+    return name.empty() ? std::string() : toml_text(name);
+  };
   KeyInfo mesh = key_info("discretisation.reference_search_mesh", KeyType::flag,
                           "search on the coarse mesh of the reference program (for comparison)");
   mesh.scope = KeyScope::wheel_rail;

@@ -80,7 +80,7 @@ constexpr SpinRange kFastsimRange{0.2, 0.2, 5.0, 0.7}, kFastripRange{0.3, 0.2, 2
 /// A flexibility that differs by more from that of a creepage which takes this share of the bound.
 constexpr double kOtherFlexibility = 0.15, kShareOfBound = 0.2;
 constexpr double kMostExcess = 0.1;   ///< of tractions of the linear theory beyond friction, over friction
-constexpr double kLongestKpec = 5.0;  ///< a/b
+constexpr double kLongestKpec = 4.0;  ///< a/b
 
 /// Sum of what tractions exceed friction by, over that of friction.
 double excess_over_friction(const ContactSolution& s) {
