@@ -368,9 +368,9 @@ std::string doubt_of_section(const Profile& section, const Profile& next, measur
 
 }  // namespace
 
-std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Body body,
-                            const io::ExpectedProfile& expected) {
-  if (slices.profiles.empty()) return {};
+std::optional<io::ProfileRemark> remark_on_slices(const SliceSet& slices, Body body,
+                                                  const io::ExpectedProfile& expected) {
+  if (slices.profiles.empty()) return std::nullopt;
   // what all sections agree in: those of a crossing are of different rails
   constexpr std::size_t kLooked = 7;
   const std::size_t step = std::max<std::size_t>(1, slices.profiles.size() / kLooked);
@@ -380,7 +380,7 @@ std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Bod
     measured::Understanding one = measured::understand(points, {});
     const bool agrees = i == 0 || (one.mirrored_z == seen.mirrored_z && one.mirrored_y == seen.mirrored_y &&
                                    (one.shift_y != 0.0) == (seen.shift_y != 0.0));
-    if (!agrees) return {};
+    if (!agrees) return std::nullopt;
     seen = std::move(one);
   }
   std::string what;
@@ -395,8 +395,16 @@ std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Bod
   if (what.empty())
     what = doubt_of_section(slices.profiles[middle], slices.profiles[std::max<std::size_t>(1, middle) - 1],
                             std::move(seen), expected);
-  return what.empty() ? what
-                      : fmt::format("{} slices {}: {}; slices are taken as they lie", body_name(body), file, what);
+  if (what.empty()) return std::nullopt;
+  const std::size_t name = what.find(": ");
+  return io::ProfileRemark{what.substr(0, name), what.substr(name + 2) + "; slices are taken as they lie"};
+}
+
+std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Body body,
+                            const io::ExpectedProfile& expected) {
+  const std::optional<io::ProfileRemark> remark = remark_on_slices(slices, body, expected);
+  return remark ? fmt::format("{} slices {}: {}: {}", body_name(body), file, remark->name, remark->text)
+                : std::string();
 }
 
 std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body,

@@ -41,7 +41,11 @@ std::optional<Body> body_by_shape(const std::filesystem::path& file);
 std::vector<CheckedProfile> check_profiles(const io::CaseFile& file);
 
 /// Slices lie as they are in their file: what some of them agree in shows whether that is the place of a wheel or rail,
-/// and whether their points scatter. Empty where nothing is doubtful. Never throws; thread-safe.
+/// and whether their points scatter. Nothing where nothing is doubtful. Never throws; thread-safe.
+std::optional<io::ProfileRemark> remark_on_slices(const SliceSet& slices, Body body,
+                                                  const io::ExpectedProfile& expected);
+
+/// The same in words, with the file; empty where nothing is doubtful.
 std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Body body,
                             const io::ExpectedProfile& expected);
 

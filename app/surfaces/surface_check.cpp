@@ -155,8 +155,11 @@ CheckedProfile described(const io::SurfaceSource& source, const NaturalSurface& 
         {"unit", fmt::format("{:.4g} mm across is no wheel or rail: is the file in mm? shape.scale_to_mm leads to it",
                              kMilli * size)});
   if (!natural.note.empty()) out.judgement.notes.push_back(natural.note);
-  if (const auto* slices = std::get_if<SliceSet>(&natural.spec.shape))
+  if (const auto* slices = std::get_if<SliceSet>(&natural.spec.shape)) {
+    if (auto remark = remark_on_slices(*slices, natural.spec.body, {{}, {}, false, {}}))
+      out.judgement.remarks.push_back(*std::move(remark));
     for (const SectionBridge& bridge : section_bridges(*slices)) out.judgement.notes.push_back(to_text(bridge));
+  }
   return out;
 }
 
