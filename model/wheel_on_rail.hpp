@@ -121,7 +121,7 @@ struct Discretisation : ElementGrid {
     reference_locus,  ///< its contact locus, where both profiles are constant
   } search = SearchGrid::refined;
   SearchMethod search_method = SearchMethod::automatic;
-  std::string detector;  ///< of detection/detector.hpp, in place of search_method; empty: that
+  std::string detector;           ///< of detection/detector.hpp, in place of search_method; empty: that
   bool distance_on_mesh = false;  ///< undeformed distance with the reference program's mesh of the wheel
   /// Rolling step over dx that most steps of transient rolling have: displacements of the instant before are then
   /// interpolated between three steps that differ by 0.2 % (their error is about 1e-8). 0: always evaluated.

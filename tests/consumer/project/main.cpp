@@ -146,11 +146,14 @@ class FineGrid final : public detection::Detector {
   std::unique_ptr<detection::Detector> search_;
 };
 
+std::unique_ptr<detection::Detector> fine_grid(const detection::BodyPair& bodies,
+                                               const detection::SearchSettings& settings) {
+  return std::make_unique<FineGrid>(bodies, settings);
+}
+
 /// The same case by a built-in detector and by one of this program.
 void detectors() {
-  detection::register_detector(
-      {"fine-grid", "every point of a grid twice as fine",
-       [](const auto& bodies, const auto& settings) { return std::make_unique<FineGrid>(bodies, settings); }});
+  detection::register_detector({"fine-grid", "every point of a grid twice as fine", fine_grid});
   app::CompareSettings compare;
   compare.detectors = {"grid", "fine-grid"};
   const io::Comparison comparison = app::compare_cases(app::bench_case(), compare);
