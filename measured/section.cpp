@@ -60,16 +60,17 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-/// What reaches beyond the rest: widest run, its middle, how far it reaches, and the same of another one beside it.
-struct Flange {
-  double width = 0.0, middle = 0.0, reach = 0.0, second_width = 0.0, second_middle = 0.0;
-};
-
 /// The line along which most of an envelope lies, level or sloped as in a tilted frame: least median of squares
 /// (Rousseeuw 1984), which half of the section may miss.
 struct Rest {
   double height = 0.0, slope = 0.0;  ///< at the first place; per step
   double at(std::size_t i) const { return height + slope * static_cast<double>(i); }
+};
+
+/// What reaches beyond the rest: widest run, its middle, how far it reaches, and the same of another one beside it.
+struct Flange {
+  Rest rest;
+  double width = 0.0, middle = 0.0, reach = 0.0, second_width = 0.0, second_middle = 0.0;
 };
 
 Rest rest_of(const Envelope& e) {
@@ -92,7 +93,8 @@ Rest rest_of(const Envelope& e) {
       if (const double width = rest[k + half] - rest[k]; width < narrowest)
         narrowest = width, best = {0.5 * (rest[k] + rest[k + half]), slope};
   };
-  for (int k = 0; k <= kSlopes; ++k)
+  attempt(0.0);
+  for (int k = 1; k <= kSlopes; ++k)
     for (const double sign : {1.0, -1.0}) attempt(sign * kStep * kSteepest * k / kSlopes);
   return best;
 }
@@ -116,7 +118,7 @@ std::optional<Trend> trend_of(const Envelope& e, double least, Belongs belongs) 
 
 Flange flange_of(const Envelope& e) {
   Flange f;
-  const Rest rest = rest_of(e);
+  const Rest& rest = f.rest = rest_of(e);
   std::size_t from = e.height.size();
   const auto close = [&](std::size_t to) {
     const double width = kStep * static_cast<double>(to - from), middle = 0.5 * (e.y(from) + e.y(to - 1));
@@ -368,9 +370,9 @@ void find_marks(const SectionPoints& p, WheelMarks& marks) {
   constexpr double kOfTread = 5e-3, kLeastTread = 30e-3;
   const Envelope e = envelope(p, 1.0);
   const Flange f = flange_of(e);
-  const Rest rest = rest_of(e);
   marks.tape_z = tape_height(p);
-  marks.tread = trend_of(e, kLeastTread, [&](std::size_t i) { return std::fabs(e.height[i] - rest.at(i)) < kOfTread; });
+  marks.tread =
+      trend_of(e, kLeastTread, [&](std::size_t i) { return std::fabs(e.height[i] - f.rest.at(i)) < kOfTread; });
   if (f.width <= 0.0) return;
   const auto tip = static_cast<std::size_t>(std::max_element(p.z.begin(), p.z.end()) - p.z.begin());
   marks.tip_y = p.y[tip], marks.tip_z = p.z[tip];
