@@ -162,7 +162,7 @@ constexpr Quantity<P> kPatchQuantities[] = {
     {"", "mn_Nmm", kMoment, B::force, of<&P::mn>(), "spin moment on the rail", {"mn"}, {"spin moment Mn"}},
     {"", "elastic_energy_J", kEnergy, B::energy, of<&P::elastic_energy>(), "stored elastic energy",
      {"elastic_energy"}, {"elastic energy", Digits::four}},
-    {"", "friction_W", kPower, B::energy, {[](const P& p) { return 0.0 - p.frictional_power; }},
+    {"", "dissipated_W", kPower, B::energy, {[](const P& p) { return 0.0 - p.frictional_power; }},
      "power that friction dissipates; shift: the work, done in one second",
      {}, {"dissipated by friction", Digits::four}, kEnergy},
     {"", "frictional_power_W", kPower, B::energy, of<&P::frictional_power>(),
