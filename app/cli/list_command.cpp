@@ -13,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/model/defects.hpp"
 #include "treadmark/model/fatigue.hpp"
