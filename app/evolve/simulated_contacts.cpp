@@ -38,7 +38,7 @@ constexpr SummaryRow kSummaryRows[] = {
     {"q_min_N", "q_min_N", "N", "least vertical force of a simulation", 1.0, less},
     {"pmax_Pa", "simulated_pmax_MPa", "MPa", "largest pressure at all instants", 1e-6, more},
     {"contact_lost", "contact_lost", "1", "how often a wheel lost contact", 1.0, sum},
-    {"doubtful_steps", "doubtful_steps", "1", "steps of simulations with a grave remark on the contact", 1.0, sum}};
+    {"doubtful_steps", "doubtful_steps", "1", "steps of simulations with a warning about the contact", 1.0, sum}};
 
 double summary_value(const io::SimulationResult& result, std::string_view name) {
   const auto row = std::ranges::find(result.summary, name, &io::NamedValue::name);

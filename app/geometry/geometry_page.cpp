@@ -185,7 +185,7 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
 
   report::Section overview{"overview", "Overview"};
   for (const std::string& note : result.notes)
-    overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Remark:", note});
+    overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Note:", note});
   report::Cards cards{
       {{"Equivalent conicity", number_or_dash(a.single.tan_gamma, "{:.3f}"),
         fmt::format("at {:.3g} mm{}", kMilli * a.single.amplitude,

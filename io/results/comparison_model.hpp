@@ -86,7 +86,7 @@ CandidateDigest digest(const ComparisonCandidate& candidate);
 /// "mesh 0.5 mm"; without the resolution where it is 0 or not finite.
 std::string candidate_label(const ComparisonCandidate& candidate);
 
-/// The same, and " (truth)" for the first candidate.
+/// The same, and " (reference)" for the first candidate.
 std::string candidate_label(const Comparison& comparison, std::size_t index);
 
 }  // namespace treadmark::io
