@@ -7,7 +7,7 @@
 
 namespace treadmark::app {
 
-std::string version();       ///< "0.1.0"
+std::string version();       ///< "0.2.0"
 std::string git_revision();  ///< short commit hash of the sources, "unknown" outside a repository
 std::string source_time();   ///< of that commit, else of the configuration of the build: "2026-01-31T12:00:00Z"
 /// Parts that are in and those left out (core/parts.hpp), and the licence that the binary thereby has, for --version.

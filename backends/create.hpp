@@ -32,13 +32,13 @@ void require_backend(std::string_view name);
 std::span<const std::string_view> standard_profile_names();
 
 class NaturalKind;
-/// That of one surface by itself.
+/// The kind of a single surface.
 std::shared_ptr<const NaturalKind> plain_kind();
 
 /// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles
 /// a mesh.
 struct NaturalSurface {
-  SurfaceSpec spec;  ///< what it was made from; of a file of offsets body and radius only
+  SurfaceSpec spec;  ///< what it was made from; for a file of offsets body and radius only
   std::shared_ptr<const Surface> surface;
   std::string note;                                        ///< repairs worth knowing; may be empty
   std::shared_ptr<const NaturalKind> kind = plain_kind();  ///< one surface, or made of others; never null
@@ -71,8 +71,8 @@ inline constexpr double kResampleStep = 0.25e-3;
 struct SurfacePart {
   std::shared_ptr<const NaturalSurface> natural;
   Vec3 offset = Vec3::Zero();  ///< of its frame in that of the body [m]
-  std::string backend;         ///< of backend_names(): it goes before what the whole body is asked for; "" = no wish
-  double resolution = 0.0;     ///< [m] 0 = no wish
+  std::string backend;         ///< of backend_names(), overrides that of the whole body; "" = not set
+  double resolution = 0.0;     ///< [m] 0 = not set
 };
 
 /// Several surfaces as one: the outermost one counts, see assembly::outermost_of. Represented, every part is sampled by
@@ -111,17 +111,17 @@ struct Sampled {
   std::string note;
 };
 
-/// A surface as triangles, for other programs and for later (io/meshes writes them), sampled as wanted, whose backend
-/// is not looked at. sampled is filled in if not null. Errors: those of represent.
+/// A surface as triangles (io/meshes writes them), sampled as wanted says; wanted.backend is ignored. sampled: filled
+/// in if not null. Errors: those of represent.
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
 /// The same as slices (io/profiles writes them).
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
-/// The same as splines (io/splines writes them), one of each part; wanted.backend: one that has splines, none: those
-/// that are given, else "nurbs". Given splines are not sampled unless a resolution or another backend is asked for.
+/// The same as splines (io/splines writes them), one for each part. wanted.backend: one that has splines; empty: given
+/// splines, else "nurbs". Given splines are not sampled unless a resolution or another backend is asked for.
 std::vector<SplineSurface> to_splines(const NaturalSurface& natural, const Representation& wanted,
                                       Sampled* sampled = nullptr);
-/// The same as offsets over their base in a .vdb file. base: below the offsets, a constant section of the same body and
-/// radius; null: the section without defects, or the median one. notes: for the head of the file. Errors also:
+/// The same as offsets over their base in a .vdb file. base: what the offsets add to, a constant section of the same
+/// body and radius; null: the section without defects, or the median one. notes: for the head of the file. Errors also:
 /// Error(configuration) for a file that cannot be written.
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
                    Sampled* sampled = nullptr, const SurfaceSpec* base = nullptr, const std::string& notes = {});

@@ -11,7 +11,7 @@
 namespace treadmark {
 
 /// One surface on its way into another representation: what is given, what is wanted, and samples of it in its natural
-/// view. A backend may put down what it really did. Not thread-safe; lives only while a surface is made.
+/// view. A backend may record what it really did. Not thread-safe; lives only while a surface is made.
 class Resampling {
  public:
   /// Errors: Error(configuration) for a resolution that is negative or not finite.
@@ -22,7 +22,7 @@ class Resampling {
   const SurfaceSpec& spec() const { return natural_.spec; }     ///< what that was made from
   bool asked() const { return asked_; }                         ///< whether a resolution was asked for
 
-  /// Spacing of samples [m]; 0 = put down by a backend that needed none.
+  /// Spacing of samples [m]; 0 = a backend recorded that it needed none.
   double resolution() const { return resolution_; }
   /// For a backend whose spacing turned out to be another one [m].
   void set_resolution(double resolution) { resolution_ = resolution; }
@@ -52,7 +52,7 @@ class Resampling {
   /// The median section of all the region, for a rail or wheel of unknown origin: undamaged, if most of it is.
   Profile median_section();
 
-  /// What was put down so far.
+  /// What was recorded so far.
   Sampled sampled() const { return {resolution_, region_, note_}; }
 
  private:

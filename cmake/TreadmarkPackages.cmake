@@ -16,7 +16,7 @@ macro(treadmark_package component name section summary)
 endmacro()
 
 treadmark_package(program treadmark science "Wheel-rail contact on any 3D surface: the program")
-treadmark_package(library libtreadmark0 libs "Wheel-rail contact on any 3D surface: shared library")
+treadmark_package(library libtreadmark${TREADMARK_ABI} libs "Wheel-rail contact on any 3D surface: shared library")
 treadmark_package(development libtreadmark-dev libdevel "Wheel-rail contact on any 3D surface: headers for C and C++")
 if(TREADMARK_HAVE_PYTHON)
   treadmark_package(python python3-treadmark python "Wheel-rail contact on any 3D surface: package for Python")

@@ -22,7 +22,7 @@ struct SurfaceJet {
   bool found() const { return p.x() == p.x(); }
 };
 
-/// What a surface tells of itself by its parameters (u, v), which are those of SurfacePoint: u is x of a rail [m], the
+/// Evaluation of a surface at its parameters (u, v), which are those of SurfacePoint: u is x of a rail [m], the
 /// angle theta of a wheel or roller [rad]; v is the backend's own. A backend that knows them derives from this class
 /// beside Surface. Thread-safe as every Surface.
 class Parametric {

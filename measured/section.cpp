@@ -422,11 +422,11 @@ class Reader {
       negate(p_.z);
       u_.mirrored_z = true;
       if (!u_.z.sure())
-        doubt("upside_down", fmt::format("which way z points is not sure: turned over it shows {} (evidence {:.3g} "
+        doubt("upside_down", fmt::format("which way z points is not sure: mirrored in z it shows {} (evidence {:.3g} "
                                          "against {:.3g}): set mirror_z = \"yes\" or \"no\"",
                                          u_.z.evidence, u_.z.turned, u_.z.as_it_is));
     } else if (wrong && u_.z.marked) {
-      doubt("upside_down", fmt::format("z seems to point up, turned over it shows {}: set mirror_z = \"{}\"",
+      doubt("upside_down", fmt::format("z seems to point up, mirrored in z it shows {}: set mirror_z = \"{}\"",
                                        u_.z.evidence, said == Turn::yes ? "no" : "yes"));
     } else if (said == Turn::decide && w_.place && u_.z.turned > kRise && p_.y.size() >= kFewest) {
       doubt("upside_down",

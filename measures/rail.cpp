@@ -173,7 +173,7 @@ class RailRuler {
 
   void align() {
     out_.alignment = g_.alignment;
-    out_.inclination = not_railed("only a section laid upon its nominal one by its unworn parts tells its inclination");
+    out_.inclination = not_railed("the inclination needs a section aligned with its nominal one by its unworn parts");
     if (nominal_ == nullptr) {
       out_.alignment = RailAlignment::none;
       // heights count from its own top

@@ -249,7 +249,7 @@ class WheelRuler {
 
   void against(const std::vector<NominalWheel>& nominals) {
     const std::string none = "no nominal profile was named";
-    const std::string free = "the flange back is not in the section, so it cannot be laid on the nominal one";
+    const std::string free = "the flange back is not in the section, so it cannot be aligned with the nominal one";
     out_.tread_wear = out_.flange_wear = out_.area_lost = out_.area_gained = out_.diameter_lost =
         missing(nominals.empty() ? none : free);
     if (nominals.empty()) return;

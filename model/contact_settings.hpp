@@ -77,7 +77,7 @@ struct SolverSettings {
   enum class FirstSlip { below, above, last };
   FirstSlip first_slip = FirstSlip::last;
   /// As the reference program (CONTACT) has it: displacements, and the elastic energy with them, of parts of a patch
-  /// are those of full elastic influence. In KPEC and ANALYN parts are not told apart; KPEC lets ends of rows that lie
+  /// are those of full elastic influence. In KPEC and ANALYN parts count as one patch; KPEC lets ends of rows that lie
   /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
   bool reference_quirks = false;
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;

@@ -22,7 +22,7 @@ inline SpeedProfile constant_speed(double speed) { return {{0.0}, {speed}}; }
 struct Travel {
   double distance = 0.0;      ///< since time 0 [m]
   double speed = 0.0;         ///< [m/s]
-  double acceleration = 0.0;  ///< [m/s2]; at a point of the profile that behind it
+  double acceleration = 0.0;  ///< [m/s2]; at a point of the profile the one after it
 };
 
 /// time >= 0 [s].

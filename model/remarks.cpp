@@ -19,7 +19,7 @@ bool any_grave(std::span<const Remark> remarks) {
 }
 
 std::string to_line(const Remark& remark) {
-  return fmt::format("{}: {}{}", remark.grave() ? "doubt" : "remark",
+  return fmt::format("{}: {}{}", remark.grave() ? "warning" : "minor warning",
                      remark.patch > 0 ? fmt::format("patch {}: ", remark.patch) : "", remark.text);
 }
 

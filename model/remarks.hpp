@@ -157,7 +157,7 @@ struct Remark {
 std::optional<RemarkKind> remark_named(std::string_view name);
 /// Whether one of them is grave.
 bool any_grave(std::span<const Remark> remarks);
-/// "doubt: patch 2: ..." or "remark: ...".
+/// "warning: patch 2: ..." or, where it is not grave, "minor warning: ...".
 std::string to_line(const Remark& remark);
 
 }  // namespace treadmark

@@ -36,8 +36,8 @@ struct KnotFault {
   std::string what;
   std::optional<std::size_t> knot = {};  ///< at which it shows, counted from 0
 };
-/// Nothing for knots that are finite, do not fall, leave an interval, and are repeated at most degree times inside and
-/// once more at the ends; for a degree from 1 to the highest.
+/// None for a degree from 1 to the highest and knots that are finite, do not decrease, leave an interval, and are
+/// repeated at most degree times inside and degree + 1 times at the ends.
 std::optional<KnotFault> fault_of(const SplineKnots& knots, int highest_degree);
 
 /// A part of the parameters that is divided: intervals between different knots of a level, upper ones not included.

@@ -89,7 +89,7 @@ enum class ReferenceSurface {
 
 /// How contact is looked for.
 enum class SearchMethod {
-  automatic,    ///< where refine is on locus for profiles constant there, beside defects; else pruned grid
+  automatic,    ///< with refine the locus where profiles are constant, beside defects; else pruned grid
   pruned_grid,  ///< heights only where conservative bounds do not rule contact out
   full_grid,    ///< heights on the whole grid: the oracle of the others
   locus,        ///< constant profiles only: where the wheel's circles come closest to the rail

@@ -89,7 +89,7 @@ ChartSheet comparison_sheet(const io::Comparison& comparison) {
   ChartSheet out;
   out.left = 70.0, out.top = 40.0, out.bottom = 66.0, out.gap_x = 90.0;
   out.legend = ChartSheet::Legend::common, out.legend_x = 28.0, out.legend_y = 8.0, out.legend_width = 216.0;
-  out.remarks = {"truth: " + (comparison.truth.empty() ? "none" : comparison.truth)};
+  out.remarks = {"reference: " + (comparison.truth.empty() ? "none" : comparison.truth)};
   return out;
 }
 
@@ -123,7 +123,7 @@ std::string error_svg(const io::Comparison& comparison) {
   charts[0].series =
       over_resolution(comparison, styles, "%", [](const io::CandidateDigest& d) { return d.pmax_error * 1e2; });
   charts[1].title = "surface";
-  charts[1].y_label = "largest deviation from the truth [µm]";
+  charts[1].y_label = "largest deviation from the reference [µm]";
   charts[1].series =
       over_resolution(comparison, styles, "µm", [](const io::CandidateDigest& d) { return d.height_max * 1e6; });
 

@@ -10,4 +10,5 @@ cmake --preset release -DTREADMARK_BUILD_TESTS=OFF -DTREADMARK_WARNINGS_AS_ERROR
 cmake --build --preset release
 mkdir -p out/wheel-flat
 build/release/app/treadmark run examples/wheel-flat.toml -o out/wheel-flat --json out/wheel-flat/result.json --report out/wheel-flat/report.html
-echo "results: out/wheel-flat (open report.html in a browser; numbers in result.json, formats in docs/results.md)" >&2
+echo "results: out/wheel-flat (open report.html in a browser; numbers in result.json, formats in docs/results.md)
+the program: $PWD/build/release/app/treadmark; to call it as treadmark: export PATH=$PWD/build/release/app:\$PATH" >&2

@@ -715,7 +715,7 @@ def simulate_answer(text):
 
 # ---------------------------------------------------------------------------------------------------------------------------------------- verdicts
 
-DOUBT = re.compile(r"\b(doubt|warning)\b|: [a-z]+_[a-z_]+: |: (gap|unit|exchanged|noise): ")
+DOUBT = re.compile(r"(?<!minor )\bwarning\b|: [a-z]+_[a-z_]+: |: (gap|unit|exchanged|noise): ")
 
 
 def near(a, b, absolute, relative=0.0):
@@ -902,7 +902,7 @@ def verdict(program, store, c, folder, index, seed):
         if answer["doubtful"]:
             status = 1
     if status:
-        doubts = re.findall(r"(?:: |doubt +)([a-z_]+: [^\n]{0,160})", out + err)
+        doubts = re.findall(r"(?:: |warning +)([a-z_]+: [^\n]{0,160})", out + err)
         return ("cautious" if right else "doubted"), "; ".join(dict.fromkeys(doubts)) or words
     if right:
         return "right", words

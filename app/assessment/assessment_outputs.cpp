@@ -81,7 +81,7 @@ std::string assessment_text(std::span<const AssessedRun> runs) {
                                 : std::string(info.value));
       }
     }
-    for (const std::string& doubt : run.doubts) text += fmt::format("  doubt: {}\n", doubt);
+    for (const std::string& doubt : run.doubts) text += fmt::format("  warning: {}\n", doubt);
   }
   return text;
 }

@@ -31,8 +31,8 @@ struct CaseGeometry {
 /// Reads all geometry of a file and builds its surfaces, without solving. Errors as run_cases.
 std::vector<CaseGeometry> check_geometry(const io::CaseFile& file);
 
-/// What runs would doubt of the numbers of the cases (unusual_value), without solving: each text once, with the first
-/// case that has it.
+/// The warnings that runs would give about numbers of the cases (unusual_value), without solving: each text once, with
+/// the first case that has it.
 std::vector<std::string> value_doubts(const io::CaseFile& file);
 
 }  // namespace treadmark::app

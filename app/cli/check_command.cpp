@@ -61,7 +61,7 @@ void print_profile(const app::CheckedProfile& profile) {
   std::cout << profile.name << '\n';
   for (const auto& [name, value] : profile.judgement.facts) line(name, value);
   for (const std::string& note : profile.judgement.notes) line("note", note);
-  for (const io::ProfileRemark& remark : profile.judgement.remarks) line("doubt", remark.name + ": " + remark.text);
+  for (const io::ProfileRemark& remark : profile.judgement.remarks) line("warning", remark.name + ": " + remark.text);
 }
 
 using app::report::CheckedInput;
@@ -103,14 +103,14 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
       write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number), input.positions[k].second);
   }
   for (const std::string& doubt : app::value_doubts(file)) {
-    std::cout << "  doubt  " << doubt << '\n';
+    std::cout << "  warning  " << doubt << '\n';
     input.doubts.push_back(doubt);
   }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
   for (const app::CheckedProfile& surface : app::check_surfaces(file)) add_profile(surface, input);
   const std::size_t doubts = doubts_of(input);
   input.outcome = fmt::format("{}{}, no errors{}", file.cases.size(), file.cases.size() == 1 ? " case" : " cases",
-                              doubts == 0 ? "" : fmt::format(", {} doubt{}", doubts, doubts == 1 ? "" : "s"));
+                              doubts == 0 ? "" : fmt::format(", {} warning{}", doubts, doubts == 1 ? "" : "s"));
   std::cout << input.file << ": " << input.outcome << '\n';
 }
 

@@ -107,7 +107,7 @@ int tell_doubts(const ConvertOptions& options, const app::ConvertSettings& setti
   int status = kOk;
   for (const io::ProfileRemark& doubt : judged.remarks) {
     if (doubt.name == "gauge_point") continue;  // it is asked for where the rail is placed
-    std::cerr << "doubt: " << doubt.name << ": " << doubt.text << '\n';
+    std::cerr << "warning: " << doubt.name << ": " << doubt.text << '\n';
     status = kFailed;
   }
   return status;

@@ -44,8 +44,8 @@ int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
     for (const io::EvolutionQuantity& q : io::quantities_of(g))
       if (q.name == "doubts" || q.name == "doubtful_steps") doubts += q.value;
   if (doubts > 0.0 && !common.quiet)
-    std::cerr << fmt::format("{:.0f} doubts about contacts: see evolution.json and the contacts of their generation\n",
-                             doubts);
+    std::cerr << fmt::format(
+        "{:.0f} warnings about contacts: see evolution.json and the contacts of their generation\n", doubts);
   return doubts > 0.0 ? kFailed : kOk;
 }
 

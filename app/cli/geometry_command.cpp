@@ -111,7 +111,7 @@ int geometry_command(const GeometryOptions& options, const CommonOptions& common
   if (!options.gauges_mm.empty()) sweep = app::sweep_gauge(result, app::parse_lengths_mm(options.gauges_mm));
   print_notes(result.notes, common.quiet);
   const std::vector<std::string> doubts = app::profile_doubts(result.request);
-  for (const std::string& doubt : doubts) std::cerr << "doubt: " << doubt << '\n';
+  for (const std::string& doubt : doubts) std::cerr << "warning: " << doubt << '\n';
 
   const auto json = [&] { return app::geometry_json(result, sweep ? &*sweep : nullptr); };
   print_results(options.json_file, json,

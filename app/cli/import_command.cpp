@@ -99,7 +99,7 @@ Command add_import(CLI::App& verb) {
       ->type_name("FILE");
   verb.add_option(
           "--truth", options->truth,
-          "What treadmark scan --truth wrote, or the true surface: the audit tells the surface's error against it")
+          "Reference surface, or what treadmark scan --truth wrote: the audit has the error of the surface against it")
       ->type_name("FILE");
   verb.add_option("--body", options->body, "wheel or rail, where the surface file does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

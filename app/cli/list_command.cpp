@@ -66,7 +66,7 @@ constexpr ListedKind kListed[] = {{"backends", "representations of surfaces"},
                                   {"detectors", "of contact between two surfaces"},
                                   {"laws", "of wear, flow and fatigue, for evolve"},
                                   {"profiles", "of wheels and rails that are built in"},
-                                  {"remarks", "what results say of themselves where they are doubtful"},
+                                  {"remarks", "warnings in results, with their level"},
                                   {"solvers", "theories of contact"},
                                   {"verbs", "of this program"}};
 
@@ -94,7 +94,7 @@ int list_command(const std::string& what) {
         print_left_out(verb.name, verb.part);
   } else if (what == "remarks") {
     for (const RemarkRow& row : kRemarkRows)
-      std::cout << fmt::format("{:<24} {:<6} {}\n", row.name, row.grave ? "doubt" : "remark", row.meaning);
+      std::cout << fmt::format("{:<24} {:<13} {}\n", row.name, row.grave ? "warning" : "minor warning", row.meaning);
   } else if (what == "laws") {
     const auto print_row = [](const auto& row) {
       std::cout << fmt::format("{:<11} {}\n{:<11} source: {}\n{:<11} for: {}\n{:<11} needs: {}\n", row.word, row.name,

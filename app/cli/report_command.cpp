@@ -44,7 +44,7 @@ Command add_report(CLI::App& verb) {
   auto options = std::make_shared<ReportOptions>();
   verb.add_option("FOLDER", options->folders,
                   "What run, compare, bench, import --report, simulate, sweep or evolve wrote. Two to four folders of "
-                  "run, or of simulate, are laid over each other and compared with the first")
+                  "run, or of simulate, are overlaid and compared with the first")
       ->required();
   verb.add_option("-o,--output", options->output_file,
                   "The report, default FOLDER/report.html, of several overlay.html in the first")

@@ -72,7 +72,7 @@ app::ScanRequest request_of(const ScanOptions& options, bool quiet) {
 
 int scan_command(const ScanOptions& options, const CommonOptions& common) {
   if (!options.truth_file.empty() && std::filesystem::path(options.truth_file) == std::filesystem::path(options.cloud))
-    throw Error(ErrorKind::configuration, "the points and the truth about them cannot go to the same file",
+    throw Error(ErrorKind::configuration, "the points and the reference about them cannot go to the same file",
                 {options.cloud});
   require_different({options.surface}, {options.cloud, options.truth_file});
   const ThreadLimit limit(common.threads);

@@ -114,7 +114,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   app::ContactTables tables(io::ContentCache::from_environment());
   run.settings = overrides;
   run.tables = &tables;
-  run.doubt = [](const std::string& message) { std::cerr << "doubt: " << message << '\n'; };
+  run.doubt = [](const std::string& message) { std::cerr << "warning: " << message << '\n'; };
   const int found = app::simulation_doubts(file).empty() ? kOk : kFailed;
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
@@ -166,7 +166,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
   if (const double steps = doubtful_steps(result); steps > 0.0)
     std::cerr << fmt::format(
-        "doubt: the contact is doubtful in {:.0f} steps (column doubts of the history); keep contact fields there to "
+        "warning: the contact is doubtful in {:.0f} steps (column doubts of the history); keep contact fields there to "
         "see why\n",
         steps);
   const int status = exit_status(result);
@@ -191,7 +191,7 @@ Command add_simulate(CLI::App& verb) {
                 "Write the contact at the snapshots, wheel and rail for ParaView too, over time: FOLDER/vtk");
   verb.add_flag("--modes", options->modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
   verb.add_option("--receptance", options->track_folder,
-                  "Write how the track gives way, track.json, receptance.csv and track.svg, into this folder, and stop")
+                  "Write the track dynamics (track.json, receptance.csv, track.svg) into this folder, and stop")
       ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides, "simulation.speed_m_s=20");

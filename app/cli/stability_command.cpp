@@ -75,8 +75,9 @@ Command add_stability(CLI::App& verb) {
                   "Folder for stability.json, eigenvalues.csv and stability.svg, with --falling histories too")
       ->type_name("FOLDER");
   app::FallingRequest& falling = options->falling;
-  CLI::Option* const falls = verb.add_flag(
-      "--falling", options->falls, "Also run from the highest to the lowest speed in time: where does swaying end?");
+  CLI::Option* const falls =
+      verb.add_flag("--falling", options->falls,
+                    "Also the nonlinear critical speed: a run in time with falling speed until hunting ends");
   const auto add_fall = [&](const char* name, double& value, const char* text, double highest, const char* unit) {
     verb.add_option(name, value, text)
         ->check(CLI::Range(1e-6, highest))
@@ -87,8 +88,8 @@ Command add_stability(CLI::App& verb) {
   add_fall("--deceleration", falling.deceleration, "At which the speed falls; again at a quarter of it [m/s2]", 10.0,
            "M/S2");
   add_fall("--hold-m", falling.hold, "Distance at the highest speed, before it falls [m]", 1e6, "M");
-  add_fall("--window-m", falling.window, "Distance over which sway is averaged [m]", 1e6, "M");
-  add_fall("--amplitude-m", falling.amplitude, "Of a wheelset, below which it does not sway [m]", 0.1, "M");
+  add_fall("--window-m", falling.window, "Distance over which the hunting amplitude is averaged [m]", 1e6, "M");
+  add_fall("--amplitude-m", falling.amplitude, "Of a wheelset, below which it does not hunt [m]", 0.1, "M");
   add_fall("--wave-m", falling.wave_height, "Height of the track's wave to the side that disturbs the vehicle [m]", 0.1,
            "M");
   add_fall("--wave-length-m", falling.wave_length, "Its length [m]", 1e3, "M");

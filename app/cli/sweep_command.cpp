@@ -122,7 +122,7 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
     if (share.whole()) write_report();
     std::cerr << fmt::format("{}: {} of {} runs finished; {}\n", options.merge ? "nothing is gathered yet" : "stopped",
                              outcome.study.runs.size(), outcome.runs_total,
-                             options.merge ? "--status tells more" : "the same command goes on");
+                             options.merge ? "--status says more" : "the same command goes on");
     return kFailed;
   }
   if (share.whole()) {

@@ -24,13 +24,13 @@ struct CompareSettings {
   std::vector<std::string> wheel_backends, rail_backends;
   /// Not empty: these detectors on the surfaces as they are given, in place of representations.
   std::vector<std::string> detectors;
-  bool sample_surfaces = false;  ///< those of the truth become part of the result, for pictures
+  bool sample_surfaces = false;  ///< those of the reference become part of the result, for pictures
 };
 
-/// Solves the same cases with the surfaces as given (the truth) and in every representation at every resolution.
+/// Solves the same cases with the surfaces as given (the reference) and in every representation at every resolution.
 /// Formulas and data as given need no samples: "analytic", and "spline" for measured points, also appear once without a
 /// resolution. A representation that cannot be built, or cases that cannot be solved with it, become a failure of that
-/// candidate. Progress counts candidates times cases. Deterministic but for the times. Errors: those of the truth;
+/// candidate. Progress counts candidates times cases. Deterministic but for the times. Errors: those of the reference;
 /// Error(configuration) for unknown backends or detectors, bad resolutions, or no wheel-rail case.
 io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& settings, const Progress& progress = {});
 

@@ -38,7 +38,7 @@ constexpr SummaryRow kSummaryRows[] = {
     {"q_min_N", "q_min_N", "N", "least vertical force of a simulation", 1.0, less},
     {"pmax_Pa", "simulated_pmax_MPa", "MPa", "largest pressure at all instants", 1e-6, more},
     {"contact_lost", "contact_lost", "1", "how often a wheel lost contact", 1.0, sum},
-    {"doubtful_steps", "doubtful_steps", "1", "steps of simulations with a grave remark on the contact", 1.0, sum}};
+    {"doubtful_steps", "doubtful_steps", "1", "steps of simulations with a warning about the contact", 1.0, sum}};
 
 double summary_value(const io::SimulationResult& result, std::string_view name) {
   const auto row = std::ranges::find(result.summary, name, &io::NamedValue::name);
@@ -139,7 +139,7 @@ class SimulatedContacts : public ContactSource {
         sound.defects = {};
         if ((wheel.model != io::ContactModelInput::full || wheel.changes_over()) &&
             natural_of(store, sound, Body::rail, 0.0) == body.surface)
-          throw Error(ErrorKind::configuration, "the rail that evolves is that of tables of contact too", input.where,
+          throw Error(ErrorKind::configuration, "the rail that evolves is also used by tables of contact", input.where,
                       "give every wheel contact = \"full\", or the other side a rail of its own");
       }
       check_vehicle(run, store);
@@ -163,7 +163,7 @@ class SimulatedContacts : public ContactSource {
                   local_wheel ? "name the angles of the places in [simulation.fields] pitch_deg"
                               : "name instants in [simulation.fields]: pitch_deg or position_m");
     if (local_wheel && run.settings.distance > 2.0 * kPi * run.contact.wheelset.nominal_radius)
-      throw Error(ErrorKind::configuration, "the wheel turns more than once: its places would be met again", where,
+      throw Error(ErrorKind::configuration, "the wheel makes more than one turn: its places would count twice", where,
                   "let the simulation end within one turn (simulation.distance_m)");
   }
 

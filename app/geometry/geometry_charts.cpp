@@ -57,7 +57,7 @@ Chart chart_of(const char* title, const char* x, const char* y, std::vector<Char
   return chart;
 }
 
-constexpr const char* kShift = "shift to the right [mm]";
+constexpr const char* kShift = "lateral displacement to the right [mm]";
 
 /// One side: rail below, wheel lifted above it, lines between the points that touch.
 Chart contact_chart(const GeometryResult& result, const geometry::WheelsetOnTrack& wheelset, bool right) {
@@ -140,7 +140,7 @@ std::string geometry_charts_svg(const GeometryResult& result) {
     cone.series.push_back(std::move(single));
   }
   sheet.charts = {
-      chart_of("difference of the rolling radii", kShift, "right minus left [mm]",
+      chart_of("rolling radius difference", kShift, "right minus left [mm]",
                {line("", 0, over_shift(f, [](const Position& p) { return kMilli * p.radius_difference(); }))}),
       std::move(cone),
       chart_of("contact on the rails", kShift, "y on the profile [mm]", both(kMilli, &geometry::Touch::rail_y)),
@@ -173,8 +173,8 @@ std::string contact_points_svg(const GeometryResult& result) {
   const geometry::WheelsetOnTrack wheelset = geometry::place(result.right, result.left, result.placement,
                                                              result.request.settings.roll, result.request.settings.yaw);
   pictures::ChartSheet sheet;
-  sheet.title =
-      fmt::format("{} on {}: points that touch, every 0.5 mm of shift", result.request.wheel, result.request.rail);
+  sheet.title = fmt::format("{} on {}: points that touch, every 0.5 mm of displacement", result.request.wheel,
+                            result.request.rail);
   sheet.columns = 2;
   sheet.width = 480.0;
   sheet.height = 320.0;

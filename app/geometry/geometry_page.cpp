@@ -96,7 +96,7 @@ ChartView functions_view(const std::vector<const Position*>& steps) {
                            {series("right", [&](const Position& p) { return factor * (p.right.*value); }),
                             series("left", [&](const Position& p) { return factor * (p.left.*value); })}});
   };
-  view.panels.push_back({"difference of rolling radii", "mm", false, {series("", [](const Position& p) {
+  view.panels.push_back({"rolling radius difference", "mm", false, {series("", [](const Position& p) {
                            return kMilli * p.radius_difference();
                          })}});
   both("contact on the rails", "mm", kMilli, &geometry::Touch::rail_y);
@@ -176,7 +176,7 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
                                               1e-3 * result.load->load.weight)
                                 : "Contact geometry of a wheelset on its track, without forces"};
   report::Timeline timeline{"shift"};
-  report::Axis shift{"shift to the right", "mm"};
+  report::Axis shift{"lateral displacement to the right", "mm"};
   for (const Position* p : steps) shift.values.push_back(kMilli * p->y);
   timeline.start = static_cast<std::size_t>(
       std::ranges::min_element(steps, {}, [](const Position* p) { return std::fabs(p->y); }) - steps.begin());
@@ -185,7 +185,7 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
 
   report::Section overview{"overview", "Overview"};
   for (const std::string& note : result.notes)
-    overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Remark:", note});
+    overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Note:", note});
   report::Cards cards{
       {{"Equivalent conicity", number_or_dash(a.single.tan_gamma, "{:.3f}"),
         fmt::format("at {:.3g} mm{}", kMilli * a.single.amplitude,
@@ -214,7 +214,7 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
   contact.blocks.emplace_back(Figure{"right", "Right side", side_view(wheelset, steps, true)});
   ChartView functions = functions_view(steps);
   if (result.load) add_load_panels(functions, result, steps);
-  contact.blocks.emplace_back(Figure{"functions", "Over the shift", std::move(functions)});
+  contact.blocks.emplace_back(Figure{"functions", "Over the lateral displacement", std::move(functions)});
   page.sections.push_back(std::move(contact));
   report::Section conicity{"conicity", "Conicity"};
   if (!a.conicity.empty())

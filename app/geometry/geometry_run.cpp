@@ -152,7 +152,7 @@ void add_load(GeometryResult& out) {
       met("the approach closes the gap of a second contact, which shares the load: the ellipse is not the true one", y);
   }
   for (const Doubt& doubt : doubts)
-    out.notes.push_back(fmt::format("at {} of {} shifts, y = {:g} mm the first, {}", doubt.count,
+    out.notes.push_back(fmt::format("at {} of {} displacements, y = {:g} mm the first, {}", doubt.count,
                                     a.functions.rows.size(), kMilli * doubt.first, doubt.what));
 }
 

@@ -40,7 +40,7 @@ std::string load_text(const geometry::LoadedFunctions& f) {
                : "no pressure: " + side.reason + "\n";
   }
   if (std::isnan(f.largest_y)) return out;
-  return out + fmt::format("{:<22}{:.0f} MPa within {:.3g} mm of that shift: {} side at y = {:.2f} mm, {}\n",
+  return out + fmt::format("{:<22}{:.0f} MPa within {:.3g} mm of that displacement: {} side at y = {:.2f} mm, {}\n",
                            "largest pressure", kMega * f.largest.pressure, kMilli * f.amplitude,
                            f.largest_right ? "right" : "left", kMilli * f.largest_y, doubts(f.largest));
 }
@@ -186,8 +186,8 @@ std::string geometry_text(const GeometryResult& result) {
   const auto end = [](const geometry::ShiftLimit& limit) {
     return fmt::format("{:.2f} mm{}", kMilli * limit.y, limit.limited ? ": then " + limit.reason : std::string());
   };
-  line("shift to the left", end(a.functions.to_left));
-  line("shift to the right", end(a.functions.to_right));
+  line("displacement left", end(a.functions.to_left));
+  line("displacement right", end(a.functions.to_right));
   line("equilibrium", a.equilibrium ? fmt::format("y = {:.3f} mm", kMilli * *a.equilibrium) : a.no_equilibrium);
   for (const geometry::Jump& jump : a.functions.jumps) {
     const geometry::Touch &before = jump.right ? jump.before.right : jump.before.left,

@@ -23,8 +23,8 @@ struct ImportRequest {
 /// passes, cleans, fits, writes, and keeps account of all of it. The same input and settings give the same files for
 /// any number of threads. Errors: those of the readers, of placement and fit, naming the file; Error(configuration) for
 /// outputs that cannot hold the surface; Error(numerical) when stopped between steps, Cancelled (core/cancellation.hpp)
-/// within one. Nothing is written then. A truth is compared with the surface; one that cannot be it is refused before
-/// the work.
+/// within one. Nothing is written then. The surface is compared with a reference that is given; one that does not
+/// fit is refused before the work.
 io::ImportReport import_scan(const ImportRequest& request, const Progress& progress = {});
 
 /// Refuses settings that would be ignored because they belong to the other body or to another choice.

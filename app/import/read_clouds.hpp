@@ -17,7 +17,7 @@ namespace treadmark::app {
 struct Clouds {
   PointCloud cloud;                      ///< of all files, in their unit; passes filled where there are several
   std::optional<LengthUnit> unit;        ///< if the files say it, all the same
-  std::optional<LengthUnit> usual_unit;  ///< that of such files, if they do not
+  std::optional<LengthUnit> usual_unit;  ///< usual in files of this format, if they do not
   std::string reference;                 ///< coordinate system of the Earth that a file names; empty: none
 };
 

@@ -39,8 +39,8 @@ std::string extension_of(const Path& file) { return io::profiles::lower(file.ext
 void require_body(const Path& file, Body is, Body wanted) {
   if (is != wanted)
     throw Error(ErrorKind::configuration,
-                fmt::format("the truth is a {}, the scan shall become a {}", body_name(is), body_name(wanted)),
-                {file.string()}, "name the truth of this scan");
+                fmt::format("the reference is a {}, the scan shall become a {}", body_name(is), body_name(wanted)),
+                {file.string()}, "name the reference of this scan");
 }
 
 Pose read_pose(const io::JsonTree& pose) {
@@ -401,7 +401,8 @@ Along find_along(const FittedScan& fit, const Truth& truth) {
 }
 
 void warn(io::ImportReport& report, const Truth& truth, const std::string& what) {
-  report.warnings.push_back(fmt::format("{} {}: is it the truth of this scan?", truth.file.filename().string(), what));
+  report.warnings.push_back(
+      fmt::format("{} {}: is it the reference of this scan?", truth.file.filename().string(), what));
 }
 
 }  // namespace
@@ -412,7 +413,7 @@ Truth read_truth(const Path& file, Body body, double nominal_radius) {
   const std::optional<Body> library = library_body_of(file);
   if (!library && !std::filesystem::is_regular_file(file, ignored))
     throw MissingFile(
-        ErrorKind::configuration, "there is no such file of the truth", {file.string()},
+        ErrorKind::configuration, "there is no such file of the reference", {file.string()},
         advice_on_missing(file, "name what treadmark scan --truth wrote, or the file of the true surface"));
   const std::string extension = extension_of(file);
   for (const char* known : {".slcw", ".prw", ".whl"})
@@ -434,10 +435,11 @@ Truth read_truth(const Path& file, Body body, double nominal_radius) {
 
 void check_points(const Truth& truth, std::size_t points_read) {
   if (truth.points && *truth.points != points_read)
-    throw Error(ErrorKind::configuration,
-                fmt::format("the truth is that of a cloud of {} points, and {} were read", *truth.points, points_read),
-                {truth.file.string()},
-                "name the truth of this cloud; of a part of it, the surface itself: --truth " + truth.surface.string());
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("the reference is that of a cloud of {} points, and {} were read", *truth.points, points_read),
+        {truth.file.string()},
+        "name the reference of this cloud; of a part of it, the surface itself: --truth " + truth.surface.string());
 }
 
 void compare_with_truth(const Truth& truth, const FittedScan& fit, io::ImportReport& report) {
@@ -484,7 +486,7 @@ void compare_with_truth(const Truth& truth, const FittedScan& fit, io::ImportRep
   constexpr double kSurelyWrong = 1e-3;
   if (out.shape.rms > kSurelyWrong || out.placed.rms > kSurelyWrong)
     warn(report, truth,
-         fmt::format("lies {:.3g} mm (rms) from the surface, {:.3g} mm where both are laid on each other best",
+         fmt::format("lies {:.3g} mm (rms) from the surface, {:.3g} mm where both are best aligned",
                      kMilli * out.placed.rms, kMilli * out.shape.rms));
   report.truth = std::move(out);
 }

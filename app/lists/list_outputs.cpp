@@ -42,7 +42,7 @@ double number_of(const ListRow& row, std::size_t column) {
 /// A number of all rows that have it, from the worst row to the best.
 report::ChartView column_view(const std::vector<const ListRow*>& rows, const ListColumn& column, std::size_t k) {
   report::ChartView view;
-  view.x = report::Axis{"place, 1 is the worst", ""};
+  view.x = report::Axis{"rank, 1 is the worst", ""};
   report::Series series{"", {}};
   series.marks = report::Series::Marks::points;
   double place = 0.0;

@@ -158,10 +158,11 @@ report::Table shown_numbers(const MeasuredFile& file, const Numbers& numbers) {
 
 report::Page measure_page(const MeasuredFile& file, const MeasureRequest& request) {
   const std::string name = std::filesystem::path(file.file).filename().string();
-  report::Page page{"measure", name, fmt::format("Measures of a {}", request.body == Body::wheel ? "wheel" : "rail")};
+  report::Page page{"measure", name,
+                    fmt::format("Measurements of a {}", request.body == Body::wheel ? "wheel" : "rail")};
   report::Section overview{"overview", "Overview"};
   for (const std::string& note : file.notes)
-    overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Remark:", note});
+    overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Note:", note});
   for (const LimitResult& l : file.limits)
     if (l.verdict == Verdict::outside)
       overview.blocks.emplace_back(report::Banner{
@@ -179,8 +180,9 @@ report::Page measure_page(const MeasuredFile& file, const MeasureRequest& reques
   page.sections.push_back(std::move(overview));
 
   report::Section section{"section", "Section"};
-  section.blocks.emplace_back(Figure{"outline", "Measured section", section_view(file),
-                                     file.nominal.empty() ? "" : "laid upon the nominal one as the numbers are"});
+  section.blocks.emplace_back(
+      Figure{"outline", "Measured section", section_view(file),
+             file.nominal.empty() ? "" : "aligned with the nominal one as for the numbers above"});
   if (!file.nominal.empty())
     section.blocks.emplace_back(Figure{"missing", "Wear over the section", missing_view(file, request.body)});
   page.sections.push_back(std::move(section));

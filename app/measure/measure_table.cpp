@@ -63,7 +63,8 @@ std::string measure_text(const MeasuredFile& file, const MeasureRequest& request
     if (!wheel->reprofiled_to.empty()) text += fmt::format("mildest re-profiling: to {}\n", wheel->reprofiled_to);
     if (!wheel->back_seen) text += "the flange back is not in the section: y = 0 of the file is the tape line\n";
   } else {
-    text += fmt::format("laid upon the nominal section: {}\n", name_of(std::get<RailNumbers>(file.numbers).alignment));
+    text +=
+        fmt::format("aligned with the nominal section: {}\n", name_of(std::get<RailNumbers>(file.numbers).alignment));
   }
   if (file.revolution) {
     for (const measures::RoundFlat& f : file.revolution->flats)

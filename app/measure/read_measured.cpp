@@ -55,7 +55,7 @@ ReadMeasured read_points(const std::string& name, const MeasureRequest& request)
   out.notes = read.source.notes;
   for (const io::ProfileRemark& doubt : doubts_of(read)) {
     if (doubt.name == "noise") continue;  // sections smooth it
-    out.notes.push_back(fmt::format("doubt: {}: {}", doubt.name, doubt.text));
+    out.notes.push_back(fmt::format("warning: {}: {}", doubt.name, doubt.text));
     out.doubtful = true;
   }
   out.flange_back = read.source.understood.wheel.back_y;
@@ -84,7 +84,7 @@ ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& req
   if (!natural.note.empty()) out.notes.push_back(natural.note);
   if (const auto* slices = std::get_if<SliceSet>(&natural.spec.shape))
     if (const std::string doubt = doubt_of_slices(*slices, name, request.body, {{}, {}, false, {}}); !doubt.empty()) {
-      out.notes.push_back("doubt: " + doubt);
+      out.notes.push_back("warning: " + doubt);
       out.doubtful = true;
     }
   return out;

@@ -32,9 +32,9 @@ struct PackedFrame {
 
 using PackedSets = std::vector<std::vector<PackedFrame>>;
 
-/// Fields of all frames: a blob a frame, as precise and as many as the size [bytes of text, with what is said of
-/// patches] allows: first two bytes a number, then one, then fewer quantities, at last fewer frames. What is left out
-/// is said in the frames.
+/// Packs all frames, one blob each, within the budget [bytes of text, numbers of patches included]: first with two
+/// bytes a value, then with one, then with fewer fields, finally with fewer frames.
+/// Each frame says what was left out.
 PackedSets pack_frames(const std::vector<FrameSet>& sets, BlobStore& blobs, std::size_t budget);
 
 }  // namespace treadmark::app::report

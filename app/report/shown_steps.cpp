@@ -248,7 +248,7 @@ Page with_shown_steps(Page page) {
   const std::string label = page.timeline->label;
   StepFilter(kept, steps).apply(page);
   say(page, fmt::format("{} of {} {}s are on this page:", kept.size(), steps, label),
-      "those that went wrong or have remarks (half of the room at most), the least and greatest values of all curves, "
+      "those that went wrong or have warnings (half of the room at most), the least and greatest values of all curves, "
       "and others at equal distances." +
           where);
   return page;

@@ -153,7 +153,7 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   add(prefix + "x_cp_m", "m", "contact reference ahead of the axle" + of, [=] { return reaction().contact_x; });
   add(prefix + "y_cp_m", "m", "contact reference in track axes" + of, [=] { return reaction().contact_y; });
   add(prefix + "patches", "1", "contact patches" + of, [=] { return static_cast<double>(reaction().patches); });
-  add(prefix + "doubts", "1", "grave remarks on the contact (docs/results.md)" + of,
+  add(prefix + "doubts", "1", "warnings about the contact (docs/results.md)" + of,
       [=] { return static_cast<double>(reaction().doubts); });
   add(prefix + "friction_W", "W", "power dissipated by friction" + of,
       [=] { return reaction().frictional_power - reaction().rail_power; });
@@ -314,7 +314,7 @@ std::vector<HistorySummary::Row> HistorySummary::rows(bool has_pressure) {
       {"ty_min_N", "N", "least lateral creep force", [](S s) { return s.ty_min_.value; }}};
   if (has_pressure) {
     rows.push_back({"pmax_Pa", "Pa", "largest contact pressure", [](S s) { return s.pmax_.value; }});
-    rows.push_back({"doubtful_steps", "1", "steps with a grave remark on the contact",
+    rows.push_back({"doubtful_steps", "1", "steps with a warning about the contact",
                     [](S s) { return static_cast<double>(s.doubtful_); }});
   }
   const std::initializer_list<Row> rest = {

@@ -29,7 +29,7 @@ struct SimulationOptions {
   bool resume = false;                ///< go on from that file, if there is one
   ContactTables* tables = nullptr;    ///< shared by runs; null: none are
   std::mutex* store_mutex = nullptr;  ///< held while files are written: the HDF5 library may not be thread-safe
-  /// Told what is doubtful about the start (the message of the result) before the vehicle runs; empty: nobody is.
+  /// Called with warnings about the start (the message of the result) before the vehicle runs; empty: not called.
   std::function<void(const std::string&)> doubt = {};
 };
 
@@ -63,11 +63,11 @@ bool is_finished(const std::filesystem::path& store, const io::SimulationFile& f
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,
                                     const SimulationOptions& options);
 
-/// What is doubtful about the profiles of wheels and rails that are files; it is part of the message of results. Errors
-/// as read_profile.
+/// Warnings about profiles of wheels and rails that are files; they are part of the message of results. Errors as
+/// read_profile.
 std::vector<std::string> simulation_doubts(const io::SimulationFile& file);
 
-/// What makes forces doubtful where energies do not balance since the start; empty: they do.
+/// A warning about forces where energies since the start do not balance; empty: they do.
 std::string energy_doubt(const vehicle::EnergyBalance& now, const vehicle::EnergyBalance& start);
 
 }  // namespace treadmark::app

@@ -193,7 +193,7 @@ std::string falling_verdict(const FallingRun& run) {
   const vehicle::FallResult& r = last.result;
   if (r.verdict == vehicle::FallVerdict::none)
     return fmt::format(
-        "falling speed: no limit cycle at {:g} m/s: behind the disturbance the sway dies away, to {:.3g} mm after {:g} "
+        "falling speed: no limit cycle at {:g} m/s: behind the disturbance hunting dies away, to {:.3g} mm after {:g} "
         "m; begin at a higher speed, or hold it for longer",
         s.from, kMilli * r.first_amplitude, s.hold);
   std::string text =

@@ -89,7 +89,7 @@ void add_branches(pictures::Chart& chart, const StabilityRun& run, X&& x, Y&& y)
 /// Amplitude over speed, over the same speeds as the damping.
 pictures::Chart falling_chart(const StabilityRun& run) {
   pictures::Chart chart;
-  chart.title = "amplitude of the wheelset that sways most, while the speed falls";
+  chart.title = "amplitude of the wheelset that hunts most, while the speed falls";
   chart.x_label = "V [m/s]";
   chart.y_label = "[mm]";
   chart.x_range = {run.request.from, run.request.to};

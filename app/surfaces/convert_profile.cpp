@@ -55,7 +55,7 @@ InputProfile input_profile(const std::filesystem::path& input, const std::filesy
     if (!settings.overrides.empty()) refuse("--set changes keys of case files, this is none", "leave it out");
     std::optional<Body> body = settings.body ? settings.body : io::profile_body(input);
     if (!body) body = io::profile_body(output);
-    if (!body) refuse("the file does not tell whether it is a wheel or a rail", "say --body wheel or --body rail");
+    if (!body) refuse("the file does not say whether it is a wheel or a rail", "say --body wheel or --body rail");
     io::ProfileOptions options;
     options.scale = settings.scale_to_mm;
     options.smoothing = {};  // the file's own points

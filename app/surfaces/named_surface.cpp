@@ -33,7 +33,7 @@ Body body_of(const std::filesystem::path& input, const std::optional<Body>& aske
     if (extension == wheel) return Body::wheel;
   for (const char* rail : {".slcs", ".prr", ".ban"})
     if (extension == rail) return Body::rail;
-  throw Error(ErrorKind::configuration, "the file does not tell whether it is a wheel or a rail", {input.string()},
+  throw Error(ErrorKind::configuration, "the file does not say whether it is a wheel or a rail", {input.string()},
               "say --body wheel or --body rail");
 }
 

@@ -83,7 +83,7 @@ Nearness nearness(const measures::Section& section, const Standard& standard) {
     gauge.alignment = alignment;
     const measures::RailMeasures m = measures::measure_rail(section, &standard.section, gauge);
     return Nearness{m.loss.value, m.lip.value,
-                    fmt::format("wear W1 {}, W2 {}, laid upon it {}", in_mm(m.w1), in_mm(m.w2),
+                    fmt::format("wear W1 {}, W2 {}, aligned with it {}", in_mm(m.w1), in_mm(m.w2),
                                 alignment == measures::RailAlignment::unworn ? "by what does not wear"
                                 : alignment == measures::RailAlignment::none ? "as in the file"
                                                                              : "by its top, which hides wear there")};
@@ -385,7 +385,7 @@ std::optional<io::ProfileRemark> remark_on_slices(const SliceSet& slices, Body b
   }
   std::string what;
   if (seen.mirrored_z && seen.z.sure())
-    what = "upside_down: turned over a section shows " + seen.z.evidence;
+    what = "upside_down: mirrored in z a section shows " + seen.z.evidence;
   else if (seen.mirrored_y)
     what = "flange_side: " + seen.y.evidence + ", on the side of great y, as that of a left wheel";
   else if (seen.shift_y != 0.0)

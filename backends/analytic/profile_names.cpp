@@ -95,7 +95,7 @@ std::optional<double> slope_of_cone(std::string_view said) {
   if (!n) return std::nullopt;
   const std::size_t minus = said.find('-');
   if (turned && (*n < 0.0 || !is_blank(said[minus - 1]) || is_blank(said[minus + 1])))
-    throw Error(ErrorKind::configuration, fmt::format("'{}' does not tell which way the cone runs", said), {},
+    throw Error(ErrorKind::configuration, fmt::format("'{}' does not say which way the cone runs", said), {},
                 "write 'cone 1:20', or 'cone -1:20' for one whose radius grows towards the field side");
   const double size = in_range(std::fabs(*n), 1.0, 1e6, "the cone's 1:N");
   return (turned || *n < 0.0 ? -1.0 : 1.0) / size;

@@ -174,7 +174,7 @@ TM_API void tm_patch_free(tm_patch *p);
 TM_API tm_status tm_solution_status(const tm_solution *s);
 /* Why the status is not TM_OK; "". Lent by the solution. */
 TM_API const char *tm_solution_message(const tm_solution *s);
-/* What is doubtful (`treadmark list remarks`): remark i of tm_solution_remarks(); grave: the numbers may be wrong. */
+/* Warnings (`treadmark list remarks`): remark i of tm_solution_remarks(); grave: the numbers may be wrong; else a minor one. */
 TM_API size_t tm_solution_remarks(const tm_solution *s);
 TM_API tm_status tm_solution_remark(const tm_solution *s, size_t i, const char **name, const char **text, int *patch, int *grave);
 /* Numbers by their names in results (docs/results.md) without unit, in SI: "force_on_rail.fz_tr"; of a patch "fn", "pmax". A quantity

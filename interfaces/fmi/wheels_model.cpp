@@ -150,7 +150,7 @@ constexpr FoundRow kFoundRows[] = {
      [](const wheelrail::PairSolution& s, double* out) { *out = static_cast<double>(s.patches.size()); }, 0, true},
     {"status", "1", "0: contact, 1: no contact",
      [](const wheelrail::PairSolution& s, double* out) { *out = static_cast<double>(s.status); }, 0, true},
-    {"doubts", "1", "number of grave remarks on the contact: where it is not 0, numbers may be wrong",
+    {"doubts", "1", "number of warnings about the contact: where it is not 0, numbers may be wrong",
      [](const wheelrail::PairSolution& s, double* out) {
        *out = static_cast<double>(std::ranges::count_if(s.remarks, &Remark::grave));
      },

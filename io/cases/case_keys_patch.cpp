@@ -199,10 +199,11 @@ void add_geometry(KeyList& list) {
   list.number<B>("patch.dy_mm", kPositive, "element size in y ([patch.gap] only)", [](B& c) -> double& { return c.dy; })
       .default_text.clear();
 
-  list.choice<B, GridBorder>("patch.grid_border", {{"open", GridBorder::open}, {"closed", GridBorder::closed}},
-                             "bodies go on beyond the elements, so that pressure at the border is a doubt; or they may "
-                             "touch nowhere else",
-                             [](B& c) -> GridBorder& { return c.grid_border; });
+  list.choice<B, GridBorder>(
+      "patch.grid_border", {{"open", GridBorder::open}, {"closed", GridBorder::closed}},
+      "bodies go on beyond the elements, so that pressure at the border is a warning; or they may "
+      "touch nowhere else",
+      [](B& c) -> GridBorder& { return c.grid_border; });
 
   using Given = HertzInput::Given;
   list.choice<B, Given>("patch.hertz.given",

@@ -192,16 +192,16 @@ struct GapInput {
   /// The formula.
   enum class Kind { quadratic, circular, sinusoidal, per_element };
   Kind kind = Kind::quadratic;
-  /// In SI units:
-  /// quadratic     b1 x^2 + b2 xy + b3 y^2 + b4 x + b5 y + b6
-  /// circular      xm, rm, y1, dy1, then heights b_k at y1 + (k-1) dy1, interpolated linearly, + (x - xm)^2 / (2 rm)
-  /// sinusoidal    b1 sin(b2 (x - b3)) - b4 sin(b5 (x - b6)) + x^2/b7 + y^2/b8
-  /// per_element   h of every element, x running fastest
-  /// In SI units, lengths [m], curvatures and wave numbers [1/m]:
+  /// The numbers of the formula, in SI units: lengths [m], curvatures and wave numbers [1/m].
+  ///
   /// quadratic: b1 .. b6 of b1 x^2 + b2 xy + b3 y^2 + b4 x + b5 y + b6
-  /// circular: xm, R, y1, dy, b_1 .. b_n of (x - xm)^2/(2R) + b, b linear between the points y1 + (k-1) dy, also beyond
-  /// them sinusoidal: b1 .. b8 of b1 sin(b2 (x - b3)) - b4 sin(b5 (x - b6)) + x^2/b7 + y^2/b8 per_element: one value
-  /// for each element, x fastest
+  ///
+  /// circular: xm, R, y1, dy, b_1 .. b_n of (x - xm)^2/(2R) + b, where b is linear between the points
+  /// (y1 + (k-1) dy, b_k), and beyond the outermost two
+  ///
+  /// sinusoidal: b1 .. b8 of b1 sin(b2 (x - b3)) - b4 sin(b5 (x - b6)) + x^2/b7 + y^2/b8
+  ///
+  /// per_element: h of every element, x running fastest
   std::vector<double> coefficients;
 };
 
@@ -265,7 +265,7 @@ struct CaseFile {
   std::string sha256;  ///< of the case file itself, hex
   std::string title;
   std::vector<Case> cases;
-  std::vector<std::string> notes;  ///< harmless oddities worth telling (for example: initial estimate ignored)
+  std::vector<std::string> notes;  ///< information on what was read or assumed (for example: initial estimate ignored)
 };
 
 }  // namespace treadmark::io

@@ -111,7 +111,7 @@ std::vector<EvolutionQuantity> quantities_of(const Generation& g) {
   out.push_back({"pmax_mean_MPa", "MPa", "largest pressure, mean of the positions by weight", 1e-6 * pressure});
   out.push_back({"normal_force_N", "N", "normal force, sum over the patches, mean by weight", force});
   out.push_back({"t_gamma_N", "N", "power of friction over rolling speed, mean by weight", t_gamma});
-  out.push_back({"doubts", "1", "remarks that doubt results", doubts});
+  out.push_back({"doubts", "1", "warnings about contacts", doubts});
   out.insert(out.end(), g.numbers.begin(), g.numbers.end());
   for (const EvolvedBody& b : g.bodies) {
     const std::string name = body_name(b.body);

@@ -31,7 +31,7 @@ constexpr MapName kMaps[] = {
      &ImportReport::fitted},
     {"residual", "m", "mean of measured less fitted", &ImportReport::residual},
     {"noise", "m", "standard deviation of the points", &ImportReport::noise_map},
-    {"truth", "m", "the surface less the truth, laid on it best", &ImportReport::truth_map},
+    {"truth", "m", "the surface less the reference, best aligned", &ImportReport::truth_map},
 };
 
 using Cloud = ImportReport::CloudSample;

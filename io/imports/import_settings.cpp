@@ -105,7 +105,7 @@ std::vector<ImportKey> listed_keys() {
               at(&S::fit, &S::Fit::smoothing_lambda_mm3));
   list.word("fit.base", {"fitted", "nominal"}, "section below offsets: fitted or nominal", at(&S::fit, &S::Fit::base));
   list.word("fit.mesh", {"band", "free"},
-            "band: Delaunay over the unrolled band; free: advancing front through the cleaned points",
+            "band: Delaunay over the developed band; free: advancing front through the cleaned points",
             at(&S::fit, &S::Fit::mesh));
   list.number("fit.decimate_um", kNotNegative,
               "leave out nodes that triangles do not need to this tolerance; 0: keep all",

@@ -192,20 +192,20 @@ void add_damage(Page& page, const ImportReport& report) {
 void add_truth(Page& page, const ImportReport& report) {
   if (!report.truth) return;
   const ImportReport::Truth& truth = *report.truth;
-  page.heading("error against the truth " + truth.file);
+  page.heading("error against the reference surface " + truth.file);
   const auto row = [&](const char* name, const ImportReport::Distances& d) {
     page.row(name, fmt::format("{} rms, {} largest; 95 % within {}, 99 % within {}; mean {}", length_text(d.rms),
                                length_text(d.largest), length_text(d.within_95), length_text(d.within_99),
                                length_text(d.mean)));
   };
   row("frame on frame", truth.placed);
-  row("laid on it best", truth.shape);
+  row("best aligned", truth.shape);
   const Vec3 shift = 1e6 * truth.shift_S, turn = 1e6 * truth.turn_S;
   page.row("", fmt::format("by a shift of {}, {}, {} um and turns of {}, {}, {} urad (x, y, z)", decimals(shift.x(), 2),
                            decimals(shift.y(), 2), decimals(shift.z(), 2), decimals(turn.x(), 2), decimals(turn.y(), 2),
                            decimals(turn.z(), 2)));
   page.row("places",
-           fmt::format("{}; the truth has no surface at {} more", grouped(truth.places), grouped(truth.beside)));
+           fmt::format("{}; the reference has none at {} more", grouped(truth.places), grouped(truth.beside)));
 }
 
 void add_outputs(Page& page, const ImportReport& report) {

@@ -103,7 +103,7 @@ class Judge {
     const auto evidence = [&](const char* axis, const measured::Readings& r) {
       if (r.marked)
         fact("evidence",
-             fmt::format("{}: {} ({:.3g} against {:.3g} turned over)", axis, r.evidence, r.as_it_is, r.turned));
+             fmt::format("{}: {} ({:.3g} against {:.3g} mirrored)", axis, r.evidence, r.as_it_is, r.turned));
     };
     evidence("z", seen.z);
     evidence("y", seen.y);

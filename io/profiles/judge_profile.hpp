@@ -11,7 +11,7 @@
 
 namespace treadmark::io {
 
-/// A doubt about a profile.
+/// A warning about a profile.
 struct ProfileRemark {
   std::string name;  ///< "flange_back", "nominal_radius", "unit", "exchanged", "gap", "gauge_side", "noise", and those
                      ///< of measured::Doubt
@@ -35,7 +35,7 @@ struct ExpectedProfile {
   std::optional<double> cant = {};       ///< by which a rail will be inclined [rad]
 };
 
-/// Facts and doubts about a profile that has been read. Never throws; thread-safe.
+/// Facts and warnings about a profile that has been read. Never throws; thread-safe.
 ProfileJudgement judge_profile(const SourcedProfile& profile, const ExpectedProfile& expected = {});
 
 }  // namespace treadmark::io

@@ -63,7 +63,7 @@ SourcedProfile read_sourced_profile(const std::filesystem::path& file, Body body
 Profile parse_profile(std::string_view text, const std::string& file, ProfileFormat format, Body body,
                       const ProfileOptions& options);
 
-/// Whether options.mirror_z = 0 would turn the file over, judged by the shape of its section; none: a format that says
+/// Whether options.mirror_z = 0 would mirror z, judged by the shape of its section; none: a format that says
 /// itself. Throws as read_profile for a missing or broken file.
 std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                                       const SourcePosition& referenced_from = {});

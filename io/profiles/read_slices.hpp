@@ -17,7 +17,7 @@ namespace treadmark::io {
 bool is_slices_file(const std::filesystem::path& file);
 
 /// Reads a slices file and the profiles that it names, relative to its own folder and with '/' or '\' between folders.
-/// The options hold for each of the profiles; mirror_z = 0 turns all or none of them over, as most of them look. u =
+/// The options hold for each of the profiles; mirror_z = 0 mirrors z of all or of none, as most of them ask. u =
 /// SCALE*(OFFSET + value), rails in metres, wheels in rad.
 ///
 /// Refused besides what read_profile refuses: fewer than 4 or more than 100000 slices, values that do not increase by

@@ -66,7 +66,7 @@ std::string candidate_label(const ComparisonCandidate& candidate) {
 }
 
 std::string candidate_label(const Comparison& comparison, std::size_t index) {
-  return candidate_label(comparison.candidates[index]) + (index == 0 ? " (truth)" : "");
+  return candidate_label(comparison.candidates[index]) + (index == 0 ? " (reference)" : "");
 }
 
 }  // namespace treadmark::io

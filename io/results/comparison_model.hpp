@@ -20,11 +20,11 @@ struct RepresentedBody {
   double resolution = 0.0;       ///< data spacing [m]; 0 = as given, not sampled again
   double build_seconds = 0.0;    ///< of this representation, from surface to surface
   std::size_t memory_bytes = 0;  ///< of the surface
-  SurfaceDifference difference;  ///< from the truth; points = 0 where it was not measured
+  SurfaceDifference difference;  ///< from the reference; points = 0 where it was not measured
   std::string note;              ///< repairs, limits; may be empty
 };
 
-/// Number of one case in one candidate; errors are against the truth's same case.
+/// Number of one case in one candidate; errors are against the reference's same case.
 struct ComparisonRow {
   int case_number = 0;  ///< as CaseResult::number
   Status status = Status::ok;
@@ -35,10 +35,10 @@ struct ComparisonRow {
   double approach = 0.0, area = 0.0;                ///< [m], [m^2]
   int ncon = 0;                                     ///< elements in contact
   double search_s = 0.0, distance_s = 0.0;          ///< [s]
-  bool comparable = false;                          ///< the truth has contact in this case too: the errors below hold
-  double pmax_error = 0.0;                          ///< relative, (p - p_truth)/p_truth
+  bool comparable = false;                          ///< the reference has contact here too: the errors below hold
+  double pmax_error = 0.0;                          ///< relative, (p - p_ref)/p_ref
   double area_error = 0.0, approach_error = 0.0;    ///< relative
-  double force_error = 0.0;                         ///< |F - F_truth|/|F_truth| of all patches together
+  double force_error = 0.0;                         ///< |F - F_ref|/|F_ref| of all patches together
   double position_error = 0.0;                      ///< distance of the references in the track's x-y plane [m]
 };
 
@@ -50,13 +50,13 @@ struct ComparisonCandidate {
   std::string failure;                   ///< not empty: could not be built or solved, why; then there are no rows
   std::vector<ComparisonRow> rows;       ///< one per case, in order
   std::vector<CaseResult> results;       ///< with fields, for pictures
-  std::vector<SampledSurface> surfaces;  ///< of the truth only, where asked for
+  std::vector<SampledSurface> surfaces;  ///< of the reference only, where asked for
 
   /// False where the surfaces are as given.
   bool has_resolution() const { return std::isfinite(resolution) && resolution > 0.0; }
 };
 
-/// The truth and all candidates, with where they come from.
+/// The reference and all candidates, with where they come from.
 struct Comparison {
   std::string version, git;
   int threads = 1;       ///< that the comparison was allowed
@@ -67,7 +67,7 @@ struct Comparison {
   std::vector<std::string> settings;
   std::string truth;     ///< which candidate the others are measured against, in words: "analytic" ...
   bool complete = true;  ///< false when interrupted
-  std::vector<ComparisonCandidate> candidates;  ///< the truth first
+  std::vector<ComparisonCandidate> candidates;  ///< the reference first
 };
 
 /// One candidate in a few numbers, in SI units. NaN where nothing was measured.
@@ -86,7 +86,7 @@ CandidateDigest digest(const ComparisonCandidate& candidate);
 /// "mesh 0.5 mm"; without the resolution where it is 0 or not finite.
 std::string candidate_label(const ComparisonCandidate& candidate);
 
-/// The same, and " (truth)" for the first candidate.
+/// The same, and " (reference)" for the first candidate.
 std::string candidate_label(const Comparison& comparison, std::size_t index);
 
 }  // namespace treadmark::io

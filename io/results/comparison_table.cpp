@@ -52,7 +52,7 @@ std::size_t width(const std::string& text) {
 Line candidate_line(const ComparisonCandidate& candidate, bool truth) {
   const CandidateDigest all = digest(candidate);
   Line line;
-  line[0] = flat(candidate.name) + (truth ? " (truth)" : "");
+  line[0] = flat(candidate.name) + (truth ? " (reference)" : "");
   line[1] = candidate.resolution == 0.0 ? "-" : digits(candidate.resolution * 1e3);
   if (!candidate.failure.empty()) {
     std::fill(line.begin() + 2, line.end(), std::string(1, '-'));
@@ -82,7 +82,7 @@ std::string remarks(const ComparisonCandidate& candidate) {
   const auto note = [&](const char* name, const RepresentedBody& body) {
     if (!body.note.empty()) out += fmt::format("{}, {}: {}\n", label, name, flat(body.note));
     if (body.difference.missing > 0)
-      out += fmt::format("{}, {}: no surface at {} points where the truth has one\n", label, name,
+      out += fmt::format("{}, {}: no surface at {} points where the reference has one\n", label, name,
                          body.difference.missing);
   };
   note("wheel", candidate.wheel);

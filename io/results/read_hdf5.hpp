@@ -17,9 +17,9 @@ namespace treadmark::io {
 /// The run in a file of write_hdf5, as far as that writes it: run, cases in the order of their numbers, patches with
 /// fields and blocks below the surface, sampled surfaces. Not in such files, and left as they are in an empty result:
 /// times of the parts of a solution, force iterations, the list of representations, what asks for text files, and
-/// sensitivities. Attributes that newer files have more of are missing in older ones and then left so too. Errors:
-/// Error(input_data) for files that are no such files, of another version, cut off, or do not fit together. Not to be
-/// called from two threads at once.
+/// sensitivities. What older files lack stays empty, too. Errors: Error(input_data) for files of another kind or
+/// version, that are cut off or whose parts do not fit together.
+/// Not to be called from two threads at once.
 RunResult read_hdf5(const std::filesystem::path& path);
 
 /// All groups case_0001 ... below a group, of any file that holds such groups. Errors as above, here and below.

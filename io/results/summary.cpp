@@ -121,7 +121,7 @@ std::string summary(const CaseResult& result) {
   if (!result.message.empty()) heading += " (" + result.message + ")";
   if (result.patches.size() > 1) heading += fmt::format(", {} patches", result.patches.size());
   const auto doubts = std::ranges::count_if(result.remarks, &Remark::grave);
-  if (doubts > 0) heading += fmt::format(", {} doubt{}", doubts, doubts > 1 ? "s" : "");
+  if (doubts > 0) heading += fmt::format(", {} warning{}", doubts, doubts > 1 ? "s" : "");
   table.line(heading + fmt::format(", {:.3f} s", result.seconds));
   if (result.has_wheelset) add_wheelset(table, result);
   if (!result.patches.empty()) add_patches(table, result.patches);

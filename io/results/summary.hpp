@@ -12,11 +12,11 @@ namespace treadmark::io {
 /// One case as an aligned table for people, units shown (mm, N, MPa, ...), ending in a newline. Thread-safe.
 std::string summary(const CaseResult& result);
 
-/// A line a case, with a heading, then a line for each message and remark: of each case its pose, forces on the rail in
+/// A line a case, with a heading, then a line for each message or warning: of each case its pose, forces on the rail in
 /// track axes (without wheel and rail: of the patch) and the largest pressure. Thread-safe.
 std::string summary_list(std::span<const CaseResult> cases);
 
-/// Message and remarks of a case in one line.
+/// Message and warnings of a case in one line.
 std::string words(const CaseResult& result);
 
 /// One line on a surface that was sampled: how far it lies from what it was sampled from, what it costs.

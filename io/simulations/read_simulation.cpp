@@ -86,7 +86,7 @@ void require_rails_to_share(const TableReader& simulation, const SimulationFile&
   if (!file.settings.shared_rails || file.flexible_track) return;
   throw Error(ErrorKind::configuration,
               file.track ? "simulation.shared_rails = true, but the track is lumped: each wheelset has its own"
-                         : "simulation.shared_rails = true, but there is no track that gives way",
+                         : "simulation.shared_rails = true, but there is no flexible track",
               simulation.need("shared_rails").where, "give a track whose kind is \"flexible\" (docs/track.md)");
 }
 

@@ -63,7 +63,7 @@ void fill_distances(RecordedRows& rows, std::vector<std::string>& notes) {
     last = i;
   }
   if (filled > 0)
-    notes.push_back(fmt::format("{}: rows without a distance, laid between their neighbours: {}", rows.file, filled));
+    notes.push_back(fmt::format("{}: rows without a distance, put between their neighbours: {}", rows.file, filled));
   keep_rows(rows, kept);
 }
 
@@ -242,10 +242,10 @@ void put_in_order(RecordedRows& rows, double sampling, std::vector<std::string>&
     std::ranges::reverse(rows.lines);
     for (std::vector<double>& signal : rows.signals) std::ranges::reverse(signal);
     by = differences(d);
-    notes.push_back(
-        fmt::format("{}: the distances fall: the rows are turned over; left, right and signs are taken as seen along "
-                    "rising distances (irregularities.seen_backwards = true: as seen along falling ones)",
-                    rows.file));
+    notes.push_back(fmt::format(
+        "{}: the distances fall: the order of the rows is reversed; left, right and signs are taken as seen along "
+        "rising distances (irregularities.seen_backwards = true: as seen along falling ones)",
+        rows.file));
   }
   if (sampling > 0.0) {
     for (std::size_t i = 1; i < d.size(); ++i) d[i] = d.front() + sampling * static_cast<double>(i);

@@ -98,7 +98,7 @@ class Functions {
       table.values[index] = mean;
     else if (const auto like = likeness(track, mean); like && *like < kAlike)
       notes_.push_back(
-          fmt::format("{}: doubt: {} of the track is not the mean of its rails (correlation {:.2f}); the "
+          fmt::format("{}: warning: {} of the track is not the mean of its rails (correlation {:.2f}); the "
                       "column of the track is used",
                       name_, kIrregularityNames[index], *like));
     if (!table.values[index + 1].empty()) return likeness(table.values[index + 1], apart);
@@ -121,15 +121,15 @@ class Functions {
                       "{:.2f}); the mean of the rails and the column of {} are used",
                       name_, rails, other, *like, other));
     else if (*like < -kAlike)
-      notes_.push_back(
-          fmt::format("{}: doubt: {} and {} have opposite signs (correlation {:.2f} of right less left rail with {}): "
-                      "compare a known "
-                      "place and give {}_factor = -1{}",
-                      name_, rails, other, *like, other, rails,
-                      index == 0 ? fmt::format(" or {}_factor = -1", other) : std::string()));
+      notes_.push_back(fmt::format(
+          "{}: warning: {} and {} have opposite signs (correlation {:.2f} of right less left rail with {}): "
+          "compare a known "
+          "place and give {}_factor = -1{}",
+          name_, rails, other, *like, other, rails,
+          index == 0 ? fmt::format(" or {}_factor = -1", other) : std::string()));
     else
       notes_.push_back(
-          fmt::format("{}: doubt: {} does not follow from {} of both rails (correlation {:.2f}); the mean of "
+          fmt::format("{}: warning: {} does not follow from {} of both rails (correlation {:.2f}); the mean of "
                       "the rails and the column of {} are used",
                       name_, other, rails, *like, other));
   }

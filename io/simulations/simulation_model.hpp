@@ -88,7 +88,7 @@ struct SimulationSettings {
   double tolerance = 1e-7;         ///< local error of displacements in a step [m]
   std::optional<double> max_step;  ///< [s]
   double min_step = 1e-9;          ///< [s]
-  /// Distance travelled in a step over dx; without a wish 1 with transient rolling, else 2.
+  /// Largest distance travelled in a step, over dx; not given: 1 for transient rolling, else 2.
   double max_step_elements = 2.0;
   double from_midspan = 0.0;     ///< of a flexible track: place of x = 0 at the start from the middle of a bay [m]
   bool shared_rails = false;     ///< of a flexible track: one below all wheels of a side, else one below each wheel
@@ -136,7 +136,7 @@ struct SimulationFile {
   std::vector<AxleTorque> torques;                     ///< motors and brakes
   std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
   std::vector<CheckRailInput> check_rails;
-  std::vector<std::string> notes;  ///< harmless oddities worth telling
+  std::vector<std::string> notes;  ///< information on what was read or assumed
 
   /// The rail of a side, as a right-hand one.
   const SurfaceSource& rail(Side side) const {

@@ -11,8 +11,8 @@
 
 namespace treadmark::scans {
 
-/// Points thinned to one a cube, for algorithms that cost much a point. What is found of a cube holds for all its
-/// points.
+/// One representative point per voxel, for algorithms that are expensive per point. Results for a voxel apply to all of
+/// its points.
 struct ThinnedPoints {
   Voxels voxels;
   std::vector<Vec3> position;  ///< mean of the cube's points

@@ -232,7 +232,7 @@ void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, Contact
     if (round >= problem.settings.max_outer) {
       solution.tangential.status = Status::not_converged;
       solution.tangential.message =
-          "friction and temperature did not come to terms in " + std::to_string(round) + " rounds";
+          "friction did not converge with temperature in " + std::to_string(round) + " rounds";
       return;
     }
     if (round > 1 && change > 0.8 * last_change) relaxation = std::max(0.05, 0.5 * relaxation);

@@ -32,12 +32,12 @@ struct Violation {
   std::string text;     ///< what was found, with numbers
 };
 
-/// The first invariant that a solution breaks by more than the accuracy settings.eps of the problem allows: penetration
-/// 10 eps and a millionth of the greatest one of the rigid bodies (the normal solver lets pass a hundredth of eps,
-/// parts of a patch agree to eps), excess of tractions 10 eps of the greatest bound, what slipping elements lack 100
-/// eps of their bounds' sum, prescribed forces 100 eps and a thousandth (tangential ones 10 eps and a millionth of
-/// friction), energy that of a slip of eps and a millionth. Of a solution without Status::ok only numbers that are not
-/// finite count, and nothing without contact. One pass over the elements. Thread-safe.
+/// The first invariant that a solution breaks by more than this, eps being settings.eps: penetration, 10 eps + 1e-6 of
+/// the greatest one of the rigid bodies; tractions above their bound, 10 eps of the greatest bound; slipping elements
+/// below it, 100 eps + 1e-6 of the sum of their bounds; prescribed normal force, 100 eps + 1e-3, tangential ones, 10
+/// eps + 1e-6 of friction; energy, that of a relative slip of eps, at least 1e-6. The limits leave room over what the
+/// solvers reach. Of a solution without Status::ok only numbers that are not finite count, without contact nothing.
+/// One pass over the elements. Thread-safe.
 std::optional<Violation> broken_invariant(const ContactProblem& problem, const ContactSolution& solution);
 
 /// Gives a solution that breaks an invariant Status::failed, in itself and in the report of its last solver, with a

@@ -28,7 +28,7 @@ struct PairMotion {
   double curvature = 0.0;  ///< of the rail in the plane of the track, positive to the right [1/m]
 };
 
-/// How a patch's force gives way, in contact axes: d(force on the rail) = K d(wheel - rail displacement) + C
+/// How a patch's force follows motion, in contact axes: d(force on the rail) = K d(wheel - rail displacement) + C
 /// d(velocity), both diagonal. Serves the convergence of implicit steps only.
 struct PatchTangent {
   Pose X_TC;                                ///< contact axes at the contact point, track axes
@@ -47,12 +47,12 @@ struct ContactReaction {
   double longitudinal_creep_force = 0.0;    ///< T_x: sum of F_x [N]
   double normal_force = 0.0;                ///< sum of F_n [N]
   double least_gap = 0.0;                   ///< < 0: greatest penetration [m]
-  double give = 0.0;                        ///< what a rail at rest still gives way by under the wheel's load [m]
+  double give = 0.0;                        ///< how far a rail at rest would still sink under the wheel's load [m]
   double max_pressure = 0.0;                ///< [Pa]; 0 where the element does not know
   double area = 0.0;                        ///< of contact [m2]
   double contact_y = 0.0, contact_x = 0.0;  ///< of the most loaded patch, track axes, x from the axle [m]
   int patches = 0;                          ///< in contact
-  int doubts = 0;                           ///< grave remarks (model/remarks.hpp)
+  int doubts = 0;                           ///< warnings that are grave (model/remarks.hpp)
   double elastic_energy = 0.0;              ///< stored in the contact [J]
   double frictional_power = 0.0;            ///< dissipated, >= 0 [W]
   double rail_power = 0.0;                  ///< of this, by dampers of a rail that bends [W]

@@ -191,7 +191,7 @@ ContactReaction ContactOnRail::at_rest(const PairMotion& motion) {
   }
   ContactReaction r;
   r.status = Status::not_converged;
-  r.message = "contact force and deflection of the rail did not come to agree";
+  r.message = "contact force and deflection of the rail did not converge";
   return r;
 }
 

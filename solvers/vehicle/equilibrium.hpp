@@ -30,10 +30,10 @@ struct Equilibrium {
 };
 
 /// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces,
-/// contact included, are in balance. Newton's method, contact linearised by differences, steps halved until the
-/// imbalance falls; then, as forces of rough wheels jump with the elements, steps by slopes over wide differences; on
-/// curved lines then the same from where the vehicle has come after some running in at its place; last from wheelsets
-/// that turn where they stand so that no moment acts on them, as wheels that touch far from their nominal circle need.
+/// contact included, are in balance. Tried in turn: (1) Newton's method, contact linearised by differences, steps
+/// halved until the imbalance falls; (2) slopes over wide differences, for rough wheels, whose forces jump with the
+/// elements; (3) on curved lines, the same from where the vehicle is after some running in; (4) the same from wheelsets
+/// that turn on the spot until no moment acts on them, for wheels that touch far from their nominal circle.
 /// A state that is only doubtful has status ok and a message. Leaves the elements as they were.
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
 

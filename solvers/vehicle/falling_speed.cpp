@@ -59,10 +59,10 @@ SpeedProfile profile_of(const FallSettings& s) {
   if (!(s.deceleration > 0.0) || !std::isfinite(s.deceleration))
     refuse(fmt::format("a speed does not fall at {:g} m/s2", s.deceleration));
   if (!(s.window > 0.0) || !(s.amplitude > 0.0))
-    refuse("the window and the least amplitude of a sway must be positive");
+    refuse("the window and the least amplitude of hunting must be positive");
   if (!(s.hold > kWindowsHeld * s.window))
     refuse(
-        fmt::format("{:g} m at the first speed are too short: a sway is averaged over {:g} m, and three times that "
+        fmt::format("{:g} m at the first speed are too short: hunting is averaged over {:g} m, and three times that "
                     "must show whether it lasts",
                     s.hold, s.window));
   SpeedProfile profile{{0.0, s.hold / s.from}, {s.from, s.from}};

@@ -176,7 +176,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
                                               s.coordinates[static_cast<std::size_t>(i)].arm);
     return step;
   }
-  step.why_not = "contact forces and motion did not come to agree within a step";
+  step.why_not = "contact forces and motion did not converge within a step";
   return step;
 }
 

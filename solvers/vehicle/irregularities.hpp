@@ -27,8 +27,8 @@ std::vector<Sinusoid> sinusoids_of(const SpectralIrregularities& spectral, Irreg
 /// Their sum [m].
 double sum_of(const std::vector<Sinusoid>& sinusoids, double distance);
 
-/// How much the rails lie beside their places: along y (right) and z (down) of the path frame, with derivatives by the
-/// distance [m], [-], [1/m].
+/// Offsets of the rails from their nominal places: along y (right) and z (down) of the path frame, with derivatives by
+/// the distance [m], [-], [1/m].
 struct RailOffsets {
   Along left_y, left_z, right_y, right_z;
 };

@@ -42,7 +42,7 @@ std::vector<ContactReaction> evaluate_wheels(const VehicleOnTrack& vehicle, cons
   }
   for (ContactReaction& r : reactions) {
     r.status = Status::not_converged;
-    r.message = "the forces of wheels on one rail did not come to agree";
+    r.message = "the forces of wheels on one rail did not converge with each other";
   }
   return reactions;
 }

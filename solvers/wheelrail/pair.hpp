@@ -62,7 +62,7 @@ struct PhaseTimes {
 struct PairSolution {
   Status status = Status::ok;
   std::string message;          ///< why the status is not ok
-  std::vector<Remark> remarks;  ///< what is doubtful, also where the status is ok
+  std::vector<Remark> remarks;  ///< warnings, also where the status is ok
   Placement placement;
   double z = 0.0;           ///< vertical wheelset position, given or found [m]
   double pitch_rate = 0.0;  ///< of the wheelset, given or found [rad/s]

@@ -213,17 +213,17 @@ TEST_F(ImportTruth, RefusesWhatCannotBeTheTruthBeforeTheWork) {
   input_.write("broken.json", "{\"surface\": ");
   input_.write("wheel.slcw", "");
   for (const auto& [truth, words] : std::vector<std::pair<std::string, std::string>>{
-           {path("none.slcs"), "there is no such file of the truth"},
+           {path("none.slcs"), "there is no such file of the reference"},
            {path("none.json"), "none.json"},
            {path("broken.json"), "broken.json"},
            {path("result.json"), "this is not what treadmark scan --truth writes: no \"surface\""},
-           {path("wheel.json"), "the truth is a wheel, the scan shall become a rail"},
-           {path("wheel.slcw"), "the truth is a wheel, the scan shall become a rail"},
-           {"S1002", "the truth is a wheel, the scan shall become a rail"},
+           {path("wheel.json"), "the reference is a wheel, the scan shall become a rail"},
+           {path("wheel.slcw"), "the reference is a wheel, the scan shall become a rail"},
+           {"S1002", "the reference is a wheel, the scan shall become a rail"},
            {path("gone.json"), "the surface that was scanned is not there: gone.toml"},
            {path("bent.json"), "is no rotation and origin"},
            {path("changed.ply.json"), "the surface has changed since it was scanned"},
-           {path("other.ply.json"), "the truth is that of a cloud of"}}) {
+           {path("other.ply.json"), "the reference is that of a cloud of"}}) {
     const auto r = run_program({"import", path("rail.ply"), "-o", path("found.slcs"), "--truth", truth});
     EXPECT_THAT(r.status, AnyOf(2, 3)) << truth << r.out;  // configuration, input data
     EXPECT_THAT(r.err, HasSubstr(words)) << truth;
@@ -238,7 +238,7 @@ TEST_F(ImportTruth, ATruthOfSomethingElseIsAWarning) {
   input_.write("bar.txt", flat.c_str());
   const Json found = import("rail.ply", {"--truth", path("bar.txt")});
   EXPECT_THAT(found.at("warnings").get<std::vector<std::string>>(),
-              Contains(AllOf(HasSubstr("bar.txt"), HasSubstr("is it the truth"))));
+              Contains(AllOf(HasSubstr("bar.txt"), HasSubstr("is it the reference"))));
 }
 
 /// Steps as a caller is told them: all of a total, the last one at its end.

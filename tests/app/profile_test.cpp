@@ -48,11 +48,11 @@ TEST(CheckProfiles, ShowsWhatWasUnderstoodOfACase) {
               HasSubstr("rail profile " + (input.folder() / "rail.prr").string() + "\n  kind         Simpack\n"));
   EXPECT_THAT(r.out, HasSubstr("  y            -70.00 to 60.00 mm, to the right\n"));
   EXPECT_THAT(r.out, HasSubstr("a flange that reaches 30.4 mm beyond the tread"));
-  EXPECT_THAT(r.out, Not(HasSubstr("doubt")));
+  EXPECT_THAT(r.out, Not(HasSubstr("warning")));
   // the wheel of the left side
   input.edit("case.inp", "'wheel.txt'   0 ", "'wheel.txt'   1 ");
   r = run_program({"check", input.inp().string()});
-  EXPECT_THAT(r.out, HasSubstr("doubt     flange_side: the flange at y = 63.2 mm, on the side of great y"));
+  EXPECT_THAT(r.out, HasSubstr("warning   flange_side: the flange at y = 63.2 mm, on the side of great y"));
   EXPECT_THAT(run_program({"run", input.inp().string()}).err, HasSubstr("flange_side"));
 }
 
@@ -62,7 +62,7 @@ TEST(CheckProfiles, DoubtsStayWithTheResultAndHeadItsReport) {
   const std::string folder = (input.folder() / "out").string(), html = (input.folder() / "run.html").string();
   run_program({"run", input.inp().string(), "-o", folder, "--report", html});
   const std::string page = input.read("run.html");
-  const std::size_t banner = page.find("Doubtful profile:");
+  const std::size_t banner = page.find("Warning about a profile:");
   ASSERT_NE(banner, std::string::npos);
   EXPECT_THAT(page.substr(banner, 400), HasSubstr("flange_side"));
   EXPECT_LT(banner, page.find("Largest pressure"));
@@ -83,7 +83,7 @@ TEST(CheckProfiles, ReportHasFactsDoubtsAndPositions) {
   EXPECT_THAT(page, HasSubstr("flange_side: the flange at y = 63.2 mm, on the side of great y"));
   EXPECT_THAT(page, HasSubstr("-60.00 to 70.00 mm, to the right"));
   EXPECT_THAT(page, HasSubstr("id=\"position-1-1\""));
-  EXPECT_THAT(page, HasSubstr("2 cases, no errors, 1 doubt"));
+  EXPECT_THAT(page, HasSubstr("2 cases, no errors, 1 warning"));
   EXPECT_THAT(page, HasSubstr("id=\"input-2\""));
   EXPECT_THAT(input.read("pictures/position_0001.svg"), HasSubstr("<svg"));
 }
@@ -200,7 +200,7 @@ TEST(CheckProfiles, AMiniProfWheelAndItsFlangeBack) {
   EXPECT_THAT(r.out, HasSubstr("flange_back: the back of the flange is at y = -0."));
   input.edit("case.inp", "-70.0   460.0", "  0.0   460.0");
   r = run_program({"check", input.inp().string()});
-  EXPECT_THAT(r.out, Not(HasSubstr("doubt")));
+  EXPECT_THAT(r.out, Not(HasSubstr("warning")));
 }
 
 }  // namespace

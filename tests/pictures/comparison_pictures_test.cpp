@@ -63,8 +63,8 @@ TEST(TellingCases, TheFirstAndThoseWithTheWidestSpread) {
 TEST(PressuresSvg, APanelACandidateAndCase) {
   const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(testing::sample_comparison()));
   EXPECT_EQ(root.find("g", "class", "panel").size(), 15u);  // five candidates, three of the four cases
-  for (const char* words : {"analytic (truth)", "mesh 1 mm", "mesh 0.5 mm", "spline", "vdb 1 mm", "failed", "1000 MPa",
-                            "1100 MPa, +10.0 %", "960 MPa, -20.0 %", "1200 MPa, 0.00 %"})
+  for (const char* words : {"analytic (reference)", "mesh 1 mm", "mesh 0.5 mm", "spline", "vdb 1 mm", "failed",
+                            "1000 MPa", "1100 MPa, +10.0 %", "960 MPa, -20.0 %", "1200 MPa, 0.00 %"})
     EXPECT_TRUE(says(root, words)) << words;
   EXPECT_FALSE(says(root, "case 4, pitch -22.92°"));
   EXPECT_TRUE(says(root, "case 2, pitch -11.46°"));
@@ -147,7 +147,7 @@ TEST(PressuresSvg, AColumnABackendAndARowAResolutionFromCoarseToFine) {
   const auto blocks = root.find("g", "class", "block");
   ASSERT_EQ(blocks.size(), 3u);
   for (const auto* block : blocks)
-    EXPECT_EQ(table_of(seen_panels(*block)), (Table{{"analytic (truth)", "mesh 1 mm", "spline 1 mm"},
+    EXPECT_EQ(table_of(seen_panels(*block)), (Table{{"analytic (reference)", "mesh 1 mm", "spline 1 mm"},
                                                     {"", "mesh 0.5 mm", "spline 0.5 mm"},
                                                     {"", "mesh 0.25 mm", "spline 0.25 mm"}}));
 }
@@ -158,9 +158,9 @@ TEST(PressuresSvg, DataAsGivenStandInTheFirstRow) {
   comparison.candidates.push_back(comparison.candidates[1]);
   comparison.candidates.back().name = "spline";
   const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(comparison));
-  EXPECT_EQ(
-      table_of(seen_panels(*root.find("g", "class", "block").at(0))),
-      (Table{{"analytic (truth)", "mesh 1 mm", "spline", "vdb 1 mm", "spline 1 mm"}, {"", "mesh 0.5 mm", "", "", ""}}));
+  EXPECT_EQ(table_of(seen_panels(*root.find("g", "class", "block").at(0))),
+            (Table{{"analytic (reference)", "mesh 1 mm", "spline", "vdb 1 mm", "spline 1 mm"},
+                   {"", "mesh 0.5 mm", "", "", ""}}));
 }
 
 TEST(PressuresSvg, NamesOfTheTruthAndRepetitionsTakeNoOthersPlace) {
@@ -168,7 +168,7 @@ TEST(PressuresSvg, NamesOfTheTruthAndRepetitionsTakeNoOthersPlace) {
   io::Comparison comparison = sample_of({"analytic", "mesh"}, {1e-3, 1e-3});
   const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(comparison));
   EXPECT_EQ(table_of(seen_panels(*root.find("g", "class", "block").at(0))),
-            (Table{{"analytic (truth)", "analytic 1 mm", "analytic 1 mm", "mesh 1 mm", "mesh 1 mm"}}));
+            (Table{{"analytic (reference)", "analytic 1 mm", "analytic 1 mm", "mesh 1 mm", "mesh 1 mm"}}));
 }
 
 TEST(PressuresSvg, AllBackendsFitBesideEachOtherAndMoreAreSpreadEvenly) {
@@ -186,8 +186,8 @@ TEST(PressuresSvg, AllBackendsFitBesideEachOtherAndMoreAreSpreadEvenly) {
     for (const char* rail : {"mesh", "spline", "offset-quadratic"}) pairs.push_back(std::string(wheel) + "+" + rail);
   const testing::XmlElement mixed = testing::read_xml(pictures::pressures_svg(sample_of(pairs, {0.5e-3})));
   const Table table = table_of(seen_panels(*mixed.find("g", "class", "block").at(0)));
-  EXPECT_EQ(table, (Table{{"analytic (truth)", "mesh+mesh 0.5 mm", "mesh+spline 0.5 mm", "mesh+offset-quadratic 0.5 mm",
-                           "spline+mesh 0.5 mm"},
+  EXPECT_EQ(table, (Table{{"analytic (reference)", "mesh+mesh 0.5 mm", "mesh+spline 0.5 mm",
+                           "mesh+offset-quadratic 0.5 mm", "spline+mesh 0.5 mm"},
                           {"spline+spline 0.5 mm", "spline+offset-quadratic 0.5 mm", "offset-quadratic+mesh 0.5 mm",
                            "offset-quadratic+spline 0.5 mm", "offset-quadratic+offset-quadratic 0.5 mm"}}));
 }
@@ -307,7 +307,7 @@ TEST(ErrorSvg, APointForEachResolutionAndALevelWithoutOne) {
   ASSERT_EQ(titles.size(), 2u);
   EXPECT_EQ(titles[0]->text, "mesh 0.5 mm: 5 %");
   EXPECT_EQ(titles[1]->text, "mesh 1 mm: 20 %");
-  EXPECT_TRUE(says(root, "truth: analytic &lt;profiles&gt; &amp; flats"));
+  EXPECT_TRUE(says(root, "reference: analytic &lt;profiles&gt; &amp; flats"));
   EXPECT_TRUE(says(root, "resolution [mm]"));
 }
 
@@ -362,7 +362,7 @@ TEST(CostSvg, AMarkACandidateAndTheRestInWords) {
   const auto marks = root.find("g", "class", "chart").at(0)->find("path", "class", "mark");
   ASSERT_EQ(marks.size(), 4u);
   for (const char* words :
-       {"analytic (truth)", "mesh 1 mm", "mesh 0.5 mm", "spline", "not drawn: vdb 1 mm (failed)", "16 MB", "4 MB"})
+       {"analytic (reference)", "mesh 1 mm", "mesh 0.5 mm", "spline", "not drawn: vdb 1 mm (failed)", "16 MB", "4 MB"})
     EXPECT_TRUE(says(root, words)) << words;
   // Errors of zero are drawn hollow at the floor.
   int hollow = 0;

@@ -12,18 +12,18 @@ namespace {
 void add_banners(const std::vector<CheckedInput>& inputs, Section& overview) {
   for (const CheckedInput& input : inputs) {
     for (const std::string& doubt : input.doubts)
-      overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Doubtful:", doubt});
+      overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Warning:", doubt});
     for (const auto& [name, judgement] : input.profiles)
       for (const io::ProfileRemark& remark : judgement.remarks)
         overview.blocks.emplace_back(
-            Banner{Banner::Kind::warning, "Doubtful:", fmt::format("{}: {}: {}", name, remark.name, remark.text)});
+            Banner{Banner::Kind::warning, "Warning:", fmt::format("{}: {}: {}", name, remark.name, remark.text)});
   }
 }
 
 Section section_of(const CheckedInput& input, std::size_t number) {
   Section section{fmt::format("input-{}", number), input.file};
   if (!input.outcome.empty()) section.blocks.emplace_back(Paragraph{input.outcome});
-  for (const std::string& note : input.notes) section.blocks.emplace_back(Banner{Banner::Kind::note, "Remark:", note});
+  for (const std::string& note : input.notes) section.blocks.emplace_back(Banner{Banner::Kind::note, "Note:", note});
   for (const auto& [name, judgement] : input.profiles) {
     Facts facts{{{"profile", name}}};
     facts.entries.insert(facts.entries.end(), judgement.facts.begin(), judgement.facts.end());
@@ -43,7 +43,7 @@ Page check_page(const std::vector<CheckedInput>& inputs) {
             fmt::format("What was understood of {}", counted(inputs.size(), "file"))};
   Section overview{"overview", "Overview"};
   add_banners(inputs, overview);
-  if (overview.blocks.empty()) overview.blocks.emplace_back(Paragraph{"No doubts about profiles."});
+  if (overview.blocks.empty()) overview.blocks.emplace_back(Paragraph{"No warnings about profiles."});
   page.sections.push_back(std::move(overview));
   for (std::size_t k = 0; k < inputs.size(); ++k) page.sections.push_back(section_of(inputs[k], k + 1));
   return page;

@@ -79,7 +79,7 @@ Panel over_resolution(const ComparedCandidates& all, const char* label, const ch
   for (const Candidate& c : all.candidates) {
     if (!c.as_given() || (!with_truth && &c == all.truth())) continue;
     const double y = placed(value(c), least);
-    if (!std::isnan(y)) panel.levels.push_back({y, c.label + (&c == all.truth() ? " (truth)" : " (as given)")});
+    if (!std::isnan(y)) panel.levels.push_back({y, c.label + (&c == all.truth() ? " (reference)" : " (as given)")});
   }
   return panel;
 }
@@ -202,7 +202,7 @@ ChartView case_errors_chart(const ComparedCandidates& all) {
     for (const Candidate* c : candidates) {
       const bool truth = c == all.truth();
       if (truth && !with_truth) continue;
-      Series series{c->label + (truth ? " (truth)" : ""), {}, {}, Series::Marks::both, truth};
+      Series series{c->label + (truth ? " (reference)" : ""), {}, {}, Series::Marks::both, truth};
       for (const auto* row : c->rows)
         series.y.push_back(row ? factor * number_in(io::row_fields(*c->data, *row), key) : Candidate::kNone);
       out.series.push_back(std::move(series));
@@ -244,7 +244,7 @@ Table candidate_table(const ComparedCandidates& all) {
   for (const Candidate& c : all.candidates) {
     Table::Row row;
     const io::ComparisonCandidate& data = *c.data;
-    row.cells = {data.name + (&c == all.truth() ? " (truth)" : ""),
+    row.cells = {data.name + (&c == all.truth() ? " (reference)" : ""),
                  Number{c.resolution_mm},
                  data.wheel.backend,
                  data.rail.backend,
@@ -298,7 +298,7 @@ Table compared_row_table(const ComparedCandidates& all) {
               "most of the load; x and "
               "y are its "
               "reference in track axes, forces act on the rail. Errors exist where both this representation and the "
-              "truth have contact.",
+              "reference have contact.",
               {{"case"}, {"representation"}, {"wheel"}, {"rail"}, {"status"}}};
   for (const Quantity& q : quantities) table.columns.push_back(q.column);
   for (std::size_t i = 0; i < all.cases.size(); ++i)

@@ -84,7 +84,7 @@ Cards cards_of(const io::Comparison& comparison, const ComparedCandidates& all) 
   }
   Cards cards;
   cards.cards = {{"Representations", fmt::format("{}", all.candidates.size()),
-                  failed > 0 ? fmt::format("{} failed", failed) : "the truth included"},
+                  failed > 0 ? fmt::format("{} failed", failed) : "the reference included"},
                  {"Cases", fmt::format("{}", all.cases.size()), ""}};
   const std::vector<const Candidate*> judged = judged_candidates(all);
   if (!judged.empty()) {
@@ -105,7 +105,7 @@ Cards cards_of(const io::Comparison& comparison, const ComparedCandidates& all) 
 Facts comparison_facts(const io::Comparison& comparison) {
   Facts facts = origin_facts({comparison.version, comparison.git, comparison.input_file, comparison.input_sha256,
                               comparison.geometry_sha256, comparison.settings});
-  facts.entries.insert(facts.entries.begin() + 1, {"Truth", comparison.truth});
+  facts.entries.insert(facts.entries.begin() + 1, {"Reference", comparison.truth});
   return facts;
 }
 
@@ -136,7 +136,7 @@ std::vector<FrameSet> sets_of(const std::shared_ptr<const io::Comparison>& compa
   std::vector<FrameSet> sets;
   for (const Candidate& candidate : all.candidates) {
     if (!candidate.solved()) continue;
-    FrameSet set{candidate.label + (&candidate == all.truth() ? " (truth)" : "")};
+    FrameSet set{candidate.label + (&candidate == all.truth() ? " (reference)" : "")};
     for (std::size_t i = 0; i < names.size(); ++i) {
       const io::CaseResult* found = pictures::find_result(*candidate.data, all.cases[i]);
       set.frames.push_back(
@@ -193,7 +193,7 @@ Page page_of(const std::shared_ptr<const io::Comparison>& data, std::string docu
     for (std::size_t i = 0; i < page.sets.size(); ++i) view.sets.push_back(static_cast<int>(i));
     contact.blocks.emplace_back(Figure{"contact-view", "Contact patches", std::move(view)});
     page.surfaces = comparison.candidates.front().surfaces;
-    if (!page.surfaces.empty()) append(contact.blocks, body_figures("Wheel and rail, the truth"));
+    if (!page.surfaces.empty()) append(contact.blocks, body_figures("Wheel and rail, the reference"));
   } else {
     if (!all.cases.empty()) page.timeline = numbered(all.cases);
     append(contact.blocks, std::move(picture));

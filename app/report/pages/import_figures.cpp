@@ -267,9 +267,9 @@ std::vector<Block> truth_blocks(const io::ImportReport& report) {
   const bool wheel = report.body == Body::wheel;
   Table table{
       "truth",
-      fmt::format("The surface less {}, along the normal; above 0: it stands out of the truth.", truth.surface),
+      fmt::format("The surface less {}, along the normal; above 0: it stands out of the reference.", truth.surface),
       {{"compared"}, {"rms", "µm"}, {"largest", "µm"}, {"95 % within", "µm"}, {"99 % within", "µm"}, {"mean", "µm"}}};
-  for (const auto& [name, d] : {std::pair{"frame on frame", &truth.placed}, {"laid on it best", &truth.shape}}) {
+  for (const auto& [name, d] : {std::pair{"frame on frame", &truth.placed}, {"best aligned", &truth.shape}}) {
     Table::Row row{{std::string(name)}};
     for (const double value : {d->rms, d->largest, d->within_95, d->within_99, d->mean})
       row.cells.emplace_back(Number{in_file(kMicro * value), 3});
@@ -282,16 +282,16 @@ std::vector<Block> truth_blocks(const io::ImportReport& report) {
   };
   const double along = wheel ? 180.0 / kPi * truth.along : kMilli * truth.along;
   Facts facts;
-  facts.entries = {{"Truth", truth.file},
+  facts.entries = {{"Reference", truth.file},
                    {"Shift that lays it on best", vector(truth.shift_S, "µm")},
                    {"Turn that lays it on best", vector(truth.turn_S, "µrad")},
-                   {"Zero along the band", fmt::format("at {} {} of the truth{}", shown({in_file(along), 6}),
+                   {"Zero along the band", fmt::format("at {} {} of the reference{}", shown({in_file(along), 6}),
                                                        wheel ? "°" : "mm", truth.reversed ? ", reversed" : "")},
-                   {"Places compared", fmt::format("{}; no truth at {} more", truth.places, truth.beside)}};
+                   {"Places compared", fmt::format("{}; no reference at {} more", truth.places, truth.beside)}};
   std::vector<Block> out{std::move(table), std::move(facts)};
   append(out, map_figure(report.truth_map, report.body,
-                         {"truth-map", "Error of the surface", "surface less truth", "µm", 1e6, true,
-                          "After the shift and turn. Above 0: the surface stands out of the truth."}));
+                         {"truth-map", "Error of the surface", "surface less reference", "µm", 1e6, true,
+                          "After the shift and turn. Above 0: the surface stands out of the reference."}));
   return out;
 }
 

@@ -73,7 +73,7 @@ Cards cards_of(const io::ImportReport& report) {
                       ? ""
                       : fmt::format("the largest {} {}", in_mm(std::fabs(largest)), largest < 0.0 ? "high" : "deep")}};
   if (report.truth)
-    cards.cards.push_back({"Error against the truth", in_um(report.truth->placed.rms),
+    cards.cards.push_back({"Error against the reference surface", in_um(report.truth->placed.rms),
                            fmt::format("rms; of the shape alone {}", in_um(report.truth->shape.rms))});
   return cards;
 }
@@ -206,7 +206,7 @@ Page import_page(const io::ImportReport& report, std::string document, const std
   overview.blocks.emplace_back(input_table(report));
   Section surface = surface_section(report, files), points = points_section(report, files),
           deviation = deviation_section(report), fit = fit_section(report, files),
-          truth{"truth", "Error against the truth", truth_blocks(report)};
+          truth{"truth", "Error against the reference surface", truth_blocks(report)};
   Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"},
       settings{"settings", "Settings"}, summary{"summary", "Summary"};
   if (files.has("times.json", "times of the steps")) steps.blocks.emplace_back(step_table(report));

@@ -201,17 +201,16 @@ Page read_overlay(const std::vector<fs::path>& given) {
     const KindRow& row = *found.back().row;
     // A file under a name of its own beside others must not be taken for them.
     if (file && one.extension() == ".h5" && one.filename() != row.file)
-      throw Error(ErrorKind::input_data,
-                  fmt::format("results laid over each other are known by their folder or its {}", row.file),
+      throw Error(ErrorKind::input_data, fmt::format("overlaid results are known by their folder or its {}", row.file),
                   {one.string()}, "put the file into a folder of its own under that name");
     if (row.kind != Kind::run && row.kind != Kind::simulation)
       throw Error(ErrorKind::input_data, fmt::format("the folder holds {}", row.words), {one.string()},
-                  "runs (treadmark run) and simulations (treadmark simulate) can be laid over each other");
+                  "runs (treadmark run) and simulations (treadmark simulate) can be overlaid");
     if (row.kind != found.front().row->kind)
       throw Error(
           ErrorKind::input_data,
           fmt::format("the folder holds {}, {} holds {}", row.words, given.front().string(), found.front().row->words),
-          {one.string()}, "only results of one kind can be laid over each other");
+          {one.string()}, "only results of one kind can be overlaid");
   }
   Page page = found.front().row->kind == Kind::run ? run_overlay_page(read_all(found, io::read_hdf5))
                                                    : simulation_overlay_page(read_all(found, read_histories));

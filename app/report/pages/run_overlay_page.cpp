@@ -451,7 +451,7 @@ void add_overlaid_contact(Page& page, Section& section, const std::vector<NamedR
 }
 
 Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
-  if (given.size() < 2) throw Error(ErrorKind::configuration, "one run alone cannot be laid over another");
+  if (given.size() < 2) throw Error(ErrorKind::configuration, "one run alone cannot be overlaid");
   Runs runs;
   std::vector<std::string> names;
   std::vector<Origin> origins;
@@ -468,8 +468,7 @@ Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
 
   Page page{"overlay", joined(names), ""};
   const Run& first = *runs[0].result;
-  page.lead =
-      fmt::format("{} laid over each other: {}", counted(runs.size(), "run"), title_of(first.title, first.input_file));
+  page.lead = fmt::format("{} overlaid: {}", counted(runs.size(), "run"), title_of(first.title, first.input_file));
   page.full_data = "fields.h5";
   Section overview{"overview", "Overview"};
   for (const auto& one : runs) add_run_banners(*one.result, overview, one.name);

@@ -90,7 +90,7 @@ void add_run_banners(const io::RunResult& run, Section& overview, const std::str
       if (c.status == status && ++count <= 12) numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", c.number);
     return std::pair(count, count > 12 ? numbers + " ..." : numbers);
   };
-  for (const std::string& doubt : run.doubts) add(Banner::Kind::warning, "Doubtful profile:", doubt);
+  for (const std::string& doubt : run.doubts) add(Banner::Kind::warning, "Warning about a profile:", doubt);
   if (const auto [count, numbers] = list(Status::failed); count > 0) {
     std::string first;
     for (const io::CaseResult& c : run.cases)
@@ -108,10 +108,11 @@ void add_run_banners(const io::RunResult& run, Section& overview, const std::str
     std::string first;
     for (const io::CaseResult& c : run.cases)
       for (const Remark& r : c.remarks)
-        if (r.kind == row.kind && ++count == 1) first = fmt::format("case {}, {}", c.number, to_line(r));
+        if (r.kind == row.kind && ++count == 1)
+          first = fmt::format("case {}, {}{}", c.number, r.patch > 0 ? fmt::format("patch {}: ", r.patch) : "", r.text);
     if (count > 0)
-      add(row.grave ? Banner::Kind::warning : Banner::Kind::note,
-          row.grave ? "Doubtful:" : "Remark:", count > 1 ? fmt::format("{} (the first of {})", first, count) : first);
+      add(row.grave ? Banner::Kind::warning : Banner::Kind::note, row.grave ? "Warning:" : "Minor warning:",
+          count > 1 ? fmt::format("{} (the first of {})", first, count) : first);
   }
 }
 

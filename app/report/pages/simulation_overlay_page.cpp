@@ -306,7 +306,7 @@ std::optional<Section> snapshots_of(Simulations& all, const std::vector<std::str
 }  // namespace
 
 Page simulation_overlay_page(Simulations&& all) {
-  if (all.size() < 2) throw Error(ErrorKind::configuration, "one simulation alone cannot be laid over another");
+  if (all.size() < 2) throw Error(ErrorKind::configuration, "one simulation alone cannot be overlaid");
   std::vector<std::string> names;
   std::vector<Origin> origins;
   std::vector<std::string> inputs;
@@ -317,8 +317,8 @@ Page simulation_overlay_page(Simulations&& all) {
   }
   const Simulation& first = all.front().result;
   Page page{"overlay", joined(names), ""};
-  page.lead = fmt::format("{} laid over each other: {}", counted(all.size(), "simulation"),
-                          title_of(first.title, first.input_file));
+  page.lead =
+      fmt::format("{} overlaid: {}", counted(all.size(), "simulation"), title_of(first.title, first.input_file));
   page.full_data = "simulation.h5";
   Section overview{"overview", "Overview"};
   for (const auto& [name, one, input] : all) add_simulation_banners(one, overview, name);

@@ -40,7 +40,7 @@ class ChordSlopes {
   std::vector<double> right_, left_, right_least_, left_most_;
 };
 
-/// A wheel without its Surface dress: r(theta, y) = R + z(y) - D(theta, y).
+/// Wheel geometry without the Surface interface: r(theta, y) = R + z(y) - D(theta, y).
 struct WheelBody {
   GraphCurve curve;
   double nominal_radius = 0.0;

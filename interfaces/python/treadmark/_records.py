@@ -89,7 +89,7 @@ class Grid(NamedTuple):
 
 
 class Remark(NamedTuple):
-    """What is doubtful about a case. patch: from 1, 0 = the case; grave: numbers may be wrong."""
+    """A warning about a case. patch: from 1, 0 = the case; grave: numbers may be wrong."""
 
     name: str
     text: str

@@ -138,7 +138,7 @@ class Geometry(_Document):
         self._held = held
         self._text = held.json()
         g = json.loads(self._text)["geometry"]
-        self.notes: list[str] = held.notes  #: what is doubtful, of profile files too
+        self.notes: list[str] = held.notes  #: warnings, about profile files too
         self.functions: dict[str, Array] = {}
         self.units: dict[str, str] = {}  #: of the functions
         self.numbers: dict[str, float] = {}

@@ -52,7 +52,7 @@ def run(source: Input, *, set: Changes = None, folder: Path | None = None, backe
 
 
 class CheckedProfile(NamedTuple):
-    """What is seen of a profile: facts and doubts as (name, text)."""
+    """What is seen of a profile: facts and warnings as (name, text)."""
 
     name: str
     facts: list[tuple[str, str]]
@@ -90,7 +90,7 @@ class Check:
 
     def __repr__(self) -> str:
         doubts = sum(len(profile.doubts) for profile in self.profiles)
-        return f"<Check: {self.kind}, {self.count}, no errors, {doubts} doubts>"
+        return f"<Check: {self.kind}, {self.count}, no errors, {doubts} warnings>"
 
     def _repr_html_(self) -> str:
         rows = [{"profile": p.name, "what": name, "": text} for p in self.profiles for name, text in (*p.facts, *p.doubts)]
@@ -149,7 +149,7 @@ class _Document(_Text):
 
 
 class Comparison(_Document):
-    """The same cases through several representations of the surfaces: the first candidate is the truth."""
+    """The same cases through several representations of the surfaces: the first candidate is the reference."""
 
     def __init__(self, held: _treadmark.Comparison) -> None:
         self._held = held
@@ -167,7 +167,7 @@ class Comparison(_Document):
 
     @property
     def candidates(self) -> list[dict[str, Any]]:
-        """Each representation, its bodies and how far they are from the truth, as in compare.json."""
+        """Each representation, its bodies and how far they are from the reference, as in compare.json."""
         found: list[dict[str, Any]] = self._document["candidates"]
         return found
 

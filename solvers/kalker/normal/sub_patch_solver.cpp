@@ -183,7 +183,7 @@ void SubPatchSolver::Workspace::solve_at(const ContactProblem& problem, ContactS
                                             [](const ContactSolution& s) { return s.status == Status::not_converged; });
   if (!parts_converged || change > problem.settings.eps * largest) {
     solution.status = solution.normal.status = Status::not_converged;
-    solution.normal.message = "the sub-patches of a contact did not come to agree";
+    solution.normal.message = "the sub-patches of a contact did not converge with each other";
   }
 }
 

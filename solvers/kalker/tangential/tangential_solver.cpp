@@ -266,7 +266,7 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
   }
   if (outcome.status != Status::ok && outcome.message.empty())
     outcome.message = solver.friction_unsettled()
-                          ? "friction and slip velocity did not come to terms in " +
+                          ? "friction did not converge with slip velocity in " +
                                 std::to_string(problem.settings.max_outer) + " rounds"
                           : "the friction conditions are violated by " + std::to_string(solver.residual()) +
                                 " of the friction bound after " + std::to_string(solver.steps()) +

@@ -143,7 +143,7 @@ TEST(AssessResult, DoubtsAreNamed) {
   stopped->status = "interrupted";
   const AssessedRun run = assess_result("one", stopped, request);
   const std::string text = assessment_text(std::span(&run, 1));
-  EXPECT_THAT(text, HasSubstr("doubt: the run is interrupted"));
+  EXPECT_THAT(text, HasSubstr("warning: the run is interrupted"));
   EXPECT_THAT(text, HasSubstr("are outside"));
   EXPECT_THAT(text, HasSubstr("are too_short"));
   EXPECT_THAT(text, HasSubstr("for one-third octaves"));

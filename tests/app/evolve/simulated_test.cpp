@@ -308,13 +308,13 @@ TEST_F(SimulatedEvolution, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(passage("contact = \"full\"", "contact = \"table\""), HasSubstr("must be one that evolves"));
   EXPECT_THAT(passage("contact = \"full\"", "contact = \"full\"\ndefects = false"),
               HasSubstr("must be one that evolves"));
-  EXPECT_THAT(passage("distance_m = 0.16", "distance_m = 3"), HasSubstr("turns more than once"));
+  EXPECT_THAT(passage("distance_m = 0.16", "distance_m = 3"), HasSubstr("more than one turn"));
   EXPECT_THAT(passage("pitch_deg = [-7", "position_m = [0.1]\n# [-7"), HasSubstr("keeps no contacts"));
   EXPECT_THAT(passage("flats = [{ shape = \"fresh\", length_mm = 60 }]\n", ""),
               HasSubstr("is that of the other wheels too"));
   const std::string rail = io::replaced(kStudy, "evolve.wheel", "evolve.rail");
   EXPECT_THAT(error(kPassage, io::replaced(rail, "distance_km", "passages")),
-              HasSubstr("that of tables of contact too"));
+              HasSubstr("also used by tables of contact"));
 }
 
 }  // namespace

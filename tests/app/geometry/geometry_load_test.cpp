@@ -76,7 +76,7 @@ TEST(GeometryLoad, WritesTablesPicturesAndReport) {
       loaded_with({"-o", (folder.path() / "out").string(), "--report", (folder.path() / "report.html").string()}));
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("axle load             200 kN; at y = 0.000 mm, holding force 0.000 kN"));
-  EXPECT_THAT(result.out, HasSubstr("MPa within 3 mm of that shift: "));
+  EXPECT_THAT(result.out, HasSubstr("MPa within 3 mm of that displacement: "));
   const auto text_of = [&](const char* name) {
     std::ifstream in(folder.path() / name);
     return std::string(std::istreambuf_iterator<char>(in), {});

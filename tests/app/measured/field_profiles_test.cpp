@@ -163,7 +163,7 @@ TEST(FieldProfiles, ATiltedRailIsDoubted) {
   const Told run = rail_run(folder, file);
   EXPECT_TRUE(run.refused() || run.doubted("roll") || run.doubted("tilt") || run.doubted("turned")) << run.err;
   const Told check = told_by({"check", file.string(), "--body", "rail"});
-  EXPECT_THAT(check.out, HasSubstr("doubt")) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("warning")) << check.err;
 }
 
 TEST(FieldProfiles, CheckAndRunDoubtTogether) {
@@ -174,7 +174,7 @@ TEST(FieldProfiles, CheckAndRunDoubtTogether) {
         std::string(name).find("wheel") == std::string::npos && name[0] != 'c' && std::string(name) != "hollow4.csv";
     const Told check = told_by({"check", (folder / name).string(), "--body", rail ? "rail" : "wheel"});
     const Told run = rail ? rail_run(folder, folder / name) : wheel_run(folder, folder / name);
-    EXPECT_EQ(check.out.find("  doubt") != std::string::npos || check.refused(), run.status != 0)
+    EXPECT_EQ(check.out.find("  warning") != std::string::npos || check.refused(), run.status != 0)
         << name << check.out << run.err;
   }
 }

@@ -106,7 +106,7 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
   EXPECT_EQ(page.kind, "compare");
   EXPECT_EQ(page.title, "flat");
   EXPECT_EQ(banners_of(page), "");
-  EXPECT_EQ(fact_of(page, "Truth"), "analytic");
+  EXPECT_EQ(fact_of(page, "Reference"), "analytic");
   EXPECT_EQ(fact_of(page, "Version"), comparison.version + " (" + comparison.git + ")");
 
   const Json document = json();
@@ -138,7 +138,7 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
   EXPECT_EQ(page.timeline->axes.front().unit, "°");
   EXPECT_THAT(page.timeline->frames, ElementsAre(0, 1));
   ASSERT_EQ(page.sets.size(), 3u);
-  EXPECT_EQ(page.sets[0].name, "analytic (truth)");
+  EXPECT_EQ(page.sets[0].name, "analytic (reference)");
   EXPECT_EQ(page.sets[2].name, "mesh-flat 2 mm");
   EXPECT_EQ(page.sets[2].frames[1].result->patches.front().pmax,
             comparison.candidates[2].results[1].patches.front().pmax);
@@ -156,7 +156,7 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
 TEST_F(ComparePage, ErrorsOfRepresentationsAreThoseOfTheRows) {
   const Page page = page_of(made_up_comparison());
   const Table& candidates = table_of(page, "candidates");
-  EXPECT_THAT(texts_in(candidates, "representation"), ElementsAre("analytic (truth)", "mesh", "mesh"));
+  EXPECT_THAT(texts_in(candidates, "representation"), ElementsAre("analytic (reference)", "mesh", "mesh"));
   EXPECT_NEAR(numbers_in(candidates, "error of p_max")[1], 8.0, 1e-9);  // the larger of 8 and 4 %, in size
   EXPECT_NEAR(numbers_in(candidates, "error of position")[2], 0.1, 1e-9);
   EXPECT_NEAR(numbers_in(candidates, "search")[1], 2.0, 1e-9);

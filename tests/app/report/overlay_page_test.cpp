@@ -147,7 +147,7 @@ TEST(RunOverlayPage, WhatIsNotOkHeadsThePage) {
   b.cases[1].status = Status::not_converged;
   b.cases[2].patches.push_back(even_patch(2, 1e8));
   const std::string banners = banners_of(page_of(std::move(a), std::move(b)));
-  EXPECT_THAT(banners, HasSubstr("warning: before: Doubtful profile: wheel profile w.csv"));
+  EXPECT_THAT(banners, HasSubstr("warning: before: Warning about a profile: wheel profile w.csv"));
   EXPECT_THAT(banners, HasSubstr("failed: after: Interrupted. 3 of 5 cases were finished"));
   EXPECT_THAT(banners, HasSubstr("warning: after: 1 case did not converge."));
   EXPECT_THAT(banners, HasSubstr("ended differently in before and after: case 2: ok and not_converged."));

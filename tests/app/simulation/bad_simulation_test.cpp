@@ -49,7 +49,7 @@ TEST_F(BadSimulation, NegativeMass) {
 TEST_F(BadSimulation, RailsThatAreNotThereToBeShared) {
   expect_refused({"simulation\\.shared_rails = true", "lumped", "flexible"}, {"--set", "simulation.shared_rails=true"});
   input.edit("simulation.toml", "track = \"track.toml\"\n", "shared_rails = true\n");
-  expect_refused({"simulation\\.toml:5:[0-9]+", "there is no track that gives way"});
+  expect_refused({"simulation\\.toml:5:[0-9]+", "there is no flexible track"});
 }
 
 TEST_F(BadSimulation, WheelsTooCloseForTheElementsOfTheirRail) {

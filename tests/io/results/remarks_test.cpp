@@ -26,7 +26,7 @@ TEST(RemarksOfResults, DocumentationHasTheTable) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   std::string table;
   for (const RemarkRow& row : kRemarkRows)
-    table += fmt::format("| `{}` | {} | {} |\n", row.name, row.grave ? "doubt" : "remark", row.meaning);
+    table += fmt::format("| `{}` | {} | {} |\n", row.name, row.grave ? "warning" : "minor warning", row.meaning);
   EXPECT_THAT(text, HasSubstr(table)) << "docs/results.md must have\n" << table;
 }
 
@@ -34,8 +34,8 @@ TEST(RemarksOfResults, StandInTheTableAndInJson) {
   CaseResult c;
   c.number = 4;
   c.remarks = {{RemarkKind::grid_cuts_contact, 2, "3 of 40 elements"}, {RemarkKind::step_rule, 0, "too long"}};
-  EXPECT_THAT(summary(c), HasSubstr("  doubt: patch 2: 3 of 40 elements\n  remark: too long\n"));
-  EXPECT_EQ(words(c), "doubt: patch 2: 3 of 40 elements; remark: too long");
+  EXPECT_THAT(summary(c), HasSubstr("  warning: patch 2: 3 of 40 elements\n  minor warning: too long\n"));
+  EXPECT_EQ(words(c), "warning: patch 2: 3 of 40 elements; minor warning: too long");
   RunResult run;
   run.cases = {c};
   const auto json = nlohmann::json::parse(to_json(run));

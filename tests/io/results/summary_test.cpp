@@ -32,7 +32,7 @@ TEST(Summary, NamesQuantitiesWithUnitsAndOneColumnAPatch) {
 
 TEST(Summary, ShiftCasesSpeakOfLengthsAndWork) {
   const std::string text = io::summary(testing::sample_run().cases[1]);
-  EXPECT_THAT(text, HasSubstr("case 2: not_converged (the outer loop stopped after 100 rounds), 1 doubt, "));
+  EXPECT_THAT(text, HasSubstr("case 2: not_converged (the outer loop stopped after 100 rounds), 1 warning, "));
   EXPECT_THAT(text, ContainsRegex("shift x +\\[mm\\] +0.008155\n"));
   EXPECT_THAT(text, ContainsRegex("dissipated by friction +\\[J\\] +2.75e-06\n"));
   EXPECT_THAT(text, Not(HasSubstr("wheelset")));

@@ -137,7 +137,7 @@ TEST_P(RecordingNames, AreRead) {
   EXPECT_THAT(found.notes,
               Contains(HasSubstr("cross_level stands beside longitudinal_level of both rails and agrees")));
   EXPECT_THAT(found.notes, Contains(HasSubstr("gauge stands beside alignment of both rails and agrees")));
-  EXPECT_THAT(found.notes, Not(Contains(HasSubstr("doubt"))));
+  EXPECT_THAT(found.notes, Not(Contains(HasSubstr("warning"))));
 }
 INSTANTIATE_TEST_SUITE_P(
     All, RecordingNames,
@@ -371,12 +371,13 @@ TEST(Recording, ContradictionsOfTheRailsAreSaid) {
       return fmt::format("{:.2f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}", x, l, r, al, ar, cross(x), gauge(x));
     }));
   };
-  EXPECT_THAT(rails(1.0, 1.0, false).notes, Not(Contains(HasSubstr("doubt"))));
+  EXPECT_THAT(rails(1.0, 1.0, false).notes, Not(Contains(HasSubstr("warning"))));
   EXPECT_THAT(rails(-1.0, 1.0, false).notes,
-              Contains(AllOf(HasSubstr("doubt: longitudinal_level and cross_level have opposite signs"),
+              Contains(AllOf(HasSubstr("warning: longitudinal_level and cross_level have opposite signs"),
                              HasSubstr("longitudinal_level_factor = -1 or cross_level_factor = -1"))));
-  EXPECT_THAT(rails(1.0, -1.0, false).notes, Contains(AllOf(HasSubstr("doubt: alignment and gauge have opposite signs"),
-                                                            HasSubstr("alignment_factor = -1"))));
+  EXPECT_THAT(rails(1.0, -1.0, false).notes,
+              Contains(AllOf(HasSubstr("warning: alignment and gauge have opposite signs"),
+                             HasSubstr("alignment_factor = -1"))));
   const Read exchanged = rails(1.0, 1.0, true);
   EXPECT_LT(deviation(exchanged.table, 0.0), 2.0 * kWritten);
   EXPECT_THAT(exchanged.notes, Contains(HasSubstr("left and right seem to be exchanged")));
@@ -387,14 +388,14 @@ TEST(Recording, ContradictionsOfTheRailsAreSaid) {
                                                   wave(1.0, 5.0, x));
                              }))
                   .notes,
-              Contains(HasSubstr("doubt: cross_level does not follow from longitudinal_level")));
+              Contains(HasSubstr("warning: cross_level does not follow from longitudinal_level")));
   EXPECT_THAT(read(recording("distance_m,LL_L_mm,LL_R_mm,level_mm",
                              [](int, double x) {
                                return fmt::format("{:.2f},{:.4f},{:.4f},{:.4f}", x, level(x), level(x) + cross(x),
                                                   wave(1.0, 5.0, x));
                              }))
                   .notes,
-              Contains(HasSubstr("doubt: longitudinal_level of the track is not the mean of its rails")));
+              Contains(HasSubstr("warning: longitudinal_level of the track is not the mean of its rails")));
 }
 
 TEST(Recording, BandsOfWavelengths) {

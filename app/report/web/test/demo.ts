@@ -245,7 +245,7 @@ export function demoPage(kind: "run" | "simulation", style: string, script: stri
     ["Time", "3.8 s", "26 cases"],
   ].map(([a, b, c]) => `<div class="card"><span class="card-label">${a}</span><span class="card-value">${b}</span><span class="card-note">${c}</span></div>`).join("");
   const facts = [
-    ["Version", "0.1.0"],
+    ["Version", "0.2.0"],
     ["Case file", "lateral-displacement.toml"],
     ["Wheel", "S1002, worn, with a flat of 60 mm"],
     ["Rail", "60E1, corrugated, inclined 1:40"],
@@ -275,7 +275,7 @@ ${section("cases", "Cases", figuresOf("cases") + tableHtml())}
 ${section("checks", "Checks", figuresOf("checks"))}
 ${section("input", "Input", `<p>The case file as it was read.</p><pre class="listing">[wheel]\nprofile = "S1002"\n\n[rail]\nprofile = "60E1"\ninclination = 0.025</pre>`)}
 </main>
-<footer><p>Made by Treadmark 0.1.0 (demo).</p></footer>
+<footer><p>Made by Treadmark 0.2.0 (demo).</p></footer>
 <script type="application/json" id="treadmark-data">${JSON.stringify(data).replace(/</g, "\\u003c")}</script>
 <script>
 ${script}
