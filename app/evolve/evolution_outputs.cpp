@@ -3,52 +3,50 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/io/tables/number.hpp"
 #include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
 
-using EvolutionJson = nlohmann::ordered_json;
+using io::Json;
 
-EvolutionJson evolved_number(double value) { return io::twelve_digits(value) + 0.0; }
-
-EvolutionJson json_of(const io::EvolvedCase& c) {
+Json json_of(const io::EvolvedCase& c) {
   return {{"position", c.label},
           {"case", c.number},
-          {"weight", evolved_number(c.weight)},
+          {"weight", io::number(c.weight)},
           {"status", c.status},
           {"patches", c.patches},
           {"remarks", c.remarks},
           {"doubts", c.doubts},
-          {"fn_N", evolved_number(c.fn)},
-          {"fx_N", evolved_number(c.fx)},
-          {"fs_N", evolved_number(c.fs)},
-          {"pmax_MPa", evolved_number(1e-6 * c.pmax)},
-          {"t_gamma_N", evolved_number(c.t_gamma)}};
+          {"fn_N", io::number(c.fn)},
+          {"fx_N", io::number(c.fx)},
+          {"fs_N", io::number(c.fs)},
+          {"pmax_MPa", io::number(1e-6 * c.pmax)},
+          {"t_gamma_N", io::number(c.t_gamma)}};
 }
 
-EvolutionJson json_of(const io::EvolvedFatigue& known, const ContactFatigue& c) {
-  EvolutionJson out = {{"utilised_friction", evolved_number(c.friction)}};
-  if (known.shear_yield > 0.0) out["pressure_over_shear_yield"] = evolved_number(c.pressure_ratio);
-  if (known.has(FatigueMeasure::fi_surf)) out["fi_surf"] = evolved_number(c.fi_surf);
-  if (known.has(FatigueMeasure::shakedown)) out["shakedown"] = evolved_number(c.shakedown);
-  if (known.has(FatigueMeasure::whole_life)) out["damage_per_passage"] = evolved_number(c.damage);
-  if (known.has(FatigueMeasure::martensite)) out["temperature_C"] = evolved_number(c.temperature);
+Json json_of(const io::EvolvedFatigue& known, const ContactFatigue& c) {
+  Json out = {{"utilised_friction", io::number(c.friction)}};
+  if (known.shear_yield > 0.0) out["pressure_over_shear_yield"] = io::number(c.pressure_ratio);
+  if (known.has(FatigueMeasure::fi_surf)) out["fi_surf"] = io::number(c.fi_surf);
+  if (known.has(FatigueMeasure::shakedown)) out["shakedown"] = io::number(c.shakedown);
+  if (known.has(FatigueMeasure::whole_life)) out["damage_per_passage"] = io::number(c.damage);
+  if (known.has(FatigueMeasure::martensite)) out["temperature_C"] = io::number(c.temperature);
   return out;
 }
 
-EvolutionJson json_of(const io::Generation& g) {
-  EvolutionJson out = {{"generation", g.number}, {"progress", evolved_number(g.progress)}};
-  for (const io::EvolutionQuantity& q : io::quantities_of(g)) out[q.name] = evolved_number(q.value);
+Json json_of(const io::Generation& g) {
+  Json out = {{"generation", g.number}, {"progress", io::number(g.progress)}};
+  for (const io::EvolutionQuantity& q : io::quantities_of(g)) out[q.name] = io::number(q.value);
   for (const io::EvolvedBody& b : g.bodies)
     if (!b.surface_file.empty()) out[body_name(b.body) + std::string("_file")] = b.surface_file;
-  out["cases"] = EvolutionJson::array();
+  out["cases"] = Json::array();
   for (std::size_t i = 0; i < g.cases.size(); ++i) {
     out["cases"].push_back(json_of(g.cases[i]));
     for (const io::EvolvedBody& b : g.bodies)
@@ -61,13 +59,13 @@ EvolutionJson json_of(const io::Generation& g) {
 }  // namespace
 
 std::string evolution_json(const io::EvolutionResult& result) {
-  EvolutionJson out = {{"treadmark", {{"version", result.version}, {"git", result.git}}},
-                       {"input", {{"file", result.input_file}, {"sha256", result.input_sha256}}},
-                       {"title", result.title},
-                       {"settings", result.settings},
-                       {"status", result.status},
-                       {"message", result.message},
-                       {"laws", EvolutionJson::array()}};
+  Json out = {{"treadmark", {{"version", result.version}, {"git", result.git}}},
+              {"input", {{"file", result.input_file}, {"sha256", result.input_sha256}}},
+              {"title", result.title},
+              {"settings", result.settings},
+              {"status", result.status},
+              {"message", result.message},
+              {"laws", Json::array()}};
   if (!result.generations.empty())
     for (const io::EvolvedBody& b : result.generations.front().bodies)
       out["laws"].push_back({{"body", body_name(b.body)}, {"theory", b.law}, {"source", b.source}});
@@ -80,9 +78,9 @@ std::string evolution_json(const io::EvolutionResult& result) {
     for (const io::EvolvedBody& b : result.generations.front().bodies)
       if (!b.flow.theory.empty())
         out["flow"].push_back({{"body", body_name(b.body)}, {"theory", b.flow.theory}, {"source", b.flow.source}});
-  out["generations"] = EvolutionJson::array();
+  out["generations"] = Json::array();
   for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 std::string evolution_table(const io::EvolutionResult& result) {

@@ -15,8 +15,6 @@ using geometry::Conicity;
 using geometry::Position;
 using geometry::WheelsetOnTrack;
 
-std::string cell(double value) { return std::isnan(value) ? std::string() : io::csv_number(io::twelve_digits(value)); }
-
 /// A number for the terminal; a dash where there is none.
 std::string shown(double value, int digits) {
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string("-");
@@ -124,9 +122,9 @@ std::string functions_csv(const GeometryResult& result) {
   }
   end_line();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const FunctionColumn& column : function_columns()) add(cell(column.value(rows[i], wheelset)));
+    for (const FunctionColumn& column : function_columns()) add(io::csv_cell(column.value(rows[i], wheelset)));
     if (result.load) {
-      for (const LoadColumn& column : load_columns()) add(cell(column.value(result.load->rows[i])));
+      for (const LoadColumn& column : load_columns()) add(io::csv_cell(column.value(result.load->rows[i])));
       for (const LoadReasonColumn& column : load_reason_columns())
         add(io::csv_cell(column.value(result.load->rows[i])));
     }
@@ -141,10 +139,11 @@ std::string conicity_csv(const GeometryResult& result) {
   for (std::size_t i = 0; i < a.conicity.size(); ++i) {
     const Conicity& c = a.conicity[i];
     const double wave = geometry::wavelength(c.tan_gamma, a.wheel_origins, 0.5 * (a.radius_right + a.radius_left));
-    out += fmt::format("{},{},{},{},{},{},{},{}\n", cell(kMilli * c.amplitude), cell(c.tan_gamma),
-                       result.noise ? cell(result.noise->of_amplitude[i]) : "",
-                       a.harmonic.empty() ? "" : cell(a.harmonic[i]), std::isfinite(wave) ? cell(kMilli * wave) : "",
-                       cell(kMilli * c.low), cell(kMilli * c.high), io::csv_cell(c.reason));
+    out += fmt::format("{},{},{},{},{},{},{},{}\n", io::csv_cell(kMilli * c.amplitude), io::csv_cell(c.tan_gamma),
+                       result.noise ? io::csv_cell(result.noise->of_amplitude[i]) : "",
+                       a.harmonic.empty() ? "" : io::csv_cell(a.harmonic[i]),
+                       std::isfinite(wave) ? io::csv_cell(kMilli * wave) : "", io::csv_cell(kMilli * c.low),
+                       io::csv_cell(kMilli * c.high), io::csv_cell(c.reason));
   }
   return out;
 }
@@ -153,10 +152,10 @@ std::string sweep_csv(const GaugeSweep& sweep) {
   std::string out = "gauge_mm,amplitude_mm,tan_gamma_e,reason\n";
   for (std::size_t g = 0; g < sweep.gauges.size(); ++g) {
     if (!sweep.trouble[g].empty())
-      out += fmt::format("{},,,{}\n", cell(kMilli * sweep.gauges[g]), io::csv_cell(sweep.trouble[g]));
+      out += fmt::format("{},,,{}\n", io::csv_cell(kMilli * sweep.gauges[g]), io::csv_cell(sweep.trouble[g]));
     for (const Conicity& c : sweep.conicity[g])
-      out += fmt::format("{},{},{},{}\n", cell(kMilli * sweep.gauges[g]), cell(kMilli * c.amplitude), cell(c.tan_gamma),
-                         io::csv_cell(c.reason));
+      out += fmt::format("{},{},{},{}\n", io::csv_cell(kMilli * sweep.gauges[g]), io::csv_cell(kMilli * c.amplitude),
+                         io::csv_cell(c.tan_gamma), io::csv_cell(c.reason));
   }
   return out;
 }
