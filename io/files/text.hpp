@@ -36,7 +36,7 @@ namespace treadmark::io {
 std::size_t utf8_length(std::string_view text);
 
 /// Rounded, so that changes of unit leave no tail of nines. Zero has no sign. Thread-safe.
-double rounded(double value, Digits digits = Digits::twelve);
+double rounded(double value, treadmark::Digits digits = treadmark::Digits::twelve);
 
 /// In the units in which people read numbers, less than this is nothing but rounding and shown as 0.
 inline constexpr double kShownAsZero = 1e-12;
@@ -54,6 +54,6 @@ std::string csv_cell(const std::string& text);
 /// The shortest number that reads back exactly, "nan", "inf" or "-inf". Thread-safe.
 std::string csv_number(double value);
 /// Rounded; empty where it is not finite.
-std::string csv_cell(double value, Digits digits = Digits::twelve);
+std::string csv_cell(double value, treadmark::Digits digits = treadmark::Digits::twelve);
 
 }  // namespace treadmark::io

@@ -15,8 +15,8 @@ namespace treadmark::io {
 using Json = nlohmann::ordered_json;
 
 /// Rounded, so that changes of unit leave no tail of nines; zero has no sign; null for what is not finite.
-Json number(double value, Digits digits = Digits::twelve);
-Json numbers(std::span<const double> values, Digits digits = Digits::twelve);
+Json number(double value, treadmark::Digits digits = treadmark::Digits::twelve);
+Json numbers(std::span<const double> values, treadmark::Digits digits = treadmark::Digits::twelve);
 
 /// Null for an empty text.
 Json text_or_null(const std::string& text);
