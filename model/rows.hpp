@@ -32,10 +32,11 @@ inline constexpr FileUnit kOne, kN{"N"}, kJ{"J"}, kM{"m"}, kK{"K"}, kCelsius{"de
 template <class Row>
 struct Access {
   double (*get)(const Row&) = nullptr;
-  void (*put)(Row&, double) = nullptr;  ///< nullptr: follows from others
-  bool (*has)(const Row&) = nullptr;    ///< nullptr: always known
-  bool whole = false;                   ///< a whole number
-  std::string Row::*word = nullptr;     ///< a text in place of a number
+  void (*put)(Row&, double) = nullptr;               ///< nullptr: follows from others
+  bool (*has)(const Row&) = nullptr;                 ///< nullptr: always known
+  bool whole = false;                                ///< a whole number
+  const std::string& (*word)(const Row&) = nullptr;  ///< a text in place of a number
+  void (*put_word)(Row&, const std::string&) = nullptr;
 };
 
 namespace access {
@@ -58,7 +59,12 @@ constexpr Access<WholeOf<Member>> of() {
   using R = WholeOf<Member>;
   using V = ValueOf<Member>;
   if constexpr (std::is_same_v<V, std::string>)
-    return {nullptr, nullptr, nullptr, false, Member};
+    return {nullptr,
+            nullptr,
+            nullptr,
+            false,
+            [](const R& r) -> const std::string& { return r.*Member; },
+            [](R& r, const std::string& word) { r.*Member = word; }};
   else if constexpr (std::is_same_v<V, std::optional<double>>)
     return {[](const R& r) { return *(r.*Member); }, [](R& r, double v) { r.*Member = v; },
             [](const R& r) { return (r.*Member).has_value(); }};

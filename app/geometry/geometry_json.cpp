@@ -6,7 +6,7 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/text.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/json_of.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -143,21 +143,11 @@ std::string geometry_json(const GeometryResult& result, const GaugeSweep* sweep)
                  {"pitch_deg", io::number(r.pitch * 180.0 / kPi)},
                  {"position_mm", json_mm(r.x)}};
   Json functions;
-  for (const FunctionColumn& column : function_columns()) {
-    Json values = Json::array();
-    for (const geometry::Position& row : a.functions.rows) values.push_back(io::number(column.value(row, wheelset)));
-    functions[column.name] = std::move(values);
-  }
+  std::vector<FunctionRow> rows;
+  for (const geometry::Position& position : a.functions.rows) rows.push_back({position, wheelset});
+  io::add_lists(functions, rows);
   if (result.load) {
-    for (const LoadColumn& column : load_columns()) {
-      Json& values = functions[column.name] = Json::array();
-      for (const geometry::LoadedPosition& row : result.load->rows) values.push_back(io::number(column.value(row)));
-    }
-    for (const LoadReasonColumn& column : load_reason_columns()) {
-      Json& values = functions[column.name] = Json::array();
-      for (const geometry::LoadedPosition& row : result.load->rows)
-        values.push_back(io::text_or_null(column.value(row)));
-    }
+    io::add_lists(functions, result.load->rows);
     g["load"] = json_load(*result.load);
   }
   g["functions"] = std::move(functions);

@@ -21,7 +21,7 @@ void write_attributes(const Hdf5GroupWriter& group, const Row& row) {
     if (column.stored.empty() || !column.known(row)) continue;
     const std::string name(column.stored);
     if (column.access.word != nullptr)
-      group.add({name, row.*column.access.word});
+      group.add({name, column.access.word(row)});
     else if (column.access.whole)
       group.add({name, static_cast<int>(column.access.get(row))});
     else
@@ -36,7 +36,7 @@ void read_attributes(const Hdf5GroupReader& group, Row& row) {
     const std::string name(column.stored);
     if (column.access.has != nullptr && !group.has_attribute(name)) continue;
     if (column.access.word != nullptr)
-      row.*column.access.word = group.text(name);
+      column.access.put_word(row, group.text(name));
     else
       column.access.put(row, column.access.whole ? group.integer(name) : group.number(name));
   }
@@ -55,7 +55,7 @@ void write_rows(const Hdf5GroupWriter& group, const std::vector<Row>& rows) {
     std::vector<double> numbers;
     for (const Row& row : rows)
       if (column.access.word != nullptr)
-        words.push_back(row.*column.access.word);
+        words.push_back(column.access.word(row));
       else
         numbers.push_back(column.known(row) ? column.access.get(row) : kNaN);
     column.access.word != nullptr ? write(column, words) : write(column, numbers);
@@ -77,7 +77,7 @@ std::vector<Row> read_rows(const Hdf5GroupReader& group) {
     if (column.stored.empty()) continue;
     const std::string name(column.stored);
     if (column.access.word != nullptr)
-      take(first, group.strings(name), [&](Row& row, const std::string& word) { row.*column.access.word = word; });
+      take(first, group.strings(name), [&](Row& row, const std::string& word) { column.access.put_word(row, word); });
     else
       take(first, group.numbers(name), [&](Row& row, double value) {
         if (column.access.has == nullptr || !std::isnan(value)) column.access.put(row, value);
