@@ -3,15 +3,14 @@
 #include <cctype>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::app {
 
 std::string version_json() {
-  nlohmann::ordered_json out{{"version", version()}, {"git", git_revision()}, {"licence", licence()}};
+  io::Json out{{"version", version()}, {"git", git_revision()}, {"licence", licence()}};
   for (const Part& part : parts()) out["parts"][std::string(part.key)] = part.built;
   for (const LinkedLibrary& library : linked_libraries())
     out["libraries"].push_back({{"name", library.name},
@@ -20,11 +19,11 @@ std::string version_json() {
                                 {"linked", library.script           ? "script"
                                            : library.shared.empty() ? "headers"
                                                                     : "shared"}});
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 std::string version_spdx() {
-  using Json = nlohmann::ordered_json;
+  using io::Json;
   const std::string url = "https://treadmark.invalid/spdx/treadmark-" + version() + '-' + git_revision();
   const auto package = [](const std::string& id, const std::string& name, const std::string& number,
                           const std::string& licence) {
@@ -67,7 +66,7 @@ std::string version_spdx() {
                  {"creationInfo", {{"created", source_time()}, {"creators", {"Tool: treadmark-" + version()}}}},
                  {"packages", packages},
                  {"relationships", relations}};
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 }  // namespace treadmark::app

@@ -18,20 +18,21 @@ double shakedown_limit(double friction) {
 }
 
 ContactFatigue contact_fatigue(const FatigueSettings& settings, const PassedPatch& patch) {
+  using M = FatigueMeasure;
   ContactFatigue out;
   double largest = 0.0;
   for (const PassedElement& e : patch.elements) {
     largest = std::max(largest, e.pressure);
-    if (settings.has(FatigueMeasure::martensite)) out.temperature = std::max(out.temperature, e.temperature);
+    if (settings.has(M::martensite)) out[M::martensite] = std::max(out[M::martensite], e.temperature);
   }
   if (!(patch.normal_force > 0.0)) return out;
   out.friction = patch.traction_force / patch.normal_force;
   if (settings.shear_yield > 0.0) out.pressure_ratio = largest / settings.shear_yield;
-  if (settings.has(FatigueMeasure::fi_surf))
-    out.fi_surf = out.friction - 2.0 * patch.area() * settings.shear_yield / (3.0 * patch.normal_force);
-  if (settings.has(FatigueMeasure::shakedown)) out.shakedown = out.pressure_ratio / shakedown_limit(out.friction);
-  if (settings.has(FatigueMeasure::whole_life))
-    out.damage = on_line(settings.t_gamma, settings.passage_damage, patch.t_gamma());
+  if (settings.has(M::fi_surf))
+    out[M::fi_surf] = out.friction - 2.0 * patch.area() * settings.shear_yield / (3.0 * patch.normal_force);
+  if (settings.has(M::shakedown)) out[M::shakedown] = out.pressure_ratio / shakedown_limit(out.friction);
+  if (settings.has(M::whole_life))
+    out[M::whole_life] = on_line(settings.t_gamma, settings.passage_damage, patch.t_gamma());
   return out;
 }
 

@@ -140,7 +140,7 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
     // way of the surfaces over each other at the element's place, over the width that it has in the view of the cells
     const double swept = e.slip * patch.velocity * seconds * patch.length * (e.y_high - e.y_low);
     for (const auto& [j, share_y] : rows_of(cells, e.y_low, e.y_high)) {
-      double* temperatures = patch.fatigue.temperature > 0.0 ? &record.temperature.ref(0, j) : nullptr;
+      double* temperatures = patch.fatigue[FatigueMeasure::martensite] > 0.0 ? &record.temperature.ref(0, j) : nullptr;
       const double radius = cells.radius[static_cast<std::size_t>(j)], slid = swept / cells.area(j);
       double *volumes = &record.volume.ref(0, j), *works = &record.work.ref(0, j), *slides = &record.sliding.ref(0, j),
              *pressures = &record.pressure.ref(0, j), *tractions = &record.traction.ref(0, j);
@@ -171,10 +171,11 @@ void add_patch(SurfaceRecord& record, const SurfaceCells& cells, const WearLaw& 
   };
   for (const int j : touched) {
     for (const auto& [i, part] : along) record.passages.ref(i, j) += count * part;
-    if (patch.fatigue.damage != 0.0)
-      for (const auto& [i, part] : along) record.damage.ref(i, j) += count * part * patch.fatigue.damage;
+    if (patch.fatigue[FatigueMeasure::whole_life] != 0.0)
+      for (const auto& [i, part] : along)
+        record.damage.ref(i, j) += count * part * patch.fatigue[FatigueMeasure::whole_life];
     raise(record.t_gamma, j, patch.t_gamma());
-    raise(record.fi_surf, j, patch.fatigue.fi_surf);
+    raise(record.fi_surf, j, patch.fatigue[FatigueMeasure::fi_surf]);
   }
   for (const PassedStress& s : patch.stresses)
     for (const auto& [j, share] : rows_of(cells, s.y_low, s.y_high)) {
@@ -295,13 +296,6 @@ DepthExtent depth_extent(const SurfaceCells& cells, const CellSheet& volume) {
                                              (cells.du * cells.radius[static_cast<std::size_t>(j)]));
     }
   return extent;
-}
-
-double total(const CellSheet& sheet) {
-  double sum = 0.0;
-  for (const auto& [j, row] : sheet.rows())
-    for (const double value : row) sum += value;
-  return sum;
 }
 
 OffsetMap offsets_of(const SurfaceCells& cells, const CellSheet& volume, double half_length, std::string name) {

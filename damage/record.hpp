@@ -54,9 +54,6 @@ struct DepthExtent {
 };
 DepthExtent depth_extent(const SurfaceCells& cells, const CellSheet& volume);
 
-/// Sum of a sheet.
-double total(const CellSheet& sheet);
-
 /// The depths as offsets over the surface that the cells lie on. Uniform cells become several columns that are alike: a
 /// turn of a wheel, half_length to both sides of a rail [m].
 OffsetMap offsets_of(const SurfaceCells& cells, const CellSheet& volume, double half_length, std::string name);

@@ -2,9 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "treadmark/model/rows.hpp"
+#include "treadmark/model/surface_record.hpp"
 
 namespace treadmark {
 
@@ -17,8 +22,9 @@ enum class FatigueMeasure {
   dang_van,    ///< shear amplitude and hydrostatic stress at depths
   martensite,  ///< largest temperature of the surface over that at which steel becomes austenite
 };
+inline constexpr std::size_t kFatigueMeasureCount = 6;
 
-/// What is known of a body's material, SI. Every measure uses what its row in kFatigueMeasures names.
+/// What is known of a body's material, SI. Every measure uses the keys that its row names.
 struct FatigueSettings {
   std::vector<FatigueMeasure> measures;  ///< none: nothing is known and nothing computed
   std::string source;                    ///< where the numbers come from
@@ -34,46 +40,80 @@ struct FatigueSettings {
   bool has(FatigueMeasure measure) const;
 };
 
-/// One row a measure: its word in study files, what it is, where it holds, and the keys that it needs.
-struct FatigueMeasureRow {
-  FatigueMeasure measure;
-  std::string_view word, name, source, validity;
-  std::string_view keys;  ///< needed ones, with blanks between them
+/// A number of a material: its key of evolution files, with its unit, and its name in results, where they have it.
+struct FatigueNumber {
+  double FatigueSettings::*value;
+  std::string_view key, stored, meaning;
 };
+inline constexpr FatigueNumber kFatigueNumbers[] = {
+    {&FatigueSettings::shear_yield, "shear_yield_MPa", "shear_yield",
+     "fi_surf, shakedown, subsurface: k of the material in cyclic shear"},
+    {&FatigueSettings::dang_van_slope, "dang_van_slope", "", "dang_van: factor of the hydrostatic stress"},
+    {&FatigueSettings::dang_van_limit, "dang_van_limit_MPa", "dang_van_limit",
+     "dang_van: equivalent shear stress that is endured"},
+    {&FatigueSettings::austenite, "austenite_C", "austenite",
+     "martensite: temperature from which on the steel becomes austenite"}};
 
-/// Rows lie in the order of the enumerators.
-inline constexpr FatigueMeasureRow kFatigueMeasures[] = {
-    {FatigueMeasure::fi_surf, "fi_surf", "utilised friction - 2 A k / (3 Fn), A the area of contact; > 0: fatigue",
-     "Ekberg, Kabo and Andersson 2002 (unverified: from secondary literature)",
-     "surface of full-slip Hertz contacts; of other patches the area stands for pi a b", "shear_yield_MPa"},
-    {FatigueMeasure::shakedown, "shakedown",
-     "(largest pressure / k) over the limit of the map at the utilised friction; > 1: flow at every passage",
-     "Johnson 1985, section 9.2: Melan's theorem with the elastic stresses below a line contact in full slip",
-     "4.0 without friction, 1 / friction above 0.367; a point contact bears up to 4.7", "shear_yield_MPa"},
-    {FatigueMeasure::whole_life, "whole_life", "damage of a passage by T gamma of the patch, a broken line, summed up",
-     "Burstow 2004 (unverified: the shape has been looked up, the numbers have not)",
-     "rails of the grade and the traffic that the line was fitted to", "t_gamma_N damage_per_passage"},
-    {FatigueMeasure::subsurface, "subsurface",
-     "von Mises, largest shear amplitude of all planes, least k that shakes down (Melan), at depths",
-     "Johnson 1985; Ponter, Hearle and Johnson 1985", "half-spaces; depths of at least an element of the patch",
-     "depths_mm shear_yield_MPa"},
-    {FatigueMeasure::dang_van, "dang_van", "max over a passage of (shear amplitude + slope hydrostatic stress) / limit",
-     "Dang Van et al. 1989, as Ekberg, Kabo and Andersson 2002 (unverified: from secondary literature)",
-     "high-cycle fatigue without residual stresses", "depths_mm dang_van_slope dang_van_limit_MPa"},
-    {FatigueMeasure::martensite, "martensite",
-     "largest surface temperature less that of austenite; > 0: the surface may turn into martensite",
-     "temperatures: Ertz and Knothe 2002; transformation: iron-carbon diagram (727 C of pure steel at rest)",
-     "needed, not enough: cooling must be quick too, and short times and pressure shift the limit", "austenite_C"}};
-
-/// What a contact as a whole does to a body, for those measures that are asked for; 0 otherwise.
+/// What a contact as a whole does to a body.
 struct ContactFatigue {
   double friction = 0.0;        ///< utilised: traction over normal force [-]
   double pressure_ratio = 0.0;  ///< largest pressure over the shear yield [-]
-  double fi_surf = 0.0;         ///< surface fatigue index [-]
-  double shakedown = 0.0;       ///< pressure_ratio over the limit of the shakedown map [-]
-  double damage = 0.0;          ///< of a passage by its T gamma [-]
-  double temperature = 0.0;     ///< largest of the surface [deg C]
+  /// The number of a measure, SI; 0 of those that are not asked for or have none.
+  double& operator[](FatigueMeasure measure) { return of[static_cast<std::size_t>(measure)]; }
+  double operator[](FatigueMeasure measure) const { return of[static_cast<std::size_t>(measure)]; }
+
+ private:
+  std::array<double, kFatigueMeasureCount> of{};
 };
+template <>
+std::span<const Column<ContactFatigue>> columns();
+inline constexpr Column<ContactFatigue> kUtilisedFriction{"utilised_friction", unit::kOne, "friction",
+                                                          access::of<&ContactFatigue::friction>(),
+                                                          "utilised: traction over normal force"};
+inline constexpr Column<ContactFatigue> kPressureRatio{"pressure_over_shear_yield", unit::kOne, "pressure_ratio",
+                                                       access::of<&ContactFatigue::pressure_ratio>(),
+                                                       "largest pressure over shear yield"};
+
+/// What the measures of a body follow from: its material, the present contacts and what points have endured.
+struct FatigueState {
+  const FatigueSettings& known;
+  std::span<const ContactFatigue> contacts;
+  const SurfaceRecord& record;
+
+  /// Largest of the contacts, of which there is one at least.
+  double largest(FatigueMeasure measure) const;
+  /// Largest of a sheet at all depths.
+  double ever(CellSheet StressRecord::*sheet) const;
+};
+
+/// What points have endured, as reports draw it: over the section, and over the surface where it has a title.
+struct EnduredSheet {
+  std::string_view label, unit, name;  ///< name: of the line; those at depths have their depth instead
+  double (*scale)(const FatigueSettings&);
+  const CellSheet& (*sheet)(const SurfaceRecord& record, std::size_t depth);
+  bool at_depths = false;
+  std::string_view id = {}, title = {}, on_surface = {};  ///< of the map, of the first depth
+};
+
+/// One row a measure: its word in evolution files, what it is, where it holds, the keys that it needs, and its numbers.
+struct FatigueMeasureRow {
+  FatigueMeasure measure;
+  std::string_view word, name, source, validity;
+  std::string_view keys;                   ///< needed ones, with blanks between them
+  bool heat = false;                       ///< needs the temperatures of contacts
+  Column<ContactFatigue> of_contact = {};  ///< without a key: contacts have none
+  std::vector<Column<FatigueState>> of_body = {};
+  std::vector<EnduredSheet> endured = {};
+};
+
+/// In the order of the enumerators.
+std::span<const FatigueMeasureRow> fatigue_measures();
+const FatigueMeasureRow& row_of(FatigueMeasure measure);
+
+/// Words of measures with blanks between them.
+std::string words_of(std::span<const FatigueMeasure> measures);
+/// Errors: Error(input_data) for a word that is none.
+std::vector<FatigueMeasure> measures_of(std::string_view words);
 
 /// Errors: Error(configuration) that names the key for numbers that are missing, negative or out of order.
 void check(const FatigueSettings& settings);

@@ -2,7 +2,23 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/model/surface_record.hpp"
 
+#include <algorithm>
+
 namespace treadmark {
+
+double CellSheet::sum() const {
+  double sum = 0.0;
+  for (const auto& [j, row] : rows_)
+    for (const double value : row) sum += value;
+  return sum;
+}
+
+double CellSheet::largest() const {
+  double largest = 0.0;
+  for (const auto& [j, row] : rows_)
+    for (const double value : row) largest = std::max(largest, value);
+  return largest;
+}
 
 StressRecord::StressRecord(int nu) {
   for (const auto& row : kStressSheets) this->*row.sheet = CellSheet(nu);

@@ -52,6 +52,9 @@ class CellSheet {
     if (row.empty()) row.resize(static_cast<std::size_t>(nu_), 0.0);
     return row[static_cast<std::size_t>(i)];
   }
+  double sum() const;
+  /// The largest value above 0, else 0.
+  double largest() const;
   int nu() const { return nu_; }
   /// By their number, increasing.
   const std::map<int, std::vector<double>>& rows() const { return rows_; }

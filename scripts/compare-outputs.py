@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: Treadmark contributors
 """Whether a change leaves every output as it was: runs every verb over the examples, and `run` over the inputs in a shared folder where there is one,
 with a program, and compares all files and texts with those of another program. Texts and pages are compared byte for byte, HDF5 files by their values
-(needs Debian's python3-h5py); times, the revision and the program's own path are masked.
+(needs Debian's python3-h5py), FMUs by what they hold beside libraries; times, the revision and the program's own path are masked.
 
 usage: compare-outputs.py run PROGRAM FOLDER [--only PATTERN] [--jobs N]    keeps the outputs of a program
        compare-outputs.py diff BEFORE AFTER                                what differs; exit status 1 when something does
@@ -20,6 +20,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
+
+import h5py
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHARED = pathlib.Path(os.environ.get("TREADMARK_SHARED", ROOT.parent / "shared"))
@@ -29,6 +32,7 @@ MASKS = [
     (rb'("' + TIME_NAMES.encode() + rb'": ?)[-+.e0-9]+', rb"\1#"),
     (rb"^(case [^\n]*, )[0-9.]+ s$", rb"\1# s"),
     (rb"^time: [^\n]*$", b"time: #"),
+    (rb'(Wall-clock time</span><span class="card-value">)[^<]*', rb"\1#"),
     (rb"built in [-+.e0-9]+ s", b"built in # s"),
 ]
 MEASURED_TIMES = ("bench-",)  # jobs whose numbers are times: their files are only counted
@@ -55,38 +59,54 @@ def jobs():
     for topic in "backends defects laws profiles solvers verbs nonsense".split():
         yield f"list-{topic}", [["list", topic]]
     for kind in "case study vehicle track simulation import backend".split():
-        yield f"new-{kind}", [["new", kind, f"OUT/{kind}.toml"]]
+        yield f"new-{kind}", [["new", kind, f"OUT/{kind}.{'py' if kind == 'backend' else 'toml'}"]]
 
     for case in sorted(EXAMPLES.glob("*.toml")):
         text = case.read_text()
         yield f"check-{case.stem}", [["check", str(case)]]
         if not re.search(r"^\[(evolve|study|simulation)", text, re.MULTILINE):
-            yield f"run-{case.stem}", [["run", str(case), *results], ["plot", "OUT/results", "-o", "OUT/plot.svg"], ["report", "OUT/results", "-o", "OUT/again.html"]]
+            yield f"run-{case.stem}", [["run", str(case), *results], ["plot", "OUT/results", "--what", "pressure", "-o", "OUT/plot.svg"], ["report", "OUT/results", "-o", "OUT/again.html"]]
+            # what .inp cannot say is refused: so is its message compared
             yield f"convert-{case.stem}", [["convert", str(case), "-o", "OUT/case.inp"], ["convert", str(case), "-o", "OUT/case.toml"]]
     yield "compare-squat", [["compare", example("squat"), "-o", "OUT/results", "--report", "OUT/report.html"]]
     yield "diff-flat", [["run", example("wheel-flat"), "-o", "OUT/a"], ["run", example("wheel-flat"), "-o", "OUT/b", "--set", "friction.coefficient=0.2"], ["diff", "OUT/a", "OUT/b"], ["report", "OUT/a", "OUT/b", "-o", "OUT/overlay.html"]]
-    yield "bench-flat", [["bench", example("wheel-flat"), "-o", "OUT/results", "--report", "OUT/report.html"]]
+    yield "bench-flat", [["bench", example("wheel-flat"), "--resolutions", "1", "--seconds-per-measure", "0.01", "-o", "OUT/results", "--report", "OUT/report.html"]]
     yield "trace-flat", [["trace", example("wheel-flat"), "--body", "wheel", "--line-mm", "0", "--range-deg", "-10", "10"]]
-    yield "geometry-new", [["geometry", "--wheel", "S1002", "--rail", "60E1", "--gauge-mm", "1435", "--cant", "1:40", "-o", "OUT/results", "--json", "OUT/result.json", "--csv", "OUT/table.csv", "--report", "OUT/report.html"]]
-    yield "geometry-gauges", [["geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauges-mm", "1430:1440:2", "--gauge-mm", "1435", "--axle-load-kN", "180", "--json", "OUT/result.json"]]
-    for name in ("crossing", "squat", "wheel-flat"):
-        body = "wheel" if name.startswith("wheel") else "rail"
-        yield f"convert-shape-{name}", [["convert", example(name), "--body", body, "-o", f"OUT/shape{end}"] for end in (".ply", ".vdb", ".slcw" if body == "wheel" else ".slcs")]
-    scan = ["scan", example("wheel-flat"), "--body", "wheel", "--points", "60000", "-o", "OUT/scan.ply", "--noise-mm", "0.03", "--seed", "3"]
-    yield "scan-flat", [[*scan, "--frame", "random"]]
-    yield "import-flat", [scan, ["import", "OUT/scan.ply", "--body", "wheel", "--resolution", "2", "--nominal-radius", "460", "-o", "OUT/wheel.slcw", "OUT/wheel.ply", "--report", "OUT/audit", "--json", "OUT/audit.json"],
-                          ["measure", "wheel", "OUT/wheel.slcw", "--json", "OUT/measured.json", "--csv", "OUT/measured.csv", "--report", "OUT/report.html"], ["plot", "OUT/audit", "-o", "OUT/plot.svg"]]
-    yield "measure-standards", [["measure", "wheel", "S1002", "--json", "OUT/wheel.json"], ["measure", "rail", "60E1", "--json", "OUT/rail.json"]]
 
-    short = ["--set", "simulation.distance_m=0.6"]
-    for case in ("crossing-vehicle", "curve", "flat-at-speed"):
-        yield f"simulate-{case}", [["simulate", example(case), *short, "-o", "OUT/results", "--report", "OUT/report.html"], ["plot", "OUT/results", "-o", "OUT/plot.svg"],
-                                   ["assess", "OUT/results", "-o", "OUT/assessed", "--json", "OUT/assessed.json", "--csv", "OUT/assessed.csv", "--report", "OUT/assessed.html"]]
-    yield "stability-flat", [["stability", example("flat-at-speed"), "--set", "simulation.wheels=[]", "--from", "20", "--to", "60", "-o", "OUT/results", "--json", "OUT/result.json"]]
-    yield "track-fit", [["track", str(EXAMPLES / "tracks/zhai-flexible.toml"), "--fit", "3", "-o", "OUT/results", "--json", "OUT/result.json"]]
+    pair = ["geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauge-mm", "1435"]
+    yield "geometry-new", [[*pair, "-o", "OUT/results", "--json", "OUT/result.json", "--csv", "OUT/table.csv", "--report", "OUT/report.html"], pair]
+    yield "geometry-gauges", [[*pair, "--gauges-mm", "1430:1440:2", "--axle-load-kN", "180", "--yaw-mrad", "2", "--roll", "free", "--new-wheel", "S1002", "-o", "OUT/results"]]
+    for name, body, part in (("crossing", "rail", "mm"), ("squat", "rail", "mm"), ("wheel-flat", "wheel", "deg")):
+        ends = (".ply", ".vdb", ".slcw" if body == "wheel" else ".slcs")
+        yield f"convert-shape-{name}", [["convert", example(name), "--body", body, f"--range-{part}", "-5", "5", "--resolution", "1", "-o", f"OUT/shape{end}"] for end in ends]
+    scan = ["scan", example("wheel-flat"), "--body", "wheel", "--points", "60000", "-o", "OUT/scan.ply", "--truth", "OUT/truth.json", "--noise-mm", "0.03", "--seed", "3"]
+    yield "scan-flat", [[*scan, "--frame", "random"]]
+    yield "import-flat", [scan, ["import", "OUT/scan.ply", "--body", "wheel", "--resolution", "2", "--truth", "OUT/truth.json", "-o", "OUT/wheel.slcw", "-o", "OUT/wheel.ply", "--report", "OUT/audit", "--json", "OUT/audit.json"],
+                          ["measure", "wheel", "OUT/wheel.slcw", "--json", "OUT/measured.json", "--csv", "OUT/measured.csv", "--hdf5", "OUT/measured.h5", "--report", "OUT/report.html"],
+                          ["plot", "OUT/audit"], ["report", "OUT/audit", "-o", "OUT/audit.html"]]
+    yield "measure-standards", [["measure", body, name, *said] for body, name in (("wheel", "S1002"), ("rail", "60E1")) for said in ([], ["--json", f"OUT/{body}.json", "--csv", f"OUT/{body}.csv"])]
+    yield "measure-shapes", [["measure", "wheel", example("wheel-flat"), "--json", "OUT/wheel.json", "--csv", "OUT/wheel.csv", "--report", "OUT/wheel.html"],
+                             ["measure", "rail", example("corrugation"), "--json", "OUT/rail.json", "--report", "OUT/rail.html"], ["measure", "rail", example("corrugation")]]
+
+    for case, distance in (("crossing-vehicle", 1.0), ("curve", 2.0), ("flat-at-speed", 0.6)):
+        yield f"simulate-{case}", [["simulate", example(case), "--set", f"simulation.distance_m={distance}", "-o", "OUT/results", "--report", "OUT/report.html"], ["plot", "OUT/results", "--what", "wheels", "-o", "OUT/plot.svg"],
+                                   ["assess", "OUT/results", "-o", "OUT/assessed", "--json", "OUT/assessed.json", "--csv", "OUT/assessed.csv", "--report", "OUT/assessed.html"], ["assess", "OUT/results"]]
+    straight = ["--set", "simulation.wheels=[]"]
+    yield "stability-flat", [["stability", example("flat-at-speed"), *straight, "--from", "20", "--to", "60", *said] for said in ([], ["-o", "OUT/results", "--json", "OUT/result.json"])]
+    yield "track-fit", [["track", str(EXAMPLES / "tracks/zhai-flexible.toml"), "--fit", "1", *said] for said in ([], ["-o", "OUT/results", "--json", "OUT/result.json"])]
     yield "fmu-flat", [["fmu", example("wheel-flat"), "-o", "OUT/wheel.fmu"]]
-    yield "sweep-creep", [["sweep", example("creep-curves"), "--runs", "1-3", "-o", "OUT/results"], ["sweep", example("creep-curves"), "-o", "OUT/results", "--status"]]
-    yield "evolve-hollow", [["evolve", example("hollow-wheel"), "--set", "evolve.distance_km=4000", "-o", "OUT/results", "--json", "OUT/result.json", "--report", "OUT/report.html"]]
+    yield "sweep-creep", [["sweep", example("creep-curves"), "--runs", "1-3", "-o", "OUT/results"], ["sweep", example("creep-curves"), "-o", "OUT/results", "--status"],
+                          ["sweep", example("creep-curves"), "-o", "OUT/all", "--report", "OUT/report.html"]]
+
+    def evolve(case, *changes):
+        sets = [word for change in changes for word in ("--set", change)]
+        return [["evolve", example(case), *sets, "-o", "OUT/results", "--vtk", "--json", "OUT/result.json", "--report", "OUT/report.html"],
+                ["evolve", example(case), *sets, "-o", "OUT/results", "--resume"], ["report", "OUT/results", "-o", "OUT/again.html"]]
+
+    yield "evolve-hollow", evolve("hollow-wheel", "evolve.distance_km=4000")
+    yield "evolve-tired", evolve("tired-rail", "evolve.passages=2e4", "heat.compute=true", "evolve.rail.fatigue.austenite_C=40",
+                                 'evolve.rail.fatigue.measures=["fi_surf", "shakedown", "whole_life", "subsurface", "dang_van", "martensite"]')
+    yield "evolve-flowing", evolve("flowing-flat", "evolve.distance_km=0.01")
     for folder in ("contact_examples", "contact_testbank"):
         for case in sorted((SHARED / "data" / folder).glob("**/*.inp")):
             yield f"inp-{case.stem}", [["run", str(case), *results]]
@@ -112,6 +132,9 @@ def run(program, name, commands, folder):
 def masked(data, revision):
     if revision:
         data = data.replace(revision, b"0000000")
+    times = set(re.findall(rb'"' + TIME_NAMES.encode() + rb'": ?([-+.e0-9]+)', data)) - {b"0", b"0.0"}
+    if times:  # of a page, whose tables repeat them
+        data = re.sub(rb'data-value="([-+.e0-9]+)">[^<]*', lambda cell: b"#" if cell[1] in times else cell[0], data)
     for pattern, text in MASKS:
         data = re.sub(pattern, text, data, flags=re.MULTILINE)
     return data
@@ -119,7 +142,6 @@ def masked(data, revision):
 
 def hdf5_values(path, revision):
     """What is in a file, by its place there."""
-    import h5py  # of by-hand use only
     values = {}
 
     def keep(place, value):
@@ -141,6 +163,15 @@ def hdf5_values(path, revision):
     return values
 
 
+def members(path, revision):
+    """What is in an archive, by its name there, but the libraries of an FMU."""
+    with zipfile.ZipFile(path) as archive:
+        return {name: masked(archive.read(name), revision) for name in archive.namelist() if not name.startswith("binaries/")}
+
+
+BY_PLACE = {".h5": hdf5_values, ".fmu": members}
+
+
 def differences(before, after):
     revisions = [(folder / "revision").read_bytes().strip() for folder in (before, after)]
     names = sorted({p.relative_to(f) for f in (before, after) for p in f.rglob("*") if p.is_file()} - {pathlib.Path("revision")})
@@ -150,8 +181,8 @@ def differences(before, after):
             yield f"{name}: only {'before' if old.exists() else 'after'}"
         elif name.parts[0].startswith(MEASURED_TIMES):
             continue
-        elif name.suffix == ".h5":
-            a, b = (hdf5_values(path, revision) for path, revision in zip((old, new), revisions))
+        elif values := BY_PLACE.get(name.suffix):
+            a, b = (values(path, revision) for path, revision in zip((old, new), revisions))
             places = [place for place in sorted(a.keys() | b.keys()) if a.get(place) != b.get(place)]
             if places:
                 yield f"{name}: {len(places)} of {len(b)} values differ, first {places[0]}"
@@ -165,16 +196,28 @@ def self_test():
     assert not missing, f"no job runs {', '.join(missing)}"
     with tempfile.TemporaryDirectory() as folder:
         sides = [pathlib.Path(folder) / side for side in ("before", "after")]
-        for side, revision in zip(sides, ("aaaaaaa", "bbbbbbb")):
-            (side / "job").mkdir(parents=True)
+
+        def write(side, revision, seconds, number):
+            job = side / "job"
+            job.mkdir(parents=True, exist_ok=True)
             (side / "revision").write_text(revision)
-            (side / "job/r.json").write_text(f'{{"git": "{revision}", "seconds": 0.{len(revision)}, "pmax": 1}}')
-            (side / "job/p.html").write_text("<p>1</p>")
-        (sides[1] / "job/r.json").write_text((sides[1] / "job/r.json").read_text().replace("0.7", "3.1"))
+            (job / "r.json").write_text(f'{{"git": "{revision}", "seconds": {seconds}, "pmax": {number}}}')
+            (job / "p.html").write_text(f'<td data-value="{seconds}">{seconds}</td><td data-value="{number}">1</td><script>{{"seconds":{seconds}}}</script>')
+            with h5py.File(job / "r.h5", "w") as file:
+                file.attrs["seconds"], file.attrs["git"] = seconds, revision
+                file.create_dataset("a/pmax", data=[1.0, number])
+            with zipfile.ZipFile(job / "w.fmu", "w") as archive:
+                archive.writestr("binaries/a.so", revision)
+                archive.writestr("resources/case.toml", f"load = {number}")
+
+        write(sides[0], "aaaaaaa", 0.7, 1)
+        write(sides[1], "bbbbbbb", 3.1, 1)
         assert not list(differences(*sides)), "times and revisions are masked"
-        (sides[1] / "job/p.html").write_text("<p>2</p>")
+        write(sides[1], "bbbbbbb", 3.1, 2)
         (sides[1] / "job/new").write_text("")
-        assert list(differences(*sides)) == ["job/new: only after", "job/p.html: differs"]
+        found = list(differences(*sides))
+        assert [line.split(":")[0] for line in found] == [f"job/{name}" for name in ("new", "p.html", "r.h5", "r.json", "w.fmu")], found
+        assert found[2].endswith("1 of 2 values differ, first a/pmax"), found[2]
     print("every verb is run, every difference is seen")
 
 

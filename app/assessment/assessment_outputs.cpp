@@ -6,20 +6,20 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/json/json_tree.hpp"
+#include "treadmark/io/tables/number.hpp"
 #include "treadmark/pictures/chart.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
 
 namespace treadmark::app {
 namespace {
 
-using AssessmentJson = nlohmann::ordered_json;
+using io::Json;
 using measures::Assessed;
 using measures::AssessedStatus;
 
@@ -34,14 +34,6 @@ const NumberOf kNumbers[] = {
     {"max", [](const Assessed& a) { return a.most; }},    {"mean", [](const Assessed& a) { return a.mean; }},
     {"rms", [](const Assessed& a) { return a.rms; }},     {"value", [](const Assessed& a) { return a.value; }},
     {"limit", [](const Assessed& a) { return a.limit; }}, {"share", [](const Assessed& a) { return a.share(); }}};
-
-/// An empty cell for what is not known.
-std::string cell(double value) { return std::isfinite(value) ? io::csv_number(value) : std::string(); }
-
-AssessmentJson json_number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return io::twelve_digits(value) + 0.0;
-}
 
 /// Forces in kN.
 std::pair<double, std::string> shown_value(double value, const std::string& unit) {
@@ -97,7 +89,7 @@ std::string assessment_csv(std::span<const AssessedRun> runs) {
                           io::csv_number(section->from), io::csv_number(section->to),
                           kSectionKinds[static_cast<std::size_t>(section->kind)], io::csv_cell(one.place), one.quantity,
                           measures::quantity_info(one.quantity).unit, measures::name_of(one.status), one.samples);
-      for (const NumberOf& number : kNumbers) text += ',' + cell(number.value(one));
+      for (const NumberOf& number : kNumbers) text += ',' + io::csv_cell(number.value(one), Digits::all);
       text += '\n';
     }
   return text;
@@ -109,9 +101,10 @@ std::string spectra_csv(std::span<const AssessedRun> runs) {
     for (const ChannelSpectrum& spectrum : run.spectra) {
       const std::string head = io::csv_cell(run.name) + ',' + io::csv_cell(spectrum.channel);
       for (const measures::FrequencyBand& band : spectrum.bands)
-        text += fmt::format("{},third_octave,{},{},{},{},{},{}\n", head, io::csv_number(band.nominal),
-                            io::csv_number(band.low), io::csv_number(band.high), io::csv_number(band.rms),
-                            spectrum.unit, has_level(spectrum.unit) ? cell(acceleration_level(band.rms)) : "");
+        text +=
+            fmt::format("{},third_octave,{},{},{},{},{},{}\n", head, io::csv_number(band.nominal),
+                        io::csv_number(band.low), io::csv_number(band.high), io::csv_number(band.rms), spectrum.unit,
+                        has_level(spectrum.unit) ? io::csv_cell(acceleration_level(band.rms), Digits::all) : "");
       for (std::size_t k = 1; k < spectrum.density.density.size(); ++k) {
         const double frequency = spectrum.density.line * static_cast<double>(k);
         if (frequency > spectrum.density.highest) break;
@@ -123,58 +116,58 @@ std::string spectra_csv(std::span<const AssessedRun> runs) {
 }
 
 std::string assessment_json(std::span<const AssessedRun> runs) {
-  AssessmentJson out;
+  Json out;
   out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
-  AssessmentJson& quantities = out["quantities"] = AssessmentJson::object();
+  Json& quantities = out["quantities"] = Json::object();
   for (const measures::QuantityInfo& info : measures::assessed_quantities())
     quantities[info.key] = {{"unit", info.unit},
                             {"meaning", info.meaning},
                             {"value", info.value},
                             {"limit", info.limit},
                             {"source", info.source}};
-  out["runs"] = AssessmentJson::array();
+  out["runs"] = Json::array();
   for (const AssessedRun& run : runs) {
-    AssessmentJson one;
+    Json one;
     one["name"] = run.name;
     one["title"] = run.result->title;
     one["input"] = {{"file", run.result->input_file}, {"sha256", run.result->input_sha256}};
     one["vehicle"] = kVehicleKinds[static_cast<std::size_t>(run.request.vehicle)];
-    one["from_m"] = json_number(run.request.from);
+    one["from_m"] = io::number(run.request.from);
     one["channels"] = run.request.spectra;
-    one["sections"] = AssessmentJson::array();
+    one["sections"] = Json::array();
     for (const AssessmentSection& section : run.request.sections)
       one["sections"].push_back({{"name", section.name},
-                                 {"from_m", json_number(section.from)},
-                                 {"to_m", json_number(section.to)},
+                                 {"from_m", io::number(section.from)},
+                                 {"to_m", io::number(section.to)},
                                  {"kind", kSectionKinds[static_cast<std::size_t>(section.kind)]}});
-    one["assessed"] = AssessmentJson::array();
+    one["assessed"] = Json::array();
     for (const Assessed& a : run.quantities) {
-      AssessmentJson row{{"section", a.section},
-                         {"place", a.place},
-                         {"quantity", a.quantity},
-                         {"status", measures::name_of(a.status)},
-                         {"samples", a.samples}};
-      for (const NumberOf& number : kNumbers) row[number.name] = json_number(number.value(a));
+      Json row{{"section", a.section},
+               {"place", a.place},
+               {"quantity", a.quantity},
+               {"status", measures::name_of(a.status)},
+               {"samples", a.samples}};
+      for (const NumberOf& number : kNumbers) row[number.name] = io::number(number.value(a));
       one["assessed"].push_back(std::move(row));
     }
-    one["spectra"] = AssessmentJson::array();
+    one["spectra"] = Json::array();
     for (const ChannelSpectrum& s : run.spectra) {
-      AssessmentJson bands = AssessmentJson::array();
+      Json bands = Json::array();
       for (const measures::FrequencyBand& band : s.bands)
         bands.push_back({{"frequency_Hz", band.nominal},
-                         {"rms", json_number(band.rms)},
-                         {"level_dB", has_level(s.unit) ? json_number(acceleration_level(band.rms)) : nullptr}});
+                         {"rms", io::number(band.rms)},
+                         {"level_dB", has_level(s.unit) ? io::number(acceleration_level(band.rms)) : nullptr}});
       one["spectra"].push_back({{"channel", s.channel},
                                 {"unit", s.unit},
                                 {"segments", s.density.segments},
-                                {"line_Hz", json_number(s.density.line)},
-                                {"highest_Hz", json_number(s.density.highest)},
+                                {"line_Hz", io::number(s.density.line)},
+                                {"highest_Hz", io::number(s.density.highest)},
                                 {"third_octaves", std::move(bands)}});
     }
     one["doubts"] = run.doubts;
     out["runs"].push_back(std::move(one));
   }
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 AssessmentRequest request_in(const std::filesystem::path& json) {

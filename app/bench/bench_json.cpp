@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/io/json/json_tree.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
-/// Six significant digits: times have no more.
-Json real(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return Json::parse(fmt::format("{:.6g}", value));
-}
+constexpr auto kDigits = Digits::six;  // times have no more
 
 struct Value {
   Json operator()(std::monostate) const { return nullptr; }
-  Json operator()(double value) const { return real(value); }
+  Json operator()(double value) const { return io::number(value, kDigits); }
   Json operator()(std::int64_t value) const { return value; }
   Json operator()(const std::string& value) const { return value; }
 };
@@ -30,7 +26,8 @@ struct Value {
 
 std::string bench_json(const BenchReport& report) {
   Json out;
-  out["treadmark"] = {{"version", report.version}, {"git", report.git}, {"seconds", real(report.seconds)}};
+  out["treadmark"] = {
+      {"version", report.version}, {"git", report.git}, {"seconds", io::number(report.seconds, kDigits)}};
   out["date"] = report.date;
   out["machine"] = report.machine;
   out["threads"] = report.threads;
@@ -39,7 +36,7 @@ std::string bench_json(const BenchReport& report) {
   for (const auto& [name, version] : report.libraries) out["libraries"][name] = version;
   out["input"] = {{"file", report.input_file}, {"sha256", report.input_sha256}};
   out["settings"] = report.settings;
-  out["seconds_per_measure"] = real(report.seconds_per_measure);
+  out["seconds_per_measure"] = io::number(report.seconds_per_measure, kDigits);
   out["truth"] = report.truth;
   out["complete"] = report.complete;
   out["rows"] = Json::array();
@@ -52,7 +49,7 @@ std::string bench_json(const BenchReport& report) {
     }
     out["rows"].push_back(std::move(item));
   }
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return io::dumped(out) + "\n";
 }
 
 namespace {

@@ -39,10 +39,7 @@ int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
     std::cerr << result.status << ": " << result.message << '\n';
     return kFailed;
   }
-  double doubts = 0.0;
-  for (const io::Generation& g : result.generations)
-    for (const io::EvolutionQuantity& q : io::quantities_of(g))
-      if (q.name == "doubts" || q.name == "doubtful_steps") doubts += q.value;
+  const double doubts = io::doubts_of(result);
   if (doubts > 0.0 && !common.quiet)
     std::cerr << fmt::format(
         "{:.0f} warnings about contacts: see evolution.json and the contacts of their generation\n", doubts);

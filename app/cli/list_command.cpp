@@ -102,7 +102,7 @@ int list_command(const std::string& what) {
     };
     for (const WearTheoryRow& row : kWearTheories) print_row(row);
     for (const FlowTheoryRow& row : kFlowTheories) print_row(row);
-    for (const FatigueMeasureRow& row : kFatigueMeasures) print_row(row);
+    for (const FatigueMeasureRow& row : fatigue_measures()) print_row(row);
   } else {
     std::vector<std::string> names;
     for (const ListedKind& kind : kListed) names.emplace_back(kind.name);

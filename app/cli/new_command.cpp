@@ -11,13 +11,12 @@
 #include <stdexcept>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
-
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/files/replaced.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -267,7 +266,7 @@ const std::vector<Start>& starts() {
 }
 const Start& start_of(std::string_view kind) { return *std::ranges::find(starts(), kind, &Start::kind); }
 
-using Json = nlohmann::json;
+using io::Json;
 
 /// What a schema says of a key, "rail.shape.standard".
 const Json& schema_at(const Json& schema, std::string_view path) {

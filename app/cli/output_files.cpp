@@ -122,7 +122,7 @@ std::vector<double> times_of(const io::RunResult& run) {
                                       {&Case::roll, kDegrees}}) {
     std::vector<double> times;
     times.reserve(run.cases.size());
-    for (const Case& c : run.cases) times.push_back(io::twelve_digits(factor * c.*place) + 0.0);
+    for (const Case& c : run.cases) times.push_back(io::rounded(factor * c.*place));
     if (std::ranges::is_sorted(times, std::less_equal<>())) return times;
   }
   return {};

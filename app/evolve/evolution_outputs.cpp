@@ -3,57 +3,39 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
 
-using EvolutionJson = nlohmann::ordered_json;
+using io::Json;
 
-EvolutionJson evolved_number(double value) { return io::twelve_digits(value) + 0.0; }
-
-EvolutionJson json_of(const io::EvolvedCase& c) {
-  return {{"position", c.label},
-          {"case", c.number},
-          {"weight", evolved_number(c.weight)},
-          {"status", c.status},
-          {"patches", c.patches},
-          {"remarks", c.remarks},
-          {"doubts", c.doubts},
-          {"fn_N", evolved_number(c.fn)},
-          {"fx_N", evolved_number(c.fx)},
-          {"fs_N", evolved_number(c.fs)},
-          {"pmax_MPa", evolved_number(1e-6 * c.pmax)},
-          {"t_gamma_N", evolved_number(c.t_gamma)}};
-}
-
-EvolutionJson json_of(const io::EvolvedFatigue& known, const ContactFatigue& c) {
-  EvolutionJson out = {{"utilised_friction", evolved_number(c.friction)}};
-  if (known.shear_yield > 0.0) out["pressure_over_shear_yield"] = evolved_number(c.pressure_ratio);
-  if (known.has(FatigueMeasure::fi_surf)) out["fi_surf"] = evolved_number(c.fi_surf);
-  if (known.has(FatigueMeasure::shakedown)) out["shakedown"] = evolved_number(c.shakedown);
-  if (known.has(FatigueMeasure::whole_life)) out["damage_per_passage"] = evolved_number(c.damage);
-  if (known.has(FatigueMeasure::martensite)) out["temperature_C"] = evolved_number(c.temperature);
+Json json_of(const FatigueSettings& known, const ContactFatigue& c) {
+  Json out;
+  io::add_to(out, c, kUtilisedFriction);
+  if (known.shear_yield > 0.0) io::add_to(out, c, kPressureRatio);
+  for (const FatigueMeasureRow& row : fatigue_measures())
+    if (known.has(row.measure)) io::add_to(out, c, row.of_contact);
   return out;
 }
 
-EvolutionJson json_of(const io::Generation& g) {
-  EvolutionJson out = {{"generation", g.number}, {"progress", evolved_number(g.progress)}};
-  for (const io::EvolutionQuantity& q : io::quantities_of(g)) out[q.name] = evolved_number(q.value);
+Json json_of(const io::Generation& g) {
+  Json out = {{"generation", g.number}, {"progress", io::number(g.progress)}};
+  for (const io::EvolutionQuantity& q : io::quantities_of(g)) out[q.name] = io::number(q.value);
   for (const io::EvolvedBody& b : g.bodies)
     if (!b.surface_file.empty()) out[body_name(b.body) + std::string("_file")] = b.surface_file;
-  out["cases"] = EvolutionJson::array();
+  out["cases"] = Json::array();
   for (std::size_t i = 0; i < g.cases.size(); ++i) {
-    out["cases"].push_back(json_of(g.cases[i]));
+    out["cases"].push_back(io::json_of(g.cases[i]));
     for (const io::EvolvedBody& b : g.bodies)
       if (i < b.fatigue.contacts.size())
-        out["cases"].back()[body_name(b.body)] = json_of(b.fatigue, b.fatigue.contacts[i]);
+        out["cases"].back()[body_name(b.body)] = json_of(b.fatigue.known, b.fatigue.contacts[i]);
   }
   return out;
 }
@@ -61,44 +43,40 @@ EvolutionJson json_of(const io::Generation& g) {
 }  // namespace
 
 std::string evolution_json(const io::EvolutionResult& result) {
-  EvolutionJson out = {{"treadmark", {{"version", result.version}, {"git", result.git}}},
-                       {"input", {{"file", result.input_file}, {"sha256", result.input_sha256}}},
-                       {"title", result.title},
-                       {"settings", result.settings},
-                       {"status", result.status},
-                       {"message", result.message},
-                       {"laws", EvolutionJson::array()}};
+  Json out = {{"treadmark", {{"version", result.version}, {"git", result.git}}},
+              {"input", {{"file", result.input_file}, {"sha256", result.input_sha256}}},
+              {"title", result.title},
+              {"settings", result.settings},
+              {"status", result.status},
+              {"message", result.message},
+              {"laws", Json::array()}};
   if (!result.generations.empty())
     for (const io::EvolvedBody& b : result.generations.front().bodies)
       out["laws"].push_back({{"body", body_name(b.body)}, {"theory", b.law}, {"source", b.source}});
   if (!result.generations.empty())
     for (const io::EvolvedBody& b : result.generations.front().bodies)
-      if (!b.fatigue.measures.empty())
+      if (const FatigueSettings& known = b.fatigue.known; !known.measures.empty())
         out["fatigue"].push_back(
-            {{"body", body_name(b.body)}, {"measures", b.fatigue.measures}, {"source", b.fatigue.source}});
+            {{"body", body_name(b.body)}, {"measures", words_of(known.measures)}, {"source", known.source}});
   if (!result.generations.empty())
     for (const io::EvolvedBody& b : result.generations.front().bodies)
       if (!b.flow.theory.empty())
         out["flow"].push_back({{"body", body_name(b.body)}, {"theory", b.flow.theory}, {"source", b.flow.source}});
-  out["generations"] = EvolutionJson::array();
+  out["generations"] = Json::array();
   for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 std::string evolution_table(const io::EvolutionResult& result) {
   if (result.generations.empty()) return "";
-  const auto shown = [](const std::string& name) {
-    return name == "distance_km" || name == "passages" || name == "pmax_MPa" || name == "t_gamma_N" ||
-           name.find("_depth_mm") != std::string::npos || name.find("_volume_mm3") != std::string::npos;
-  };
   std::string text = fmt::format("{:>10}", "generation");
   for (const io::EvolutionQuantity& q : io::quantities_of(result.generations.front()))
-    if (shown(q.name)) text += fmt::format("  {:>{}}", q.name, std::max<std::size_t>(q.name.size(), 10));
+    if (q.shown & kInTable) text += fmt::format("  {:>{}}", q.name, std::max<std::size_t>(q.name.size(), 10));
   text += '\n';
   for (const io::Generation& g : result.generations) {
     text += fmt::format("{:>10}", g.number);
     for (const io::EvolutionQuantity& q : io::quantities_of(g))
-      if (shown(q.name)) text += fmt::format("  {:>{}.5g}", q.value, std::max<std::size_t>(q.name.size(), 10));
+      if (q.shown & kInTable) text += fmt::format("  {:>{}.5g}", q.value, std::max<std::size_t>(q.name.size(), 10));
     text += '\n';
   }
   return text;

@@ -136,9 +136,11 @@ std::vector<damage::PassedPatch> passed_patches(const io::Case& given, const io:
     if (patch.fields.dissipation.empty() || patch.fields.slip_x.empty())
       throw Error(ErrorKind::configuration, "a case of an evolution needs tractions and slip of its contacts",
                   given.where, "choose a tangential model other than none, without a plastic layer");
-    if (fatigue.has(FatigueMeasure::martensite) && patch.fields.temperature_1.empty())
-      throw Error(ErrorKind::configuration, "martensite needs the temperatures of contacts", given.where,
-                  "say heat.compute = true in the base: temperatures are those of steady rolling at a speed");
+    for (const FatigueMeasureRow& row : fatigue_measures())
+      if (row.heat && fatigue.has(row.measure) && patch.fields.temperature_1.empty())
+        throw Error(ErrorKind::configuration, fmt::format("{} needs the temperatures of contacts", row.word),
+                    given.where,
+                    "say heat.compute = true in the base: temperatures are those of steady rolling at a speed");
     out.push_back(passed_patch(patch, body, input.side == Side::left, X_BT));
     out.back().fatigue = damage::contact_fatigue(fatigue, out.back());
   }

@@ -163,22 +163,14 @@ class EvolutionRun {
 
   io::EvolvedFatigue fatigue_of(const FatigueSettings& known,
                                 const std::vector<std::vector<damage::PassedPatch>>& cases) const {
-    io::EvolvedFatigue out;
+    io::EvolvedFatigue out{known, {}};
     if (known.measures.empty()) return out;
-    for (const FatigueMeasure measure : known.measures)
-      out.measures += fmt::format("{}{}", out.measures.empty() ? "" : " ",
-                                  kFatigueMeasures[static_cast<std::size_t>(measure)].word);
-    out.source = known.source;
-    out.shear_yield = known.shear_yield, out.dang_van_limit = known.dang_van_limit;
-    out.austenite = known.austenite;
-    out.depths = known.depths;
     for (const auto& patches : cases) {
       ContactFatigue& all = out.contacts.emplace_back();
       for (const damage::PassedPatch& patch : patches) {
         if (&patch == patches.data()) all = patch.fatigue;
-        for (const auto number : {&ContactFatigue::friction, &ContactFatigue::pressure_ratio, &ContactFatigue::fi_surf,
-                                  &ContactFatigue::shakedown, &ContactFatigue::damage, &ContactFatigue::temperature})
-          all.*number = std::max(all.*number, patch.fatigue.*number);
+        for (const Column<ContactFatigue>& number : columns<ContactFatigue>())
+          number.access.put(all, std::max(number.access.get(all), number.access.get(patch.fatigue)));
       }
     }
     return out;

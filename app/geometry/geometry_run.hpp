@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "treadmark/geometry/analysis.hpp"
 #include "treadmark/geometry/loaded_wheelset.hpp"
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/model/rows.hpp"
 
 namespace treadmark::app {
 
@@ -130,24 +132,20 @@ std::string gauge_sweep_svg(const GaugeSweep& sweep);
 /// All of it into a folder: tables, pictures and, last, geometry.json. Errors: those of core/output_file.hpp.
 void write_geometry_folder(const std::filesystem::path& folder, const GeometryResult& result, const GaugeSweep* sweep);
 
-/// A column of the contact functions: its name with the unit, and its value.
-struct FunctionColumn {
-  const char* name;
-  double (*value)(const geometry::Position& position, const geometry::WheelsetOnTrack& wheelset);
+/// A row of the contact functions.
+struct FunctionRow {
+  const geometry::Position& position;
+  const geometry::WheelsetOnTrack& wheelset;
 };
-const std::vector<FunctionColumn>& function_columns();
-
-/// A column of the contact functions that only a load makes.
-struct LoadColumn {
-  const char* name;
-  double (*value)(const geometry::LoadedPosition& position);
-};
-const std::vector<LoadColumn>& load_columns();
-/// Why a side has no ellipse, in columns of their own.
-struct LoadReasonColumn {
-  const char* name;
-  const std::string& (*value)(const geometry::LoadedPosition& position);
-};
-const std::vector<LoadReasonColumn>& load_reason_columns();
 
 }  // namespace treadmark::app
+
+namespace treadmark {
+
+template <>
+std::span<const Column<app::FunctionRow>> columns();
+/// Of the contact functions that only a load makes, and why a side has no ellipse.
+template <>
+std::span<const Column<geometry::LoadedPosition>> columns();
+
+}  // namespace treadmark

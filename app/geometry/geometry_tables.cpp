@@ -7,6 +7,7 @@
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/tables/csv_of.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 using geometry::Conicity;
 using geometry::Position;
 using geometry::WheelsetOnTrack;
-
-std::string cell(double value) { return std::isnan(value) ? std::string() : io::csv_number(io::twelve_digits(value)); }
 
 /// A number for the terminal; a dash where there is none.
 std::string shown(double value, int digits) {
@@ -47,89 +46,19 @@ std::string load_text(const geometry::LoadedFunctions& f) {
 
 }  // namespace
 
-const std::vector<FunctionColumn>& function_columns() {
-  using P = const Position&;
-  using W = const WheelsetOnTrack&;
-  static const std::vector<FunctionColumn> columns{
-      {"y_mm", [](P p, W) { return kMilli * p.y; }},
-      {"delta_r_mm", [](P p, W) { return kMilli * p.radius_difference(); }},
-      {"radius_right_mm", [](P p, W) { return kMilli * p.right.radius; }},
-      {"radius_left_mm", [](P p, W) { return kMilli * p.left.radius; }},
-      {"wheel_y_right_mm", [](P p, W) { return kMilli * p.right.wheel_y; }},
-      {"wheel_y_left_mm", [](P p, W) { return kMilli * p.left.wheel_y; }},
-      {"rail_y_right_mm", [](P p, W) { return kMilli * p.right.rail_y; }},
-      {"rail_y_left_mm", [](P p, W) { return kMilli * p.left.rail_y; }},
-      {"angle_right_rad", [](P p, W) { return p.right.angle; }},
-      {"angle_left_rad", [](P p, W) { return p.left.angle; }},
-      {"delta_tan_gamma", [](P p, W) { return std::tan(p.right.angle) - std::tan(p.left.angle); }},
-      {"wheel_curvature_right_per_m", [](P p, W) { return p.right.wheel_curvature; }},
-      {"wheel_curvature_left_per_m", [](P p, W) { return p.left.wheel_curvature; }},
-      {"rail_curvature_right_per_m", [](P p, W) { return p.right.rail_curvature; }},
-      {"rail_curvature_left_per_m", [](P p, W) { return p.left.rail_curvature; }},
-      {"roll_rad", [](P p, W) { return p.roll; }},
-      {"z_mm", [](P p, W) { return kMilli * p.z; }},
-      {"holding_force_over_weight", [](P p, W w) { return w.holding_force(p); }},
-  };
-  return columns;
-}
-
-const std::vector<LoadColumn>& load_columns() {
-  using L = const geometry::LoadedPosition&;
-  const static auto flag = [](const geometry::LoadedSide& side) {
-    return side.reason.empty() ? (side.shared ? 1.0 : 0.0) : kNaN;
-  };
-  static const std::vector<LoadColumn> columns{
-      {"normal_force_right_N", [](L l) { return l.right.normal_force; }},
-      {"normal_force_left_N", [](L l) { return l.left.normal_force; }},
-      {"holding_force_N", [](L l) { return l.holding_force + 0.0; }},  // no -0
-      {"pressure_right_MPa", [](L l) { return kMega * l.right.pressure; }},
-      {"pressure_left_MPa", [](L l) { return kMega * l.left.pressure; }},
-      {"semi_axis_x_right_mm", [](L l) { return kMilli * l.right.semi_axis_x; }},
-      {"semi_axis_x_left_mm", [](L l) { return kMilli * l.left.semi_axis_x; }},
-      {"semi_axis_y_right_mm", [](L l) { return kMilli * l.right.semi_axis_y; }},
-      {"semi_axis_y_left_mm", [](L l) { return kMilli * l.left.semi_axis_y; }},
-      {"approach_right_mm", [](L l) { return kMilli * l.right.approach; }},
-      {"approach_left_mm", [](L l) { return kMilli * l.left.approach; }},
-      {"lowering_mm", [](L l) { return kMilli * l.lowering; }},
-      {"elastic_roll_rad", [](L l) { return l.roll; }},
-      {"misfit_right", [](L l) { return l.right.misfit; }},
-      {"misfit_left", [](L l) { return l.left.misfit; }},
-      {"shared_right", [](L l) { return flag(l.right); }},
-      {"shared_left", [](L l) { return flag(l.left); }},
-  };
-  return columns;
-}
-
-const std::vector<LoadReasonColumn>& load_reason_columns() {
-  using L = const geometry::LoadedPosition&;
-  static const std::vector<LoadReasonColumn> columns{
-      {"no_pressure_right", [](L l) -> const std::string& { return l.right.reason; }},
-      {"no_pressure_left", [](L l) -> const std::string& { return l.left.reason; }},
-  };
-  return columns;
-}
-
 std::string functions_csv(const GeometryResult& result) {
   const geometry::AnalysisSettings& settings = result.request.settings;
   const WheelsetOnTrack wheelset =
       geometry::place(result.right, result.left, result.placement, settings.roll, settings.yaw);
   const std::vector<Position>& rows = result.analysis.functions.rows;
   std::string out;
-  const auto add = [&](const std::string& text) { out += text + ','; };
   const auto end_line = [&] { out.back() = '\n'; };
-  for (const FunctionColumn& column : function_columns()) add(column.name);
-  if (result.load) {
-    for (const LoadColumn& column : load_columns()) add(column.name);
-    for (const LoadReasonColumn& column : load_reason_columns()) add(column.name);
-  }
+  io::add_heads<FunctionRow>(out);
+  if (result.load) io::add_heads<geometry::LoadedPosition>(out);
   end_line();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (const FunctionColumn& column : function_columns()) add(cell(column.value(rows[i], wheelset)));
-    if (result.load) {
-      for (const LoadColumn& column : load_columns()) add(cell(column.value(result.load->rows[i])));
-      for (const LoadReasonColumn& column : load_reason_columns())
-        add(io::csv_cell(column.value(result.load->rows[i])));
-    }
+    io::add_cells(out, FunctionRow{rows[i], wheelset});
+    if (result.load) io::add_cells(out, result.load->rows[i]);
     end_line();
   }
   return out;
@@ -141,10 +70,11 @@ std::string conicity_csv(const GeometryResult& result) {
   for (std::size_t i = 0; i < a.conicity.size(); ++i) {
     const Conicity& c = a.conicity[i];
     const double wave = geometry::wavelength(c.tan_gamma, a.wheel_origins, 0.5 * (a.radius_right + a.radius_left));
-    out += fmt::format("{},{},{},{},{},{},{},{}\n", cell(kMilli * c.amplitude), cell(c.tan_gamma),
-                       result.noise ? cell(result.noise->of_amplitude[i]) : "",
-                       a.harmonic.empty() ? "" : cell(a.harmonic[i]), std::isfinite(wave) ? cell(kMilli * wave) : "",
-                       cell(kMilli * c.low), cell(kMilli * c.high), io::csv_cell(c.reason));
+    out += fmt::format("{},{},{},{},{},{},{},{}\n", io::csv_cell(kMilli * c.amplitude), io::csv_cell(c.tan_gamma),
+                       result.noise ? io::csv_cell(result.noise->of_amplitude[i]) : "",
+                       a.harmonic.empty() ? "" : io::csv_cell(a.harmonic[i]),
+                       std::isfinite(wave) ? io::csv_cell(kMilli * wave) : "", io::csv_cell(kMilli * c.low),
+                       io::csv_cell(kMilli * c.high), io::csv_cell(c.reason));
   }
   return out;
 }
@@ -153,10 +83,10 @@ std::string sweep_csv(const GaugeSweep& sweep) {
   std::string out = "gauge_mm,amplitude_mm,tan_gamma_e,reason\n";
   for (std::size_t g = 0; g < sweep.gauges.size(); ++g) {
     if (!sweep.trouble[g].empty())
-      out += fmt::format("{},,,{}\n", cell(kMilli * sweep.gauges[g]), io::csv_cell(sweep.trouble[g]));
+      out += fmt::format("{},,,{}\n", io::csv_cell(kMilli * sweep.gauges[g]), io::csv_cell(sweep.trouble[g]));
     for (const Conicity& c : sweep.conicity[g])
-      out += fmt::format("{},{},{},{}\n", cell(kMilli * sweep.gauges[g]), cell(kMilli * c.amplitude), cell(c.tan_gamma),
-                         io::csv_cell(c.reason));
+      out += fmt::format("{},{},{},{}\n", io::csv_cell(kMilli * sweep.gauges[g]), io::csv_cell(kMilli * c.amplitude),
+                         io::csv_cell(c.tan_gamma), io::csv_cell(c.reason));
   }
   return out;
 }

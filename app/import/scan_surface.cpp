@@ -4,7 +4,6 @@
 #include "treadmark/app/import/scan_surface.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +19,7 @@
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::app {
 
@@ -79,15 +79,10 @@ std::string summary(const Scanned& scanned) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
+using io::number;
 
 constexpr double kDeg = 180.0 / std::numbers::pi;
-
-/// Twelve digits, so that changes of unit leave no tail of nines; what is not finite is null.
-Json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return Json::parse(fmt::format("{:.12g}", value));
-}
 
 Json vector(const Vec3& v, double factor) { return {factor * v.x(), factor * v.y(), factor * v.z()}; }
 
@@ -174,7 +169,7 @@ std::string truth_json(const Scanned& scanned) {
   out["spacing_mm"] = number(kMilli * truth.spacing);
   out["area_mm2"] = number(kMicro * truth.area);
   out["passes"] = passes_json(truth, wheel);
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return io::dumped(out, 2) + "\n";
 }
 
 }  // namespace treadmark::app

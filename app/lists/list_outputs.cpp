@@ -13,8 +13,6 @@
 namespace treadmark::app {
 namespace {
 
-std::string csv_value(double value) { return std::isfinite(value) ? io::csv_number(io::twelve_digits(value)) : ""; }
-
 /// The end of a name that is a unit: "tread_wear_mm" has "mm".
 std::string unit_of(const std::string& name) {
   for (const auto& [ending, unit] : {std::pair{"_mm2", "mm²"},
@@ -93,7 +91,7 @@ std::string list_csv(const ResultList& list) {
     for (std::size_t k = 0; k < list.words.size(); ++k)
       out += ',' + (k < row.words.size() ? io::csv_cell(row.words[k]) : std::string());
     out += ',' + io::csv_cell(row.status) + ',' + io::csv_cell(row.error);
-    for (std::size_t k = 0; k < list.numbers.size(); ++k) out += ',' + csv_value(number_of(row, k));
+    for (std::size_t k = 0; k < list.numbers.size(); ++k) out += ',' + io::csv_cell(number_of(row, k));
     out += '\n';
   }
   return out;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/lists/result_list.hpp"
 #include "treadmark/app/version.hpp"
@@ -18,12 +17,13 @@
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/json/json_tree.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using io::Json;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kFormat = "treadmark-unfinished-list-1";
@@ -77,7 +77,7 @@ class KeptRows {
     };
     for (const auto& [key, row] : rows_) add_row(key, row);
     for (const auto& [key, row] : made_) add_row(key, row);
-    write_file(file_, out.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n');
+    write_file(file_, io::dumped(out, -1) + '\n');
   }
 
  private:

@@ -556,7 +556,7 @@ namespace {
 
 /// What the numbers of a list depend on beside its files.
 std::string settings_of(const MeasureRequest& request) {
-  const auto exact = [](double value) { return io::csv_number(io::twelve_digits(value)); };
+  const auto exact = [](double value) { return io::csv_number(io::rounded(value)); };
   std::string out =
       fmt::format("nominal {}, radius {}, scale {}, alignment {}, tape line from {}, {} stations",
                   request.nominal.empty() ? "none" : request.nominal,

@@ -3,22 +3,20 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::app {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
-/// 10 digits: what is beyond no measure has; null for what does not exist.
-Json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return std::stod(fmt::format("{:.10g}", value + 0.0));
-}
-Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+using io::text_or_null;
+
+/// No measure has more.
+Json number(double value, Digits digits = Digits::ten) { return io::number(value, digits); }
 
 template <class Numbers>
 Json numbers_json(const Numbers& numbers) {
@@ -171,23 +169,21 @@ Json head(const MeasureRequest& request) {
   return out;
 }
 
-std::string dumped(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace); }
-
 }  // namespace
 
-std::string file_document(const MeasuredFile& file) { return dumped(file_json(file)); }
+std::string file_document(const MeasuredFile& file) { return io::dumped(file_json(file)); }
 
 std::string measure_json(const MeasuredFile& file, const MeasureRequest& request) {
   Json out = head(request);
   out.update(file_json(file));
-  return dumped(out) + '\n';
+  return io::dumped(out) + '\n';
 }
 
 std::string measure_json(const ResultList& files, const MeasureRequest& request) {
   Json out = head(request);
   out["files"] = Json::array();
   for (const ListRow& row : files.rows) out["files"].push_back(Json::parse(row.document));
-  return dumped(out) + '\n';
+  return io::dumped(out) + '\n';
 }
 
 }  // namespace treadmark::app

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/report/blob_store.hpp"
 #include "treadmark/app/report/field_catalogue.hpp"
@@ -14,17 +13,13 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/summary.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::app::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-/// 12 digits, as in the result files; not finite = null.
-Json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return io::twelve_digits(value);
-}
+using io::Json;
+using io::number;
 
 Json to_json(const Packed& packed) {
   Json out = {{"blob", packed.blob}, {"offset", packed.offset}, {"count", packed.count}};

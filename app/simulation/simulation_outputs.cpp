@@ -4,7 +4,6 @@
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -15,6 +14,7 @@
 #include "treadmark/core/pose.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/tables/number.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
 #include "treadmark/pictures/pressure_svg.hpp"
 
@@ -145,7 +145,7 @@ std::string modes_text(const io::SimulationResult& result) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
 Json named(const std::vector<io::NamedValue>& values) {
   Json out = Json::object();
@@ -182,7 +182,7 @@ std::string to_json(const io::SimulationResult& r, const SimulationTimes& t, con
                    {"normal_s", t.contact.normal_s},
                    {"tangential_s", t.contact.tangential_s},
                    {"contact_solutions", t.contact.searches}};
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 }  // namespace treadmark::app

@@ -3,25 +3,23 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/stability/stability_run.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/tables/number.hpp"
 #include "treadmark/pictures/chart.hpp"
 
 namespace treadmark::app {
 namespace {
 
-using StabilityJson = nlohmann::ordered_json;
+using io::Json;
 
-StabilityJson json_number(double value) { return io::twelve_digits(value) + 0.0; }
-
-StabilityJson json_mode(const vehicle::Eigenmode& mode, const vehicle::Multibody& system) {
-  return {{"real_1_per_s", json_number(mode.value.real())},
-          {"frequency_Hz", json_number(mode.frequency)},
-          {"damping_ratio", json_number(mode.damping_ratio)},
+Json json_mode(const vehicle::Eigenmode& mode, const vehicle::Multibody& system) {
+  return {{"real_1_per_s", io::number(mode.value.real())},
+          {"frequency_Hz", io::number(mode.frequency)},
+          {"damping_ratio", io::number(mode.damping_ratio)},
           {"motion", vehicle::describe(mode, system)}};
 }
 
@@ -39,26 +37,26 @@ const char* word(vehicle::StabilityVerdict verdict) {
   return "unknown";
 }
 
-StabilityJson json_falling(const FallingRun& run) {
-  StabilityJson out = {{"verdict", falling_word(run)}, {"message", falling_verdict(run)}};
+Json json_falling(const FallingRun& run) {
+  Json out = {{"verdict", falling_word(run)}, {"message", falling_verdict(run)}};
   if (run.critical) {
-    out["critical_speed_low_m_s"] = json_number(run.critical->low);
-    out["critical_speed_high_m_s"] = json_number(run.critical->high);
+    out["critical_speed_low_m_s"] = io::number(run.critical->low);
+    out["critical_speed_high_m_s"] = io::number(run.critical->high);
   }
   if (run.forces_fall && !run.forces_fall->never_above && !run.forces_fall->at_end)
-    out["guiding_forces_speed_m_s"] = json_number(run.forces_fall->speed);
-  out["amplitude_m"] = json_number(run.request.amplitude);
-  out["window_m"] = json_number(run.request.window);
-  out["runs"] = StabilityJson::array();
+    out["guiding_forces_speed_m_s"] = io::number(run.forces_fall->speed);
+  out["amplitude_m"] = io::number(run.request.amplitude);
+  out["window_m"] = io::number(run.request.window);
+  out["runs"] = Json::array();
   for (const Fall& fall : run.falls) {
-    StabilityJson one = {{"status", fall.status},
-                         {"message", fall.message},
-                         {"from_m_s", json_number(fall.settings.from)},
-                         {"to_m_s", json_number(fall.settings.to)},
-                         {"deceleration_m_s2", json_number(fall.settings.deceleration)}};
+    Json one = {{"status", fall.status},
+                {"message", fall.message},
+                {"from_m_s", io::number(fall.settings.from)},
+                {"to_m_s", io::number(fall.settings.to)},
+                {"deceleration_m_s2", io::number(fall.settings.deceleration)}};
     if (fall.status == "complete") {
-      one["first_amplitude_m"] = json_number(fall.result.first_amplitude);
-      if (fall.result.verdict == vehicle::FallVerdict::died) one["died_at_m_s"] = json_number(fall.result.speed);
+      one["first_amplitude_m"] = io::number(fall.result.first_amplitude);
+      if (fall.result.verdict == vehicle::FallVerdict::died) one["died_at_m_s"] = io::number(fall.result.speed);
     }
     out["runs"].push_back(std::move(one));
   }
@@ -137,30 +135,30 @@ std::string stability_csv(const StabilityRun& run) {
 }
 
 std::string stability_json(const StabilityRun& run) {
-  StabilityJson out;
+  Json out;
   out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
   out["input"] = {{"file", run.request.file.string()}, {"settings", run.request.overrides}};
   out["title"] = run.title;
   out["verdict"] = word(run.result.verdict);
   out["message"] = stability_verdict(run);
   if (const auto& critical = run.result.critical) {
-    out["critical_speed_m_s"] = json_number(critical->speed);
-    out["critical_speed_error_m_s"] = json_number(critical->error);
+    out["critical_speed_m_s"] = io::number(critical->speed);
+    out["critical_speed_error_m_s"] = io::number(critical->error);
     out["critical_mode"] = json_mode(critical->beyond.modes[*critical->beyond.fastest_growth], run.system);
   }
-  out["speeds"] = StabilityJson::array();
+  out["speeds"] = Json::array();
   for (const vehicle::ModesAtSpeed& at : run.result.at) {
-    StabilityJson one = {{"speed_m_s", json_number(at.speed)},
-                         {"status", std::string(to_string(at.report.status))},
-                         {"message", at.report.message},
-                         {"residual", json_number(at.residual)},
-                         {"eigenvalues", at.modes.size()}};
+    Json one = {{"speed_m_s", io::number(at.speed)},
+                {"status", std::string(to_string(at.report.status))},
+                {"message", at.report.message},
+                {"residual", io::number(at.residual)},
+                {"eigenvalues", at.modes.size()}};
     if (at.least_damped) one["least_damped"] = json_mode(at.modes[*at.least_damped], run.system);
     if (at.fastest_growth) one["fastest_growth"] = json_mode(at.modes[*at.fastest_growth], run.system);
     out["speeds"].push_back(std::move(one));
   }
   if (run.falling) out["falling_speed"] = json_falling(*run.falling);
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 std::string stability_svg(const StabilityRun& run) {

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/app/version.hpp"
@@ -10,12 +9,13 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/simulations/write_track.hpp"
+#include "treadmark/io/tables/number.hpp"
 #include "treadmark/pictures/chart.hpp"
 
 namespace treadmark::app {
 namespace {
 
-using TrackJson = nlohmann::ordered_json;
+using io::Json;
 
 constexpr double kNano = 1e9, kDegreeOfRad = 180.0 / kPi;
 
@@ -35,17 +35,6 @@ std::vector<std::size_t> table_rows(std::size_t count) {
     if (const std::size_t row = line * (count - 1) / (kLines - 1); rows.empty() || row != rows.back())
       rows.push_back(row);
   return rows;
-}
-
-TrackJson number_of(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return io::twelve_digits(value) + 0.0;
-}
-
-TrackJson list_of_numbers(const std::vector<double>& values) {
-  TrackJson list = TrackJson::array();
-  for (const double value : values) list.push_back(number_of(value));
-  return list;
 }
 
 std::vector<double> magnitudes_in(const TrackCurve& curve) {
@@ -140,42 +129,42 @@ std::string track_csv(const TrackResult& r) {
 }
 
 std::string track_json(const TrackResult& r) {
-  TrackJson out;
+  Json out;
   out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
   out["input"] = {{"file", r.request.file.string()}, {"settings", r.request.overrides}};
   out["name"] = r.name;
   out["kind"] = r.flexible ? "flexible" : "lumped";
   if (r.bay) {
     out["seats"] = r.bay->seats;
-    out["bay_m"] = number_of(r.bay->length);
-    out["pinned_pinned_Hz"] = number_of(r.bay->pinned_pinned);
-    if (r.bay->lateral_pinned_pinned) out["lateral_pinned_pinned_Hz"] = number_of(*r.bay->lateral_pinned_pinned);
-    out["peak_Hz"] = number_of(r.bay->peak);
-    out["peak_ratio"] = number_of(r.bay->peak_ratio);
-    out["deflection"] = {{"x_m", list_of_numbers(r.bay->x)}, {"m_per_N", list_of_numbers(r.bay->deflection)}};
+    out["bay_m"] = io::number(r.bay->length);
+    out["pinned_pinned_Hz"] = io::number(r.bay->pinned_pinned);
+    if (r.bay->lateral_pinned_pinned) out["lateral_pinned_pinned_Hz"] = io::number(*r.bay->lateral_pinned_pinned);
+    out["peak_Hz"] = io::number(r.bay->peak);
+    out["peak_ratio"] = io::number(r.bay->peak_ratio);
+    out["deflection"] = {{"x_m", io::numbers(r.bay->x)}, {"m_per_N", io::numbers(r.bay->deflection)}};
   }
-  if (r.request.aside != 0.0) out["aside_m"] = number_of(r.request.aside);
-  out["frequency_Hz"] = list_of_numbers(r.frequency);
-  out["curves"] = TrackJson::object();
+  if (r.request.aside != 0.0) out["aside_m"] = io::number(r.request.aside);
+  out["frequency_Hz"] = io::numbers(r.frequency);
+  out["curves"] = Json::object();
   for (const TrackCurve* curve : all_curves(r))
-    out["curves"][curve->key] = {{"stiffness_at_rest_N_per_m", number_of(1.0 / curve->at_rest)},
-                                 {"m_per_N", list_of_numbers(magnitudes_in(*curve))},
-                                 {"phase_deg", list_of_numbers(phases_in(*curve))}};
+    out["curves"][curve->key] = {{"stiffness_at_rest_N_per_m", io::number(1.0 / curve->at_rest)},
+                                 {"m_per_N", io::numbers(magnitudes_in(*curve))},
+                                 {"phase_deg", io::numbers(phases_in(*curve))}};
   if (r.fitted) {
     const vehicle::LumpedFit& fit = r.fitted->fit;
-    TrackJson layers = TrackJson::array();
+    Json layers = Json::array();
     for (const vehicle::LumpedLayer& layer : fit.layers)
-      layers.push_back({{"mass_kg", number_of(layer.mass)},
-                        {"stiffness_N_per_m", number_of(layer.stiffness)},
-                        {"damping_N_s_per_m", number_of(layer.damping)}});
+      layers.push_back({{"mass_kg", io::number(layer.mass)},
+                        {"stiffness_N_per_m", io::number(layer.stiffness)},
+                        {"damping_N_s_per_m", io::number(layer.damping)}});
     out["fit"] = {{"to", r.typical().key},
                   {"layers", std::move(layers)},
                   {"converged", fit.report.status == Status::ok},
-                  {"rms_of_logarithm", number_of(fit.error.rms)},
-                  {"largest_of_logarithm", number_of(fit.error.worst)},
-                  {"largest_at_Hz", number_of(fit.error.worst_frequency)}};
+                  {"rms_of_logarithm", io::number(fit.error.rms)},
+                  {"largest_of_logarithm", io::number(fit.error.worst)},
+                  {"largest_at_Hz", io::number(fit.error.worst_frequency)}};
   }
-  return out.dump(2) + '\n';
+  return io::dumped(out, 2) + '\n';
 }
 
 std::string track_svg(const TrackResult& r) {

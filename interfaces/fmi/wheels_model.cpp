@@ -228,7 +228,7 @@ class WheelsModel final : public Model {
       if (const double speed = std::abs(wheel.problem.state.velocity.x);
           wheel.problem.regime == Regime::transient && speed > 0.0)
         step = std::min(step, wheel.problem.discretisation.dx / speed);
-    return io::twelve_digits(step);
+    return io::rounded(step);
   }
 
   bool differentiable() const override { return true; }

@@ -4,7 +4,6 @@
 #include "treadmark/io/cases/case_keys.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -12,6 +11,7 @@
 
 #include "treadmark/io/cases/key_builder.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::io {
 
@@ -220,7 +220,6 @@ void apply_assignment(Case& target, const CaseOverride& assignment, const std::f
 }
 
 std::string case_file_schema() {
-  using Json = nlohmann::ordered_json;
   const std::vector<KeyInfo> keys = infos_of(case_keys());
   const auto tables = [&](bool sweep) { return Json::parse(tables_schema(keys, kExclusiveSections, sweep)); };
   Json schema{{"$schema", kSchemaDialect}, {"title", "Treadmark case file"}};
@@ -233,7 +232,7 @@ std::string case_file_schema() {
                          {"description",
                           "cases; each overrides some keys, and a list where one value is expected makes one case for "
                           "each of its values"}};
-  return schema.dump(2) + '\n';
+  return dumped(schema, 2) + '\n';
 }
 
 std::string case_key_table() { return key_table(infos_of(case_keys())); }

@@ -160,12 +160,13 @@ std::size_t utf8_length(std::string_view text) {
   return code < least || code > 0x10FFFFu || surrogate ? 0 : length;
 }
 
-double twelve_digits(double value) {
+double rounded(double value, Digits digits) {
+  if (digits == Digits::all || !std::isfinite(value)) return value + 0.0;
   char text[32];
-  const int length = std::snprintf(text, sizeof text, "%.12g", value);
+  const int length = std::snprintf(text, sizeof text, "%.*g", static_cast<int>(digits), value);
   double rounded = value;
   std::from_chars(text, text + length, rounded);
-  return rounded;
+  return rounded + 0.0;
 }
 
 int decimals_of(double value, int digits) {
@@ -203,5 +204,9 @@ std::string csv_cell(const std::string& text) {
 }
 
 std::string csv_number(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
+
+std::string csv_cell(double value, Digits digits) {
+  return std::isfinite(value) ? csv_number(rounded(value, digits)) : std::string();
+}
 
 }  // namespace treadmark::io

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/rows.hpp"
 
 namespace treadmark::io::profiles {
 
@@ -34,9 +35,8 @@ namespace treadmark::io {
 /// Bytes of the UTF-8 character (RFC 3629) at the start of a text that is not empty; 0 where there is none.
 std::size_t utf8_length(std::string_view text);
 
-/// A finite number rounded to 12 significant digits, as JSON files hold it: changes of unit leave no tail of nines.
-/// Thread-safe.
-double twelve_digits(double value);
+/// Rounded, so that changes of unit leave no tail of nines. Zero has no sign. Thread-safe.
+double rounded(double value, treadmark::Digits digits = treadmark::Digits::twelve);
 
 /// In the units in which people read numbers, less than this is nothing but rounding and shown as 0.
 inline constexpr double kShownAsZero = 1e-12;
@@ -53,5 +53,7 @@ std::string csv_cell(const std::string& text);
 
 /// The shortest number that reads back exactly, "nan", "inf" or "-inf". Thread-safe.
 std::string csv_number(double value);
+/// Rounded; empty where it is not finite.
+std::string csv_cell(double value, treadmark::Digits digits = treadmark::Digits::twelve);
 
 }  // namespace treadmark::io

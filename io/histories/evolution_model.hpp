@@ -8,20 +8,18 @@
 
 #include "treadmark/model/fatigue.hpp"
 #include "treadmark/model/profile.hpp"
+#include "treadmark/model/rows.hpp"
 #include "treadmark/model/surface_record.hpp"
 
 namespace treadmark::io {
 
 /// What came of an evolution, SI.
 
-/// What is known of the material of a body, and what the present contacts do to it.
+/// What is known of the material of a body, of a stored one as far as results need it, and what the present contacts do
+/// to it.
 struct EvolvedFatigue {
-  std::string measures, source;  ///< words of kFatigueMeasures with blanks between them, and where the numbers are from
-  double shear_yield = 0.0, dang_van_limit = 0.0;  ///< [Pa]
-  double austenite = 0.0;                          ///< [deg C]
-  std::vector<double> depths;                      ///< of the stresses of the record [m]
-  std::vector<ContactFatigue> contacts;            ///< by case: the largest of its patches
-  bool has(FatigueMeasure measure) const;
+  FatigueSettings known;
+  std::vector<ContactFatigue> contacts;  ///< by case: the largest of its patches
 };
 
 /// By which law the material of a body flows; no theory: it does not.
@@ -36,6 +34,7 @@ struct EvolutionQuantity {
   std::string name;  ///< with its unit at the end
   std::string unit, meaning;
   double value = 0.0;
+  unsigned shown = kInChart;  ///< of Shown
 };
 
 /// A body at one generation.
@@ -90,6 +89,9 @@ struct EvolutionResult {
 /// All quantities in their order; names are the same in all generations of a result.
 std::vector<EvolutionQuantity> quantities_of(const Generation& generation);
 
+/// How many grave remarks the contacts of all generations have.
+double doubts_of(const EvolutionResult& result);
+
 /// Empties the sheets of its records, which are most of its memory; quantities_of stays as it is.
 void forget_records(Generation& generation);
 
@@ -99,3 +101,14 @@ double volume_balance(const EvolvedBody& body);
 double work_balance(const EvolvedBody& body);
 
 }  // namespace treadmark::io
+
+namespace treadmark {
+
+template <>
+std::span<const Column<io::Generation>> columns();
+template <>
+std::span<const Column<io::EvolvedBody>> columns();
+template <>
+std::span<const Column<io::EvolvedCase>> columns();
+
+}  // namespace treadmark

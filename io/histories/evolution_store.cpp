@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/histories/evolution_store.hpp"
 
-#include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +12,7 @@
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/histories/result_origin.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/tables/hdf5_rows.hpp"
 #include "treadmark/model/body_name.hpp"
 
 namespace treadmark::io {
@@ -20,19 +21,6 @@ namespace {
 constexpr const char* kGenerationFormat = "treadmark generation 1";
 constexpr const char* kNumbers = "numbers";
 constexpr const char* kEvolutionFormat = "treadmark evolution 1";
-
-/// Numbers of a contact.
-struct ContactRow {
-  double ContactFatigue::*number;
-  const char *name, *meaning;
-};
-constexpr ContactRow kContactNumbers[] = {
-    {&ContactFatigue::friction, "friction", "utilised: traction over normal force"},
-    {&ContactFatigue::pressure_ratio, "pressure_ratio", "largest pressure over shear yield"},
-    {&ContactFatigue::fi_surf, "fi_surf", "surface fatigue index"},
-    {&ContactFatigue::shakedown, "shakedown", "pressure ratio over the limit of the shakedown map"},
-    {&ContactFatigue::damage, "damage", "of a passage by its T gamma"},
-    {&ContactFatigue::temperature, "temperature", "largest of the surface [degC]"}};
 
 template <class Record>
 void write_sheet(const Hdf5GroupWriter& parent, const SheetRow<Record>& what, const Record& record) {
@@ -69,19 +57,13 @@ std::string depth_group(std::size_t k) { return fmt::format("depth_{}", k + 1); 
 
 void write_fatigue(const Hdf5GroupWriter& body, const EvolvedFatigue& fatigue, const SurfaceRecord& record) {
   const Hdf5GroupWriter group = body.make_group("fatigue");
-  const std::vector<Attribute> head{{"measures", fatigue.measures},
-                                    {"source", fatigue.source},
-                                    {"shear_yield", fatigue.shear_yield},
-                                    {"dang_van_limit", fatigue.dang_van_limit},
-                                    {"austenite", fatigue.austenite}};
-  group.add(head);
-  group.write({"depths", {fatigue.depths.size()}, "m", "below the surface, of the groups depth_1 ..."}, fatigue.depths);
-  for (const ContactRow& row : kContactNumbers) {
-    std::vector<double> values;
-    values.reserve(fatigue.contacts.size());
-    for (const ContactFatigue& c : fatigue.contacts) values.push_back(c.*row.number);
-    group.write({row.name, {values.size()}, "1", row.meaning}, values);
-  }
+  group.add({"measures", words_of(fatigue.known.measures)});
+  group.add({"source", fatigue.known.source});
+  for (const FatigueNumber& number : kFatigueNumbers)
+    if (!number.stored.empty()) group.add({std::string(number.stored), fatigue.known.*number.value});
+  const std::vector<double>& depths = fatigue.known.depths;
+  group.write({"depths", {depths.size()}, "m", "below the surface, of the groups depth_1 ..."}, depths);
+  write_rows(group, fatigue.contacts);
   for (std::size_t k = 0; k < record.stresses.size(); ++k) {
     const Hdf5GroupWriter at = group.make_group(depth_group(k));
     for (const auto& row : kStressSheets) write_sheet(at, row, record.stresses[k]);
@@ -92,18 +74,14 @@ void read_fatigue(const Hdf5GroupReader& body, const SurfaceCells& cells, Evolve
                   SurfaceRecord& record) {
   if (!body.has("fatigue")) return;
   const Hdf5GroupReader group = body.open_group("fatigue");
-  fatigue.measures = group.text("measures"), fatigue.source = group.text("source");
-  fatigue.shear_yield = group.number("shear_yield"), fatigue.dang_van_limit = group.number("dang_van_limit");
-  fatigue.austenite = group.number("austenite");
-  fatigue.depths = group.numbers("depths");
-  for (const ContactRow& row : kContactNumbers) {
-    const std::vector<double> values = group.numbers(row.name);
-    if (&row == kContactNumbers) fatigue.contacts.resize(values.size());
-    if (values.size() != fatigue.contacts.size())
-      throw Error(ErrorKind::input_data, "the contacts of a generation do not fit together", {group.file(), 0, 0});
-    for (std::size_t i = 0; i < values.size(); ++i) fatigue.contacts[i].*row.number = values[i];
-  }
-  record.stresses.assign(fatigue.depths.size(), StressRecord(cells.nu));
+  FatigueSettings& known = fatigue.known;
+  known.measures = measures_of(group.text("measures"));
+  known.source = group.text("source");
+  for (const FatigueNumber& number : kFatigueNumbers)
+    if (!number.stored.empty()) known.*number.value = group.number(std::string(number.stored));
+  known.depths = group.numbers("depths");
+  fatigue.contacts = read_rows<ContactFatigue>(group);
+  record.stresses.assign(known.depths.size(), StressRecord(cells.nu));
   for (std::size_t k = 0; k < record.stresses.size(); ++k) {
     const Hdf5GroupReader at = group.open_group(depth_group(k));
     for (const auto& row : kStressSheets) read_sheet(at, row, cells, record.stresses[k]);
@@ -158,24 +136,11 @@ std::vector<EvolutionQuantity> read_numbers(const Hdf5GroupReader& parent) {
 void write_body(const Hdf5GroupWriter& root, const EvolvedBody& body) {
   const Hdf5GroupWriter group = root.make_group(body_name(body.body));
   const SurfaceCells& c = body.cells;
-  const std::vector<Attribute> head{{"law", body.law},
-                                    {"source", body.source},
-                                    {"u0", c.u0},
-                                    {"du", c.du},
-                                    {"nu", c.nu},
-                                    {"y0", c.y0},
-                                    {"dy", c.dy},
-                                    {"ny", c.ny},
-                                    {"max_depth", body.max_depth},
-                                    {"max_slope", body.max_slope},
-                                    {"surface_file", body.surface_file},
-                                    {"volume_by_law", body.record.volume_by_law},
-                                    {"work_of_contacts", body.record.work_of_contacts}};
-  group.add(head);
+  write_attributes(group, body);
   group.write({"radius", {c.radius.size()}, "m", "of the rows of a wheel; 1 of a rail", true}, c.radius);
   group.write({"section_z", {body.z.size()}, "m", "height of the section of the first column by row", true}, body.z);
   for (const auto& row : kSheets) write_sheet(group, row, body.record);
-  if (!body.fatigue.measures.empty()) write_fatigue(group, body.fatigue, body.record);
+  if (!body.fatigue.known.measures.empty()) write_fatigue(group, body.fatigue, body.record);
   if (!body.flow.theory.empty()) write_flow(group, body.flow, body.record);
   write_numbers(group, body.numbers);
 }
@@ -184,18 +149,13 @@ EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
   EvolvedBody body;
   body.body = body.cells.body = which;
   SurfaceCells& c = body.cells;
-  body.law = group.text("law"), body.source = group.text("source");
-  c.u0 = group.number("u0"), c.du = group.number("du"), c.nu = group.integer("nu");
-  c.y0 = group.number("y0"), c.dy = group.number("dy"), c.ny = group.integer("ny");
-  body.max_depth = group.number("max_depth"), body.max_slope = group.number("max_slope");
-  body.surface_file = group.text("surface_file");
+  read_attributes(group, body);
   if (c.nu < 1 || c.ny < 1) throw Error(ErrorKind::input_data, "an evolved surface has no cells", {group.file(), 0, 0});
   const std::vector<std::size_t> rows{static_cast<std::size_t>(c.ny)};
   c.radius = group.numbers("radius", rows);
   body.z = group.numbers("section_z", rows);
-  body.record = SurfaceRecord(c.nu);
-  body.record.volume_by_law = group.number("volume_by_law");
-  body.record.work_of_contacts = group.number("work_of_contacts");
+  const SurfaceRecord sums = std::exchange(body.record, SurfaceRecord(c.nu));
+  body.record.volume_by_law = sums.volume_by_law, body.record.work_of_contacts = sums.work_of_contacts;
   for (const auto& row : kSheets) read_sheet(group, row, c, body.record);
   read_fatigue(group, c, body.fatigue, body.record);
   read_flow(group, c, body.flow, body.record);
@@ -203,78 +163,15 @@ EvolvedBody read_body(const Hdf5GroupReader& group, Body which) {
   return body;
 }
 
-void write_cases(const Hdf5GroupWriter& root, const std::vector<EvolvedCase>& cases) {
-  const Hdf5GroupWriter group = root.make_group("cases");
-  const auto numbers = [&](const char* name, const char* unit, const char* meaning, auto get) {
-    std::vector<double> values;
-    values.reserve(cases.size());
-    for (const EvolvedCase& c : cases) values.push_back(get(c));
-    group.write({name, {values.size()}, unit, meaning}, values);
-  };
-  const auto texts = [&](const char* name, const char* meaning, std::string EvolvedCase::*member) {
-    std::vector<std::string> values;
-    values.reserve(cases.size());
-    for (const EvolvedCase& c : cases) values.push_back(c.*member);
-    group.write({name, {values.size()}, "1", meaning}, values);
-  };
-  numbers("run", "1", "position", [](auto& c) { return c.run; });
-  numbers("number", "1", "case of the position", [](auto& c) { return c.number; });
-  texts("label", "of the position", &EvolvedCase::label);
-  texts("status", "of the case", &EvolvedCase::status);
-  numbers("weight", "1", "share", [](auto& c) { return c.weight; });
-  numbers("patches", "1", "of contact", [](auto& c) { return c.patches; });
-  numbers("remarks", "1", "of the case", [](auto& c) { return c.remarks; });
-  numbers("doubts", "1", "grave ones of them", [](auto& c) { return c.doubts; });
-  numbers("fn", "N", "sum over the patches", [](auto& c) { return c.fn; });
-  numbers("fx", "N", "on the rail, sum over the patches", [](auto& c) { return c.fx; });
-  numbers("fs", "N", "on the rail, sum over the patches", [](auto& c) { return c.fs; });
-  numbers("pmax", "Pa", "largest pressure", [](auto& c) { return c.pmax; });
-  numbers("t_gamma", "N", "power of friction over rolling speed", [](auto& c) { return c.t_gamma; });
-}
-
-std::vector<EvolvedCase> read_cases_of(const Hdf5GroupReader& root) {
-  const Hdf5GroupReader group = root.open_group("cases");
-  const std::vector<std::string> labels = group.strings("label"), status = group.strings("status");
-  std::vector<EvolvedCase> cases(labels.size());
-  if (status.size() != labels.size())
-    throw Error(ErrorKind::input_data, "the cases of a generation do not fit together", {root.file(), 0, 0});
-  const auto numbers = [&](const char* name, auto set) {
-    const std::vector<double> values = group.numbers(name, {cases.size()});
-    for (std::size_t i = 0; i < values.size(); ++i) set(cases[i], values[i]);
-  };
-  for (std::size_t i = 0; i < cases.size(); ++i) cases[i].label = labels[i], cases[i].status = status[i];
-  numbers("run", [](auto& c, double v) { c.run = static_cast<int>(v); });
-  numbers("number", [](auto& c, double v) { c.number = static_cast<int>(v); });
-  numbers("weight", [](auto& c, double v) { c.weight = v; });
-  numbers("patches", [](auto& c, double v) { c.patches = static_cast<int>(v); });
-  numbers("remarks", [](auto& c, double v) { c.remarks = static_cast<int>(v); });
-  numbers("doubts", [](auto& c, double v) { c.doubts = static_cast<int>(v); });
-  numbers("fn", [](auto& c, double v) { c.fn = v; });
-  numbers("fx", [](auto& c, double v) { c.fx = v; });
-  numbers("fs", [](auto& c, double v) { c.fs = v; });
-  numbers("pmax", [](auto& c, double v) { c.pmax = v; });
-  numbers("t_gamma", [](auto& c, double v) { c.t_gamma = v; });
-  return cases;
-}
-
 }  // namespace
 
 void write_generation(const std::filesystem::path& path, const Generation& g) {
   Hdf5Writer file(path);
-  const std::vector<Attribute> head{{"format", std::string(kGenerationFormat)},
-                                    {"units", "SI"},
-                                    {"number", g.number},
-                                    {"progress", g.progress},
-                                    {"distance", g.distance},
-                                    {"passages", g.passages},
-                                    {"next_step", g.next_step},
-                                    {"step", g.step},
-                                    {"refused", g.refused},
-                                    {"limits_kept", g.limits_kept ? 1 : 0},
-                                    {"pressure_change", g.pressure_change}};
-  file.root().add(head);
+  file.root().add({"format", std::string(kGenerationFormat)});
+  file.root().add({"units", std::string("SI")});
+  write_attributes(file.root(), g);
   for (const EvolvedBody& body : g.bodies) write_body(file.root(), body);
-  write_cases(file.root(), g.cases);
+  write_rows(file.root().make_group("cases"), g.cases);
   write_numbers(file.root(), g.numbers);
   file.commit();
 }
@@ -286,18 +183,12 @@ Generation read_generation(const std::filesystem::path& path) {
     throw Error(ErrorKind::input_data, fmt::format("\"{}\" where \"{}\" is read", format, kGenerationFormat),
                 {path.string(), 0, 0}, "give a folder that treadmark evolve wrote");
   Generation g;
-  g.number = root.integer("number");
-  g.progress = root.number("progress");
-  g.distance = root.number("distance"), g.passages = root.number("passages");
-  g.next_step = root.number("next_step"), g.step = root.number("step");
-  g.refused = root.integer("refused");
-  g.limits_kept = root.integer("limits_kept") != 0;
-  g.pressure_change = root.number("pressure_change");
+  read_attributes(root, g);
   for (const Body body : {Body::wheel, Body::rail}) {
     const char* name = body_name(body);
     if (root.has(name)) g.bodies.push_back(read_body(root.open_group(name), body));
   }
-  g.cases = read_cases_of(root);
+  g.cases = read_rows<EvolvedCase>(root.open_group("cases"));
   g.numbers = read_numbers(root);
   return g;
 }

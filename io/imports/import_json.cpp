@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 
@@ -11,25 +10,15 @@
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/json/json_tree.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::io {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double kMilli2 = 1e6, kMilli3 = 1e9;
 constexpr double kDegrees = 180.0 / kPi;
 
-/// Twelve digits, so that changes of unit leave no tail of nines; what is not finite is null.
-Json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return twelve_digits(value) + 0.0;  // no negative zero
-}
-
-/// In full precision.
-Json exact(double value) { return std::isfinite(value) ? Json(value + 0.0) : Json(); }
-
-std::string dump(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
+Json in_full(std::initializer_list<double> values) { return numbers(values, Digits::all); }
 
 /// The functions below name what is in the file once for writing and reading: what they tell a writer to put under a
 /// key a reader takes from there. Factors are from SI to the unit of the key.
@@ -49,7 +38,7 @@ struct ImportWriter {
   void vector(const char* key, const Vec3& v, double factor) const { numbers(key, {v.x(), v.y(), v.z()}, factor); }
   template <class Vector>
   void exact_vector(const char* key, const Vector& v, double factor) const {
-    out[key] = {exact(factor * v.x()), exact(factor * v.y()), exact(factor * v.z())};
+    out[key] = in_full({factor * v.x(), factor * v.y(), factor * v.z()});
   }
   template <class Fields>
   void object(const char* key, Fields fields) const {
@@ -126,8 +115,7 @@ void frame(const File& file, Report& report) {
   if constexpr (!File::kReads) {
     Json& matrix = file.out["matrix"] = Json::array();
     for (int i = 0; i < 3; ++i)
-      matrix.push_back(
-          {exact(X.rotation(i, 0)), exact(X.rotation(i, 1)), exact(X.rotation(i, 2)), exact(kMilli * X.origin[i])});
+      matrix.push_back(in_full({X.rotation(i, 0), X.rotation(i, 1), X.rotation(i, 2), kMilli * X.origin[i]}));
   }
   file.value("nominal_profile", report.nominal);
   file.number("nominal_radius_mm", report.nominal_radius, kMilli);
@@ -371,13 +359,13 @@ std::string import_json(const ImportReport& report, bool with_seconds) {
   Json out = Json::object();
   audit(ImportWriter{out}, report);
   if (with_seconds) out["seconds"] = seconds(report);
-  return dump(out);
+  return dumped(out) + "\n";
 }
 
 std::string import_times_json(const ImportReport& report) {
   Json out = Json::object();
   times(ImportWriter{out}, report);
-  return dump(out);
+  return dumped(out) + "\n";
 }
 
 ImportReport read_import_json(const std::filesystem::path& file) {

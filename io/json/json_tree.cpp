@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 [[noreturn]] void fail(const std::string& what, const SourcePosition& where) {
   throw Error(ErrorKind::input_data, what, where, "give a folder that this program wrote, with complete files");

@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-#include <type_traits>
-
 #include "treadmark/core/constants.hpp"
 
 namespace treadmark::io {
@@ -16,6 +13,9 @@ using P = PatchResult;
 using C = CaseResult;
 using B = Block;
 using Digits = Label::Digits;
+using access::of;
+using access::part;
+using access::within;
 
 constexpr double unchanged(double value) { return value; }
 constexpr double by_thousand(double value) { return value * kMilli; }
@@ -37,51 +37,6 @@ constexpr Unit kRate{"rad/s", unchanged, "rad/s", unchanged};
 constexpr Unit kTime{"s", unchanged, "s", unchanged};
 constexpr Unit kCurvature{"1/m", unchanged, "1/m", unchanged};
 constexpr Unit kCelsius{"degC", unchanged, "degC", unchanged};
-
-template <class Member>
-struct Parts;
-template <class T, class V>
-struct Parts<V T::*> {
-  using Whole = T;
-  using Value = V;
-};
-template <auto Member>
-using WholeOf = typename Parts<decltype(Member)>::Whole;
-template <auto Member>
-using ValueOf = typename Parts<decltype(Member)>::Value;
-
-/// A number, a count, or a number that may not be known.
-template <auto Member>
-constexpr Access<WholeOf<Member>> of() {
-  using T = WholeOf<Member>;
-  using V = ValueOf<Member>;
-  if constexpr (std::is_same_v<V, std::optional<double>>)
-    return {[](const T& t) { return *(t.*Member); }, [](T& t, double v) { t.*Member = v; },
-            [](const T& t) { return (t.*Member).has_value(); }};
-  else
-    return {[](const T& t) { return static_cast<double>(t.*Member); },
-            [](T& t, double v) { t.*Member = static_cast<V>(v); }, nullptr, std::is_integral_v<V>};
-}
-
-/// A component of a vector.
-template <auto Member, int I>
-constexpr Access<WholeOf<Member>> part() {
-  using T = WholeOf<Member>;
-  return {[](const T& t) { return (t.*Member)[I]; }, [](T& t, double v) { (t.*Member)[I] = v; }};
-}
-
-/// A number of something that may not be known.
-template <auto Outer, auto Inner>
-constexpr Access<WholeOf<Outer>> within() {
-  using T = WholeOf<Outer>;
-  return {[](const T& t) { return (*(t.*Outer)).*Inner; },
-          [](T& t, double v) {
-            auto& outer = t.*Outer;
-            if (!outer) outer = typename std::remove_cvref_t<decltype(outer)>::value_type{};
-            (*outer).*Inner = v;
-          },
-          [](const T& t) { return (t.*Outer).has_value(); }};
-}
 
 template <int I>
 constexpr Access<C> deflection() {

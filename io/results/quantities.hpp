@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/model/rows.hpp"
 
 namespace treadmark::io {
 
@@ -19,15 +20,6 @@ struct Unit {
   double (*in_file)(double);
   std::string_view shown;  ///< "-" = dimensionless, empty = a count
   double (*to_shown)(double);
-};
-
-/// How a number of T is reached. put is nullptr for what follows from others; has is nullptr for what is always known.
-template <class T>
-struct Access {
-  double (*get)(const T&);
-  void (*put)(T&, double) = nullptr;
-  bool (*has)(const T&) = nullptr;
-  bool whole = false;  ///< a whole number
 };
 
 /// Rows that are known together, in the order in which HDF5 has them.

@@ -47,10 +47,10 @@ std::optional<Loads> read_loads(const Hdf5GroupReader& group);
 /// One value, or the components of a vector, from the attribute that these rows share. Errors: Error(input_data).
 template <class T>
 void read_rows(const Hdf5GroupReader& group, std::span<const Quantity<T>> rows, T& item) {
-  const auto& [get, put, has, whole] = rows.front().access;
+  const Access<T>& access = rows.front().access;
   const std::string name(rows.front().stored.name);
   if (rows.front().stored.component < 0) {
-    put(item, whole ? group.integer(name) : group.number(name));
+    access.put(item, access.whole ? group.integer(name) : group.number(name));
     return;
   }
   const Vec3 vector = group.vector(name);

@@ -5,23 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// Rounded to 12 digits, so that changes of unit leave no tail of nines; not finite = null.
-Json number(double value) {
-  if (!std::isfinite(value)) return nullptr;
-  return twelve_digits(value);
-}
 
 Json hashes(const std::vector<std::pair<std::string, std::string>>& files) {
   Json list = Json::array();
@@ -155,7 +147,7 @@ std::string to_json(const RunResult& run) {
   out["cases_total"] = run.cases_total;
   out["cases"] = Json::array();
   for (const CaseResult& result : run.cases) out["cases"].push_back(case_json(result));
-  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return dumped(out) + "\n";
 }
 
 void write_json(const std::filesystem::path& path, const RunResult& run) { write_file(path, to_json(run)); }

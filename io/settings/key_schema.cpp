@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/settings/key_schema.hpp"
+#include "treadmark/io/tables/number.hpp"
 
 #include <map>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace treadmark::io {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json properties_of(const std::vector<KeyInfo>& keys);
 
@@ -179,7 +177,7 @@ std::string tables_schema(std::span<const KeyInfo> keys, std::span<const Exclusi
 std::string file_schema(std::string_view title, std::span<const KeyInfo> keys) {
   Json schema{{"$schema", kSchemaDialect}, {"title", title}};
   schema.update(sections_of(keys, {}, false));
-  return schema.dump(2) + '\n';
+  return dumped(schema, 2) + '\n';
 }
 
 std::string key_table(std::span<const KeyInfo> keys) {

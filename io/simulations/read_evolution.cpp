@@ -66,9 +66,9 @@ WearLaw read_law(const TableReader& body) {
 
 FatigueMeasure measure_named(const TableReader& table, const std::string& word) {
   std::vector<std::string> known;
-  for (const FatigueMeasureRow& row : kFatigueMeasures) known.emplace_back(row.word);
+  for (const FatigueMeasureRow& row : fatigue_measures()) known.emplace_back(row.word);
   check_name("measure", word, known, table.need("measures").where);
-  return std::ranges::find(kFatigueMeasures, word, &FatigueMeasureRow::word)->measure;
+  return measures_of(word).front();
 }
 
 FatigueSettings read_fatigue(const TableReader& body) {
@@ -80,7 +80,7 @@ FatigueSettings read_fatigue(const TableReader& body) {
     const FatigueMeasure measure = measure_named(table, word);
     if (out.has(measure)) table.fail(fmt::format("{} names {} twice", table.path_of("measures"), word));
     out.measures.push_back(measure);
-    need_keys(table, "measure", kFatigueMeasures[static_cast<std::size_t>(measure)]);
+    need_keys(table, "measure", row_of(measure));
   }
   if (out.measures.empty())
     table.fail(fmt::format("{} is empty", table.path_of("measures")), "name some, or leave the table out");

@@ -745,20 +745,13 @@ const std::vector<SettingKey<FatigueSettings>>& plain_fatigue_keys() {
   using F = FatigueSettings;
   static const std::vector<SettingKey<F>> keys = [] {
     SettingKeys<F> list;
-    const auto number = [&list](const char* name, KeyLimits limits, const char* doc, auto place) {
-      list.number(name, limits, doc, place).default_text.clear();
-    };
-    number("shear_yield_MPa", kPositive, "fi_surf, shakedown, subsurface: k of the material in cyclic shear",
-           [](F& f) -> double& { return f.shear_yield; });
+    for (const FatigueNumber& number : kFatigueNumbers)
+      list.number(std::string(number.key), kPositive, std::string(number.meaning),
+                  [value = number.value](F& f) -> double& { return f.*value; })
+          .default_text.clear();
     list.number_list(
         "depths_mm", "subsurface, dang_van: below the surface, increasing, from the size of an element on",
         [](F & f) -> auto& { return f.depths; }, kPositive);
-    number("dang_van_slope", kPositive, "dang_van: factor of the hydrostatic stress",
-           [](F& f) -> double& { return f.dang_van_slope; });
-    number("dang_van_limit_MPa", kPositive, "dang_van: equivalent shear stress that is endured",
-           [](F& f) -> double& { return f.dang_van_limit; });
-    number("austenite_C", kPositive, "martensite: temperature from which on the steel becomes austenite",
-           [](F& f) -> double& { return f.austenite; });
     list.number_list(
         "t_gamma_N", "whole_life: points of a broken line, which goes on straight behind the last",
         [](F & f) -> auto& { return f.t_gamma; }, kNotNegative);
@@ -773,7 +766,7 @@ const std::vector<SettingKey<FatigueSettings>>& plain_fatigue_keys() {
 const TableKeys& fatigue_keys() {
   static const TableKeys keys = [] {
     std::string words;
-    for (const FatigueMeasureRow& row : kFatigueMeasures)
+    for (const FatigueMeasureRow& row : fatigue_measures())
       words += fmt::format("{}`\"{}\"`", words.empty() ? "" : ", ", row.word);
     TableKeys list{needed(key_info("measures", KeyType::text_list, words + ": see `treadmark list laws`")),
                    needed(key_info("source", KeyType::text, "where the numbers come from; results repeat it"))};

@@ -78,7 +78,7 @@ TEST(MaterialFlow, EvenStressesCarryTheVolumeOfTheClosedForm) {
     }
     EXPECT_NEAR(behind, expected * way, 1e-3 * expected * way);
     EXPECT_NEAR(before, -expected * way, 1e-3 * expected * way);
-    EXPECT_NEAR(total(record.volume), 0.0, 1e-14 * expected * way);
+    EXPECT_NEAR(record.volume.sum(), 0.0, 1e-14 * expected * way);
     const int middle = 40;
     EXPECT_NEAR(record.flow[9].strain.at(0, middle), kPassages * kPerCycle * (kStress * 0.9 / kYield - 1.0), 1e-12);
   }
@@ -106,7 +106,7 @@ TEST(MaterialFlow, NothingMovesBelowTheYieldNorWhereBothDirectionsAreAlike) {
           EXPECT_EQ(record.flow[1].strain.at(i, j), 0.0);
         }
     EXPECT_GT(moved(record.volume), 0.0);  // at its ends they have not
-    EXPECT_NEAR(total(record.volume), 0.0, 1e-13 * moved(record.volume));
+    EXPECT_NEAR(record.volume.sum(), 0.0, 1e-13 * moved(record.volume));
   }
 }
 

@@ -78,9 +78,9 @@ TEST(AddPatch, RemovesVolumeByWorkAndKeepsSums) {
     const PassedPatch patch = pin(Body::wheel, 13, 17, 0.7e-3, 3.1, 1.23e-3);
     SurfaceRecord record(nu);
     add_patch(record, cells, by_energy(per_work), patch, {3.1, 2.9, 3.35}, seconds, 1.0);
-    EXPECT_NEAR(total(record.work), patch.power * seconds, 1e-12 * patch.power * seconds);
-    EXPECT_NEAR(total(record.volume), per_work * patch.power * seconds, 1e-6 * per_work * patch.power * seconds);
-    EXPECT_NEAR(record.volume_by_law, total(record.volume), 1e-12 * record.volume_by_law);
+    EXPECT_NEAR(record.work.sum(), patch.power * seconds, 1e-12 * patch.power * seconds);
+    EXPECT_NEAR(record.volume.sum(), per_work * patch.power * seconds, 1e-6 * per_work * patch.power * seconds);
+    EXPECT_NEAR(record.volume_by_law, record.volume.sum(), 1e-12 * record.volume_by_law);
   }
 }
 
@@ -111,7 +111,7 @@ TEST(AddPatch, MirroredPatchesMakeMirroredWear) {
   add_patch(right, cells, archard(), pin(Body::rail, 5, 8, 0.6e-3, 0.0, 3.3e-3), {}, 1.0, 1.0);
   add_patch(left, cells, archard(), pin(Body::rail, 5, 8, 0.6e-3, 0.0, -3.3e-3), {}, 1.0, 1.0);
   for (int j = 0; j < cells.ny; ++j)
-    EXPECT_NEAR(right.volume.at(0, j), left.volume.at(0, cells.ny - 1 - j), 1e-12 * total(right.volume));
+    EXPECT_NEAR(right.volume.at(0, j), left.volume.at(0, cells.ny - 1 - j), 1e-12 * right.volume.sum());
 }
 
 TEST(AddPatch, RefusesContactBesideTheSurface) {
@@ -132,7 +132,7 @@ TEST(Smooth, KeepsSumsAndLeavesEvenValuesAlone) {
       for (int i = 0; i < nu; ++i) even.ref(i, j) = 2.0;
     smooth(peak, cells, 1.5e-3);
     smooth(even, cells, 1.5e-3);
-    EXPECT_NEAR(total(peak), 1.0, 1e-12);
+    EXPECT_NEAR(peak.sum(), 1.0, 1e-12);
     EXPECT_NEAR(even.at(nu / 2, 40), 2.0, 1e-12);
     // in units of the steps, the variance is that of the kernel (but for what its end cuts off)
     double variance = 0.0;

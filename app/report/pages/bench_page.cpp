@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -19,11 +18,6 @@ namespace {
 
 constexpr double kMegabytes = 1e-6;  // bytes -> MB
 
-/// With the digits of bench.json; NaN where that says null.
-double six_digits(double value) {
-  return std::isfinite(value) ? std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr) : NAN;
-}
-
 /// A row with its numbers as the files have them, and what names it.
 struct Row {
   const BenchRow* data;
@@ -34,7 +28,7 @@ struct Row {
   double number(std::string_view name) const {
     const io::FieldValue& value = std::ranges::find(fields, name, &io::NamedField::name)->value;
     const auto* count = std::get_if<std::int64_t>(&value);
-    return count ? static_cast<double>(*count) : six_digits(std::get<double>(value));
+    return count ? static_cast<double>(*count) : io::rounded(std::get<double>(value), Digits::six);
   }
   const char* body() const { return wheel ? "wheel" : "rail"; }
 };
@@ -113,8 +107,8 @@ Facts facts_of(const BenchReport& bench) {
   const std::string settings = joined(bench.settings);
   facts.entries.emplace_back("Settings", settings.empty() ? "as in the input" : settings);
   facts.entries.emplace_back("Surfaces as given", bench.truth);
-  facts.entries.emplace_back("Time for a measure", duration_text(six_digits(bench.seconds_per_measure)));
-  facts.entries.emplace_back("Time of the whole run", duration_text(six_digits(bench.seconds)));
+  facts.entries.emplace_back("Time for a measure", duration_text(io::rounded(bench.seconds_per_measure, Digits::six)));
+  facts.entries.emplace_back("Time of the whole run", duration_text(io::rounded(bench.seconds, Digits::six)));
   return facts;
 }
 

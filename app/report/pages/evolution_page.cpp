@@ -23,11 +23,6 @@ namespace fs = std::filesystem;
 /// Units as people read them.
 std::string unit_shown(const std::string& unit) { return unit == "1" ? "" : unit == "mm3" ? "mm³" : unit; }
 
-bool drawn(const std::string& name) {
-  return name != "distance_km" && name != "passages" && name != "limits_kept" && name != "refused_steps" &&
-         name.find("balance") == std::string::npos && name != "doubts";
-}
-
 /// Distance, or passages where no wheel evolves.
 Axis axis_of(const io::EvolutionResult& result) {
   const bool wheel = result.generations.back().distance > 0.0;
@@ -43,7 +38,7 @@ ChartView numbers_over_generations(const io::EvolutionResult& result) {
   view.linked = true;
   const auto first = io::quantities_of(result.generations.front());
   for (std::size_t k = 0; k < first.size(); ++k) {
-    if (!drawn(first[k].name)) continue;
+    if (!(first[k].shown & kInChart)) continue;
     Series series{first[k].name, {}};
     series.marks = Series::Marks::both;
     series.y.reserve(result.generations.size());
@@ -66,6 +61,13 @@ double largest_in_row(const CellSheet& sheet, int j) {
   return row == sheet.rows().end() ? 0.0 : *std::ranges::max_element(row->second);
 }
 
+template <class Use>
+void for_each_endured(const io::EvolvedBody& b, Use&& use) {
+  for (const FatigueMeasureRow& row : fatigue_measures())
+    if (b.fatigue.known.has(row.measure))
+      for (const EnduredSheet& sheet : row.endured) use(sheet);
+}
+
 /// What points have endured, as far as it was asked for.
 std::vector<SectionLine> endured(const io::EvolvedBody& b) {
   using Record = const SurfaceRecord&;
@@ -73,37 +75,21 @@ std::vector<SectionLine> endured(const io::EvolvedBody& b) {
                                 [](Record r, std::size_t) -> const CellSheet& { return r.pressure; }},
                                {"largest T gamma up to here", "N", "T gamma", 1.0,
                                 [](Record r, std::size_t) -> const CellSheet& { return r.t_gamma; }}};
-  if (b.fatigue.has(FatigueMeasure::fi_surf))
-    out.push_back({"largest surface fatigue index above 0 up to here", "", "index", 1.0,
-                   [](Record r, std::size_t) -> const CellSheet& { return r.fi_surf; }});
-  if (b.fatigue.has(FatigueMeasure::whole_life))
-    out.push_back(
-        {"damage of passages", "", "damage", 1.0, [](Record r, std::size_t) -> const CellSheet& { return r.damage; }});
-  if (b.fatigue.has(FatigueMeasure::martensite))
-    out.push_back({"largest temperature up to here", "°C", "temperature", 1.0,
-                   [](Record r, std::size_t) -> const CellSheet& { return r.temperature; }});
-  const auto below = [&](const std::vector<double>& depths, const std::string& panel, const std::string& unit,
-                         double scale, auto sheet) {
-    for (std::size_t k = 0; k < depths.size(); ++k)
-      out.push_back({panel, unit, fmt::format("{:.3g} mm deep", kMilli * depths[k]), scale, sheet, k});
+  const auto add = [&](const EnduredSheet& s, const std::string& name, std::size_t depth) {
+    out.push_back({std::string(s.label), std::string(s.unit), name, s.scale(b.fatigue.known), s.sheet, depth});
   };
-  const auto at_depths = [&](const std::string& panel, const std::string& unit, double scale, auto sheet) {
-    below(b.fatigue.depths, panel, unit, scale, sheet);
-  };
+  const auto deep = [](double depth) { return fmt::format("{:.3g} mm deep", kMilli * depth); };
+  for_each_endured(b, [&](const EnduredSheet& s) {
+    if (!s.at_depths) add(s, std::string(s.name), 0);
+  });
   if (!b.flow.theory.empty())
-    below(b.flow.depths, "shear strain that passages have added up", "", 1.0,
-          [](Record r, std::size_t k) -> const CellSheet& { return r.flow[k].strain; });
-  if (b.fatigue.has(FatigueMeasure::subsurface)) {
-    at_depths("largest von Mises stress up to here", "MPa", 1e-6,
-              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].von_mises; });
-    at_depths("largest shear amplitude up to here", "MPa", 1e-6,
-              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].shear; });
-    at_depths("shear yield that shakedown needs over that of the material", "", 1.0 / b.fatigue.shear_yield,
-              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].shakedown; });
-  }
-  if (b.fatigue.has(FatigueMeasure::dang_van))
-    at_depths("Dang Van's stress over its limit", "", 1.0 / b.fatigue.dang_van_limit,
-              [](Record r, std::size_t k) -> const CellSheet& { return r.stresses[k].dang_van; });
+    for (std::size_t k = 0; k < b.flow.depths.size(); ++k)
+      out.push_back({"shear strain that passages have added up", "", deep(b.flow.depths[k]), 1.0,
+                     [](Record r, std::size_t depth) -> const CellSheet& { return r.flow[depth].strain; }, k});
+  for_each_endured(b, [&](const EnduredSheet& s) {
+    for (std::size_t k = 0; s.at_depths && k < b.fatigue.known.depths.size(); ++k)
+      add(s, deep(b.fatigue.known.depths[k]), k);
+  });
   return out;
 }
 
@@ -145,29 +131,24 @@ ChartView section_by_generation(const io::EvolutionResult& result, const fs::pat
 struct SurfaceSheet {
   std::string id, title, label, unit;
   double scale = 1.0;
-  bool by_area = false;  ///< volumes that become depths
-  const CellSheet& (*sheet)(const SurfaceRecord& record) = nullptr;
+  bool by_area = false;                                                                 ///< volumes that become depths
+  const CellSheet& (*sheet)(const SurfaceRecord& record, std::size_t depth) = nullptr;  ///< shown at the first depth
 };
 
 std::vector<SurfaceSheet> surface_sheets(const io::EvolvedBody& b) {
   using Record = const SurfaceRecord&;
-  std::vector<SurfaceSheet> out{
-      {"depth", "Depth", "depth removed", "mm", kMilli, true, [](Record r) -> const CellSheet& { return r.volume; }},
-      {"pressure", "Largest pressure", "largest pressure up to here", "MPa", 1e-6, false,
-       [](Record r) -> const CellSheet& { return r.pressure; }}};
-  if (b.fatigue.has(FatigueMeasure::fi_surf))
-    out.push_back({"index", "Surface fatigue index", "largest index above 0 up to here", "", 1.0, false,
-                   [](Record r) -> const CellSheet& { return r.fi_surf; }});
-  if (b.fatigue.has(FatigueMeasure::whole_life))
-    out.push_back({"damage", "Damage", "damage of passages", "", 1.0, false,
-                   [](Record r) -> const CellSheet& { return r.damage; }});
-  if (b.fatigue.has(FatigueMeasure::subsurface))
-    out.push_back({"yield", "Shear yield that shakedown needs", "at the first depth, over that of the material", "",
-                   1.0 / b.fatigue.shear_yield, false,
-                   [](Record r) -> const CellSheet& { return r.stresses.front().shakedown; }});
+  std::vector<SurfaceSheet> out{{"depth", "Depth", "depth removed", "mm", kMilli, true,
+                                 [](Record r, std::size_t) -> const CellSheet& { return r.volume; }},
+                                {"pressure", "Largest pressure", "largest pressure up to here", "MPa", 1e-6, false,
+                                 [](Record r, std::size_t) -> const CellSheet& { return r.pressure; }}};
+  for_each_endured(b, [&](const EnduredSheet& s) {
+    if (!s.id.empty())
+      out.push_back({std::string(s.id), std::string(s.title), std::string(s.on_surface), std::string(s.unit),
+                     s.scale(b.fatigue.known), false, s.sheet});
+  });
   if (!b.flow.theory.empty())
     out.push_back({"strain", "Shear strain", "added up at the first depth", "", 1.0, false,
-                   [](Record r) -> const CellSheet& { return r.flow.front().strain; }});
+                   [](Record r, std::size_t) -> const CellSheet& { return r.flow.front().strain; }});
   return out;
 }
 
@@ -175,7 +156,7 @@ std::vector<SurfaceSheet> surface_sheets(const io::EvolvedBody& b) {
 double shown_value(const SurfaceSheet& what, const io::EvolvedBody& b, int i, int count, int j) {
   double value = 0.0;
   for (int k = i; k < i + count; ++k)
-    if (const double one = what.sheet(b.record).at(b.cells.wrapped(k), j); std::fabs(one) > std::fabs(value))
+    if (const double one = what.sheet(b.record, 0).at(b.cells.wrapped(k), j); std::fabs(one) > std::fabs(value))
       value = one;
   return in_file(what.scale * (what.by_area ? value / b.cells.area(j) : value));
 }
@@ -335,10 +316,8 @@ Page evolution_page(const fs::path& folder) {
     summary.blocks.emplace_back(Banner{Banner::Kind::warning, result.status, result.message});
   Cards cards;
   for (const io::EvolutionQuantity& q : io::quantities_of(last))
-    if (q.name == "distance_km" || q.name == "passages" || q.name == "pmax_MPa" || q.name.ends_with("_depth_mm") ||
-        q.name.ends_with("_raised_mm"))
-      if (q.value > 0.0)
-        cards.cards.push_back({q.meaning, fmt::format("{} {}", shown({q.value, 4}), unit_shown(q.unit))});
+    if ((q.shown & kInCards) && q.value > 0.0)
+      cards.cards.push_back({q.meaning, fmt::format("{} {}", shown({q.value, 4}), unit_shown(q.unit))});
   summary.blocks.emplace_back(std::move(cards));
   for (const io::EvolvedBody& b : last.bodies)
     summary.blocks.emplace_back(
@@ -348,9 +327,9 @@ Page evolution_page(const fs::path& folder) {
       summary.blocks.emplace_back(Paragraph{
           fmt::format("Flow of the {}: {}. Its numbers: {}.", body_name(b.body), b.flow.theory, b.flow.source)});
   for (const io::EvolvedBody& b : last.bodies)
-    if (!b.fatigue.measures.empty())
+    if (const FatigueSettings& known = b.fatigue.known; !known.measures.empty())
       summary.blocks.emplace_back(Paragraph{fmt::format("Fatigue of the {}: {}. Its numbers: {}.", body_name(b.body),
-                                                        b.fatigue.measures, b.fatigue.source)});
+                                                        words_of(known.measures), known.source)});
   page.sections.push_back(std::move(summary));
   page.sections.push_back(
       {"numbers",

@@ -29,7 +29,7 @@ Facts origin_facts(const Origin& origin) {
 
 Section origin_section(Facts facts) { return {"origin", "Origin", {std::move(facts)}}; }
 
-double in_file(double value) { return std::isfinite(value) ? io::twelve_digits(value) + 0.0 : kNaN; }
+double in_file(double value) { return std::isfinite(value) ? io::rounded(value) : kNaN; }
 
 std::string title_of(const std::string& title, const std::string& input_file) {
   if (!title.empty()) return title;

@@ -145,8 +145,7 @@ TEST_F(Evolution, FullSlipBelowAnEllipseWearsByTheClosedForm) {
   EXPECT_LT(std::fabs(io::volume_balance(wheel)), 1e-9);
   EXPECT_LT(std::fabs(io::work_balance(wheel)), 1e-6);
   // Archard's volume is k / H times the work over the coefficient of friction, where everything slips
-  EXPECT_NEAR(damage::total(wheel.record.volume), 1e-4 / 3e9 / 0.05 * damage::total(wheel.record.work),
-              1e-6 * damage::total(wheel.record.volume));
+  EXPECT_NEAR(wheel.record.volume.sum(), 1e-4 / 3e9 / 0.05 * wheel.record.work.sum(), 1e-6 * wheel.record.volume.sum());
 }
 
 /// Full slip below an ellipse: what the whole patch does follows from Hertz, what points have seen from its pressure.
@@ -159,12 +158,14 @@ TEST_F(Evolution, FatigueOfAnEllipseIsThatOfHertz) {
   const double p0 = ellipse.largest_pressure();
   const ContactFatigue& contact = first.bodies.front().fatigue.contacts.front();
   EXPECT_NEAR(contact.friction, friction, 1e-3 * friction);
-  EXPECT_NEAR(contact.fi_surf, friction - k / p0, 0.03 * k / p0);  // the area of contact is counted in elements
+  EXPECT_NEAR(contact[FatigueMeasure::fi_surf], friction - k / p0,
+              0.03 * k / p0);  // the area of contact is counted in elements
   EXPECT_NEAR(contact.pressure_ratio, p0 / k, 0.01 * p0 / k);
-  EXPECT_NEAR(contact.shakedown, contact.pressure_ratio / 3.772, 1e-3);
+  EXPECT_NEAR(contact[FatigueMeasure::shakedown], contact.pressure_ratio / 3.772, 1e-3);
   const double t_gamma = first.cases.front().t_gamma;
   EXPECT_NEAR(t_gamma, friction * force * 0.2 / 1.9, 0.002 * t_gamma);  // slip speed over the mean of both surfaces
-  EXPECT_NEAR(contact.damage, 1e-5 * (175.0 - t_gamma) / 110.0, 1e-9 * std::fabs(contact.damage));
+  EXPECT_NEAR(contact[FatigueMeasure::whole_life], 1e-5 * (175.0 - t_gamma) / 110.0,
+              1e-9 * std::fabs(contact[FatigueMeasure::whole_life]));
 
   const io::EvolvedBody& wheel = result.generations.back().bodies.front();
   const SurfaceRecord& record = wheel.record;
@@ -172,7 +173,7 @@ TEST_F(Evolution, FatigueOfAnEllipseIsThatOfHertz) {
   int middle = 0;
   for (const auto& [j, row] : record.pressure.rows())
     if (row.front() > deepest) deepest = row.front(), middle = j;
-  EXPECT_NEAR(record.damage.at(0, middle), contact.damage * record.passages.at(0, middle),
+  EXPECT_NEAR(record.damage.at(0, middle), contact[FatigueMeasure::whole_life] * record.passages.at(0, middle),
               1e-9 * std::fabs(record.damage.at(0, middle)));
   EXPECT_NEAR(record.t_gamma.at(0, middle), t_gamma, 1e-9 * t_gamma);
   EXPECT_EQ(record.fi_surf.rows().size(), 0u);  // below 0
@@ -188,7 +189,8 @@ TEST_F(Evolution, FatigueOfAnEllipseIsThatOfHertz) {
   EXPECT_GT(record.stresses[1].dang_van.at(0, middle), 0.0);
   const io::Generation again = io::read_generation(folder_.path() / "out" / io::generation_file(1));
   EXPECT_EQ(again.bodies.front().record.stresses[2].shear.rows(), record.stresses[2].shear.rows());
-  EXPECT_EQ(again.bodies.front().fatigue.contacts.front().fi_surf, wheel.fatigue.contacts.front().fi_surf);
+  EXPECT_EQ(again.bodies.front().fatigue.contacts.front()[FatigueMeasure::fi_surf],
+            wheel.fatigue.contacts.front()[FatigueMeasure::fi_surf]);
 }
 
 /// What the surface has reached is what the solver says of the contact; friction heats a wheel that slips all over by
@@ -288,7 +290,7 @@ TEST_F(Evolution, MaterialFlowsAlongTheTraction) {
     }
     EXPECT_EQ(found > 0.0, rail);
     EXPECT_NEAR(found, moment, 0.03 * std::fabs(moment)) << rail;
-    EXPECT_NEAR(damage::total(body.record.volume), 0.0, 1e-12 * moved);
+    EXPECT_NEAR(body.record.volume.sum(), 0.0, 1e-12 * moved);
     EXPECT_GT(body.flow.max_raised, 1e-7);
     const io::Generation again = io::read_generation(folder_.path() / "out" / io::generation_file(1));
     const io::EvolvedBody& read = again.bodies[rail ? 1 : 0];
@@ -484,9 +486,9 @@ TEST_F(Evolution, BothBodiesWearByTheSameWork) {
   const auto& bodies = result.generations.back().bodies;
   ASSERT_EQ(bodies.size(), 2u);
   // 1000 m of rolling, and 1000 passages over a metre of rail
-  const double wheel = damage::total(bodies[0].record.work), rail = damage::total(bodies[1].record.work);
+  const double wheel = bodies[0].record.work.sum(), rail = bodies[1].record.work.sum();
   EXPECT_NEAR(wheel, rail, 1e-9 * rail);
-  EXPECT_NEAR(damage::total(bodies[0].record.volume), damage::total(bodies[1].record.volume), 1e-9 * rail);
+  EXPECT_NEAR(bodies[0].record.volume.sum(), bodies[1].record.volume.sum(), 1e-9 * rail);
   EXPECT_EQ(bodies[1].surface_file, "rail_0001.vdb");
 }
 
@@ -524,7 +526,7 @@ TEST_F(Evolution, ElementsConverge) {
     const auto result = run(file(
         base, "distance_km = 1\nupdates = 1\nfields_every = 0\n[evolve.wheel]\nsmoothing_mm = 0\ndy_mm = 0.4\n", kLaw));
     ASSERT_EQ(result.status, "complete") << result.message;
-    const double volume = damage::total(result.generations.back().bodies.front().record.volume);
+    const double volume = result.generations.back().bodies.front().record.volume.sum();
     errors.push_back(std::fabs(volume / (expected * 60e3) - 1.0));
     found.push_back(result.generations.back().bodies.front().max_depth);
   }

@@ -45,7 +45,7 @@ TEST(GeometryCommand, WritesJsonByItsSchema) {
   const json& functions = g.at("functions");
   const std::size_t rows = functions.at("y_mm").size();
   for (const auto& [name, values] : functions.items()) EXPECT_EQ(values.size(), rows) << name;
-  EXPECT_EQ(functions.size(), function_columns().size());
+  EXPECT_EQ(functions.size(), columns<FunctionRow>().size());
   // the same numbers in two ways
   for (std::size_t i = 0; i < rows; ++i)
     EXPECT_NEAR(functions["delta_r_mm"][i].get<double>(),

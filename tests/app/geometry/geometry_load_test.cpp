@@ -40,7 +40,7 @@ TEST(GeometryLoad, WritesJsonByItsSchema) {
                        schema = nlohmann::json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/geometry.schema.json"));
   EXPECT_EQ(treadmark::testing::first_violation(out, schema, schema), "");
   const nlohmann::json &g = out.at("geometry"), &f = g.at("functions"), &load = g.at("load");
-  EXPECT_EQ(f.size(), function_columns().size() + load_columns().size() + load_reason_columns().size());
+  EXPECT_EQ(f.size(), columns<FunctionRow>().size() + columns<geometry::LoadedPosition>().size());
   const std::size_t rows = f.at("y_mm").size();
   for (const auto& [name, values] : f.items()) EXPECT_EQ(values.size(), rows) << name;
   std::size_t pressures = 0;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace treadmark {
+
+/// A number of a result is one row of a table: files, terminal and pages walk the rows (io/tables/) and name no number
+/// by themselves.
+
+/// Significant digits of numbers in files: those of times, of measures of sections, of results, and all there are.
+enum class Digits { six = 6, ten = 10, twelve = 12, all = 17 };
+
+/// A unit of JSON, CSV and tables, and of SI, in which HDF5 has the number; "1": dimensionless.
+struct FileUnit {
+  std::string_view name = "1";
+  double per_si = 1.0;  ///< so many are one of SI
+  std::string_view si = name;
+};
+
+namespace unit {
+inline constexpr FileUnit kOne, kN{"N"}, kJ{"J"}, kM{"m"}, kK{"K"}, kCelsius{"degC"}, kMm{"mm", 1e3, "m"},
+    kKm{"km", 1e-3, "m"}, kMm3{"mm3", 1e9, "m3"}, kMPa{"MPa", 1e-6, "Pa"};
+}  // namespace unit
+
+/// How a number of a Row is reached, or a text.
+template <class Row>
+struct Access {
+  double (*get)(const Row&) = nullptr;
+  void (*put)(Row&, double) = nullptr;               ///< nullptr: follows from others
+  bool (*has)(const Row&) = nullptr;                 ///< nullptr: always known
+  bool whole = false;                                ///< a whole number
+  const std::string& (*word)(const Row&) = nullptr;  ///< a text in place of a number
+  void (*put_word)(Row&, const std::string&) = nullptr;
+};
+
+namespace access {
+
+template <class Member>
+struct Parts;
+template <class R, class V>
+struct Parts<V R::*> {
+  using Whole = R;
+  using Value = V;
+};
+template <auto Member>
+using WholeOf = typename Parts<decltype(Member)>::Whole;
+template <auto Member>
+using ValueOf = typename Parts<decltype(Member)>::Value;
+
+/// A text, a number, a count, or a number that may not be known.
+template <auto Member>
+constexpr Access<WholeOf<Member>> of() {
+  using R = WholeOf<Member>;
+  using V = ValueOf<Member>;
+  if constexpr (std::is_same_v<V, std::string>)
+    return {nullptr,
+            nullptr,
+            nullptr,
+            false,
+            [](const R& r) -> const std::string& { return r.*Member; },
+            [](R& r, const std::string& word) { r.*Member = word; }};
+  else if constexpr (std::is_same_v<V, std::optional<double>>)
+    return {[](const R& r) { return *(r.*Member); }, [](R& r, double v) { r.*Member = v; },
+            [](const R& r) { return (r.*Member).has_value(); }};
+  else
+    return {[](const R& r) { return static_cast<double>(r.*Member); },
+            [](R& r, double v) { r.*Member = static_cast<V>(v); }, nullptr, std::is_integral_v<V>};
+}
+
+/// A component of a vector.
+template <auto Member, int I>
+constexpr Access<WholeOf<Member>> part() {
+  using R = WholeOf<Member>;
+  return {[](const R& r) { return (r.*Member)[I]; }, [](R& r, double v) { (r.*Member)[I] = v; }};
+}
+
+/// A number of a member, or of one that may not be known.
+template <auto Outer, auto Inner>
+constexpr Access<WholeOf<Outer>> within() {
+  using R = WholeOf<Outer>;
+  using V = ValueOf<Inner>;
+  if constexpr (std::is_same_v<ValueOf<Outer>, WholeOf<Inner>>)
+    return {[](const R& r) { return static_cast<double>(r.*Outer.*Inner); },
+            [](R& r, double v) { r.*Outer.*Inner = static_cast<V>(v); }, nullptr, std::is_integral_v<V>};
+  else
+    return {[](const R& r) { return (*(r.*Outer)).*Inner; },
+            [](R& r, double v) {
+              auto& outer = r.*Outer;
+              if (!outer) outer.emplace();
+              (*outer).*Inner = v;
+            },
+            [](const R& r) { return (r.*Outer).has_value(); }};
+}
+
+}  // namespace access
+
+/// Where people are shown a number, apart from files.
+enum Shown : unsigned {
+  kOnlyInFiles = 0,
+  kInTable = 1,  ///< on the terminal
+  kInChart = 2,  ///< of a report
+  kInCards = 4,  ///< at the top of a report
+};
+
+template <class Row>
+struct Column {
+  std::string_view key;     ///< in JSON, CSV and tables, with its unit at its end; empty: not there
+  FileUnit unit;            ///< of the key
+  std::string_view stored;  ///< in HDF5, in SI; empty: not there
+  Access<Row> access;
+  std::string_view meaning = {};
+  unsigned shown = kOnlyInFiles;  ///< of Shown
+
+  bool known(const Row& row) const { return access.has == nullptr || access.has(row); }
+  double in_file(const Row& row) const { return unit.per_si * access.get(row); }
+};
+
+/// The rows of a table, specialised beside the struct.
+template <class Row>
+std::span<const Column<Row>> columns();
+
+}  // namespace treadmark
