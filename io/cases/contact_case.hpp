@@ -88,6 +88,7 @@ struct ContactReader {
 
   void read_control_words();
   void refuse(const SourcePosition& where, std::string message, std::string advice = {});
+  Error refusal() const;           ///< the first of them, which also tells about the others
   void note(std::string message);  ///< once per file
 
   bool on_roller() const { return (*problem)["CONFIG"] >= 4; }  ///< module 1

@@ -18,6 +18,16 @@ void ContactReader::refuse(const SourcePosition& where, std::string message, std
   refusals.emplace_back(ErrorKind::configuration, std::move(message), where, std::move(advice));
 }
 
+Error ContactReader::refusal() const {
+  const Error& first = refusals.front();
+  std::string advice = first.advice();
+  for (std::size_t i = 1; i < refusals.size(); ++i)
+    advice +=
+        fmt::format("{}also line {}: {}", advice.empty() ? "" : "; ", refusals[i].where().line, refusals[i].message());
+  advice += fmt::format("{}docs/contact-input.md lists what is supported", advice.empty() ? "" : "; ");
+  return Error(first.kind(), first.message(), first.where(), advice);
+}
+
 void ContactReader::note(std::string message) {
   if (std::find(notes.begin(), notes.end(), message) == notes.end()) notes.push_back(std::move(message));
 }

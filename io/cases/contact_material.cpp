@@ -131,7 +131,7 @@ void ContactReader::read_material() {
   } else if (kind == 4) {
     kept.layer = read_layer(text);
   } else if (kind >= 6) {
-    throw refusals.front();
+    throw refusal();
   }
 }
 

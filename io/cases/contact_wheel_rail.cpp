@@ -83,7 +83,7 @@ WheelRailCase read_wheel_rail(ContactReader& r) {
     }
     r.read_friction(sets);
   }
-  if (model["INFLCF"] == 9) throw r.refusals.front();
+  if (model["INFLCF"] == 9) throw r.refusal();
   if (model["INFLCF"] >= 2) {
     r.read_influence();
     r.read_material();

@@ -19,19 +19,6 @@ namespace treadmark::io {
 
 namespace {
 
-constexpr std::string_view kAdvice = "docs/contact-input.md lists what is supported";
-
-/// The first refusal, which also tells about the others of the same case.
-Error first_refusal(const std::vector<Error>& refusals) {
-  const Error& first = refusals.front();
-  std::string advice = first.advice();
-  for (std::size_t i = 1; i < refusals.size(); ++i)
-    advice +=
-        fmt::format("{}also line {}: {}", advice.empty() ? "" : "; ", refusals[i].where().line, refusals[i].message());
-  advice += fmt::format("{}{}", advice.empty() ? "" : "; ", kAdvice);
-  return Error(first.kind(), first.message(), first.where(), advice);
-}
-
 void check_first_case(const ContactReader& r) {
   const ControlWord& model = *r.model;
   if (model["FRCLAW"] == 1)
@@ -167,7 +154,7 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
     if (ending <= 1) {
       kept.has_history = true;
       refuse_contradictions(reader, next, result.cases);
-      if (!reader.refusals.empty()) throw first_refusal(reader.refusals);
+      if (!reader.refusals.empty()) throw reader.refusal();
       result.cases.push_back(std::move(next));
     }
     module_line = ending % 2 == 1;

@@ -59,15 +59,17 @@ namespace {
 
 RigidMotion rail_motion(const Problem& p, const Placement& placed) {
   const Track& t = p.track;
-  const Vec3 irregularity(0.0, t.vy, t.vz);
+  const auto& [origin, rotation] = placed.X_TR;
+  const Vec3 irregularity(0.0, t.vy, t.vz), rolling(t.vroll, 0.0, 0.0);
   if (p.roller) {
-    // A curve turns the roller like a rail that passes at its surface speed.
+    // It turns about its own axle, which moves and tilts with it; a curve turns it like a rail that passes at its
+    // speed.
     const double yaw_rate = -p.roller->nominal_radius * p.roller->pitch_rate * t.curvature;
-    const Vec3 axle(placed.X_TR.origin.x(), 0.0, placed.X_TR.origin.z() + p.roller->nominal_radius);
-    return {axle, irregularity, {t.vroll, p.roller->pitch_rate, yaw_rate}};
+    const Vec3 axle = origin + p.roller->nominal_radius * rotation.col(2);
+    return {axle, Vec3(-yaw_rate * axle.y(), 0.0, 0.0) + irregularity + rolling.cross(axle - origin),
+            rolling + p.roller->pitch_rate * rotation.col(1) + Vec3(0.0, 0.0, yaw_rate)};
   }
   const double yaw_rate = -p.state.velocity.x * t.curvature;
-  const Vec3& origin = placed.X_TR.origin;
   return {origin, Vec3(-yaw_rate * origin.y(), 0.0, 0.0) + irregularity, {t.vroll, 0.0, yaw_rate}};
 }
 

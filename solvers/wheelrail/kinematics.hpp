@@ -42,7 +42,7 @@ struct MaterialVelocity {
 };
 
 /// Of a right-hand pair. Shifts: displacements of the step. The rail turns with the track curve that the wheelset runs
-/// through; a roller turns about its own axle, whose middle lies over the track's.
+/// through; a roller turns about its own axle, which deviations of the rail move and tilt.
 MaterialVelocity material_velocity(const Problem& right_hand_problem, const Placement& placement);
 
 }  // namespace treadmark::wheelrail

@@ -141,6 +141,12 @@ TEST(ContactRefusal, AllRefusalsOfACaseAreTold) {
   const std::string message = error_of(ContactWriter(1).set("DISCNS", 8).set("HEAT", 3).set("TANG", 0).str());
   EXPECT_NE(message.find("D (DISCNS) = 8"), std::string::npos);
   EXPECT_NE(message.find("also line 4: surface temperatures need steady rolling"), std::string::npos) << message;
+  // where reading must stop because nobody knows which lines follow
+  const std::string stopped = error_of(ContactWriter(1).set("FORCE", 2).set("DISCNS", 8).set("INFLCF", 9).str());
+  for (const char* one : {"F (FORCE) = 2", "also line 3: D (DISCNS) = 8", "also line 3: C (INFLCF) = 9"})
+    EXPECT_NE(stopped.find(one), std::string::npos) << one << ": " << stopped;
+  const std::string strip = error_of(ContactWriter(1).set("FORCE", 2).set("MATER", 6).str());
+  EXPECT_NE(strip.find("also line 3: M (MATER) = 6"), std::string::npos) << strip;
 }
 
 TEST(ContactFirstCase, HasNothingToKeep) {

@@ -168,6 +168,49 @@ TEST(RollerContact, LiesBetweenTheAxles) {
   }
 }
 
+/// A surface of revolution turns about its own axle: roller, wheelset and all tilted together touch as before.
+TEST(RollerContact, IsTheSameTiltedWithItsWheelset) {
+  constexpr double kTilt = 0.05;
+  const Mat3 tilt = rotation_x(kTilt);
+  for (const double radius : {kRoller, -kRoller}) {
+    SCOPED_TRACE(radius);
+    Problem p = ball_problem(radius);
+    p.vertical_force.reset();
+    p.state.position.y = 5e-3, p.state.position.z = 6e-5;
+    p.track.vroll = 0.02;
+    p.state.velocity.pitch *= 0.999;
+    Problem tilted = p;
+    const Vec3 rail = tilt * Vec3(0.0, p.track.rail_y0, p.track.rail_z0),
+               axle = tilt * Vec3(0.0, p.state.position.y, p.state.position.z - kWheel);
+    tilted.track.rail_y0 = rail.y(), tilted.track.rail_z0 = rail.z(), tilted.track.roll = kTilt;
+    tilted.state.position.y = axle.y(), tilted.state.position.z = axle.z() + kWheel, tilted.state.position.roll = kTilt;
+    const PairSolution level = Pair(ball_on(radius)).solve(p), other = Pair(ball_on(radius)).solve(tilted);
+    ASSERT_EQ(level.status, Status::ok) << level.message;
+    ASSERT_EQ(other.status, Status::ok) << other.message;
+    const PatchSolution &a = level.patches.at(0), &b = other.patches.at(0);
+    ASSERT_GT(a.contact.force_n, 1e3);
+    EXPECT_NEAR(b.contact.force_n / a.contact.force_n, 1.0, 1e-3);
+    EXPECT_NEAR(b.kinematics.xi, a.kinematics.xi, 1e-7);
+    EXPECT_NEAR(b.kinematics.eta, a.kinematics.eta, 1e-7);
+    EXPECT_NEAR(b.kinematics.phi, a.kinematics.phi, 1e-5);  // [rad/m]; 0.07 if the axle stayed level
+    EXPECT_NEAR(b.contact.force_x / a.contact.force_x, 1.0, 2e-3);
+  }
+}
+
+/// As roll is about the origin of the profile, so is its rate.
+TEST(RollerContact, RollsAboutTheOriginOfItsProfile) {
+  const Geometry geometry = ball_on(kRoller);
+  Problem p = ball_problem(kRoller, 0.0);
+  constexpr double kStep = 1e-4;
+  const Vec3 point_R(0.0, 0.01, 0.002);
+  Problem before = p, after = p;
+  before.track.roll = -kStep, after.track.roll = kStep;
+  p.track.vroll = 1.0;
+  const Placement placed = place(geometry, p);
+  const Vec3 moved = place(geometry, after).X_TR.apply(point_R) - place(geometry, before).X_TR.apply(point_R);
+  EXPECT_LE((material_velocity(p, placed).rail.at(placed.X_TR.apply(point_R)) - moved / (2.0 * kStep)).norm(), 1e-9);
+}
+
 TEST(RollerContact, AForceLengthwiseIsFound) {
   for (const double radius : {kRoller, -kRoller}) {
     Problem p = ball_problem(radius);
