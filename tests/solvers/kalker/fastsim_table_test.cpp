@@ -86,7 +86,8 @@ TEST(FastsimTable, ReadmeShowsWhatIsComputed) {
 }
 
 TEST(FastsimTable, SimplifiedTheoriesStayCloseToFullTheory) {
-  // Of the friction bound.
+  // Of the friction bound. Parabolic under spin: on finer grids, with half and whole first steps and in a sum by hand,
+  // forces go to 0.827, 0.667 and 0.473 (a/b = 2, 1, 1/2), those of the exact theory to 0.759, 0.605 and 0.436.
   for (const Line& line : documented()) {
     SCOPED_TRACE(markdown(line));
     EXPECT_NEAR(line.forces[1], line.forces[0], 0.06);
