@@ -133,7 +133,7 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::contact_overlooked, "contact_overlooked", true,
      "a grid shows contact that this search missed, more than 2 % of the wheel's radius deep and 5 % of it ahead or "
      "behind: no wheel rolls over that, an artefact between sections is likely; the locus decides"},
-    {RemarkKind::beyond_theory, "beyond_theory", false,
+    {RemarkKind::beyond_theory, "beyond_theory", true,
      "an approximate theory where it misses the exact one by more than a tenth of the friction bound: FASTSIM and "
      "FaStrip under spin on patches that are too wide or too long for them, one flexibility that is not that of the "
      "creepages, tractions of the linear theory that exceed friction; KPEC on long patches, whose pressure is off by "
