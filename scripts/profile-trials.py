@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: Treadmark contributors
 """Does a measured profile mean the same however it is written? Wheels and rails of known shape go through every reader and verb in many disguises.
 
-usage: profile-trials.py [--program PROGRAM] [--count N] [--seed S] [--jobs J] [--keep FOLDER] [--only CHOICES] [--classes N]
+usage: profile-trials.py [--program PROGRAM] [--count N] [--seed S] [--jobs J] [--keep FOLDER] [--results FILE] [--only CHOICES] [--classes N]
 
 Each trial draws a base (new, hollow, side-worn ... , a formula of this script), a verb, a reader and disguises: unit, order, mirror, header, encoding,
 spacing, frame, tilt, cut ends, noise, rounding, spikes, marks of nothing. First every pair of choices, then random ones. The answer must be that of the
@@ -11,12 +11,13 @@ base, which is given to the program in a file that says its axes and its unit, w
 these is a wrong number that nobody is told of: its disguises are taken off one by one as long as it stays wrong, its files lie in FOLDER/wrong. `noted`:
 wrong, exit status 0, but a note names the doubt. `cautious`: right, and doubted.
 Prints a table by kind for docs/verification.md, then all choices, classes of wrong answers and what refusals said; exit status 1 where anything was wrong
-in silence. --only "verb=run,base=new;60E1": trials with these choices alone.
+in silence. --only "verb=run,base=new;60E1": trials with these choices alone. --results: goes on where the same call stopped.
 """
 import argparse
 import bisect
 import collections
 import concurrent.futures
+import contextlib
 import hashlib
 import itertools
 import json
@@ -29,6 +30,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FINE = 0.02  # mm between the points of an outline
@@ -993,6 +995,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the files of what was wrong in silence")
+    parser.add_argument("--results", type=pathlib.Path, help="a line of JSON a trial; what is there already of the same program and call is not run again")
     parser.add_argument("--only", default="", help="choices, for example verb=run,base=new;hollow 2")
     parser.add_argument("--classes", type=int, default=60, help="how many classes of wrong answers are listed")
     arguments = parser.parse_args()
@@ -1002,14 +1005,33 @@ def main():
         only[n] = v.split(";")
     chosen = trials(arguments.count, arguments.seed, only)
     keep = arguments.keep.resolve() if arguments.keep else None
+    call = {"program": hashlib.sha256(arguments.program.read_bytes()).hexdigest(), "count": arguments.count, "seed": arguments.seed, "only": only}
     results = []
-    with tempfile.TemporaryDirectory() as store:
-        jobs = [(arguments.program.resolve(), pathlib.Path(store), c, k, arguments.seed, keep) for k, c in enumerate(chosen)]
-        with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
-            for done in pool.map(trial, jobs, chunksize=4):
-                results.append(done)
-                if len(results) % 100 == 0:
-                    print(f"{len(results)} of {len(jobs)}", file=sys.stderr)
+    with contextlib.ExitStack() as open_until_here:
+        lines = open_until_here.enter_context(arguments.results.open("a+")) if arguments.results else open_until_here.enter_context(tempfile.TemporaryFile("w+"))
+        lines.seek(0)
+        before = lines.read().splitlines()
+        if before and json.loads(before[0]) != call:
+            parser.error(f"{arguments.results} is of another program or call")
+        if not before:
+            print(json.dumps(call), file=lines, flush=True)
+        for line in before[1:]:
+            try:
+                results.append(tuple(json.loads(line)))
+            except ValueError:  # cut off when it was written
+                print(file=lines, flush=True)
+        known = {index for index, *_ in results}
+        store = pathlib.Path(open_until_here.enter_context(tempfile.TemporaryDirectory()))
+        jobs = [(arguments.program.resolve(), store, c, k, arguments.seed, keep) for k, c in enumerate(chosen) if k not in known]
+        pool = open_until_here.enter_context(concurrent.futures.ProcessPoolExecutor(arguments.jobs))
+        start = time.monotonic()
+        for done in pool.map(trial, jobs, chunksize=4):
+            results.append(done)
+            print(json.dumps(done), file=lines, flush=True)
+            if len(results) % 100 == 0:
+                seconds = (time.monotonic() - start) / (len(results) - len(known)) * (len(chosen) - len(results))
+                print(f"{len(results)} of {len(chosen)}, {seconds / 60:.0f} min left", file=sys.stderr)
+    results.sort(key=lambda result: result[0])
     all_kinds = collections.Counter(kind for _, kind, _, _ in results)
     rows = [("all", all_kinds)]
     for words, choices in IN_WORDS:
