@@ -12,6 +12,7 @@
 #include "treadmark/backends/analytic/arc_row.hpp"
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::analytic {
@@ -154,8 +155,8 @@ class RowWriter : PointWriter {
     double* const dx = out_.dzdx.empty() ? nullptr : out_.dzdx.data() + begin;
     double* const dy = out_.dzdy.empty() ? nullptr : out_.dzdy.data() + begin;
     double* const slope = dx != nullptr ? dx : dy;
-    kernel_({arc.x0, arc.h0, arc.s0, arc.c0, arc.k, w_row, p_.wx, a_row, p_.ax, 1.0 / p_.m, g_.x0, g_.dx}, first,
-            last + 1, out_.z.data() + begin, slope);
+    kernel_.heights({arc.x0, arc.h0, arc.s0, arc.c0, arc.k, w_row, p_.wx, a_row, p_.ax, 1.0 / p_.m, g_.x0, g_.dx},
+                    first, last + 1, out_.z.data() + begin, slope);
     for (int ix = first; slope != nullptr && ix <= last; ++ix) {
       const double dh = slope[ix];
       if (dx != nullptr) dx[ix] = (dh * p_.wx - p_.ax) / p_.m;
@@ -164,7 +165,7 @@ class RowWriter : PointWriter {
   }
 
   const Grid2& g_;
-  ArcRowKernel kernel_ = arc_row_kernel();
+  const ArcRowKernel& kernel_ = fastest_kernel<ArcRowKernel>();
   bool one_w_ = false;
 };
 
