@@ -3,17 +3,17 @@
 #include "treadmark/backends/analytic/prismatic_surface.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "treadmark/backends/analytic/arc_row.hpp"
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/recent.hpp"
 
 namespace treadmark::analytic {
 
@@ -171,9 +171,8 @@ class RowWriter : PointWriter {
 
 }  // namespace
 
-PrismaticSurface::PrismaticSurface(const ArcChain& chain) : chain_(resolve(chain)), chords_(chords_of(chain_)) {
-  static std::atomic<std::uint64_t> surfaces{0};
-  id_ = ++surfaces;
+PrismaticSurface::PrismaticSurface(const ArcChain& chain)
+    : chain_(resolve(chain)), chords_(chords_of(chain_)), id_(owner_number()) {
   angle_min_ = std::numeric_limits<double>::infinity();
   angle_max_ = -angle_min_;
   for (const ChainSegment& seg : chain_)
@@ -184,19 +183,8 @@ PrismaticSurface::PrismaticSurface(const ArcChain& chain) : chain_(resolve(chain
 }
 
 std::shared_ptr<const ChainView> PrismaticSurface::view(double d_y, double d_z) const {
-  struct Kept {
-    std::uint64_t id = 0;
-    double d_y = 0.0, d_z = 0.0;
-    std::shared_ptr<const ChainView> view;
-  };
-  thread_local std::array<Kept, 4> all;
-  thread_local std::size_t next = 0;
-  for (const Kept& kept : all)
-    if (kept.id == id_ && kept.d_y == d_y && kept.d_z == d_z) return kept.view;
-  Kept& kept = all[next];
-  next = (next + 1) % all.size();
-  kept = {id_, d_y, d_z, std::make_shared<const ChainView>(chain_, d_y, d_z)};
-  return kept.view;
+  thread_local Recent<std::tuple<std::uint64_t, double, double>, ChainView> views;
+  return views.of({id_, d_y, d_z}, [&] { return std::make_shared<const ChainView>(chain_, d_y, d_z); });
 }
 
 bool PrismaticSurface::graph(double d_y, double d_z) const {
