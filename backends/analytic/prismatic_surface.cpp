@@ -3,16 +3,17 @@
 #include "treadmark/backends/analytic/prismatic_surface.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 
 #include "treadmark/backends/analytic/arc_row.hpp"
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/recent.hpp"
 
 namespace treadmark::analytic {
 
@@ -154,8 +155,8 @@ class RowWriter : PointWriter {
     double* const dx = out_.dzdx.empty() ? nullptr : out_.dzdx.data() + begin;
     double* const dy = out_.dzdy.empty() ? nullptr : out_.dzdy.data() + begin;
     double* const slope = dx != nullptr ? dx : dy;
-    kernel_({arc.x0, arc.h0, arc.s0, arc.c0, arc.k, w_row, p_.wx, a_row, p_.ax, 1.0 / p_.m, g_.x0, g_.dx}, first,
-            last + 1, out_.z.data() + begin, slope);
+    kernel_.heights({arc.x0, arc.h0, arc.s0, arc.c0, arc.k, w_row, p_.wx, a_row, p_.ax, 1.0 / p_.m, g_.x0, g_.dx},
+                    first, last + 1, out_.z.data() + begin, slope);
     for (int ix = first; slope != nullptr && ix <= last; ++ix) {
       const double dh = slope[ix];
       if (dx != nullptr) dx[ix] = (dh * p_.wx - p_.ax) / p_.m;
@@ -164,15 +165,14 @@ class RowWriter : PointWriter {
   }
 
   const Grid2& g_;
-  ArcRowKernel kernel_ = arc_row_kernel();
+  const ArcRowKernel& kernel_ = fastest_kernel<ArcRowKernel>();
   bool one_w_ = false;
 };
 
 }  // namespace
 
-PrismaticSurface::PrismaticSurface(const ArcChain& chain) : chain_(resolve(chain)), chords_(chords_of(chain_)) {
-  static std::atomic<std::uint64_t> surfaces{0};
-  id_ = ++surfaces;
+PrismaticSurface::PrismaticSurface(const ArcChain& chain)
+    : chain_(resolve(chain)), chords_(chords_of(chain_)), id_(owner_number()) {
   angle_min_ = std::numeric_limits<double>::infinity();
   angle_max_ = -angle_min_;
   for (const ChainSegment& seg : chain_)
@@ -183,19 +183,8 @@ PrismaticSurface::PrismaticSurface(const ArcChain& chain) : chain_(resolve(chain
 }
 
 std::shared_ptr<const ChainView> PrismaticSurface::view(double d_y, double d_z) const {
-  struct Kept {
-    std::uint64_t id = 0;
-    double d_y = 0.0, d_z = 0.0;
-    std::shared_ptr<const ChainView> view;
-  };
-  thread_local std::array<Kept, 4> all;
-  thread_local std::size_t next = 0;
-  for (const Kept& kept : all)
-    if (kept.id == id_ && kept.d_y == d_y && kept.d_z == d_z) return kept.view;
-  Kept& kept = all[next];
-  next = (next + 1) % all.size();
-  kept = {id_, d_y, d_z, std::make_shared<const ChainView>(chain_, d_y, d_z)};
-  return kept.view;
+  thread_local Recent<std::tuple<std::uint64_t, double, double>, ChainView> views;
+  return views.of({id_, d_y, d_z}, [&] { return std::make_shared<const ChainView>(chain_, d_y, d_z); });
 }
 
 bool PrismaticSurface::graph(double d_y, double d_z) const {

@@ -7,7 +7,7 @@
 
 namespace treadmark::displacement {
 
-/// Arithmetic of DisplacedBand for many points, on raw numbers only, see core/cpu.hpp.
+/// Arithmetic of DisplacedBand for many points, on raw numbers only, see core/kernel.hpp.
 
 /// Axes of the natural directions in the plane: along and up of a rail (x, z of the surface frame), across both.
 struct BandAxes {
@@ -65,12 +65,9 @@ struct BandKernel {
   /// Smooth, from bends of a row and of those beside it (entries -1 to n).
   void (*smooth)(std::size_t n, const std::uint8_t* before, const std::uint8_t* row, const std::uint8_t* behind,
                  std::uint8_t* smooth);
-};
 
-const BandKernel& band_kernel_generic();
-/// nullptr if this build has none.
-const BandKernel* band_kernel_avx2();
-/// The fastest that this machine runs.
-const BandKernel& band_kernel();
+  static const BandKernel generic;
+  static const BandKernel* const avx2;  ///< nullptr if this build has none
+};
 
 }  // namespace treadmark::displacement

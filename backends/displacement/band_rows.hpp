@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Included by band_kernel_generic.cpp and band_kernel_avx2.cpp only.
 #pragma once
 
 #include <math.h>  // sqrt without the overloads of <cmath>
 
 #include "treadmark/backends/displacement/band_kernel.hpp"
-
-// everything here is inlined, nothing is passed
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "treadmark/core/kernel.hpp"
+#include "treadmark/core/lanes4.hpp"
 
 namespace treadmark::displacement {
 
 namespace {
+
+using lanes::load, lanes::M4, lanes::V4;
 
 template <bool kWheel, bool kTangent>
 void solve_points(const BandAxes& axes, std::size_t n, const BandPoints& p) {
@@ -142,10 +142,6 @@ void missing_terms(std::size_t n, const double* const along[5], const double* co
   }
 }
 
-using FourHeights = double __attribute__((vector_size(32)));
-using FourAnywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
-using FourBits = long long __attribute__((vector_size(32)));
-
 inline std::uint8_t bend_of(const double* z, double before, double behind, const BendLimits& limits) {
   constexpr double kRounding = 1e-8;  // [m]
   const double x1 = z[0] - z[-1], x2 = z[1] - z[0], y1 = z[0] - before, y2 = behind - z[0];
@@ -161,16 +157,12 @@ inline std::uint8_t bend_of(const double* z, double before, double behind, const
 
 void bends_of(std::size_t n, const double* z, const double* before, const double* behind, const BendLimits& limits,
               std::uint8_t* bends) {
-  const auto four = [](const double* p) __attribute__((always_inline)) {
-    return FourHeights(*reinterpret_cast<const FourAnywhere*>(p));
-  };
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4) {
     // What is smooth without regard to slopes, most of it.
-    const FourHeights twice = 2.0 * four(z + i), xx = four(z + i + 1) + four(z + i - 1) - twice,
-                      yy = four(before + i) + four(behind + i) - twice;
-    const FourBits bad =
-        ~((xx <= limits.most_x) & (-xx <= limits.most_x) & (yy <= limits.most_y) & (-yy <= limits.most_y));
+    const V4 twice = 2.0 * load(z + i), xx = load(z + i + 1) + load(z + i - 1) - twice,
+             yy = load(before + i) + load(behind + i) - twice;
+    const M4 bad = ~((xx <= limits.most_x) & (-xx <= limits.most_x) & (yy <= limits.most_y) & (-yy <= limits.most_y));
     if (((bad[0] | bad[1]) | (bad[2] | bad[3])) == 0) {
       for (int k = 0; k < 4; ++k) bends[i + static_cast<std::size_t>(k)] = kAlongX | kAlongY;
       continue;
@@ -191,9 +183,9 @@ void smooth_of(std::size_t n, const std::uint8_t* before, const std::uint8_t* ro
   }
 }
 
-constexpr BandKernel kBandKernel{&solve_any<false>, &solve_any<true>,   &turn_points, &interpolate_points,
-                                 &missing_terms,    &fifth_differences, &bends_of,    &smooth_of};
-
 }  // namespace
+
+TREADMARK_KERNEL(BandKernel, &solve_any<false>, &solve_any<true>, &turn_points, &interpolate_points, &missing_terms,
+                 &fifth_differences, &bends_of, &smooth_of);
 
 }  // namespace treadmark::displacement

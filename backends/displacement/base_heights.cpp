@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/displacement/base_heights.hpp"
+#include "treadmark/core/kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ void BaseHeights::ask_rim(const Surface& base, const Pose& X_SP) {
 }
 
 void BaseHeights::judge() {
-  const BandKernel& kernel = band_kernel();
+  const BandKernel& kernel = fastest_kernel<BandKernel>();
   const BendLimits limits{1.0 / g_.dx, 1.0 / g_.dy, kBend * g_.dx * g_.dx, kBend * g_.dy * g_.dy};
   // Beyond the grid there is nothing to compare with.
   std::vector<std::uint8_t> bends(z_.size(), kAlongX | kAlongY);

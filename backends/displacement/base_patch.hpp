@@ -6,6 +6,7 @@
 
 #include "treadmark/backends/displacement/band_kernel.hpp"
 #include "treadmark/backends/displacement/base_heights.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::displacement {
 
@@ -16,7 +17,7 @@ class BasePatch {
  public:
   /// slopes: whether they count too.
   BasePatch(const BaseHeights& base, const Grid2& grid, bool slopes)
-      : base_(base), g_(grid), slopes_(slopes), kernel_(band_kernel()) {}
+      : base_(base), g_(grid), slopes_(slopes), kernel_(fastest_kernel<BandKernel>()) {}
 
   /// Looks at columns [begin, end), at most 64, and rows [first, last). False: the grid is too small.
   bool look(int begin, int end, int first, int last);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::displacement {
 
@@ -37,7 +38,7 @@ DisplacedBand::DisplacedBand(const View& view, double max_offset, const Grid2& g
       g_(grid),
       base_(base),
       out_(out),
-      kernel_(band_kernel()),
+      kernel_(fastest_kernel<BandKernel>()),
       axes_{view.body == Body::wheel, {}, {}, {}},
       patch_(base, grid, !out.dzdx.empty() || !out.dzdy.empty()),
       natural_(view.body, view.X_SP) {

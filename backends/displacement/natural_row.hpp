@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "treadmark/backends/displacement/band_kernel.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/model/profile.hpp"
 
@@ -49,7 +50,7 @@ class NaturalRow {
  private:
   bool wheel_;
   const Pose& X_;
-  const BandKernel& kernel_ = band_kernel();
+  const BandKernel& kernel_ = fastest_kernel<BandKernel>();
   double theta_ = 0.0, sin_ = 0.0, cos_ = 1.0;
 };
 

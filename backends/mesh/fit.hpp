@@ -18,9 +18,13 @@ struct FitBlock {
   double least_singular_value[kLanesOfFit];  ///< comes back: no more than that of the columns at unit length
 };
 
-/// Weighted least squares as in vertex_fit.cpp, without pivots. What the points do not determine comes back with a
-/// small singular value, or one that is not a number.
-void fit_cubics_generic(FitBlock& block);
-void fit_cubics_avx2(FitBlock& block);
+struct FitKernel {
+  /// Weighted least squares as in vertex_fit.cpp, without pivots. What the points do not determine comes back with a
+  /// small singular value, or one that is not a number.
+  void (*cubics)(FitBlock& block);
+
+  static const FitKernel generic;
+  static const FitKernel* const avx2;  ///< nullptr if this build has none
+};
 
 }  // namespace treadmark::mesh

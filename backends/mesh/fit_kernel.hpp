@@ -3,21 +3,14 @@
 #pragma once
 
 #include "treadmark/backends/mesh/fit.hpp"
-#include "treadmark/backends/mesh/lanes.hpp"
+#include "treadmark/core/kernel.hpp"
+#include "treadmark/core/lanes4.hpp"
 
 namespace treadmark::mesh {
 namespace {
 
+using namespace lanes;
 static_assert(FitBlock::kLanesOfFit == kLanes);
-
-TREADMARK_LANES V4 square_root(V4 a) {
-#if defined(__AVX2__)
-  return (V4)_mm256_sqrt_pd((__m256d)a);
-#else
-  for (int k = 0; k < kLanes; ++k) a[k] = __builtin_sqrt(a[k]);
-  return a;
-#endif
-}
 
 /// Turns the axes to the longest and shortest spread of the points (x, y), and tells their spreads.
 TREADMARK_LANES void turn_to_spread(FitBlock& block, V4* x, V4* y, V4& spread_x, V4& spread_y) {
@@ -29,10 +22,10 @@ TREADMARK_LANES void turn_to_spread(FitBlock& block, V4* x, V4* y, V4& spread_x,
     yy = fma(y[i], y[i], yy);
   }
   // cosine and sine of half the angle of (xx - yy, 2 xy)
-  const V4 apart = xx - yy, length = square_root(fma(apart, apart, all(4.0) * xy * xy)), twice = apart / length;
+  const V4 apart = xx - yy, length = root(fma(apart, apart, all(4.0) * xy * xy)), twice = apart / length;
   const M4 turned = length > zero;
-  const V4 cosine = select(turned, square_root(most(half + half * twice, zero)), one);
-  V4 sine = select(turned, square_root(most(half - half * twice, zero)), zero);
+  const V4 cosine = select(turned, root(most(half + half * twice, zero)), one);
+  V4 sine = select(turned, root(most(half - half * twice, zero)), zero);
   sine = select(xy < zero, -sine, sine);
   for (int k = 0; k < 3; ++k) {
     const V4 u = load(block.axis_u[k]), v = load(block.axis_v[k]);
@@ -47,9 +40,9 @@ TREADMARK_LANES void turn_to_spread(FitBlock& block, V4* x, V4* y, V4& spread_x,
     xx = fma(along, along, xx);
     yy = fma(across, across, yy);
   }
-  const V4 least = all(1e-12) * square_root(most(xx, yy) / count);
-  spread_x = most(least, square_root(xx / count));
-  spread_y = most(least, square_root(yy / count));
+  const V4 least = all(1e-12) * root(most(xx, yy) / count);
+  spread_x = most(least, root(xx / count));
+  spread_y = most(least, root(yy / count));
 }
 
 static void fit_cubics(FitBlock& block) {
@@ -88,13 +81,13 @@ static void fit_cubics(FitBlock& block) {
   // modified Gram-Schmidt of the columns at unit length, the heights carried along (Bjorck 1967)
   V4 r[kTerms][kTerms + 1], per[kTerms];  // per: one over the diagonal of r
   for (int k = 0; k < kTerms; ++k) {
-    length[k] = one / square_root(length[k]);
+    length[k] = one / root(length[k]);
     for (int i = 0; i < rows; ++i) column[k][i] *= length[k];
   }
   for (int k = 0; k < kTerms; ++k) {
     V4 square = zero;
     for (int i = 0; i < rows; ++i) square = fma(column[k][i], column[k][i], square);
-    const V4 diagonal = square_root(square);
+    const V4 diagonal = root(square);
     per[k] = one / diagonal;
     for (int i = 0; i < rows; ++i) column[k][i] *= per[k];
     for (int j = k + 1; j <= kTerms; ++j) {
@@ -128,8 +121,11 @@ static void fit_cubics(FitBlock& block) {
       norm = fma(inverse[k], inverse[k], norm);
     }
   }
-  store(block.least_singular_value, one / square_root(norm));
+  store(block.least_singular_value, one / root(norm));
 }
 
 }  // namespace
+
+TREADMARK_KERNEL(FitKernel, fit_cubics);
+
 }  // namespace treadmark::mesh

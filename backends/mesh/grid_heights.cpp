@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 
-#include "treadmark/backends/mesh/kernels.hpp"
 #include "treadmark/backends/mesh/line_caster.hpp"
 #include "treadmark/backends/mesh/point_heights.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::mesh {
@@ -59,7 +59,7 @@ class GridHeights {
     for (int iy = 0; iy < tile.ny + Tile::kPad; ++iy) tile.y[iy] = grid_.y(piece.y0 + iy);
     tile.inverse_dx = 1.0 / grid_.dx;
     tile.inverse_dy = 1.0 / grid_.dy;
-    if (!kernels().fill_tile(arrays_, lines_, tile)) return split(piece);
+    if (!fastest_kernel<TileKernel>().fill(arrays_, lines_, tile)) return split(piece);
     if (smooth_)
       write_smooth(piece);
     else
@@ -165,7 +165,7 @@ class GridHeights {
   void write_triangle(const Piece& p, const TileTriangle& triangle, int begin, int end) {
     if (begin == end) return;
     std::array<double, kPatchEntries> patch;
-    if (!smooth_->prepare(kernels().patch, lines_, triangle.index, triangle.q, patch.data())) {
+    if (!smooth_->prepare(fastest_kernel<PatchKernel>(), lines_, triangle.index, triangle.q, patch.data())) {
       for (int i = begin; i < end; ++i) again(p, triangle, i);
       return;
     }
@@ -177,8 +177,8 @@ class GridHeights {
     const int own = end - begin - rest;
     if (own == 0) return;
     const auto first = static_cast<std::size_t>(begin);
-    kernels().patch.points(patch.data(), lines_.side, &w_.x[first], &w_.y[first], own, &w_.z[first],
-                           results_.slopes ? &w_.dzdx[first] : nullptr, &w_.dzdy[first]);
+    fastest_kernel<PatchKernel>().points(patch.data(), lines_.side, &w_.x[first], &w_.y[first], own, &w_.z[first],
+                                         results_.slopes ? &w_.dzdx[first] : nullptr, &w_.dzdy[first]);
     for (int i = begin; i < begin + own; ++i) {
       const auto k = static_cast<std::size_t>(i);
       if (std::isnan(w_.z[k]))

@@ -7,7 +7,7 @@
 namespace treadmark::mesh {
 
 // What the kernels see of a mesh, a plane and a grid: plain arrays, because kernels include no header with inline
-// functions (core/cpu.hpp).
+// functions (core/kernel.hpp).
 
 /// A node of the hierarchy (bvh.hpp).
 struct BvhNode {
@@ -48,12 +48,16 @@ struct BoundsFound {
   double low, high;
 };
 
-/// Range of what shows its outside over the rectangle. Nodes much smaller than the rectangle and thin ones count as a
-/// whole, with the slab that holds them; triangles of leaves by their planes over the common part of their boxes and
-/// the rectangle. Whether anything is there at all is decided by triangles that meet the rectangle, or nodes inside of
-/// it.
-BoundsFound find_bounds_generic(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
-BoundsFound find_bounds_avx2(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
+struct BoundsKernel {
+  /// Range of what shows its outside over the rectangle. Nodes much smaller than the rectangle and thin ones count as a
+  /// whole, with the slab that holds them; triangles of leaves by their planes over the common part of their boxes and
+  /// the rectangle. Whether anything is there at all is decided by triangles that meet the rectangle, or nodes inside
+  /// of it.
+  BoundsFound (*find)(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
+
+  static const BoundsKernel generic;
+  static const BoundsKernel* const avx2;  ///< nullptr if this build has none
+};
 
 /// A triangle that shows its outside over points of a tile, in the plane frame.
 struct TileTriangle {
@@ -82,10 +86,15 @@ struct Tile {
   int used;  ///< of triangles
 };
 
-/// Scan conversion: every triangle over the tile marks the points that it covers and keeps those where it is outermost.
-/// The hierarchy is descended only where its nodes hold points that are not yet hidden, so that coarse grids cost like
-/// lines. Rounds like ProjectedTriangle, bit by bit. False if the tile has too many triangles: take a smaller one.
-bool fill_tile_generic(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
-bool fill_tile_avx2(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
+struct TileKernel {
+  /// Scan conversion: every triangle over the tile marks the points that it covers and keeps those where it is
+  /// outermost. The hierarchy is descended only where its nodes hold points that are not yet hidden, so that coarse
+  /// grids cost like lines. Rounds like ProjectedTriangle, bit by bit. False if the tile has too many triangles: take a
+  /// smaller one.
+  bool (*fill)(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
+
+  static const TileKernel generic;
+  static const TileKernel* const avx2;  ///< nullptr if this build has none
+};
 
 }  // namespace treadmark::mesh

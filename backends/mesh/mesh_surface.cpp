@@ -8,6 +8,7 @@
 #include "treadmark/backends/mesh/grid_heights.hpp"
 #include "treadmark/backends/mesh/line_caster.hpp"
 #include "treadmark/backends/mesh/point_heights.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::mesh {
@@ -141,7 +142,7 @@ HeightBounds MeshSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r)
   const PlaneView view(mesh_, X_SP, facing_);
   const BoundsQuery query{0.5 * (r.x_min + r.x_max), 0.5 * (r.y_min + r.y_max), 0.5 * (r.x_max - r.x_min),
                           0.5 * (r.y_max - r.y_min)};
-  const BoundsFound found = kernels().find_bounds(bvh_.arrays(), view.lines(), query);
+  const BoundsFound found = fastest_kernel<BoundsKernel>().find(bvh_.arrays(), view.lines(), query);
   if (found.low > found.high) return {0.0, 0.0, true};
   return {found.low, found.high, false};
 }

@@ -58,7 +58,9 @@ struct PatchKernel {
   /// The greatest distance between facet and surface along a direction from inside, sampled; not a number where the
   /// surface grazes or cannot be found. Of the source, places do not count, and its bulge is no limit if infinite.
   double (*bulge)(const PatchSource& source, const double* direction);
+
+  static const PatchKernel generic;
+  static const PatchKernel* const avx2;  ///< nullptr if this build has none
 };
-extern const PatchKernel kPatchGeneric, kPatchAvx2;
 
 }  // namespace treadmark::mesh

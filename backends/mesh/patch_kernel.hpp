@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/backends/mesh/lanes.hpp"
 #include "treadmark/backends/mesh/patch.hpp"
+#include "treadmark/core/kernel.hpp"
+#include "treadmark/core/lanes4.hpp"
 
 namespace treadmark::mesh {
 namespace {
+
+using namespace lanes;
 
 constexpr double kGrazingLine = 0.01, kLeastCosine = 0.1;
 
@@ -311,4 +314,7 @@ static double patch_bulge(const PatchSource& source, const double* direction) {
 }
 
 }  // namespace
+
+TREADMARK_KERNEL(PatchKernel, prepare_patch, patch_points, patch_mixed, patch_bulge);
+
 }  // namespace treadmark::mesh

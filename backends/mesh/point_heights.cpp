@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/backends/mesh/point_heights.hpp"
+#include "treadmark/core/kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ void PointHeights::add(std::size_t result, double x, double y, const LineHit& hi
   if (hit.triangle == last_ && count_ > 0)
     return add(result, x, y, hit.triangle, patches_.data() + (count_ - 1) * kPatchEntries);
   double* patch = patches_.data() + count_ * kPatchEntries;
-  if (!smooth_->prepare(kernels().patch, lines_, hit.triangle, triangle.q[0].data(), patch))
+  if (!smooth_->prepare(fastest_kernel<PatchKernel>(), lines_, hit.triangle, triangle.q[0].data(), patch))
     return put(result, x, y, hit, triangle);
   add(result, x, y, hit.triangle, patch);
 }
@@ -65,8 +66,8 @@ void PointHeights::finish() {
     y_[k] = y_[0];
   }
   std::array<double, 4> z, dzdx, dzdy;
-  kernels().patch.mixed(patches_.data(), lines_.side, x_.data(), y_.data(), z.data(),
-                        results_.slopes ? dzdx.data() : nullptr, dzdy.data());
+  fastest_kernel<PatchKernel>().mixed(patches_.data(), lines_.side, x_.data(), y_.data(), z.data(),
+                                      results_.slopes ? dzdx.data() : nullptr, dzdy.data());
   for (std::size_t k = 0; k < count_; ++k) {
     if (std::isnan(z[k]))
       evaluate_again(mesh_, smooth_, view_, results_, result_[k], x_[k], y_[k], triangle_[k]);

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "treadmark/backends/mesh/kernels.hpp"
+#include "treadmark/backends/mesh/patch.hpp"
 #include "treadmark/backends/mesh/smooth_patches.hpp"
 #include "treadmark/core/surface.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "treadmark/backends/mesh/blend.hpp"
-#include "treadmark/backends/mesh/kernels.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
 
 namespace treadmark::mesh {
@@ -183,7 +183,7 @@ double SmoothPatches::sampled_bulge(std::uint32_t triangle) const {
   PatchSource source = source_of(triangle);
   source.bulge = std::numeric_limits<double>::infinity();
   const Vec3 direction = mean_of_normals(triangle).normalized();
-  const double most = kernels().patch.bulge(source, direction.data());
+  const double most = fastest_kernel<PatchKernel>().bulge(source, direction.data());
   const Corners& c = mesh_.triangles[triangle];
   const std::array<Vec3, 3> v{mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]};
   const double longest = std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});

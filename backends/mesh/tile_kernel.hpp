@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/backends/mesh/bounds_kernel.hpp"
-#include "treadmark/backends/mesh/kernel_types.hpp"
-#include "treadmark/backends/mesh/lanes.hpp"
+#include "treadmark/backends/mesh/projected_lanes.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::mesh {
 namespace {
@@ -305,5 +304,12 @@ struct TileFill {
   }
 };
 
+bool fill_tile(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile) {
+  return TileFill(mesh, lines, tile).run();
+}
+
 }  // namespace
+
+TREADMARK_KERNEL(TileKernel, fill_tile);
+
 }  // namespace treadmark::mesh

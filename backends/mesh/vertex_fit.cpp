@@ -9,8 +9,9 @@
 #include <cstring>
 #include <span>
 
-#include "treadmark/backends/mesh/kernels.hpp"
+#include "treadmark/backends/mesh/fit.hpp"
 #include "treadmark/backends/mesh/sectors.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::mesh {
@@ -242,7 +243,7 @@ void fit_some(const PreparedMesh& mesh, const Sectors& sectors, const std::vecto
       block.axis_u[k][lane] = fit.axis_u[static_cast<int>(k)];
     }
   }
-  kernels().fit_cubics(block);
+  fastest_kernel<FitKernel>().cubics(block);
   for (std::uint32_t s = first; s < std::min(end, first + FitBlock::kLanesOfFit); ++s) {
     const std::size_t lane = s - first;
     VertexFit fit;

@@ -11,7 +11,7 @@
 #include "treadmark/backends/offset/coefficients.hpp"
 #include "treadmark/backends/offset/range_pyramid.hpp"
 #include "treadmark/backends/offset/sheet_kernel.hpp"
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::offset {
 
@@ -70,7 +70,7 @@ class SheetField final : public displacement::OffsetField {
         frame_(offsets_->frame),
         ranges_(grid(), directory_, frame_, kDegree),
         view_(view()),
-        kernel_(fastest()),
+        kernel_(fastest_kernel<SheetKernel>().of_degree[kDegree]),
         constant_(alike_all_round()) {}
   SheetField(const SheetField&) = delete;  // the view points into it
   SheetField& operator=(const SheetField&) = delete;
@@ -155,10 +155,6 @@ class SheetField final : public displacement::OffsetField {
             &find,
             &directory_};
   }
-  static SheetKernel fastest() {
-    const SheetKernel avx2 = cpu_has_avx2() ? sheet_kernel_avx2(kDegree) : nullptr;
-    return avx2 != nullptr ? avx2 : sheet_kernel_generic(kDegree);
-  }
 
   std::shared_ptr<const SparseOffsets> offsets_;
   SheetGrid own_;  ///< coefficients; of degree 1 they are the offsets themselves
@@ -166,7 +162,7 @@ class SheetField final : public displacement::OffsetField {
   SheetFrame frame_;
   RangePyramid ranges_;
   SheetView view_;
-  SheetKernel kernel_;
+  SheetPoints kernel_;
   bool constant_;
 };
 

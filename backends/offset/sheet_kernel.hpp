@@ -7,7 +7,7 @@
 
 namespace treadmark::offset {
 
-/// A sheet of coefficients as its kernels see it: raw numbers only, see core/cpu.hpp.
+/// A sheet of coefficients as its kernels see it: raw numbers only, see core/kernel.hpp.
 struct SheetView {
   double u0, per_u, y0, per_y;  ///< voxels s = (u - u0) per_u, t = (y - y0) per_y
   double branch, period;        ///< s lies in [branch, branch + period); period 0: anywhere
@@ -19,11 +19,15 @@ struct SheetView {
   const void* owner;
 };
 
-/// Values and, unless null, derivatives by u and y of the B-spline of degree 1, 2 or 3 at n points.
-using SheetKernel = void (*)(const SheetView& sheet, std::size_t n, const double* u, const double* y, double* value,
+/// Values and, unless null, derivatives by u and y of a B-spline at n points.
+using SheetPoints = void (*)(const SheetView& sheet, std::size_t n, const double* u, const double* y, double* value,
                              double* d_u, double* d_y);
-SheetKernel sheet_kernel_generic(int degree);
-/// nullptr if this build has none.
-SheetKernel sheet_kernel_avx2(int degree);
+
+struct SheetKernel {
+  SheetPoints of_degree[4];  ///< 1, 2 or 3
+
+  static const SheetKernel generic;
+  static const SheetKernel* const avx2;  ///< nullptr if this build has none
+};
 
 }  // namespace treadmark::offset

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Included by sheet_kernel_generic.cpp and sheet_kernel_avx2.cpp only.
 #pragma once
 
 #include "treadmark/backends/offset/sheet_kernel.hpp"
-
-// everything here is inlined, nothing is passed
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "treadmark/core/kernel.hpp"
+#include "treadmark/core/lanes4.hpp"
 
 namespace treadmark::offset {
 
 namespace {
 
-using Four = double __attribute__((vector_size(32)));
-using FourSingle = float __attribute__((vector_size(16), aligned(4), may_alias));
+using namespace lanes;
 
 /// Integers up to 2^30, rounded down, without a call.
 inline int down(double x) {
@@ -41,7 +38,7 @@ inline float coefficient(const SheetView& v, int i, int j) {
 /// The coefficients that the points between neighbouring voxels depend on; kept while points stay there.
 template <int kRows>
 struct Patch {
-  Four row[kRows] = {};  ///< the last is 0 where fewer than four are needed
+  V4 row[kRows] = {};  ///< the last is 0 where fewer than four are needed
   int i = INT32_MIN, j = INT32_MIN;
   bool zero = true;
 
@@ -53,8 +50,7 @@ struct Patch {
       zero = b == nullptr;
       if (zero) return;
       b += (in_i << 6) | in_j;
-      for (int k = 0; k < kRows; ++k)
-        row[k] = __builtin_convertvector(*reinterpret_cast<const FourSingle*>(b + 64 * k), Four);
+      for (int k = 0; k < kRows; ++k) row[k] = load(b + 64 * k);
     } else {
       zero = false;
       for (int k = 0; k < kRows; ++k)
@@ -63,22 +59,20 @@ struct Patch {
   }
 };
 
-inline double sum(const Four& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
-
 template <int kDegree>
 struct Basis;
 /// Weights of the four coefficients as polynomials of the place between them: one + f (two + f (three + f four)).
 template <>
 struct Basis<3> {
   static constexpr double kShift = 0.0;
-  static constexpr Four kOne = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0},
-                        kThree = {0.5, -1.0, 0.5, 0.0}, kFour = {-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0};
+  static constexpr V4 kOne = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0},
+                      kThree = {0.5, -1.0, 0.5, 0.0}, kFour = {-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0};
 };
 template <>
 struct Basis<2> {
   static constexpr double kShift = 0.5;
-  static constexpr Four kOne = {0.125, 0.75, 0.125, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0}, kThree = {0.5, -1.0, 0.5, 0.0},
-                        kFour = {0.0, 0.0, 0.0, 0.0};
+  static constexpr V4 kOne = {0.125, 0.75, 0.125, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0}, kThree = {0.5, -1.0, 0.5, 0.0},
+                      kFour = {0.0, 0.0, 0.0, 0.0};
 };
 
 /// Of degree 2 and 3: rows of four coefficients, weighted along u first.
@@ -90,11 +84,11 @@ struct Smooth {
   Patch<kDegree + 1> patch;
 
   void at(double f, double g, double& value, double& d_s, double& d_t) const {
-    const Four a = B::kOne + f * (B::kTwo + f * (B::kThree + f * B::kFour)),
-               a1 = B::kTwo + f * (2.0 * B::kThree + f * (3.0 * B::kFour));
-    const Four b = B::kOne + g * (B::kTwo + g * (B::kThree + g * B::kFour)),
-               b1 = B::kTwo + g * (2.0 * B::kThree + g * (3.0 * B::kFour));
-    Four across = a[0] * patch.row[0], across1 = a1[0] * patch.row[0];
+    const V4 a = B::kOne + f * (B::kTwo + f * (B::kThree + f * B::kFour)),
+             a1 = B::kTwo + f * (2.0 * B::kThree + f * (3.0 * B::kFour));
+    const V4 b = B::kOne + g * (B::kTwo + g * (B::kThree + g * B::kFour)),
+             b1 = B::kTwo + g * (2.0 * B::kThree + g * (3.0 * B::kFour));
+    V4 across = a[0] * patch.row[0], across1 = a1[0] * patch.row[0];
     for (int k = 1; k <= kDegree; ++k) across += a[k] * patch.row[k], across1 += a1[k] * patch.row[k];
     value = sum(across * b);
     d_s = sum(across1 * b);
@@ -102,13 +96,7 @@ struct Smooth {
   }
 };
 
-using FourIntegers = int __attribute__((vector_size(16)));
-using FourMasks = long long __attribute__((vector_size(32)));
-using FourAnywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
-using TwoSingle = float __attribute__((vector_size(8), aligned(4), may_alias));
-
-[[gnu::always_inline]] inline Four four(const double* p) { return *reinterpret_cast<const FourAnywhere*>(p); }
-[[gnu::always_inline]] inline bool every(const FourMasks& m) { return (m[0] & m[1] & m[2] & m[3]) != 0; }
+[[gnu::always_inline]] inline bool every(const M4& m) { return (m[0] & m[1] & m[2] & m[3]) != 0; }
 
 struct Straight {
   static constexpr double kShift = 0.0;
@@ -119,63 +107,63 @@ struct Straight {
   int block_i = INT32_MIN, block_j = INT32_MIN;
   const float* block = nullptr;
 
-  [[gnu::always_inline]] static Four corners(const float* b) {
-    const TwoSingle first = *reinterpret_cast<const TwoSingle*>(b), next = *reinterpret_cast<const TwoSingle*>(b + 64);
-    return __builtin_convertvector(__builtin_shufflevector(first, next, 0, 1, 2, 3), Four);
+  [[gnu::always_inline]] static V4 corners(const float* b) {
+    const F2Anywhere first = *reinterpret_cast<const F2Anywhere*>(b),
+                     next = *reinterpret_cast<const F2Anywhere*>(b + 64);
+    return __builtin_convertvector(__builtin_shufflevector(first, next, 0, 1, 2, 3), V4);
   }
   /// The values round a point: at (i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1).
-  [[gnu::always_inline]] Four corners(const SheetView& v, int i, int j) {
+  [[gnu::always_inline]] V4 corners(const SheetView& v, int i, int j) {
     const int in_i = i & 7, in_j = j & 63;
     if (in_i == 7 || in_j == 63)
-      return Four{coefficient(v, i, j), coefficient(v, i, j + 1), coefficient(v, i + 1, j),
-                  coefficient(v, i + 1, j + 1)};
+      return V4{coefficient(v, i, j), coefficient(v, i, j + 1), coefficient(v, i + 1, j), coefficient(v, i + 1, j + 1)};
     look(v, i >> 3, j >> 6);
-    return block == nullptr ? Four{} : corners(block + ((in_i << 6) | in_j));
+    return block == nullptr ? V4{} : corners(block + ((in_i << 6) | in_j));
   }
   void look(const SheetView& v, int bi, int bj) {
     if (bi == block_i && bj == block_j) return;
     block_i = bi, block_j = bj, block = block_of(v, bi, bj);
   }
 
-  /// Four points at once of a sheet that is not closed, if all lie on its branch.
+  /// V4 points at once of a sheet that is not closed, if all lie on its branch.
   bool four_points(const SheetView& v, const double* u, const double* y, double* value, double* d_u, double* d_y) {
     constexpr double kFar = 1 << 30;
-    const Four s = (four(u) - v.u0) * v.per_u, t = (four(y) - v.y0) * v.per_y;
-    FourMasks good = (s > -kFar) & (s < kFar) & (t > -kFar) & (t < kFar);
+    const V4 s = (load(u) - v.u0) * v.per_u, t = (load(y) - v.y0) * v.per_y;
+    M4 good = (s > -kFar) & (s < kFar) & (t > -kFar) & (t < kFar);
     if (v.period > 0.0) good &= (s >= v.branch) & (s < v.branch + v.period);
     if (!every(good)) return false;
-    FourIntegers i = __builtin_convertvector(s, FourIntegers), j = __builtin_convertvector(t, FourIntegers);
-    i += __builtin_convertvector(s < __builtin_convertvector(i, Four), FourIntegers);
-    j += __builtin_convertvector(t < __builtin_convertvector(j, Four), FourIntegers);
-    const Four f = s - __builtin_convertvector(i, Four), g = t - __builtin_convertvector(j, Four);
-    const FourIntegers in_i = i & 7, in_j = j & 63;
+    I4 i = __builtin_convertvector(s, I4), j = __builtin_convertvector(t, I4);
+    i += __builtin_convertvector(s < __builtin_convertvector(i, V4), I4);
+    j += __builtin_convertvector(t < __builtin_convertvector(j, V4), I4);
+    const V4 f = s - __builtin_convertvector(i, V4), g = t - __builtin_convertvector(j, V4);
+    const I4 in_i = i & 7, in_j = j & 63;
     look(v, i[0] >> 3, j[0] >> 6);
-    const FourIntegers inside = ((i >> 3) == block_i) & ((j >> 6) == block_j) & (in_i < 7) & (in_j < 63);
+    const I4 inside = ((i >> 3) == block_i) & ((j >> 6) == block_j) & (in_i < 7) & (in_j < 63);
     const bool one_block = (inside[0] & inside[1] & inside[2] & inside[3]) != 0;
     if (one_block && block == nullptr) {
       double* const results[] = {value, d_u, d_y};
       for (double* out : results)
-        if (out != nullptr) *reinterpret_cast<FourAnywhere*>(out) = Four{};
+        if (out != nullptr) store(out, V4{});
       return true;
     }
-    const FourIntegers at = (in_i << 6) | in_j;
-    const Four p = one_block ? corners(block + at[0]) : corners(v, i[0], j[0]);
-    const Four q = one_block ? corners(block + at[1]) : corners(v, i[1], j[1]);
-    const Four r = one_block ? corners(block + at[2]) : corners(v, i[2], j[2]);
-    const Four w = one_block ? corners(block + at[3]) : corners(v, i[3], j[3]);
-    const Four pq0 = __builtin_shufflevector(p, q, 0, 4, 2, 6), pq1 = __builtin_shufflevector(p, q, 1, 5, 3, 7);
-    const Four rw0 = __builtin_shufflevector(r, w, 0, 4, 2, 6), rw1 = __builtin_shufflevector(r, w, 1, 5, 3, 7);
-    const Four c00 = __builtin_shufflevector(pq0, rw0, 0, 1, 4, 5), c01 = __builtin_shufflevector(pq1, rw1, 0, 1, 4, 5),
-               c10 = __builtin_shufflevector(pq0, rw0, 2, 3, 6, 7), c11 = __builtin_shufflevector(pq1, rw1, 2, 3, 6, 7);
-    const Four a = c00 + g * (c01 - c00), b = c10 + g * (c11 - c10);
-    *reinterpret_cast<FourAnywhere*>(value) = a + f * (b - a);
-    if (d_u != nullptr) *reinterpret_cast<FourAnywhere*>(d_u) = (b - a) * v.per_u;
-    if (d_y != nullptr) *reinterpret_cast<FourAnywhere*>(d_y) = ((1.0 - f) * (c01 - c00) + f * (c11 - c10)) * v.per_y;
+    const I4 at = (in_i << 6) | in_j;
+    const V4 p = one_block ? corners(block + at[0]) : corners(v, i[0], j[0]);
+    const V4 q = one_block ? corners(block + at[1]) : corners(v, i[1], j[1]);
+    const V4 r = one_block ? corners(block + at[2]) : corners(v, i[2], j[2]);
+    const V4 w = one_block ? corners(block + at[3]) : corners(v, i[3], j[3]);
+    const V4 pq0 = __builtin_shufflevector(p, q, 0, 4, 2, 6), pq1 = __builtin_shufflevector(p, q, 1, 5, 3, 7);
+    const V4 rw0 = __builtin_shufflevector(r, w, 0, 4, 2, 6), rw1 = __builtin_shufflevector(r, w, 1, 5, 3, 7);
+    const V4 c00 = __builtin_shufflevector(pq0, rw0, 0, 1, 4, 5), c01 = __builtin_shufflevector(pq1, rw1, 0, 1, 4, 5),
+             c10 = __builtin_shufflevector(pq0, rw0, 2, 3, 6, 7), c11 = __builtin_shufflevector(pq1, rw1, 2, 3, 6, 7);
+    const V4 a = c00 + g * (c01 - c00), b = c10 + g * (c11 - c10);
+    store(value, a + f * (b - a));
+    if (d_u != nullptr) store(d_u, (b - a) * v.per_u);
+    if (d_y != nullptr) store(d_y, ((1.0 - f) * (c01 - c00) + f * (c11 - c10)) * v.per_y);
     return true;
   }
 
   void at(double f, double g, double& value, double& d_s, double& d_t) const {
-    const Four &first = patch.row[0], &next = patch.row[1];
+    const V4 &first = patch.row[0], &next = patch.row[1];
     const double a = first[0] + g * (first[1] - first[0]), b = next[0] + g * (next[1] - next[0]);
     value = a + f * (b - a);
     d_s = b - a;
@@ -216,10 +204,8 @@ void sheet_points(const SheetView& v, std::size_t n, const double* u, const doub
   }
 }
 
-SheetKernel kernel_of_degree(int degree) {
-  return degree == 1 ? &sheet_points<Straight> : degree == 2 ? &sheet_points<Smooth<2>> : &sheet_points<Smooth<3>>;
-}
-
 }  // namespace
+
+TREADMARK_KERNEL(SheetKernel, {nullptr, &sheet_points<Straight>, &sheet_points<Smooth<2>>, &sheet_points<Smooth<3>>});
 
 }  // namespace treadmark::offset

@@ -3,10 +3,9 @@
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "treadmark/backends/spline/grid_lines.hpp"
@@ -16,6 +15,7 @@
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/backends/spline/viewed_profile.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/recent.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -43,32 +43,18 @@ struct WidthWindow {
 
 void fill(std::span<double> values, double value) { std::fill(values.begin(), values.end(), value); }
 
-std::uint64_t next_id() {
-  static std::atomic<std::uint64_t> last{0};
-  return ++last;
-}
-
 // The views that a thread used last: single points come by the hundred along the same few directions.
 std::shared_ptr<const SortedProfile> sorted_view(std::uint64_t surface, const ProfileSpline& profile,
                                                  const ProfileView& view) {
-  struct Kept {
-    std::uint64_t surface = 0;  // never used again after the surface's end
-    Vec2 depth, width;
-    std::shared_ptr<const SortedProfile> profile;
-  };
-  thread_local std::array<Kept, 4> kept;
-  thread_local std::size_t oldest = 0;
-  for (const Kept& k : kept)
-    if (k.surface == surface && k.depth == view.depth && k.width == view.width) return k.profile;
-  Kept& slot = kept[oldest++ % kept.size()];
-  slot = {surface, view.depth, view.width, std::make_shared<const SortedProfile>(profile, view)};
-  return slot.profile;
+  thread_local Recent<std::tuple<std::uint64_t, Vec2, Vec2>, SortedProfile> views;
+  return views.of({surface, view.depth, view.width},
+                  [&] { return std::make_shared<const SortedProfile>(profile, view); });
 }
 
 }  // namespace
 
 PrismaticSurface::PrismaticSurface(ProfileSpline profile)
-    : id_(next_id()), profile_(std::move(profile)), hulls_(profile_) {}
+    : id_(owner_number()), profile_(std::move(profile)), hulls_(profile_) {}
 
 Vec3 PrismaticSurface::point(double u, double v) const {
   const Vec2 p = profile_.position(v);

@@ -20,7 +20,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kNear = 1e-3, kWorthSaying = 1e-6, kTooFar = 0.1e-3;  // [m]
+constexpr double kMeeting = 1e-3, kWorthSaying = 1e-6, kTooFar = 0.1e-3;  // [m]
 
 // A border of a surface.
 class Side {
@@ -84,7 +84,7 @@ double apart(const Side& a, const Side& b) {
   return most;
 }
 
-bool near(const Vec3& p, const Vec3& q) { return (p - q).norm() < kNear; }
+bool near(const Vec3& p, const Vec3& q) { return (p - q).norm() < kMeeting; }
 
 bool ends_meet(const Side& a, const Side& b) {
   return (near(a.first(), b.first()) && near(a.last(), b.last())) ||
@@ -145,7 +145,9 @@ std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const
   // those whose ends meet have middles of the two ends near each other
   std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> by_middle;
   const auto cell = [](const Vec3& p) {
-    const auto of = [](double x) { return static_cast<std::int64_t>(std::floor(std::clamp(x / kNear, -1e15, 1e15))); };
+    const auto of = [](double x) {
+      return static_cast<std::int64_t>(std::floor(std::clamp(x / kMeeting, -1e15, 1e15)));
+    };
     return std::array<std::int64_t, 3>{of(p.x()), of(p.y()), of(p.z())};
   };
   constexpr std::size_t kMostPairs = 8;  // of a side; two meet where a surface ends
@@ -160,14 +162,14 @@ std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const
           if (found == by_middle.end()) continue;
           for (const std::size_t a : found->second) {
             // sides of one surface meet at the seam of a wheel; those of a narrow one are only near
-            constexpr double kNarrow = 20.0 * kNear;
+            constexpr double kNarrow = 20.0 * kMeeting;
             if (a / 4 == b / 4 && extent[a / 4] < kNarrow) continue;
             if (looked_at.count(std::minmax(a, b)) > 0 || !ends_meet(sides[a], sides[b])) continue;
             if (++compared > kMostPairs * sides.size())
               throw Error(ErrorKind::input_data, fmt::format("too many sides lie on {}", sides[a].name()),
                           surfaces[a / 4].where, "is the same surface given several times?");
             const double gap = apart(sides[a], sides[b]);
-            if (gap < kNear) say(a, b, gap);
+            if (gap < kMeeting) say(a, b, gap);
           }
         }
     by_middle[at].push_back(b);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Compiled by ceilings_*.cpp, each with its own instruction set.
 #pragma once
 
 #include "treadmark/bench/roofline/ceilings.hpp"
+#include "treadmark/core/kernel.hpp"
 #if defined(__AVX2__)
 #include <immintrin.h>
 #elif defined(__SSE2__)
@@ -58,7 +58,8 @@ void root(double* x, long times) {
       });
 }
 
-constexpr Ceilings kCeilings{multiply_add, divide, root};
-
 }  // namespace
+
+TREADMARK_KERNEL(Ceilings, multiply_add, divide, root);
+
 }  // namespace treadmark::bench

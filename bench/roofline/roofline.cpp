@@ -7,17 +7,12 @@
 
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/bench/roofline/ceilings.hpp"
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::bench {
 namespace {
 
 constexpr long kTimes = 1000;
-
-const Ceilings& ceilings() {
-  static const Ceilings chosen = cpu_has_avx2() && ceilings_avx2() != nullptr ? *ceilings_avx2() : ceilings_generic();
-  return chosen;
-}
 
 std::vector<double> numbers() {
   std::vector<double> x(Ceilings::kNumbers);
@@ -67,16 +62,18 @@ void read(benchmark::State& state) {
   const auto enter = [](const char* name, auto run) { benchmark::RegisterBenchmark(name, run); };
   enter("multiply_add", [](benchmark::State& state) {
     arithmetic(
-        state, [](double* x, long times) { ceilings().multiply_add(x, 0.75, 0.5, times); },
+        state, [](double* x, long times) { fastest_kernel<Ceilings>().multiply_add(x, 0.75, 0.5, times); },
         [](double x) { return 0.75 * x + 0.5; });
   });
   enter("divide", [](benchmark::State& state) {
     arithmetic(
-        state, [](double* x, long times) { ceilings().divide(x, 3.0, times); }, [](double x) { return 3.0 / x; });
+        state, [](double* x, long times) { fastest_kernel<Ceilings>().divide(x, 3.0, times); },
+        [](double x) { return 3.0 / x; });
   });
   enter("root", [](benchmark::State& state) {
     arithmetic(
-        state, [](double* x, long times) { ceilings().root(x, times); }, [](double x) { return std::sqrt(x); });
+        state, [](double* x, long times) { fastest_kernel<Ceilings>().root(x, times); },
+        [](double x) { return std::sqrt(x); });
   });
   benchmark::RegisterBenchmark("read", read)->Arg(16 << 10)->Arg(1 << 20)->Arg(256 << 20);
   return true;

@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/cleaning/window.hpp"
@@ -26,15 +26,6 @@ constexpr int kMostWindow = 48;
 constexpr double kMostLeverage = 0.9;
 constexpr double kCalm = 3.5;  // standard deviations
 constexpr std::size_t kMany = 48;
-
-const WindowKernel& kernel() {
-#if defined(__x86_64__)
-  static const WindowKernel& fastest = cpu_has_avx2() ? kWindowAvx2 : kWindowGeneric;
-  return fastest;
-#else
-  return kWindowGeneric;
-#endif
-}
 
 /// Points of the cells up to window cells from one, in coordinates that run from -1 to 1; evenly chosen if there are
 /// many.
@@ -107,13 +98,13 @@ WindowFit fit_window(Window& samples, double least) {
                                                       : WindowWeights::biweight;
     std::array<double, Window::kMoments> moments;
     Terms products;
-    kernel().sums(samples, c.data(), weights, round < kAbsolute ? scale : kTukey * scale, moments.data(),
-                  products.data());
+    fastest_kernel<WindowKernel>().sums(samples, c.data(), weights, round < kAbsolute ? scale : kTukey * scale,
+                                        moments.data(), products.data());
     // surroundings that lie on one line leave terms open: those stay small
     const Factor factor = factor_of(moments, 1e-7 * std::max(moments[0], 1.0));
     c = factor.solve(products);
     float middle = 0.0f, greatest = 0.0f;
-    kernel().sizes(samples, c.data(), &middle, &greatest);
+    fastest_kernel<WindowKernel>().sizes(samples, c.data(), &middle, &greatest);
     scale = std::max(kMad * static_cast<double>(middle), least);
     // nothing stands out of many: weights would change next to nothing; among few a wild point hides behind the scatter
     // that it makes

@@ -25,7 +25,9 @@ struct WindowKernel {
                double* products);
   /// Writes the sizes of the residuals and tells that of rank count / 2 and the greatest one.
   void (*sizes)(Window& window, const double* c, float* middle, float* greatest);
+
+  static const WindowKernel generic;
+  static const WindowKernel* const avx2;  ///< nullptr if this build has none
 };
-extern const WindowKernel kWindowGeneric, kWindowAvx2;
 
 }  // namespace treadmark::scans

@@ -2,56 +2,43 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <cstdint>
-
+#include "treadmark/core/kernel.hpp"
+#include "treadmark/core/lanes4.hpp"
 #include "treadmark/scans/cleaning/window.hpp"
 
 namespace treadmark::scans {
 namespace {
 
-using F4 = float __attribute__((vector_size(16)));
-using D4 = double __attribute__((vector_size(32)));
-using L4 = std::int64_t __attribute__((vector_size(32)));
-using I8 = std::int32_t __attribute__((vector_size(32)));
+using namespace lanes;
 
-#define TREADMARK_WINDOW [[gnu::always_inline, maybe_unused]] static inline
-
-TREADMARK_WINDOW D4 four(double a) { return D4{a, a, a, a}; }
-TREADMARK_WINDOW D4 load(const float* p) {
-  F4 v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return __builtin_convertvector(v, D4);
-}
-TREADMARK_WINDOW D4 magnitude(D4 a) { return (D4)((L4)a & L4{INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX}); }
-TREADMARK_WINDOW D4 pick(L4 mask, D4 yes, D4 no) { return (D4)(((L4)yes & mask) | ((L4)no & ~mask)); }
-TREADMARK_WINDOW D4 residual(const D4 (&c)[6], D4 x, D4 y, D4 d) {
+TREADMARK_LANES V4 residual(const V4 (&c)[6], V4 x, V4 y, V4 d) {
   return d - (c[0] + x * (c[1] + x * c[3] + y * c[4]) + y * (c[2] + y * c[5]));
 }
 
 template <WindowWeights kWeights>
-TREADMARK_WINDOW void window_sums(const Window& window, const double* c, double scale, double* moments,
-                                  double* products) {
-  const D4 zero = four(0.0), one = four(1.0), limit = four(scale), per = four(1.0 / scale);
-  D4 coefficients[Window::kTerms], m[Window::kMoments], p[Window::kTerms];
-  for (int k = 0; k < Window::kTerms; ++k) coefficients[k] = four(kWeights == WindowWeights::even ? 0.0 : c[k]);
-  for (D4& sum : m) sum = zero;
-  for (D4& sum : p) sum = zero;
+TREADMARK_LANES void window_sums(const Window& window, const double* c, double scale, double* moments,
+                                 double* products) {
+  const V4 zero = all(0.0), one = all(1.0), limit = all(scale), per = all(1.0 / scale);
+  V4 coefficients[Window::kTerms], m[Window::kMoments], p[Window::kTerms];
+  for (int k = 0; k < Window::kTerms; ++k) coefficients[k] = all(kWeights == WindowWeights::even ? 0.0 : c[k]);
+  for (V4& sum : m) sum = zero;
+  for (V4& sum : p) sum = zero;
   for (int i = 0; i < window.count; i += 4) {
-    const D4 x = load(window.x + i), y = load(window.y + i), d = load(window.d + i);
-    D4 w = one;
+    const V4 x = load(window.x + i), y = load(window.y + i), d = load(window.d + i);
+    V4 w = one;
     if (kWeights != WindowWeights::even) {
-      const D4 r = residual(coefficients, x, y, d);
+      const V4 r = residual(coefficients, x, y, d);
       if (kWeights == WindowWeights::absolute) {
-        const D4 size = magnitude(r);
-        w = limit / pick(size > limit, size, limit);
+        const V4 size = magnitude(r);
+        w = limit / select(size > limit, size, limit);
       } else {
-        const D4 q = r * per, left = one - q * q;
-        w = pick(left > zero, left * left, zero);
+        const V4 q = r * per, left = one - q * q;
+        w = select(left > zero, left * left, zero);
       }
     }
     const int present = window.count - i;
-    if (present < 4) w = pick(L4{-1, -(present > 1), -(present > 2), 0}, w, zero);
-    const D4 xx = x * x, yy = y * y, wx = w * x, wy = w * y, wxx = w * xx, wxy = wx * y, wyy = w * yy;
+    if (present < 4) w = select(M4{-1, -(present > 1), -(present > 2), 0}, w, zero);
+    const V4 xx = x * x, yy = y * y, wx = w * x, wy = w * y, wxx = w * xx, wxy = wx * y, wyy = w * yy;
     m[0] += w;
     m[1] += wx;
     m[2] += wxx;
@@ -89,7 +76,7 @@ static void sums_of_window(const Window& window, const double* c, WindowWeights 
 }
 
 /// The value of a rank by halving. Floats that are not negative are ordered as the whole numbers of their bits.
-TREADMARK_WINDOW float of_rank(const float* values, int count, int rank, float greatest) {
+TREADMARK_LANES float of_rank(const float* values, int count, int rank, float greatest) {
   const auto bits = [](float a) {
     std::int32_t b;
     __builtin_memcpy(&b, &a, sizeof b);
@@ -126,12 +113,11 @@ TREADMARK_WINDOW float of_rank(const float* values, int count, int rank, float g
 }
 
 static void sizes_of_window(Window& window, const double* c, float* middle, float* greatest) {
-  D4 coefficients[Window::kTerms];
-  for (int k = 0; k < Window::kTerms; ++k) coefficients[k] = four(c[k]);
+  V4 coefficients[Window::kTerms];
+  for (int k = 0; k < Window::kTerms; ++k) coefficients[k] = all(c[k]);
   for (int i = 0; i < window.count; i += 4) {
-    const D4 r = residual(coefficients, load(window.x + i), load(window.y + i), load(window.d + i));
-    const F4 size = __builtin_convertvector(magnitude(r), F4);
-    __builtin_memcpy(window.size + i, &size, sizeof size);
+    const V4 r = residual(coefficients, load(window.x + i), load(window.y + i), load(window.d + i));
+    store(window.size + i, __builtin_convertvector(magnitude(r), F4));
   }
   float most = 0.0f;
   for (int i = 0; i < window.count; ++i) most = window.size[i] > most ? window.size[i] : most;
@@ -141,4 +127,7 @@ static void sizes_of_window(Window& window, const double* c, float* middle, floa
 }
 
 }  // namespace
+
+TREADMARK_KERNEL(WindowKernel, sums_of_window, sizes_of_window);
+
 }  // namespace treadmark::scans

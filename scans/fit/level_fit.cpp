@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/fit/point_sums.hpp"
 
@@ -40,15 +40,6 @@ IntervalPoints points_of(const BandPoints& points, const SplineLevel& level, con
           1.0 / level.knot_s};
 }
 
-const PointSums& point_sums() {
-#if defined(__x86_64__)
-  static const PointSums& fastest = cpu_has_avx2() ? kPointSumsAvx2 : kPointSumsGeneric;
-  return fastest;
-#else
-  return kPointSumsGeneric;
-#endif
-}
-
 template <class Body>
 void by_colours(const SplineLevel& level, const Body& body) {
   for (std::size_t colour = 0; colour < kColours; ++colour) {
@@ -76,8 +67,8 @@ class NormalEquations {
         if (!touches_active(ia, is)) continue;
         std::array<double, 16> right{};
         std::array<double, 256> total{};
-        point_sums().products(points_of(points, level, g, ia, is), residual.data(), weight.data(), total.data(),
-                              right.data());
+        fastest_kernel<PointSums>().products(points_of(points, level, g, ia, is), residual.data(), weight.data(),
+                                             total.data(), right.data());
         scatter(ia, is, total, right);
       }
     });
@@ -208,8 +199,8 @@ FunctionSums sum_functions(const BandPoints& points, std::span<const float> resi
     for (std::size_t is = 0; is < level.intervals_s; ++is) {
       std::array<double, 16> wbr{}, wbb{}, b_sum{};
       // what outliers are left must not call for functions
-      point_sums().functions(points_of(points, level, g, ia, is), residual.data(), weight.data(), kClip, wbr.data(),
-                             wbb.data(), b_sum.data());
+      fastest_kernel<PointSums>().functions(points_of(points, level, g, ia, is), residual.data(), weight.data(), kClip,
+                                            wbr.data(), wbb.data(), b_sum.data());
       for (std::size_t m = 0; m < 16; ++m) {
         const std::size_t f = level.function_a(ia, m / 4) * level.functions_s() + is + m % 4;
         out.wbr[f] += wbr[m];
@@ -236,7 +227,7 @@ LevelSolution fit_level(const BandPoints& points, std::span<float> residual, std
       std::array<double, 16> c;
       for (std::size_t m = 0; m < 16; ++m)
         c[m] = level.coefficient[level.function_a(ia, m / 4) * level.functions_s() + is + m % 4];
-      point_sums().subtract(points_of(points, level, g, ia, is), c.data(), residual.data());
+      fastest_kernel<PointSums>().subtract(points_of(points, level, g, ia, is), c.data(), residual.data());
     }
   });
   return out;

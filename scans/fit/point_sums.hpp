@@ -27,7 +27,9 @@ struct PointSums {
                    double* wbr);
   /// Takes the sum of c B off the residuals, also of points that weigh nothing.
   void (*subtract)(const IntervalPoints& points, const double* c, float* residual);
+
+  static const PointSums generic;
+  static const PointSums* const avx2;  ///< nullptr if this build has none
 };
-extern const PointSums kPointSumsGeneric, kPointSumsAvx2;
 
 }  // namespace treadmark::scans

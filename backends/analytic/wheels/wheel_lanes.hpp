@@ -4,7 +4,7 @@
 
 namespace treadmark::analytic {
 
-/// Plain data for the kernels that find hits of four lines at a time (see core/cpu.hpp); no headers, no functions.
+/// Plain data for the kernels that find hits of four lines at a time (see core/kernel.hpp); no headers, no functions.
 
 inline constexpr int kWheelLanes = 4;
 
@@ -51,12 +51,13 @@ struct WheelLanesHits {
   double f_theta[kWheelLanes], f_y[kWheelLanes], depth[kWheelLanes];
 };
 
-/// Newton's method for all lanes. Returns the lanes, one bit each, that settled on the piece and on the half facing +n,
-/// at what is proven the outermost hit.
-using WheelLanesKernel = unsigned (*)(const WheelLanesInput&, WheelLanesHits&);
-WheelLanesKernel wheel_lanes_generic();
-WheelLanesKernel wheel_lanes_avx2();  ///< nullptr where it is not compiled
-/// The one for this processor.
-WheelLanesKernel wheel_lanes_kernel();
+struct WheelLanesKernel {
+  /// Newton's method for all lanes. Returns the lanes, one bit each, that settled on the piece and on the half facing
+  /// +n, at what is proven the outermost hit.
+  unsigned (*hits)(const WheelLanesInput&, WheelLanesHits&);
+
+  static const WheelLanesKernel generic;
+  static const WheelLanesKernel* const avx2;  ///< nullptr if this build has none
+};
 
 }  // namespace treadmark::analytic

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::analytic {
 
@@ -56,7 +57,7 @@ WheelLines::WheelLines(const WheelBody& body, const Pose& X_SP, const HeightsOut
       out_(out),
       n_(X_SP.rotation.col(2)),
       slopes_(!out.dzdx.empty() || !out.dzdy.empty()),
-      kernel_(wheel_lanes_kernel()) {}
+      kernel_(fastest_kernel<WheelLanesKernel>().hits) {}
 
 unsigned WheelLines::cast(Four& four, int count, WheelRay& ray) const {
   WheelLanesHits& l = four.lanes;

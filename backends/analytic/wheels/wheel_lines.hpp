@@ -32,7 +32,7 @@ class WheelLines {
   const HeightsOut& out_;
   Vec3 n_;
   bool slopes_;
-  WheelLanesKernel kernel_;
+  unsigned (*kernel_)(const WheelLanesInput&, WheelLanesHits&);
 };
 
 }  // namespace treadmark::analytic

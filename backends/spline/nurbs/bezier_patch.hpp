@@ -5,20 +5,18 @@
 #include <algorithm>
 #include <array>
 
+#include "treadmark/core/lanes4.hpp"
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::spline {
 
-// Two numbers in one register (GCC and clang).
-using NumberPair = double __attribute__((vector_size(16)));
-
 /// A homogeneous point (x w, y w, z w, w).
 struct Quad {
-  NumberPair xy{0.0, 0.0}, zw{0.0, 0.0};
+  lanes::Pair xy{0.0, 0.0}, zw{0.0, 0.0};
 
   Quad() = default;
   Quad(double x, double y, double z, double w) : xy{x, y}, zw{z, w} {}
-  Quad(const NumberPair& first, const NumberPair& second) : xy(first), zw(second) {}
+  Quad(const lanes::Pair& first, const lanes::Pair& second) : xy(first), zw(second) {}
 
   double x() const { return xy[0]; }
   double y() const { return xy[1]; }
@@ -27,7 +25,7 @@ struct Quad {
   friend Quad operator+(const Quad& a, const Quad& b) { return {a.xy + b.xy, a.zw + b.zw}; }
   friend Quad operator-(const Quad& a, const Quad& b) { return {a.xy - b.xy, a.zw - b.zw}; }
   friend Quad operator*(double f, const Quad& a) {
-    const NumberPair both{f, f};
+    const lanes::Pair both{f, f};
     return {both * a.xy, both * a.zw};
   }
 };

@@ -41,18 +41,15 @@ struct alignas(32) PatchPowers {
   bool rational;
 };
 
-struct NurbsKernels {
+struct NurbsKernel {
   /// Adds the hits of patches. left[k] = 1 for those that are not regular or have a point that did not settle, else 0.
   void (*hit_corners)(const ViewArrays& view, const PatchCorners* patches, int count, const TileArrays& tile,
                       char* left);
   /// The same for one patch; false: a point did not settle.
   bool (*hit)(const ViewArrays& view, const PatchPowers& patch, const TileArrays& tile);
-};
 
-const NurbsKernels& nurbs_kernels_generic();
-/// Null where the compiler does not know AVX2.
-const NurbsKernels* nurbs_kernels_avx2();
-/// For this processor.
-const NurbsKernels& nurbs_kernels();
+  static const NurbsKernel generic;
+  static const NurbsKernel* const avx2;  ///< nullptr if this build has none
+};
 
 }  // namespace treadmark::spline

@@ -14,6 +14,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::spline {
@@ -101,7 +102,7 @@ void NurbsSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out
 void NurbsSurface::hit_tile(const Pose& X_SP, const FacingHalf& half, const ViewArrays& view,
                             const TileArrays& tile) const {
   constexpr std::size_t kBatch = 64;
-  const NurbsKernels& kernels = nurbs_kernels();
+  const auto& kernels = fastest_kernel<NurbsKernel>();
   const Rectangle over{tile.x0 + tile.ix0 * tile.dx, tile.x0 + (tile.ix0 + tile.nx - 1) * tile.dx,
                        tile.y0 + tile.iy0 * tile.dy, tile.y0 + (tile.iy0 + tile.ny - 1) * tile.dy};
   std::vector<PatchIndex> left;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
+#include "treadmark/core/kernel.hpp"
 
 #include <cmath>
 #include <limits>
@@ -213,7 +214,7 @@ bool NurbsView::hit(double x, double y, bool exact, bool all, NurbsHit& out) {
 }
 
 void NurbsView::hit_tile(const ViewArrays& view, const TileArrays& tile) {
-  const NurbsKernels& kernels = nurbs_kernels();
+  const auto& kernels = fastest_kernel<NurbsKernel>();
   std::vector<char> open(static_cast<std::size_t>(tile.nx) * static_cast<std::size_t>(tile.ny), 0);
   const auto x = [&](int i) { return tile.x0 + (tile.ix0 + i) * tile.dx; };
   const auto y = [&](int j) { return tile.y0 + (tile.iy0 + j) * tile.dy; };

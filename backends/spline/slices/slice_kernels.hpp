@@ -74,7 +74,7 @@ struct SlopeArrays {
   double *along, *across;
 };
 
-struct SliceKernels {
+struct SliceKernel {
   /// Cuts breaks 4 first .. 4 last + 3; trouble[group] = 1 where one of four did not settle, else 0.
   void (*cut)(SectionArrays& section, int first, int last, char* trouble);
   /// Hits of the samples over cells first .. last - 1 of which the cubics serve: fast[cell] = 1, else 0. redo[cell] = 1
@@ -83,12 +83,9 @@ struct SliceKernels {
               const CellArrays& work, const HitArrays& hits);
   /// Slopes of the surface at the hits; arrays padded to a multiple of four.
   void (*slopes)(SectionArrays& section, const HitArrays& hits, int count, const SlopeArrays& slopes);
-};
 
-const SliceKernels& slice_kernels_generic();
-/// Null where the compiler does not know AVX2.
-const SliceKernels* slice_kernels_avx2();
-/// For this processor.
-const SliceKernels& slice_kernels();
+  static const SliceKernel generic;
+  static const SliceKernel* const avx2;  ///< nullptr if this build has none
+};
 
 }  // namespace treadmark::spline

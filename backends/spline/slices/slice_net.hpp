@@ -10,6 +10,7 @@
 
 #include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/slices/slice_kernels.hpp"
+#include "treadmark/core/lanes4.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/slices.hpp"
 
@@ -115,9 +116,9 @@ class SliceNet {
   std::vector<double> cubics_;
 };
 
-// Both fields at once in one register (GCC and clang).
+// Both fields at once in one register.
 namespace detail {
-typedef double Pair __attribute__((vector_size(16)));  // NOLINT(modernize-use-using): the attribute has no other place
+using lanes::Pair;
 
 inline Pair both(double x) { return Pair{x, x}; }
 inline NetPair store(const Pair& p) { return {p[0], p[1]}; }

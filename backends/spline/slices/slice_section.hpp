@@ -12,6 +12,7 @@
 #include "treadmark/backends/spline/slices/slice_hulls.hpp"
 #include "treadmark/backends/spline/slices/slice_kernels.hpp"
 #include "treadmark/backends/spline/slices/slice_net.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::spline {
 
@@ -44,7 +45,7 @@ class SliceSection {
 
   SliceSection(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Vec3& across,
                const Vec3& along, const Vec3& normal, const Vec3& origin, SectionWorkspace& workspace,
-               const SliceKernels& kernels = slice_kernels())
+               const SliceKernel& kernels = fastest_kernel<SliceKernel>())
       : net_(net),
         hulls_(hulls),
         geometry_(geometry),
@@ -259,7 +260,7 @@ class SliceSection {
   const SliceNet& net_;
   const SliceHulls& hulls_;
   const Geometry& geometry_;
-  const SliceKernels& kernels_;
+  const SliceKernel& kernels_;
   SectionWorkspace& work_;
   SectionArrays arrays_{};
   TwistArrays twist_{};

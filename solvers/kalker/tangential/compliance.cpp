@@ -11,6 +11,7 @@
 #include <functional>
 #include <numbers>
 
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
 #include "treadmark/solvers/kalker/tangential/spectrum_kernel.hpp"
@@ -103,7 +104,7 @@ void Compliance::apply(Transport transport, std::span<const double> px, std::spa
   if (rows) return apply_turned(*rows, transport, px, py, ux, uy);
   const RealFft2d& fft = transform_.fft();
   const auto length = static_cast<std::size_t>(fft.line_length());
-  const SpectrumKernel& kernel = spectrum_kernel();
+  const SpectrumKernel& kernel = fastest_kernel<SpectrumKernel>();
   const auto multiply_line = [&](int line, std::complex<double>* const* values) {
     const std::size_t begin = static_cast<std::size_t>(line) * length;
     std::complex<double>*x = values[0], *y = values[1];
@@ -207,8 +208,8 @@ void InverseCompliance::apply(std::span<const double> ux, std::span<const double
                               std::span<double> py) {
   const auto length = static_cast<std::size_t>(fft_.line_length());
   const auto multiply_line = [&](int line, std::complex<double>* const* values) {
-    spectrum_kernel().plain(length, &symbol_[static_cast<std::size_t>(line) * length].xx, numbers(values[0]),
-                            numbers(values[1]));
+    fastest_kernel<SpectrumKernel>().plain(length, &symbol_[static_cast<std::size_t>(line) * length].xx,
+                                           numbers(values[0]), numbers(values[1]));
   };
   const std::array load{rows_of(ux, nx_, fft_.nx()), rows_of(uy, nx_, fft_.nx())};
   const std::array store{rows_to(px, nx_, fft_.nx()), rows_to(py, nx_, fft_.nx())};

@@ -1,31 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Included by spectrum_kernel_generic.cpp and spectrum_kernel_avx2.cpp only.
 #pragma once
 
+#include "treadmark/core/kernel.hpp"
+#include "treadmark/core/lanes4.hpp"
 #include "treadmark/solvers/kalker/tangential/spectrum_kernel.hpp"
-
-// everything here is inlined, nothing is passed
-#pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace treadmark::kalker {
 
 namespace {
 
-/// Two complex numbers.
-using Two = double __attribute__((vector_size(32)));
-using TwoAnywhere = double __attribute__((vector_size(32), aligned(8), may_alias));
-
-[[gnu::always_inline]] inline Two two(const double* p) { return *reinterpret_cast<const TwoAnywhere*>(p); }
-[[gnu::always_inline]] inline void put(double* p, const Two& value) { *reinterpret_cast<TwoAnywhere*>(p) = value; }
+// Lanes hold two complex numbers.
+using lanes::load, lanes::store, lanes::V4;
 
 struct AsItIs {
-  [[gnu::always_inline]] Two operator()(std::size_t, const Two& z) const { return z; }
+  [[gnu::always_inline]] V4 operator()(std::size_t, const V4& z) const { return z; }
   void one(std::size_t, double&, double&) const {}
 };
 
 /// z (c + i s): real c - imaginary s, imaginary c + real s.
-[[gnu::always_inline]] inline Two product(const Two& z, const Two& c, const Two& s) {
+[[gnu::always_inline]] inline V4 product(const V4& z, const V4& c, const V4& s) {
   return z * c + __builtin_shufflevector(z, z, 1, 0, 3, 2) * s;
 }
 inline void multiply(double& real, double& imaginary, double c, double s) {
@@ -36,17 +30,17 @@ inline void multiply(double& real, double& imaginary, double c, double s) {
 
 struct Turned {
   double c, s;
-  [[gnu::always_inline]] Two operator()(std::size_t, const Two& z) const {
-    return product(z, Two{c, c, c, c}, Two{-s, s, -s, s});
+  [[gnu::always_inline]] V4 operator()(std::size_t, const V4& z) const {
+    return product(z, V4{c, c, c, c}, V4{-s, s, -s, s});
   }
   void one(std::size_t, double& real, double& imaginary) const { multiply(real, imaginary, c, s); }
 };
 
 struct TurnedEach {
   const double* factors;
-  [[gnu::always_inline]] Two operator()(std::size_t k, const Two& z) const {
-    const Two f = two(factors + 2 * k), s = __builtin_shufflevector(f, f, 1, 1, 3, 3);
-    return product(z, __builtin_shufflevector(f, f, 0, 0, 2, 2), s * Two{-1.0, 1.0, -1.0, 1.0});
+  [[gnu::always_inline]] V4 operator()(std::size_t k, const V4& z) const {
+    const V4 f = load(factors + 2 * k), s = __builtin_shufflevector(f, f, 1, 1, 3, 3);
+    return product(z, __builtin_shufflevector(f, f, 0, 0, 2, 2), s * V4{-1.0, 1.0, -1.0, 1.0});
   }
   void one(std::size_t k, double& real, double& imaginary) const {
     multiply(real, imaginary, factors[2 * k], factors[2 * k + 1]);
@@ -59,12 +53,12 @@ template <class Last>
   std::size_t k = 0;
   for (; k + 2 <= n; k += 2) {
     // xx xy yy xx' and yy xx' xy' yy'
-    const Two a = two(blocks + 3 * k), b = two(blocks + 3 * k + 2);
-    const Two xx = __builtin_shufflevector(a, b, 0, 0, 3, 3), xy = __builtin_shufflevector(a, b, 1, 1, 6, 6),
-              yy = __builtin_shufflevector(a, b, 2, 2, 7, 7);
-    const Two zx = two(x + 2 * k), zy = two(y + 2 * k);
-    put(x + 2 * k, last(k, xx * zx + xy * zy));
-    put(y + 2 * k, last(k, xy * zx + yy * zy));
+    const V4 a = load(blocks + 3 * k), b = load(blocks + 3 * k + 2);
+    const V4 xx = __builtin_shufflevector(a, b, 0, 0, 3, 3), xy = __builtin_shufflevector(a, b, 1, 1, 6, 6),
+             yy = __builtin_shufflevector(a, b, 2, 2, 7, 7);
+    const V4 zx = load(x + 2 * k), zy = load(y + 2 * k);
+    store(x + 2 * k, last(k, xx * zx + xy * zy));
+    store(y + 2 * k, last(k, xy * zx + yy * zy));
   }
   for (; k < n; ++k) {
     const double *b = blocks + 3 * k, *zx = x + 2 * k, *zy = y + 2 * k;
@@ -87,8 +81,8 @@ void blocks_turned_each(std::size_t n, const double* blocks, double* x, double* 
   multiply_blocks(n, blocks, x, y, TurnedEach{factors});
 }
 
-constexpr SpectrumKernel kSpectrumKernel{&blocks_plain, &blocks_turned, &blocks_turned_each};
-
 }  // namespace
+
+TREADMARK_KERNEL(SpectrumKernel, &blocks_plain, &blocks_turned, &blocks_turned_each);
 
 }  // namespace treadmark::kalker

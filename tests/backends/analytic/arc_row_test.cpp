@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/backends/analytic/arc_graph.hpp"
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/tests/support/kernels.hpp"
 
 namespace treadmark::analytic {
 namespace {
@@ -17,20 +17,18 @@ namespace {
 TEST(ArcRow, AgreesWithSinglePoints) {
   // Of metres and slopes up to a few: some roundings.
   constexpr double kRoom = 1e-15, kSlopeRoom = 1e-12;
-  std::vector<ArcRowKernel> kernels{arc_row_generic()};
-  if (arc_row_avx2() != nullptr && cpu_has_avx2()) kernels.push_back(arc_row_avx2());
   const double angle = 0.4;
   const std::vector<ArcGraph> arcs{{-0.02, 0.02, 1e-3, 2e-3, std::sin(angle), std::cos(angle), 0.0},
                                    {-0.02, 0.02, 1e-3, 2e-3, std::sin(angle), std::cos(angle), 12.5},
                                    {-0.02, 0.02, 1e-3, 2e-3, std::sin(angle), std::cos(angle), -20.0},
                                    {-0.02, 0.02, 1e-3, 2e-3, std::sin(angle), -std::cos(angle), 3.3}};
   constexpr int kCount = 23, kFirst = 2, kLast = 21;
-  for (const ArcRowKernel kernel : kernels)
+  for (const ArcRowKernel* kernel : all_kernels<ArcRowKernel>())
     for (const ArcGraph& arc : arcs) {
       const ArcRow row{arc.x0, arc.h0, arc.s0, arc.c0, arc.k, -0.003, 0.7, 0.004, -0.2, 1.1, -0.015, 1.3e-3};
       std::vector<double> z(kCount, -1.0), slope(kCount, -1.0), alone(kCount, -1.0);
-      kernel(row, kFirst, kLast, z.data(), slope.data());
-      kernel(row, kFirst, kLast, alone.data(), nullptr);
+      kernel->heights(row, kFirst, kLast, z.data(), slope.data());
+      kernel->heights(row, kFirst, kLast, alone.data(), nullptr);
       EXPECT_EQ(z, alone);
       for (int i = 0; i < kCount; ++i) {
         const auto k = static_cast<std::size_t>(i);

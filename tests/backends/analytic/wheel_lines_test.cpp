@@ -11,6 +11,7 @@
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/analytic/wheels/wheel_ray.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::analytic {
@@ -108,9 +109,9 @@ TEST(WheelLanes, KernelsAgreeWithEachOtherAndWithSingleRays) {
       first.t[k] = k == 2 ? std::numeric_limits<double>::quiet_NaN() : 1e-3 * either(random);
     }
     WheelLanesHits second = first;
-    const unsigned settled = wheel_lanes_generic()(in, first);
-    if (const auto kernel = wheel_lanes_avx2(); kernel != nullptr && wheel_lanes_kernel() == kernel) {
-      ASSERT_EQ(kernel(in, second), settled);
+    const unsigned settled = WheelLanesKernel::generic.hits(in, first);
+    if (const auto* kernel = avx2_kernel<WheelLanesKernel>(); kernel != nullptr) {
+      ASSERT_EQ(kernel->hits(in, second), settled);
     } else {
       second = first;
     }

@@ -9,7 +9,7 @@
 #include "treadmark/backends/displacement/base_patch.hpp"
 #include "treadmark/backends/displacement/displaced_line.hpp"
 #include "treadmark/backends/displacement/displaced_surface.hpp"
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/tests/backends/displacement/fields.hpp"
 
 namespace treadmark::testing {
@@ -148,9 +148,9 @@ TEST(FastWay, InterpolatesTheBaseOnlyWhereItIsAsGoodAsAsking) {
 }
 
 TEST(FastWay, BothKernelsAgree) {
-  const displacement::BandKernel* fast = cpu_has_avx2() ? displacement::band_kernel_avx2() : nullptr;
+  const displacement::BandKernel* fast = avx2_kernel<displacement::BandKernel>();
   if (fast == nullptr) GTEST_SKIP() << "this machine runs one kernel only";
-  const displacement::BandKernel& slow = displacement::band_kernel_generic();
+  const displacement::BandKernel& slow = displacement::BandKernel::generic;
   std::mt19937 random(9);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   constexpr std::size_t kMany = 61;

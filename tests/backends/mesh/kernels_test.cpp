@@ -4,11 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "treadmark/backends/mesh/bvh.hpp"
-#include "treadmark/backends/mesh/kernels.hpp"
+#include "treadmark/backends/mesh/fit.hpp"
 #include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/backends/mesh/prepare.hpp"
 #include "treadmark/backends/mesh/smooth_patches.hpp"
 #include "treadmark/tests/backends/mesh/mesh_shapes.hpp"
+#include "treadmark/tests/support/kernels.hpp"
 
 namespace treadmark::mesh {
 namespace {
@@ -165,11 +166,10 @@ TEST(MeshKernels, FitsReturnTheCubicThatPointsLieOn) {
   std::array<std::array<double, 9>, 4> cubics{};
   for (std::size_t lane = 0; lane < 4; ++lane)
     cubics[lane] = {0.01, -0.02, 3.0, 1.0 + static_cast<double>(lane), -2.0, 200.0, -90.0, 50.0, 120.0};
-  for (const Kernels* which : {&generic_kernels(), avx2_kernels()}) {
-    if (!which) continue;
+  for (const FitKernel* which : all_kernels<FitKernel>()) {
     FitBlock block = points_of_cubics(cubics);
     const FitBlock given = block;
-    which->fit_cubics(block);
+    which->cubics(block);
     for (std::size_t lane = 0; lane < 3; ++lane) {
       EXPECT_GT(block.least_singular_value[lane], 1e-3) << lane;
       EXPECT_LT(block.least_singular_value[lane], 1.0) << lane;
@@ -194,7 +194,7 @@ TEST(MeshKernels, FitsReturnTheCubicThatPointsLieOn) {
 }
 
 TEST(MeshKernels, OfBothProcessorsFillTilesAlike) {
-  if (!avx2_kernels()) GTEST_SKIP() << "no AVX2";
+  if (!avx2_kernel<TileKernel>()) GTEST_SKIP() << "no AVX2";
   const auto a = std::make_unique<Tile>(), b = std::make_unique<Tile>();
   for (const Shape& shape : shapes()) {
     MeshRepair repair;
@@ -211,8 +211,8 @@ TEST(MeshKernels, OfBothProcessorsFillTilesAlike) {
           for (int i = 0; i < Tile::kStride; ++i) tile->x[i] = -0.03 + 0.002 * part + i * step;
           for (int i = 0; i < Tile::kHigh + Tile::kPad; ++i) tile->y[i] = 0.02 - 0.0013 * part + i * step;
         }
-        ASSERT_TRUE(generic_kernels().fill_tile(bvh.arrays(), view.lines(), *a));
-        ASSERT_TRUE(avx2_kernels()->fill_tile(bvh.arrays(), view.lines(), *b));
+        ASSERT_TRUE(TileKernel::generic.fill(bvh.arrays(), view.lines(), *a));
+        ASSERT_TRUE(TileKernel::avx2->fill(bvh.arrays(), view.lines(), *b));
         for (int iy = 0; iy < a->ny; ++iy)
           for (int ix = 0; ix < a->nx; ++ix) {
             const int at = iy * Tile::kStride + ix;
@@ -230,7 +230,7 @@ TEST(MeshKernels, OfBothProcessorsFillTilesAlike) {
 }
 
 TEST(MeshKernels, OfBothProcessorsEvaluatePatchesAlike) {
-  if (!avx2_kernels()) GTEST_SKIP() << "no AVX2";
+  if (!avx2_kernel<PatchKernel>()) GTEST_SKIP() << "no AVX2";
   constexpr double kClose = 1e-13;
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -256,7 +256,7 @@ TEST(MeshKernels, OfBothProcessorsEvaluatePatchesAlike) {
         std::array<std::array<double, 7>, 3> results[3];
         bool fine = true;
         for (int which = 0; which < 2; ++which) {
-          const PatchKernel& kernel = which == 0 ? generic_kernels().patch : avx2_kernels()->patch;
+          const PatchKernel& kernel = which == 0 ? PatchKernel::generic : *PatchKernel::avx2;
           std::array<double, 4 * kPatchEntries> patches;
           fine = fine && smooth.prepare(kernel, lines, t, triangle.q[0].data(), patches.data());
           if (!fine) break;
@@ -322,7 +322,7 @@ TEST(MeshKernels, BoundsHoldAllHeightsFromAnyPlane) {
 }
 
 TEST(MeshKernels, OfBothProcessorsFindBoundsAlike) {
-  if (!avx2_kernels()) GTEST_SKIP() << "no AVX2";
+  if (!avx2_kernel<BoundsKernel>()) GTEST_SKIP() << "no AVX2";
   std::mt19937 random(23);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (const Shape& shape : shapes()) {
@@ -334,8 +334,8 @@ TEST(MeshKernels, OfBothProcessorsFindBoundsAlike) {
       for (int trial = 0; trial < 200; ++trial) {
         const BoundsQuery q{0.06 * (unit(random) - 0.5), 0.06 * (unit(random) - 0.5), 0.01 * unit(random),
                             0.01 * unit(random)};
-        const BoundsFound a = generic_kernels().find_bounds(bvh.arrays(), view.lines(), q),
-                          b = avx2_kernels()->find_bounds(bvh.arrays(), view.lines(), q);
+        const BoundsFound a = BoundsKernel::generic.find(bvh.arrays(), view.lines(), q),
+                          b = BoundsKernel::avx2->find(bvh.arrays(), view.lines(), q);
         ASSERT_EQ(a.low > a.high, b.low > b.high) << shape.name;
         if (a.low > a.high) continue;
         EXPECT_NEAR(a.low, b.low, 1e-10) << shape.name;

@@ -10,8 +10,8 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_field.hpp"
 #include "treadmark/backends/offset/sheet_kernel.hpp"
-#include "treadmark/core/cpu.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/kernel.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -90,7 +90,7 @@ TEST(SheetKernel, FarAwayAndNowhereThereIsNothing) {
 }
 
 TEST(SheetKernel, BothKernelsAgree) {
-  if (!cpu_has_avx2() || offset::sheet_kernel_avx2(1) == nullptr) GTEST_SKIP() << "this machine runs one kernel only";
+  if (avx2_kernel<offset::SheetKernel>() == nullptr) GTEST_SKIP() << "this machine runs one kernel only";
   std::mt19937 random(11);
   std::uniform_real_distribution<float> value(-1.0f, 1.0f);
   std::uniform_real_distribution<double> place(-60.0, 150.0);
@@ -107,10 +107,10 @@ TEST(SheetKernel, BothKernelsAgree) {
       Values a(5000), b(5000);
       for (std::size_t i = 0; i < a.u.size(); ++i)
         b.u[i] = a.u[i] = place(random) / 9.0, b.y[i] = a.y[i] = place(random) / 5.0;
-      offset::sheet_kernel_generic(degree)(view, a.u.size(), a.u.data(), a.y.data(), a.d.data(), a.d_u.data(),
-                                           a.d_y.data());
-      offset::sheet_kernel_avx2(degree)(view, b.u.size(), b.u.data(), b.y.data(), b.d.data(), b.d_u.data(),
-                                        b.d_y.data());
+      offset::SheetKernel::generic.of_degree[degree](view, a.u.size(), a.u.data(), a.y.data(), a.d.data(), a.d_u.data(),
+                                                     a.d_y.data());
+      offset::SheetKernel::avx2->of_degree[degree](view, b.u.size(), b.u.data(), b.y.data(), b.d.data(), b.d_u.data(),
+                                                   b.d_y.data());
       int some = 0;
       for (std::size_t i = 0; i < a.u.size(); ++i) {
         ASSERT_NEAR(a.d[i], b.d[i], 1e-13) << degree << ' ' << turn;

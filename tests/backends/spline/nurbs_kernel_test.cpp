@@ -9,7 +9,7 @@
 
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/tests/support/kernels.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -56,8 +56,6 @@ std::vector<TileCase> tile_cases() {
 
 TEST(NurbsKernels, AgreeWithSinglePoints) {
   const Grid2 g{-0.021, -0.033, 3.7e-4, 2.9e-4, 101, 229};
-  std::vector<const NurbsKernels*> all{&nurbs_kernels_generic()};
-  if (nurbs_kernels_avx2() != nullptr && cpu_has_avx2()) all.push_back(nurbs_kernels_avx2());
   for (const TileCase& c : tile_cases()) {
     const FacingHalf half(c.X, c.facing);
     const ViewArrays view = view_arrays(c.X, half);
@@ -65,7 +63,7 @@ TEST(NurbsKernels, AgreeWithSinglePoints) {
     for (int iu = 0; iu < c.net.patches_u(); ++iu)
       for (int iv = 0; iv < c.net.patches_v(); ++iv) patches.push_back(c.net.corners(iu, iv));
     NurbsView one(c.net, c.X, {g.x(0), g.x(g.nx - 1), g.y(0), g.y(g.ny - 1)}, c.facing);
-    for (const NurbsKernels* kernels : all)
+    for (const NurbsKernel* kernels : all_kernels<NurbsKernel>())
       for (const bool slopes : {false, true}) {
         TileFields fields(g.size());
         std::vector<char> left(patches.size(), 2);

@@ -10,7 +10,7 @@
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
 #include "treadmark/backends/spline/slices/slice_section.hpp"
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/core/kernel.hpp"
 #include "treadmark/tests/backends/spline/test_planes.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 
@@ -36,7 +36,7 @@ SliceNet with_radius(SliceNet net) {
 
 // All cells, without regard to where they lie.
 template <class Geometry>
-std::vector<LineHits> lines_of(const SliceNet& net, const SliceHulls& hulls, const Pose& X, const SliceKernels& kernels,
+std::vector<LineHits> lines_of(const SliceNet& net, const SliceHulls& hulls, const Pose& X, const SliceKernel& kernels,
                                bool careful_only) {
   const bool along_y = Geometry::lines_along_y(X.rotation);
   const Geometry geometry(kRadius);
@@ -86,10 +86,9 @@ Compared compare(const SliceNet& net, const std::vector<Pose>& planes) {
   const SliceHulls hulls(net);
   Compared compared;
   for (std::size_t plane = 0; plane < planes.size(); ++plane) {
-    const auto generic = lines_of<Geometry>(net, hulls, planes[plane], slice_kernels_generic(), false);
-    const auto careful = lines_of<Geometry>(net, hulls, planes[plane], slice_kernels_generic(), true);
-    const bool avx2 = slice_kernels_avx2() != nullptr && cpu_has_avx2();
-    const auto fast = avx2 ? lines_of<Geometry>(net, hulls, planes[plane], *slice_kernels_avx2(), false) : generic;
+    const auto generic = lines_of<Geometry>(net, hulls, planes[plane], SliceKernel::generic, false);
+    const auto careful = lines_of<Geometry>(net, hulls, planes[plane], SliceKernel::generic, true);
+    const auto fast = lines_of<Geometry>(net, hulls, planes[plane], fastest_kernel<SliceKernel>(), false);
     for (std::size_t line = 0; line < generic.size(); ++line) {
       const LineHits &a = generic[line], &b = fast[line], &c = careful[line];
       compared.cells += net.cells(), compared.careful_cells += a.careful_cells;

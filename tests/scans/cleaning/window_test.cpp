@@ -10,18 +10,10 @@
 #include <random>
 #include <vector>
 
-#include "treadmark/core/cpu.hpp"
+#include "treadmark/tests/support/kernels.hpp"
 
 namespace treadmark::scans {
 namespace {
-
-std::vector<const WindowKernel*> window_kernels() {
-  std::vector<const WindowKernel*> all{&kWindowGeneric};
-#if defined(__x86_64__)
-  if (cpu_has_avx2()) all.push_back(&kWindowAvx2);
-#endif
-  return all;
-}
 
 Window rough_window(int count, unsigned seed) {
   Window window{};
@@ -49,7 +41,7 @@ double residual_of(const Window& window, int i) {
 
 TEST(WindowKernel, SumsAreThoseOfEachPointByItself) {
   constexpr double kScale = 30e-6;
-  for (const WindowKernel* kernel : window_kernels())
+  for (const WindowKernel* kernel : all_kernels<WindowKernel>())
     for (const int count : {12, 13, 14, 15, 61, 220})
       for (const WindowWeights weights : {WindowWeights::even, WindowWeights::absolute, WindowWeights::biweight}) {
         const Window window = rough_window(count, 3);
@@ -73,7 +65,7 @@ TEST(WindowKernel, SumsAreThoseOfEachPointByItself) {
 }
 
 TEST(WindowKernel, MiddleIsThatOfSortedSizes) {
-  for (const WindowKernel* kernel : window_kernels())
+  for (const WindowKernel* kernel : all_kernels<WindowKernel>())
     for (const int count : {12, 13, 16, 17, 61, 220})
       for (unsigned seed = 0; seed < 20; ++seed) {
         Window window = rough_window(count, seed);

@@ -9,23 +9,15 @@
 #include <cmath>
 #include <vector>
 
-#include "treadmark/core/cpu.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/scans/placement/section_fit.hpp"
+#include "treadmark/tests/support/kernels.hpp"
 
 namespace treadmark::scans {
 namespace {
 
 constexpr double kRounding = 1e-12;
 constexpr float kFarOff = 4.0f;
-
-std::vector<const PointSums*> all_point_sums() {
-  std::vector<const PointSums*> all{&kPointSumsGeneric};
-#if defined(__x86_64__)
-  if (cpu_has_avx2()) all.push_back(&kPointSumsAvx2);
-#endif
-  return all;
-}
 
 /// A band of 12 x 10 cells with 0 to 4 points each; the interval of 3 x 5 cells in the middle.
 struct SampleInterval {
@@ -95,7 +87,7 @@ TEST(PointSums, OfFunctionsAreThoseOfEachPointByItself) {
     }
   });
   EXPECT_GT(cut, 0u);
-  for (const PointSums* sums : all_point_sums()) {
+  for (const PointSums* sums : all_kernels<PointSums>()) {
     std::array<double, 16> got_wbr{}, got_wbb{}, got{};
     for (int twice = 0; twice < 2; ++twice)  // they add
       sums->functions(sample.points, sample.residual.data(), sample.weight.data(), kFarOff, got_wbr.data(),
@@ -119,7 +111,7 @@ TEST(PointSums, OfProductsAreThoseOfEachPointByItself) {
         products[16 * m + n] += static_cast<double>(sample.weight[i]) * b[m] * b[n];
     }
   });
-  for (const PointSums* sums : all_point_sums()) {
+  for (const PointSums* sums : all_kernels<PointSums>()) {
     std::array<double, 256> got{};
     std::array<double, 16> got_wbr{};
     sums->products(sample.points, sample.residual.data(), sample.weight.data(), got.data(), got_wbr.data());
@@ -138,7 +130,7 @@ TEST(PointSums, SubtractTheSurfaceWhereItsPointsAre) {
     for (std::size_t m = 0; m < 16; ++m) sum += b[m] * c[m];
     wanted[i] -= static_cast<float>(sum);
   });
-  for (const PointSums* sums : all_point_sums()) {
+  for (const PointSums* sums : all_kernels<PointSums>()) {
     std::vector<float> got = sample.residual;
     sums->subtract(sample.points, c.data(), got.data());
     constexpr float kFloat = 1e-11f;  // of values about 1e-5

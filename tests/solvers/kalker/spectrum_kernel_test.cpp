@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/kernel.hpp"
+
 namespace treadmark::kalker {
 namespace {
 
@@ -47,13 +49,13 @@ TEST(SpectrumKernel, MultipliesAndAllGiveTheSameBits) {
   const Complex one(0.6, -0.8);
   for (const std::size_t n : {0u, 1u, 2u, 3u, 8u, 33u})
     for (int how = 0; how < 3; ++how) {
-      const Spectra before(n), generic = multiplied(spectrum_kernel_generic(), before, how, one);
+      const Spectra before(n), generic = multiplied(SpectrumKernel::generic, before, how, one);
       for (std::size_t k = 0; k < n; ++k) {
         const auto [x, y] = before.wanted(k, how == 0 ? 1.0 : how == 1 ? one : before.factors[k]);
         EXPECT_LT(std::abs(generic.x[k] - x), 1e-15) << n << ' ' << how << ' ' << k;
         EXPECT_LT(std::abs(generic.y[k] - y), 1e-15) << n << ' ' << how << ' ' << k;
       }
-      const Spectra fastest = multiplied(spectrum_kernel(), before, how, one);
+      const Spectra fastest = multiplied(fastest_kernel<SpectrumKernel>(), before, how, one);
       EXPECT_EQ(fastest.x, generic.x) << n << ' ' << how;
       EXPECT_EQ(fastest.y, generic.y) << n << ' ' << how;
     }

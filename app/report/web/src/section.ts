@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { linearTicks } from "./chart/scale";
 import { seriesDash } from "./colours";
-import { quoted } from "./contact/csv";
 import { contactBox, edgesOf } from "./contact/fields";
 import { byLoad, toTrack, type Vector } from "./contact/place";
-import { levels } from "./contact/scales";
 import { standalone, svg, textWidth } from "./contact/svg";
-import { brief, tick } from "./contact/text";
+import { brief } from "./contact/text";
+import { quoted } from "./csv";
 import type { Frame, Patch, Placed, SectionView, SurfaceData } from "./data";
 import { addDownloads } from "./download";
 import { decode, type Decoded } from "./packed";
@@ -231,17 +231,15 @@ class SectionFigure {
       text(name, { x: side === 0 ? LEFT + 8 : LEFT + w - 8, y: TOP + h - 8, "text-anchor": side === 0 ? "start" : "end" }),
     );
     const bottom = TOP + h;
-    const yTicks = levels({ low: y0, high: y1 }, Math.max(2, w / 80));
-    for (const value of yTicks) {
+    for (const { value, label } of linearTicks([y0, y1], Math.max(2, w / 80))) {
       const x = across(value).toFixed(1);
       svg("path", { d: `M${x} ${bottom.toFixed(1)}v4`, stroke: "var(--line-strong)" }, drawing);
-      text(tick(value, yTicks[1]! - yTicks[0]!), { x, y: (bottom + 16).toFixed(1), "text-anchor": "middle" });
+      text(label, { x, y: (bottom + 16).toFixed(1), "text-anchor": "middle" });
     }
-    const zTicks = levels({ low: z0, high: z1 }, Math.max(2, h / 45));
-    for (const value of zTicks) {
+    for (const { value, label } of linearTicks([z0, z1], Math.max(2, h / 45))) {
       const y = down(value);
       svg("path", { d: `M${LEFT} ${y.toFixed(1)}h-4`, stroke: "var(--line-strong)" }, drawing);
-      text(tick(value, zTicks[1]! - zTicks[0]!), { x: LEFT - 7, y: (y + 4).toFixed(1), "text-anchor": "end" });
+      text(label, { x: LEFT - 7, y: (y + 4).toFixed(1), "text-anchor": "end" });
     }
     text("y, to the right [mm]", { x: LEFT + w / 2, y: (bottom + 33).toFixed(1), "text-anchor": "middle" });
     text("z, down [mm]", { transform: `translate(14 ${(TOP + h / 2).toFixed(1)}) rotate(-90)`, "text-anchor": "middle" });

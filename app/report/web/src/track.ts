@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { linearTicks } from "./chart/scale";
 import { colourMap, lut } from "./colours";
 import { drawBar } from "./contact/bars";
-import { quoted } from "./contact/csv";
 import { contactBox, edgesOf, fieldOf, stateOf, type Box } from "./contact/fields";
 import { toTrack, type Vector } from "./contact/place";
 import { paint } from "./contact/raster";
-import { colourRange, levels, rangeOf, union, type Range } from "./contact/scales";
+import { colourRange, rangeOf, union, type Range } from "./contact/scales";
 import { standalone, svg } from "./contact/svg";
-import { tick, titled } from "./contact/text";
+import { titled } from "./contact/text";
+import { quoted } from "./csv";
 import type { Frame, Patch, TrackView } from "./data";
 import { addDownloads } from "./download";
 import { decode } from "./packed";
@@ -276,19 +277,17 @@ class TrackFigure {
     const bottom = y + above + below;
     const names = sideNames(panel.main[1]);
     names?.forEach((name, side) => text(name, { x: side === 0 ? x + 5 : x + w - 5, y: bottom - 5, "text-anchor": side === 0 ? "start" : "end", "font-size": 10.5 }));
-    const ys = levels({ low: ya, high: yb }, 4);
-    for (const value of ys) {
+    for (const { value, label } of linearTicks([ya, yb], 4)) {
       const px = across(value).toFixed(1);
       svg("path", { d: `M${px} ${bottom.toFixed(1)}v4`, stroke: "var(--line-strong)" }, group);
-      text(tick(value, ys[1]! - ys[0]!), { x: px, y: bottom + 15, "text-anchor": "middle" });
+      text(label, { x: px, y: bottom + 15, "text-anchor": "middle" });
     }
     if (!first) return;
     text("y, to the right [mm]", { x, y: bottom + 30 });
-    const xs = levels({ low: this.window.x0, high: this.window.x1 }, Math.max(2, above / 45));
-    for (const value of xs) {
+    for (const { value, label } of linearTicks([this.window.x0, this.window.x1], Math.max(2, above / 45))) {
       const py = along(value);
       svg("path", { d: `M${x} ${py.toFixed(1)}h-4`, stroke: "var(--line-strong)" }, group);
-      text(tick(value, xs[1]! - xs[0]!), { x: x - 7, y: (py + 4).toFixed(1), "text-anchor": "end" });
+      text(label, { x: x - 7, y: (py + 4).toFixed(1), "text-anchor": "end" });
     }
     text("x, forward [mm]", { transform: `translate(${x - 36} ${y + above / 2}) rotate(-90)`, "text-anchor": "middle" });
   }

@@ -34,6 +34,7 @@ test("levels near the data widen the range, those far away do not", () => {
 
 test("labels have the decimals that their distance needs", () => {
   assert.deepEqual(linearTicks([0, 1], 5).map((t) => t.label), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
+  assert.deepEqual(linearTicks([0.25, 0.42], 2).map((t) => t.label), ["0.3", "0.4"]);
   assert.deepEqual(linearTicks([-20, 20], 4).map((t) => t.label), ["−20", "−10", "0", "10", "20"]);
 });
 

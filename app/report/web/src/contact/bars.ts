@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { linearTicks } from "../chart/scale";
 import { css } from "../colours";
 import type { Rect } from "./layout";
 import { legendPlaces, LEGEND_ROW } from "./layout";
-import { levels, type Range } from "./scales";
+import type { Range } from "./scales";
 import { svg, textWidth } from "./svg";
-import { tick } from "./text";
 
 const INK = "var(--text)";
 const FONT = "11.5px system-ui, sans-serif"; // of the numbers
@@ -54,8 +54,7 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
   svg("rect", { x, y, width, height, fill: `url(#${id})`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" }, parent);
   const length = vertical ? height : width;
   const at = (value: number): number => ((value - range.low) / (range.high - range.low)) * length;
-  const ticks = levels(range, vertical ? Math.max(2, length / 55) : Math.max(2, length / 62));
-  const step = (ticks[1] ?? 1) - (ticks[0] ?? 0);
+  const ticks = linearTicks([range.low, range.high], Math.max(2, length / (vertical ? 55 : 62)));
   const numbers = svg("g", { fill: "var(--muted)", "font-size": 11.5 }, parent);
   for (const value of content.lines) {
     const [px, py] = vertical ? [x, y + height - at(value)] : [x + at(value), y];
@@ -71,10 +70,13 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
       parent,
     );
   }
-  const words = ticks.map((value) => tick(value, step));
-  const widths = words.map((word) => textWidth(word, FONT));
-  const places = labelPlaces(ticks.map(at), widths, length);
-  ticks.forEach((value, k) => {
+  const widths = ticks.map(({ label }) => textWidth(label, FONT));
+  const places = labelPlaces(
+    ticks.map(({ value }) => at(value)),
+    widths,
+    length,
+  );
+  ticks.forEach(({ value, label }, k) => {
     const [px, py] = vertical ? [x + width, y + height - at(value)] : [x + at(value), y + height];
     svg(
       "path",
@@ -84,7 +86,7 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
     const middle = places[k];
     if (!vertical && middle === null) return;
     const text = svg("text", vertical ? { x: px + 7, y: (py + 4).toFixed(1) } : { x: (x + middle!).toFixed(1), y: py + 16, "text-anchor": "middle" }, numbers);
-    text.textContent = words[k]!;
+    text.textContent = label;
   });
   const wide = Math.max(...widths);
   const place2 = vertical

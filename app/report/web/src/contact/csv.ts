@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { quoted } from "../csv";
 import type { FieldInfo, Patch } from "../data";
 import { fieldOf, gridEdges } from "./fields";
 import type { Item } from "./place";
@@ -43,10 +44,6 @@ export function csvOf(parts: readonly { name: string; item: Item }[], fields: re
     }
   }
   return `${lines.join("\n")}\n`;
-}
-
-export function quoted(text: string): string {
-  return /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
 }
 
 /** Centre of an element in the axes of the picture [mm]. */

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { linearTicks } from "../chart/scale";
 import type { Box } from "./fields";
 import type { Layout, PanelPlace } from "./layout";
 import type { ToPixels } from "./lines";
-import { levels } from "./scales";
 import { fitted, put, say, show, svg } from "./svg";
-import { tick } from "./text";
 
 /** What a panel shows; paths are in pixels of the drawing. */
 export interface PanelContent {
@@ -101,13 +100,11 @@ export class PanelNodes {
 
   private drawX(place: PanelPlace, window: Box, scale: number): void {
     const bottom = place.y + place.height;
-    const ticks = levels({ low: window.x0, high: window.x1 }, Math.max(3, place.width / 60));
-    const step = (ticks[1] ?? 1) - (ticks[0] ?? 0);
-    for (const value of ticks) {
+    for (const { value, label } of linearTicks([window.x0, window.x1], Math.max(3, place.width / 60))) {
       const x = place.x + (value - window.x0) * scale;
       svg("path", { d: `M${x.toFixed(1)} ${bottom.toFixed(1)}v5`, stroke: AXIS, "shape-rendering": "crispEdges" }, this.axes);
       if (place.labelX)
-        svg("text", { x: x.toFixed(1), y: (bottom + 17).toFixed(1), "text-anchor": "middle" }, this.axes).textContent = tick(value, step);
+        svg("text", { x: x.toFixed(1), y: (bottom + 17).toFixed(1), "text-anchor": "middle" }, this.axes).textContent = label;
     }
     if (!place.labelX) return;
     const middle = place.x + place.width / 2;
@@ -119,16 +116,11 @@ export class PanelNodes {
   }
 
   private drawS(place: PanelPlace, window: Box, scale: number): void {
-    const ticks = levels({ low: window.y0, high: window.y1 }, Math.max(4, place.height / 45));
-    const step = (ticks[1] ?? 1) - (ticks[0] ?? 0);
-    for (const value of ticks) {
+    for (const { value, label } of linearTicks([window.y0, window.y1], Math.max(4, place.height / 45))) {
       const y = place.y + (window.y1 - value) * scale;
       svg("path", { d: `M${place.x.toFixed(1)} ${y.toFixed(1)}h-5`, stroke: AXIS, "shape-rendering": "crispEdges" }, this.axes);
       if (place.labelS)
-        svg("text", { x: (place.x - 8).toFixed(1), y: (y + 4).toFixed(1), "text-anchor": "end" }, this.axes).textContent = tick(
-          value,
-          step,
-        );
+        svg("text", { x: (place.x - 8).toFixed(1), y: (y + 4).toFixed(1), "text-anchor": "end" }, this.axes).textContent = label;
     }
     if (!place.labelS) return;
     const middle = place.y + place.height / 2;

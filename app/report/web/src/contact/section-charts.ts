@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { linearTicks } from "../chart/scale";
+import { quoted } from "../csv";
 import { drawLegend, legendRows, lineSample, type LegendEntry } from "./bars";
 import { LEGEND_ROW, type Rect } from "./layout";
-import { levels, type Range } from "./scales";
+import type { Range } from "./scales";
 import { curvePath, type Curve } from "./section";
 import { put, say, svg } from "./svg";
-import { plain, quoted } from "./csv";
-import { tick } from "./text";
+import { plain } from "./csv";
 
 /** One of the two charts: its title, its axis, the ends of the axis [mm], the picked place, and the curves. */
 export interface SectionContent {
@@ -134,17 +135,15 @@ export class SectionCharts {
     const label = (px: number, py: number, anchor: string, text: string): void => {
       svg("text", { x: px.toFixed(1), y: py.toFixed(1), "text-anchor": anchor }, g).textContent = text;
     };
-    const values = levels(range, 5);
-    for (const value of values) {
+    for (const { value, label: text } of linearTicks([range.low, range.high], 5)) {
       const py = bottom - ((value - range.low) / (range.high - range.low)) * height;
       line(`M${x} ${py.toFixed(1)}h${width}`, value === 0 ? "var(--line-strong)" : "var(--grid)");
-      label(x - 7, py + 4, "end", tick(value, (values[1] ?? 1) - (values[0] ?? 0)));
+      label(x - 7, py + 4, "end", text);
     }
-    const places = levels(section.domain, Math.max(2, width / 60));
-    for (const value of places) {
+    for (const { value, label: text } of linearTicks([section.domain.low, section.domain.high], Math.max(2, width / 60))) {
       const px = x + ((value - section.domain.low) / (section.domain.high - section.domain.low)) * width;
       line(`M${px.toFixed(1)} ${bottom}v5`, "var(--line-strong)");
-      label(px, bottom + 17, "middle", tick(value, (places[1] ?? 1) - (places[0] ?? 0)));
+      label(px, bottom + 17, "middle", text);
     }
     line(`M${x} ${y}V${bottom}H${x + width}`, "var(--line-strong)");
     svg("text", { x: x + width / 2, y: bottom + 34, "text-anchor": "middle", fill: "var(--text)", "font-size": 12 }, g).textContent =

@@ -23,13 +23,6 @@ function power(value: number): string {
   return `${trimmed(mantissa)}·10${Number(exponent) < 0 ? "⁻" : ""}${digits}`;
 }
 
-/** A tick's number: no digits that all ticks of a step share as zeros. */
-export function tick(value: number, step: number): string {
-  const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(Math.abs(step) || 1) + 1e-9)));
-  const large = Math.abs(value) >= 1e6;
-  return (large || (digits >= 5 && value !== 0) ? power(value) : value.toFixed(digits)).replace("-", "−");
-}
-
 /** "Pressure [MPa]". */
 export function titled(label: string, unit: string): string {
   return unit === "" || unit === "1" ? label : `${label} [${unit}]`;

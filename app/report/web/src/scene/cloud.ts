@@ -4,12 +4,13 @@ import { BufferAttribute, BufferGeometry, Color, Matrix4, Points, PointsMaterial
 
 import { css, lut } from "../colours";
 import type { CloudView } from "../data";
+import { formatNumber } from "../numbers";
 import { decode, type Decoded } from "../packed";
 import type { Store, Theme } from "../store";
 import { addControls, type ControlTarget } from "./controls";
 import type { Layers } from "./layers";
 import { distanceFor, type Orbit, type ViewName } from "./orbit";
-import { drawCaption, drawDeviationBar, drawKey, drawMarker, shortNumber, showAxes } from "./overlay";
+import { drawCaption, drawDeviationBar, drawKey, drawMarker, showAxes } from "./overlay";
 import { paletteOf, type Palette } from "./palette";
 import { startPanel, type Panel, type ViewButton } from "./panel";
 import type { Stage } from "./stage";
@@ -290,7 +291,7 @@ export class CloudViewer implements ControlTarget {
     const where = `x ${mm(this.x[k]!)} mm, y ${mm(this.y[k]!)} mm, z ${mm(this.z[k]!)} mm`;
     const words =
       picked < valued.length
-        ? data.quantities.map((quantity, q) => `${quantity.label} ${shortNumber(this.valuesOf(q)[k]!)} ${quantity.unit}`).join(", ")
+        ? data.quantities.map((quantity, q) => `${quantity.label} ${formatNumber(this.valuesOf(q)[k])} ${quantity.unit}`).join(", ")
         : `one of the ${data.others}`;
     this.output.textContent = `${where}: ${words}`;
   }

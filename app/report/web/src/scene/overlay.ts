@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { linearTicks } from "../chart/scale";
 import { STATE_COLOURS, colourMap, css } from "../colours";
 import type { FieldInfo } from "../data";
+import { formatNumber, labelWithUnit } from "../numbers";
 import type { Layers } from "./layers";
 import { millimetresPerPixel, outlook, pictureAxes, type Orbit } from "./orbit";
 import type { Palette } from "./palette";
@@ -10,24 +12,6 @@ import type { Range } from "./ranges";
 type Pen = CanvasRenderingContext2D;
 
 const font = (size: number, weight = 400): string => `${weight} ${size}px system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif`;
-
-/** Four digits at most, as people write them. */
-export function shortNumber(value: number): string {
-  if (value === 0 || !Number.isFinite(value)) return value === 0 ? "0" : "–";
-  const text = String(Number(value.toPrecision(4)));
-  return text.replace("-", "\u2212");
-}
-
-/** Round numbers (1, 2 or 5 times a power of ten) between two, about `count` of them. */
-export function ticks({ low, high }: Range, count: number): number[] {
-  const raw = (high - low) / Math.max(1, count);
-  if (!(raw > 0) || !Number.isFinite(raw)) return [low];
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const step = [1, 2, 5, 10].map((f) => f * power).find((s) => s >= raw * 0.999) ?? 10 * power;
-  const found: number[] = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) found.push(Number((k * step).toPrecision(12)));
-  return found;
-}
 
 /** The greatest of 1, 2 and 5 times a power of ten that is not greater than a length. */
 export function roundLength(most: number): number {
@@ -50,14 +34,10 @@ function mapStrip(pen: Pen, kind: "sequential" | "diverging", x: number, y: numb
   pen.fillRect(x, y, width, height);
 }
 
-export function titleOf(label: string, unit: string): string {
-  return unit ? `${label} [${unit}]` : label;
-}
-
 /** Upright at the right edge, its title above. */
 export function drawColourBar(pen: Pen, palette: Palette, field: FieldInfo, range: Range, right: number, top: number, height: number): void {
   pen.font = font(12, 600);
-  const title = titleOf(field.label, field.unit);
+  const title = labelWithUnit(field.label, field.unit);
   pen.textBaseline = "middle";
   if (field.kind === "state") {
     const states = STATE_COLOURS.filter((state) => state.alpha > 0);
@@ -76,11 +56,11 @@ export function drawColourBar(pen: Pen, palette: Palette, field: FieldInfo, rang
     });
     return;
   }
-  const marks = ticks(range, height > 150 ? 5 : 3);
+  const marks = linearTicks([range.low, range.high], height > 150 ? 4 : 2);
   pen.font = font(12, 600);
   const titleWidth = pen.measureText(title).width;
   pen.font = font(12);
-  const widest = Math.max(...marks.map((mark) => pen.measureText(shortNumber(mark)).width));
+  const widest = Math.max(...marks.map(({ label }) => pen.measureText(label).width));
   const width = Math.max(titleWidth, 24 + widest);
   plate(pen, palette, right - width - 8, top - 6, width + 14, height + 42);
   pen.textAlign = "right";
@@ -90,11 +70,11 @@ export function drawColourBar(pen: Pen, palette: Palette, field: FieldInfo, rang
   const y0 = top + 24;
   mapStrip(pen, field.kind, right - 14, y0, 14, height, true);
   pen.font = font(12);
-  for (const mark of marks) {
-    const y = y0 + height * (1 - (mark - range.low) / (range.high - range.low));
+  for (const { value, label } of marks) {
+    const y = y0 + height * (1 - (value - range.low) / (range.high - range.low));
     pen.fillStyle = palette.text;
     pen.fillRect(right - 18, y - 0.5, 4, 1);
-    pen.fillText(shortNumber(mark), right - 21, y + 0.5);
+    pen.fillText(label, right - 21, y + 0.5);
   }
 }
 
@@ -110,10 +90,10 @@ export function drawDeviationBar(pen: Pen, palette: Palette, span: number, title
   pen.fillText(title, right, bottom - 37);
   pen.font = font(12);
   pen.textAlign = "center";
-  for (const mark of ticks({ low: -span, high: span }, 4)) {
-    const x = right - width + (width * (mark + span)) / (2 * span);
+  for (const { value, label } of linearTicks([-span, span], 3)) {
+    const x = right - width + (width * (value + span)) / (2 * span);
     pen.fillRect(x - 0.5, bottom - 17, 1, 4);
-    pen.fillText(shortNumber(mark), Math.min(x, right - 10), bottom - 6);
+    pen.fillText(label, Math.min(x, right - 10), bottom - 6);
   }
 }
 
@@ -167,7 +147,7 @@ function drawTriad(pen: Pen, palette: Palette, axes: readonly (readonly [number,
 function drawScale(pen: Pen, palette: Palette, perPixel: number, x: number, y: number, most: number): void {
   const span = roundLength(most * perPixel);
   const width = span / perPixel;
-  const text = span >= 1 ? `${shortNumber(span)} mm` : `${shortNumber(1000 * span)} µm`;
+  const text = span >= 1 ? `${formatNumber(span)} mm` : `${formatNumber(1000 * span)} µm`;
   pen.font = font(12);
   plate(pen, palette, x - 6, y - 20, Math.max(width, pen.measureText(text).width) + 12, 27);
   pen.strokeStyle = pen.fillStyle = palette.text;

@@ -4,6 +4,7 @@ import { Group } from "three";
 
 import type { FieldInfo, Frame, FrameSet, Placed, SceneView } from "../data";
 import type { Store, Theme } from "../store";
+import { formatNumber } from "../numbers";
 import { decode } from "../packed";
 import { Body } from "./body";
 import { addControls, type ControlTarget } from "./controls";
@@ -11,7 +12,7 @@ import { placeOf } from "./drape";
 import type { Layers } from "./layers";
 import { patchMaterial, rgbVector, sharedUniforms } from "./materials";
 import { eye, millimetresPerPixel, orbitOf, outlook, presets, type Orbit, type ViewName } from "./orbit";
-import { drawCaption, drawColourBar, drawDeviationBar, drawMarker, shortNumber, showAxes, titleOf } from "./overlay";
+import { drawCaption, drawColourBar, drawDeviationBar, drawMarker, showAxes } from "./overlay";
 import { paletteOf, type Palette } from "./palette";
 import { makePanel, type Options, type Panel } from "./panel";
 import { elementCorners } from "./patch";
@@ -366,7 +367,7 @@ export class Viewer implements ControlTarget {
     if (!shown || point.ix >= shown.patch.nx || point.iy >= shown.patch.ny) return null;
     const { patch, heights } = shown;
     const value = this.field ? (this.patches.values(patch, this.field.name)?.[point.ix + patch.nx * point.iy] ?? NaN) : NaN;
-    const text = Number.isFinite(value) && this.field?.kind !== "state" ? `${shortNumber(value)} ${this.field?.unit ?? ""}`.trim() : "";
+    const text = Number.isFinite(value) && this.field?.kind !== "state" ? `${formatNumber(value)} ${this.field?.unit ?? ""}`.trim() : "";
     return { corners: elementCorners(patch, heights, point.ix, point.iy), place: placeOf(patch), value, text };
   }
 
@@ -392,10 +393,10 @@ export class Viewer implements ControlTarget {
       this.output.textContent = "";
       return;
     }
-    const at = (first: number, step: number, k: number): string => shortNumber(Number((first + k * step).toFixed(3)));
+    const at = (first: number, step: number, k: number): string => formatNumber(Number((first + k * step).toFixed(3)));
     const where = `x ${at(patch.x0_mm, patch.dx_mm, point.ix)} mm, s ${at(patch.s0_mm, patch.ds_mm, point.iy)} mm`;
     const state = this.field.kind === "state" ? `state ${picked.value}` : picked.text;
-    this.output.textContent = `${patch.name ? `${patch.name}, ` : ""}${where}: ${titleOf(this.field.label, "")} ${state}`;
+    this.output.textContent = `${patch.name ? `${patch.name}, ` : ""}${where}: ${this.field.label} ${state}`;
   }
 
   pointChanged(): void {
