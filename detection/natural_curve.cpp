@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/roots.hpp"
+
 namespace treadmark::detection {
 
 NaturalCurve::NaturalCurve(std::vector<Vec2> points) : points_(std::move(points)) {
@@ -22,15 +24,11 @@ double NaturalCurve::least_over(double first) const {
   constexpr int kHalvings = 52;
   double least = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i + 1 < points_.size(); ++i) {
-    double low = 0.0, high = 1.0;
     const bool rising = points_[i + 1].x() > points_[i].x();
     const double from = std::min(points_[i].x(), points_[i + 1].x()), to = std::max(points_[i].x(), points_[i + 1].x());
     if (!(first >= from && first <= to)) continue;
-    for (int k = 0; k < kHalvings; ++k) {
-      const double middle = 0.5 * (low + high);
-      ((at(i, middle).x() < first) == rising ? low : high) = middle;
-    }
-    least = std::fmin(least, at(i, 0.5 * (low + high)).y());
+    const auto before = [&](double f) { return (at(i, f).x() < first) == rising; };
+    least = std::fmin(least, at(i, bisect(0.0, 1.0, before, kHalvings).middle()).y());
   }
   return least;
 }

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/roots.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -233,15 +234,13 @@ double KinematicMotion::harmonic_conicity(double amplitude) const {
   };
   if (!equilibrium_ || !(amplitude > 0.0)) return kNaN;
   // The mean grows with the middle where dr does: bracket, then bisection.
-  double low = d_.y.front() + amplitude, high = d_.y.back() - amplitude;
+  const double low = d_.y.front() + amplitude, high = d_.y.back() - amplitude;
   if (!(low <= high) || !(mean(low, nullptr) <= 0.0) || !(mean(high, nullptr) >= 0.0)) return kNaN;
   constexpr double kMiddle = 1e-8;  // [m]
-  while (high - low > kMiddle) {
-    const double middle = 0.5 * (low + high);
-    (mean(middle, nullptr) < 0.0 ? low : high) = middle;
-  }
+  constexpr int kHalvings = 100;
+  const auto falls = [&](double middle) { return mean(middle, nullptr) < 0.0; };
   double first = 0.0;
-  mean(0.5 * (low + high), &first);
+  mean(bisect(low, high, falls, kHalvings, kMiddle).middle(), &first);
   return first / amplitude;
 }
 

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/roots.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -58,12 +59,10 @@ Section sampled(const Surface& surface, const Pose& X_SP, Body body) {
 /// Where a quantity of the samples passes a value between samples i and i + 1, of which the first is beyond it.
 template <class Value>
 double between(const Section& s, std::size_t i, Value value) {
-  double low = s.y(i), high = s.y(i + 1);
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (value(s.at(middle)) ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  constexpr int kHalvings = 50;
+  return bisect(
+             s.y(i), s.y(i + 1), [&](double y) { return value(s.at(y)); }, kHalvings)
+      .middle();
 }
 
 }  // namespace

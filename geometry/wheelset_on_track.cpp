@@ -7,6 +7,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/roots.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -93,11 +94,10 @@ WheelsetOnTrack::Minimum WheelsetOnTrack::refined(const Side& side, std::size_t 
   const auto gap = [&](double s, double* slope = nullptr) { return gap_at(side, s, y, sin_roll, cos_roll, slope); };
   // Towards a place beyond the rail's section: the last one over it.
   const auto last_over = [&](double inside, double outside) {
-    for (int k = 0; k < 40; ++k) {
-      const double middle = 0.5 * (inside + outside);
-      (std::isfinite(gap(middle)) ? inside : outside) = middle;
-    }
-    return inside;
+    constexpr int kHalvings = 40;
+    return bisect(
+               inside, outside, [&](double s) { return std::isfinite(gap(s)); }, kHalvings)
+        .low;
   };
   const double reach = static_cast<double>(kStride) * w.step();
   double middle = w.y(i);
@@ -134,18 +134,9 @@ WheelsetOnTrack::Minimum WheelsetOnTrack::refined(const Side& side, std::size_t 
         }
       }
     } else {
-      // golden section, which needs no slopes
-      constexpr double kGolden = 0.6180339887498949;
-      double s = b - kGolden * (b - a), t = a + kGolden * (b - a), gap_s = gap(s), gap_t = gap(t);
-      while (b - a > 1e-10) {
-        if (gap_s < gap_t) {
-          b = t, t = s, gap_t = gap_s;
-          s = b - kGolden * (b - a), gap_s = gap(s);
-        } else {
-          a = s, s = t, gap_s = gap_t;
-          t = a + kGolden * (b - a), gap_t = gap(t);
-        }
-      }
+      // needs no slopes
+      const Bracketed least = golden_section(a, b, 1e-10, [&](double s) { return gap(s); });
+      a = least.low, b = least.high;
     }
     m.s = 0.5 * (a + b);
     m.gap = gap(m.s);

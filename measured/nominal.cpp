@@ -59,6 +59,26 @@ std::vector<Vec2> points_of(const NominalOutline& n) {
   return out;
 }
 
+/// A point turned and then moved to (y, z) beside a nominal section, which has this height where its step begins.
+struct Beside {
+  Vec2 turned;
+  double y, z, height, slope;
+  double off;  ///< z from the outline
+};
+
+/// A function of points that places them; nothing of those beyond the outline.
+auto placed(const NominalOutline& n, const Turned& place) {
+  return [&n, place, c = std::cos(place.roll), s = std::sin(place.roll)](const Vec2& p) -> std::optional<Beside> {
+    const Vec2 turned(c * p.x() - s * p.y(), s * p.x() + c * p.y());
+    const double y = turned.x() + place.dy, z = turned.y() + place.dz, t = (y - n.first) / n.step;
+    if (!(t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) return std::nullopt;
+    const auto i = static_cast<std::size_t>(t);
+    const double slope = (n.z[i + 1] - n.z[i]) / n.step;
+    if (std::isnan(slope)) return std::nullopt;
+    return Beside{turned, y, z, n.z[i], slope, z - n.z[i] - slope * (y - n.first - n.step * static_cast<double>(i))};
+  };
+}
+
 /// Gauss-Newton on the better six tenths of the points.
 RollFit fitted_to(const std::vector<Vec2>& points, const NominalOutline& n, Turned place, double most_roll) {
   constexpr int kSteps = 12;
@@ -70,19 +90,13 @@ RollFit fitted_to(const std::vector<Vec2>& points, const NominalOutline& n, Turn
   std::vector<Residual> rows;
   for (int step = 0; step <= kSteps; ++step) {
     rows.clear();
-    const double c = std::cos(place.roll), s = std::sin(place.roll);
-    for (const Vec2& p : points) {
-      const double y = c * p.x() - s * p.y() + place.dy, z = s * p.x() + c * p.y() + place.dz;
-      const double t = (y - n.first) / n.step;
-      if (!(t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) continue;
-      const auto i = static_cast<std::size_t>(t);
-      const double slope = (n.z[i + 1] - n.z[i]) / n.step;
-      if (std::isnan(slope)) continue;
-      const double across = 1.0 / std::sqrt(1.0 + slope * slope);
-      const double r = across * (z - n.z[i] - slope * (y - n.first - n.step * static_cast<double>(i)));
-      const double y_by_roll = -(s * p.x() + c * p.y()), z_by_roll = c * p.x() - s * p.y();
-      rows.push_back({r, -across * slope, across, across * (z_by_roll - slope * y_by_roll)});
-    }
+    const auto beside = placed(n, place);
+    for (const Vec2& p : points)
+      if (const auto at = beside(p)) {
+        const double across = 1.0 / std::sqrt(1.0 + at->slope * at->slope);
+        rows.push_back(
+            {across * at->off, -across * at->slope, across, across * (at->turned.x() + at->slope * at->turned.y())});
+      }
     if (static_cast<double>(rows.size()) < kInRange * static_cast<double>(points.size())) return out;
     const auto kept = static_cast<std::ptrdiff_t>(kKept * static_cast<double>(rows.size()));
     std::nth_element(rows.begin(), rows.begin() + kept, rows.end(),
@@ -119,15 +133,11 @@ double lost_on(const std::vector<Vec2>& points, const NominalOutline& n, const T
   double top = kInfinity, sum = 0.0, count = 0.0;
   for (const double z : n.z)
     if (z < top) top = z;
-  const double c = std::cos(place.roll), s = std::sin(place.roll);
+  const auto beside = placed(n, place);
   for (const Vec2& p : points) {
-    const double y = c * p.x() - s * p.y() + place.dy, z = s * p.x() + c * p.y() + place.dz;
-    const double t = (y - n.first) / n.step;
-    if (!(side * y > 0.0) || !(t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) continue;
-    const auto i = static_cast<std::size_t>(t);
-    const double slope = (n.z[i + 1] - n.z[i]) / n.step;
-    if (!(n.z[i] - top > kFrom && n.z[i] - top < kTo) || std::isnan(slope)) continue;
-    sum += (z - n.z[i]) / std::sqrt(1.0 + slope * slope);
+    const auto at = beside(p);
+    if (!at || !(side * at->y > 0.0) || !(at->height - top > kFrom && at->height - top < kTo)) continue;
+    sum += (at->z - at->height) / std::sqrt(1.0 + at->slope * at->slope);
     count += 1.0;
   }
   return count > 2.0 ? sum / count : kNaN;
@@ -137,16 +147,10 @@ double lost_on(const std::vector<Vec2>& points, const NominalOutline& n, const T
 double flange_rms(const std::vector<Vec2>& points, const NominalOutline& n, const Turned& place) {
   constexpr double kBelowTread = 8e-3;
   std::vector<double> squares;
-  const double c = std::cos(place.roll), s = std::sin(place.roll);
-  for (const Vec2& p : points) {
-    const double y = c * p.x() - s * p.y() + place.dy, z = s * p.x() + c * p.y() + place.dz;
-    const double t = (y - n.first) / n.step;
-    if (!(z > kBelowTread && t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) continue;
-    const auto i = static_cast<std::size_t>(t);
-    const double slope = (n.z[i + 1] - n.z[i]) / n.step;
-    const double r = z - n.z[i] - slope * (y - n.first - n.step * static_cast<double>(i));
-    if (!std::isnan(slope)) squares.push_back(r * r / (1.0 + slope * slope));
-  }
+  const auto beside = placed(n, place);
+  for (const Vec2& p : points)
+    if (const auto at = beside(p); at && at->z > kBelowTread)
+      squares.push_back(at->off * at->off / (1.0 + at->slope * at->slope));
   const auto half = static_cast<std::ptrdiff_t>(squares.size() / 2);
   if (half < 3) return kInfinity;
   std::nth_element(squares.begin(), squares.begin() + half, squares.end());

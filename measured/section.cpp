@@ -152,9 +152,8 @@ double rise_of(const Envelope& e) {
   return square > 0.0 ? (n * syz - sy * sz) / square * kStep * static_cast<double>(e.height.size()) : 0.0;
 }
 
-Readings wheel_z(const SectionPoints& p) {
+Readings wheel_z(const Envelope& down, const Envelope& up) {
   constexpr double kLeastWidth = 3e-3;
-  const Envelope down = envelope(p, 1.0), up = envelope(p, -1.0);
   const Flange as_it_is = flange_of(down), turned = flange_of(up);
   if (std::max(as_it_is.width, turned.width) >= kLeastWidth) {
     const Flange& best = turned.width > as_it_is.width ? turned : as_it_is;
@@ -213,9 +212,8 @@ double bend_of(const Envelope& e) {
   return c[2] / std::max(std::sqrt(std::max(0.0, variance)), kLeast);
 }
 
-Readings rail_z(const SectionPoints& p) {
+Readings rail_z(const Envelope& down, const Envelope& up) {
   constexpr double kSides = 3e-3;
-  const Envelope up = envelope(p, -1.0), down = envelope(p, 1.0);
   // sides that fall away, seen from above and, were it turned over, from below
   const double as_it_is = -ends_of(up), turned = -ends_of(down);
   if (std::max(as_it_is, turned) > kSides)
@@ -241,9 +239,8 @@ Readings rail_z(const SectionPoints& p) {
 }
 
 /// On which side the flange is: as_it_is on that of small y.
-Readings wheel_y(const SectionPoints& p, bool& second) {
+Readings wheel_y(const Envelope& e, bool& second) {
   constexpr double kLeastWidth = 3e-3, kAsWide = 0.5;
-  const Envelope e = envelope(p, 1.0);
   const Flange f = flange_of(e);
   const double middle = e.y(e.height.size() / 2);
   second = f.second_width > kLeastWidth && f.second_width > kAsWide * f.width &&
@@ -366,9 +363,8 @@ std::optional<double> tape_height(const SectionPoints& p) {
   return std::nullopt;
 }
 
-void find_marks(const SectionPoints& p, WheelMarks& marks) {
+void find_marks(const SectionPoints& p, const Envelope& e, WheelMarks& marks) {
   constexpr double kOfTread = 5e-3, kLeastTread = 30e-3;
-  const Envelope e = envelope(p, 1.0);
   const Flange f = flange_of(e);
   marks.tape_z = tape_height(p);
   marks.tread =
@@ -397,11 +393,10 @@ class Reader {
     turn_z();
     turn_y();
     if (p_.body == Body::rail) {
-      const Envelope up = envelope(p_, -1.0);
-      u_.head = trend_of(up, kLeastHead, [](std::size_t) { return true; });
+      u_.head = trend_of(up_, kLeastHead, [](std::size_t) { return true; });
       if (u_.head) u_.head->slope *= -1.0;
     } else {
-      find_marks(p_, u_.wheel);
+      find_marks(p_, down_, u_.wheel);
       if (w_.place || w_.z_is_radius) place_wheel();
       judge_place();
     }
@@ -411,15 +406,24 @@ class Reader {
  private:
   void doubt(const char* name, std::string text) { u_.doubts.push_back({name, std::move(text)}); }
 
+  void look() { down_ = envelope(p_, 1.0), up_ = envelope(p_, -1.0); }
+  void mirror_y() {
+    negate(p_.y);
+    look();
+    u_.mirrored_y = true;
+  }
+
   void turn_z() {
     // radii grow outwards, which is down where a wheel stands on its rail
     const Turn said = w_.z_is_radius ? Turn::no : w_.mirror_z;
     if (said == Turn::yes) negate(p_.z);
-    u_.z = p_.body == Body::wheel ? wheel_z(p_) : rail_z(p_);
+    look();
+    u_.z = p_.body == Body::wheel ? wheel_z(down_, up_) : rail_z(down_, up_);
     u_.mirrored_z = said == Turn::yes;
     const bool wrong = u_.z.is_turned();
     if (said == Turn::decide && wrong && u_.z.marked) {
       negate(p_.z);
+      std::swap(down_, up_);
       u_.mirrored_z = true;
       if (!u_.z.sure())
         doubt("upside_down", fmt::format("which way z points is not sure: mirrored in z it shows {} (evidence {:.3g} "
@@ -448,15 +452,13 @@ class Reader {
   bool has_evidence() const { return p_.y.size() >= kFewest && u_.z.marked; }
 
   void turn_y() {
-    if (w_.mirror_y == Turn::yes) negate(p_.y);
-    u_.mirrored_y = w_.mirror_y == Turn::yes;
+    if (w_.mirror_y == Turn::yes) mirror_y();
     if (p_.body == Body::rail) return;
-    u_.y = wheel_y(p_, u_.wheel.second_flange);
+    u_.y = wheel_y(down_, u_.wheel.second_flange);
     if (u_.wheel.second_flange) u_.wheel.tips_lean = tips_lean(p_);
     if (!u_.y.is_turned()) return;
     if (w_.mirror_y == Turn::decide && w_.place) {
-      negate(p_.y);
-      u_.mirrored_y = true;
+      mirror_y();
       u_.notes.push_back(
           fmt::format("{}, on the side of great y as that of a left wheel: y was mirrored", u_.y.evidence));
       return;
@@ -468,7 +470,8 @@ class Reader {
   void move(double dy, double dz) {
     shift(p_.y, dy), shift(p_.z, dz);
     u_.shift_y += dy, u_.shift_z += dz;
-    find_marks(p_, u_.wheel);
+    down_ = envelope(p_, 1.0);
+    find_marks(p_, down_, u_.wheel);
   }
 
   void place_wheel() {
@@ -523,6 +526,7 @@ class Reader {
   SectionPoints& p_;
   const Words& w_;
   Understanding u_;
+  Envelope down_, up_;  ///< of the points as they are
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/core/roots.hpp"
 #include "treadmark/measured/noise.hpp"
 
 namespace treadmark::measured {
@@ -504,20 +505,8 @@ double lowest(double from, double to, double step, Badness badness) {
   double best = from, least = std::numeric_limits<double>::infinity();
   for (double x = from; x <= to; x += step)
     if (const double b = badness(x); b < least) least = b, best = x;
-  constexpr double kGolden = 0.6180339887498949, kNear = 0.02;
-  double low = best - step, high = best + step;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = badness(a), at_b = badness(b);
-  while (high - low > kNear) {
-    if (at_a < at_b) {
-      high = b, b = a, at_b = at_a;
-      at_a = badness(a = high - kGolden * (high - low));
-    } else {
-      low = a, a = b, at_a = at_b;
-      at_b = badness(b = low + kGolden * (high - low));
-    }
-  }
-  return 0.5 * (low + high);
+  constexpr double kNear = 0.02;
+  return golden_section(best - step, best + step, kNear, badness).middle();
 }
 
 /// The curve of the points, and what is known of it.
@@ -670,11 +659,12 @@ Profile smoothed_by_noise(Profile profile) {
   return profile;
 }
 
-ErrorDraws::ErrorDraws(const ProfileScatter& scatter, int count, unsigned seed)
-    : first_(scatter.first_knot), step_(scatter.knot_step), s_(scatter.s), other_(scatter.other) {
+ErrorDraws::ErrorDraws(const Profile& profile, int count) {
+  const ProfileScatter& scatter = *profile.scatter;
+  first_ = scatter.first_knot, step_ = scatter.knot_step, s_ = scatter.s, other_ = scatter.other;
   if (scatter.factor.empty()) return;
   const Band factor(scatter.factor);
-  Random random(seed);
+  Random random(profile.body == Body::wheel ? 1 : 2);
   for (int draw = 0; draw < count; ++draw) {
     Values& coefficients = draws_.emplace_back(scatter.factor.size());
     for (double& c : coefficients) {  // normal (Box and Muller 1958)
@@ -691,6 +681,17 @@ double ErrorDraws::at(std::size_t draw, double s) const {
   const Knots knots{first_, step_, static_cast<int>(coefficients.size()) - 3};
   return knots.value(coefficients, std::clamp(s, knots.first, knots.last())) +
          (draw % 2 == 0 ? 1.0 : -1.0) * other_at(s);
+}
+
+Profile ErrorDraws::moved(Profile profile, std::size_t draw) const {
+  const Values y = profile.y, z = profile.z;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, y.size() - 1);
+    const double length = std::hypot(y[b] - y[a], z[b] - z[a]), error = at(draw, s_[i]);
+    profile.y[i] -= error * (z[b] - z[a]) / length;
+    profile.z[i] += error * (y[b] - y[a]) / length;
+  }
+  return profile;
 }
 
 double ErrorDraws::other_at(double s) const {

@@ -21,6 +21,9 @@ inline constexpr double kExactPoints = 0.1e-6;
 /// smoothing is then that of an interpolation. Errors: none; points that no curve fits stay, too.
 Profile smoothed_by_noise(Profile profile);
 
+/// Whether the points of a profile were moved so, with a scatter that is known.
+inline bool is_smoothed(const Profile& profile) { return profile.scatter && !profile.scatter->s.empty(); }
+
 /// Standard deviation of a sum of weights times the curve's errors across itself, at these arc lengths (those of
 /// scatter.s). 0 where the points were not smoothed.
 double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s, std::span<const double> weights);
@@ -32,12 +35,14 @@ std::vector<double> deviations(const ProfileScatter& scatter);
 /// Errors that the curve may have across itself, each as probable as any other. Immutable; the same in every run.
 class ErrorDraws {
  public:
-  /// Of different seeds: independent of each other.
-  ErrorDraws(const ProfileScatter& scatter, int count, unsigned seed);
+  /// Of a smoothed profile. Those of wheels and rails are independent of each other.
+  ErrorDraws(const Profile& profile, int count);
 
   std::size_t size() const { return draws_.size(); }
   /// At an arc length [m]; beyond the ends as at them. 0 where the points were not smoothed.
   double at(std::size_t draw, double s) const;
+  /// The profile with these errors at its points.
+  Profile moved(Profile profile, std::size_t draw) const;
 
  private:
   double other_at(double s) const;

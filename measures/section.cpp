@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/roots.hpp"
 #include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/natural_view.hpp"
 
@@ -96,12 +97,9 @@ std::vector<Section::Place> Section::crossings(const Vec2& normal, double offset
     if (after == 0.0) {
       found.push_back(at(i + 1, 0.0));
     } else if ((before < 0.0) != (after < 0.0) && before != 0.0) {
-      double low = 0.0, high = 1.0;
-      for (int step = 0; step < 45; ++step) {
-        const double middle = 0.5 * (low + high);
-        ((normal.dot(at(i, middle).p) - offset < 0.0) == (before < 0.0) ? low : high) = middle;
-      }
-      found.push_back(at(i, 0.5 * (low + high)));
+      constexpr int kHalvings = 45;
+      const auto side = [&](double t) { return (normal.dot(at(i, t).p) - offset < 0.0) == (before < 0.0); };
+      found.push_back(at(i, bisect(0.0, 1.0, side, kHalvings).middle()));
     }
     before = after;
   }

@@ -6,19 +6,14 @@
 #include <cmath>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/roots.hpp"
 
 namespace treadmark {
 namespace {
 
 /// Axis ratio g for a ratio of curvatures, both in (0, 1]; the first falls with the second.
 double axis_ratio(double curvature_ratio) {
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < 200; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    (hertz_curvature_ratio(middle) < curvature_ratio ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+  return bisect(0.0, 1.0, [&](double g) { return hertz_curvature_ratio(g) < curvature_ratio; }).middle();
 }
 
 /// What does not depend on the load: axis ratio, its integrals, mean radius.

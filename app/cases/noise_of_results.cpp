@@ -16,13 +16,18 @@
 
 namespace treadmark::app {
 
+const Profile* noisy_profile(const NaturalSurface& natural) {
+  const auto* profile = std::get_if<Profile>(&natural.spec.shape);
+  return profile != nullptr && measured::is_smoothed(*profile) ? profile : nullptr;
+}
+
 NoiseOfResults::Known NoiseOfResults::known_of(const NaturalSurface& natural) {
   constexpr int kDraws = 16;
   Known side;
-  const auto* profile = std::get_if<Profile>(&natural.spec.shape);
-  if (profile == nullptr || !profile->scatter || profile->scatter->s.empty()) return side;
+  const Profile* profile = noisy_profile(natural);
+  if (profile == nullptr) return side;
   side.scatter = profile->scatter;
-  side.draws.emplace(*profile->scatter, kDraws, natural.spec.body == Body::wheel ? 1 : 2);
+  side.draws.emplace(*profile, kDraws);
   side.y = profile->y;
   side.z = profile->z;
   return side;

@@ -11,6 +11,9 @@
 
 namespace treadmark::app {
 
+/// The profile that was smoothed by its noise; nullptr for other surfaces.
+const Profile* noisy_profile(const NaturalSurface& natural);
+
 /// What noise leaves uncertain of the surfaces of one pair. Immutable; safe from any thread.
 class NoiseOfResults {
  public:

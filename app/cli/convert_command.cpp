@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <numbers>
@@ -25,6 +24,7 @@
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
@@ -51,14 +51,8 @@ struct ConvertOptions {
   app::ProfileConversion profile;  ///< where a profile is written
 };
 
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 io::CaseFile read_cases(const ConvertOptions& options) {
-  const bool results = lower_extension(options.input) == ".h5";
+  const bool results = io::extension_of(options.input) == ".h5";
   if (options.at) {
     if (!results)
       throw Error(ErrorKind::configuration, "--at needs the results of a simulation", {options.input},
@@ -80,7 +74,7 @@ int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
   io::CaseFile file = read_cases(options);
   print_notes(file.notes, common.quiet);
   std::string text;
-  if (lower_extension(output) == ".inp") {
+  if (io::extension_of(output) == ".inp") {
     const auto surfaces = app::put_contact_files(file, output);
     text = io::contact_input_text(file, output.parent_path());
     io::parse_contact_input(text, output);  // nothing that cannot be read is written
@@ -117,7 +111,7 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   if (!options.backend.empty() && !io::is_spline_file(options.output))
     throw Error(ErrorKind::configuration, "--backend belongs to files of splines", {options.output},
                 "leave it out, or write .xml");
-  if (const std::string kind = lower_extension(options.output); kind == ".inp" || kind == ".toml")
+  if (const std::string kind = io::extension_of(options.output); kind == ".inp" || kind == ".toml")
     return convert_cases(options, common);
   if (options.at) throw Error(ErrorKind::configuration, "an instant is written as .toml or .inp", {options.output});
   const ThreadLimit limit(common.threads);

@@ -16,7 +16,6 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_json.hpp"
@@ -60,14 +59,6 @@ void choose_backends(io::CaseFile& file, const RunOptions& options) {
     }
 }
 
-void refuse_other_files(const std::string& name) {
-  if (io::is_study_file(name)) throw Error(ErrorKind::configuration, name + " is a study", {}, "use treadmark sweep");
-  if (io::is_evolution_file(name))
-    throw Error(ErrorKind::configuration, name + " is an evolution", {}, "use treadmark evolve");
-  if (io::is_simulation_file(name))
-    throw Error(ErrorKind::configuration, name + " is a simulation", {}, "use treadmark simulate");
-}
-
 std::vector<std::string> settings_of(const RunOptions& options) {
   std::vector<std::string> settings = options.overrides;
   if (!options.backend.empty()) settings.push_back("backend=" + options.backend);
@@ -105,7 +96,6 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
   int status = kOk;
   for (std::size_t k = 0; k < options.cases.size(); ++k) {
     const std::string& name = options.cases[k];
-    refuse_other_files(name);
     io::CaseFile file = io::read_any_case(name, options.overrides);
     choose_backends(file, options);
     app::SurfaceStore store;

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "treadmark/app/cases/noise_of_results.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/backends/registry.hpp"
@@ -25,7 +26,6 @@
 #include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/body_name.hpp"
 #include "treadmark/model/magnitudes.hpp"
-#include "treadmark/model/profile_scatter.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -66,25 +66,11 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
   return named_surface(name, said);
 }
 
-/// The profile that was smoothed by its noise, if it is one.
-const Profile* noisy_profile(const NaturalSurface& natural) {
-  const auto* profile = std::get_if<Profile>(&natural.spec.shape);
-  return profile != nullptr && profile->scatter && !profile->scatter->s.empty() ? profile : nullptr;
-}
-
 /// With errors that its points may have across themselves.
 NaturalSurface with_errors(const NaturalSurface& natural, int draw) {
   SurfaceSpec spec = natural.spec;
   auto& profile = std::get<Profile>(spec.shape);
-  const auto last = static_cast<std::size_t>(draw);
-  const measured::ErrorDraws draws(*profile.scatter, draw + 1, profile.body == Body::wheel ? 1 : 2);
-  const std::vector<double> y = profile.y, z = profile.z;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, y.size() - 1);
-    const double length = std::hypot(y[b] - y[a], z[b] - z[a]), error = draws.at(last, profile.scatter->s[i]);
-    profile.y[i] -= error * (z[b] - z[a]) / length;
-    profile.z[i] += error * (y[b] - y[a]) / length;
-  }
+  profile = measured::ErrorDraws(profile, draw + 1).moved(profile, static_cast<std::size_t>(draw));
   return create_natural(std::move(spec));
 }
 

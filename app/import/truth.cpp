@@ -20,7 +20,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/model/body_name.hpp"
@@ -33,8 +33,6 @@ namespace {
 using Path = std::filesystem::path;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-std::string extension_of(const Path& file) { return io::profiles::lower(file.extension().string()); }
 
 void require_body(const Path& file, Body is, Body wanted) {
   if (is != wanted)
@@ -408,14 +406,14 @@ void warn(io::ImportReport& report, const Truth& truth, const std::string& what)
 }  // namespace
 
 Truth read_truth(const Path& file, Body body, double nominal_radius) {
-  if (extension_of(file) == ".json") return read_scan_truth(file, body);
+  if (io::extension_of(file) == ".json") return read_scan_truth(file, body);
   std::error_code ignored;
   const std::optional<Body> library = library_body_of(file);
   if (!library && !std::filesystem::is_regular_file(file, ignored))
     throw MissingFile(
         ErrorKind::configuration, "there is no such file of the reference", {file.string()},
         advice_on_missing(file, "name what treadmark scan --truth wrote, or the file of the true surface"));
-  const std::string extension = extension_of(file);
+  const std::string extension = io::extension_of(file);
   for (const char* known : {".slcw", ".prw", ".whl"})
     if (extension == known) require_body(file, Body::wheel, body);
   for (const char* known : {".slcs", ".prr", ".ban"})

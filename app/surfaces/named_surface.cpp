@@ -14,8 +14,8 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/model/body_name.hpp"
@@ -24,11 +24,9 @@
 namespace treadmark::app {
 namespace {
 
-std::string extension_of(const std::filesystem::path& file) { return io::profiles::lower(file.extension().string()); }
-
 Body body_of(const std::filesystem::path& input, const std::optional<Body>& asked) {
   if (asked) return *asked;
-  const std::string extension = extension_of(input);
+  const std::string extension = io::extension_of(input);
   for (const char* wheel : {".slcw", ".prw", ".whl"})
     if (extension == wheel) return Body::wheel;
   for (const char* rail : {".slcs", ".prr", ".ban"})
@@ -68,7 +66,7 @@ void require_wheel_radius(double radius) {
 
 NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said) {
   io::refuse_foreign_file(file);
-  const std::string extension = extension_of(file);
+  const std::string extension = io::extension_of(file);
   io::SurfaceSource source;
   double radius = said.nominal_radius;
   const bool is_case = extension == ".toml" || extension == ".inp";

@@ -14,8 +14,10 @@
 #include "treadmark/backends/spline/slices/slice_surface.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/roots.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
@@ -73,9 +75,7 @@ io::ProfileOptions options_of(const Problem& p, std::span<const int> ints, std::
 Body body_of_file(const std::filesystem::path& file, std::span<const int> ints) {
   const int type = ints.empty() ? -1 : std::clamp(ints[0], -1, 1);
   if (type >= 0) return type == 1 ? Body::wheel : Body::rail;
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = io::extension_of(file);
   return extension == ".prw" || extension == ".whl" || extension == ".slcw" ? Body::wheel : Body::rail;
 }
 
@@ -248,13 +248,11 @@ class Variable {
     for (int k = 2; k <= positions(); ++k) {
       const double after = point(u, k).y();
       if ((before - y) * (after - y) <= 0.0) {
-        double low = k - 1.0, high = k;
+        constexpr int kHalvings = 50;
         const bool rising = after > before;
-        for (int i = 0; i < 50; ++i) {
-          const double middle = 0.5 * (low + high);
-          ((point(u, middle).y() < y) == rising ? low : high) = middle;
-        }
-        return 0.5 * (low + high);
+        return bisect(
+                   k - 1.0, k, [&](double v) { return (point(u, v).y() < y) == rising; }, kHalvings)
+            .middle();
       }
       before = after;
     }

@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
@@ -148,10 +147,7 @@ void read_placement(ContactReader& r) {
   r.kept.wheel_rail.rail = read_profile(r, "rail");
   r.kept.has_rail = true;
   const auto& file = std::get<GeometryFile>(r.kept.wheel_rail.rail.geometry).file;
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".slcs" && t.gauge_based)
+  if (extension_of(file) == ".slcs" && t.gauge_based)
     throw Error(ErrorKind::configuration, "a rail given by slices has no gauge point: it needs GAUGHT <= 0",
                 r.kept.wheel_rail.rail.where, "give RAILY0 and RAILZ0");
 }

@@ -3,11 +3,11 @@
 #include "treadmark/io/cases/file_kind.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <string_view>
 
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
 
 namespace treadmark::io {
@@ -15,10 +15,7 @@ namespace {
 
 /// What stands at the top of a file; nothing of one that is not TOML.
 CaseTable top_of(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".toml" ? parse_toml(read_text(file), file.string()) : CaseTable{};
+  return extension_of(file) == ".toml" ? parse_toml(read_text(file), file.string()) : CaseTable{};
 }
 
 const CaseEntry* entry_of(const CaseTable& table, std::string_view key) {
@@ -28,8 +25,9 @@ const CaseEntry* entry_of(const CaseTable& table, std::string_view key) {
 
 }  // namespace
 
-FileKind file_kind(const std::filesystem::path& file) {
-  const CaseTable top = top_of(file);
+FileKind file_kind(const std::filesystem::path& file) { return kind_of(top_of(file)); }
+
+FileKind kind_of(const CaseTable& top) {
   const auto has = [&](std::string_view key) { return entry_of(top, key) != nullptr; };
   if (has("study")) return FileKind::study;
   if (has("evolve")) return FileKind::evolution;

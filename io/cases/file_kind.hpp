@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "treadmark/io/settings/toml_value.hpp"
+
 namespace treadmark::io {
 
 /// What a .toml file describes, by the tables at its top.
@@ -19,6 +21,8 @@ enum class FileKind {
 
 /// Throws Error(configuration) for TOML that cannot be read. Thread-safe.
 FileKind file_kind(const std::filesystem::path& file);
+/// The same by what a file holds. Never throws.
+FileKind kind_of(const CaseTable& top);
 
 inline bool is_study_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::study; }
 inline bool is_evolution_file(const std::filesystem::path& file) { return file_kind(file) == FileKind::evolution; }

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <fstream>
 #include <iterator>
 
@@ -14,6 +12,7 @@
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/files/extension.hpp"
 
 namespace treadmark::io {
 
@@ -34,9 +33,7 @@ std::string advice_on_kind(std::string_view extension) {
 }  // namespace
 
 CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = extension_of(file);
   if (extension == ".toml") return read_case_file(file, overrides);
   std::error_code ignored;
   if (const std::string name = file.string();

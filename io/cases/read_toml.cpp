@@ -15,6 +15,7 @@
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -277,9 +278,31 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   return result;
 }
 
+namespace {
+
+void refuse_other_kinds(const CaseTable& document, const std::filesystem::path& name) {
+  const auto refuse = [&](const char* what, const char* advice) {
+    throw Error(ErrorKind::configuration, fmt::format("{} is {}", name.string(), what), {}, advice);
+  };
+  switch (kind_of(document)) {
+    case FileKind::study:
+      return refuse("a study", "use treadmark sweep");
+    case FileKind::evolution:
+      return refuse("an evolution", "use treadmark evolve");
+    case FileKind::simulation:
+      return refuse("a simulation", "use treadmark simulate");
+    default:
+      return;
+  }
+}
+
+}  // namespace
+
 CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name,
                          std::span<const std::string> overrides) {
-  CaseFile result = case_file_of(parse_toml(text, name.string()), name, overrides);
+  const CaseTable document = parse_toml(text, name.string());
+  refuse_other_kinds(document, name);
+  CaseFile result = case_file_of(document, name, overrides);
   result.sha256 = sha256_hex(text);
   return result;
 }

@@ -10,7 +10,7 @@
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/measured/lumps.hpp"
 #include "treadmark/measured/noise.hpp"
-#include "treadmark/model/profile_scatter.hpp"
+#include "treadmark/measured/smoothing.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -227,7 +227,7 @@ class Judge {
                               rounding > 0.0 ? fmt::format(", rounded to {:.3g} mm", kMm * rounding) : ""));
     constexpr double kFelt =
         0.25e-6;  // white noise that changes the pressure of a curve through all points by percents
-    const bool smoothed = p_.scatter && !p_.scatter->s.empty();
+    const bool smoothed = measured::is_smoothed(p_);
     if (!smoothed && p_.smoothing.strength == 0.0 && across > kFelt)
       remark("noise", fmt::format("the points scatter by {:.2g} mm and the curve runs through all of them: pressures "
                                   "are too large; set smoothing = \"auto\", or smooth them in the file",

@@ -10,13 +10,11 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 
 namespace treadmark::io {
 namespace {
-
-std::string small_extension(const std::filesystem::path& file) { return profiles::lower(file.extension().string()); }
 
 /// The number of mm that a reader turns into exactly this number of metres.
 double exact_mm(double metres) {
@@ -36,7 +34,7 @@ void check_name(const std::filesystem::path& file, const Profile& profile, bool 
   const auto refuse = [&](const std::string& message, const std::string& advice) {
     throw Error(ErrorKind::configuration, message, {file.string(), 0, 0}, advice);
   };
-  const std::string extension = small_extension(file);
+  const std::string extension = extension_of(file);
   if (!is_writable_profile(file))
     refuse(fmt::format("profiles cannot be written to files '{}'", extension), "use .prr .prw .ban .whl or .csv");
   const std::optional<Body> named = profile_body(file);
@@ -97,7 +95,7 @@ bool same_points(const Profile& a, const Profile& b) {
 }  // namespace
 
 bool is_writable_profile(const std::filesystem::path& file) {
-  const std::string extension = small_extension(file);
+  const std::string extension = extension_of(file);
   for (const char* known : {".prr", ".prw", ".ban", ".whl", ".csv"})
     if (extension == known) return true;
   return false;
@@ -105,7 +103,7 @@ bool is_writable_profile(const std::filesystem::path& file) {
 
 void write_profile(const std::filesystem::path& file, const Profile& profile, const ProfileDerivatives* derivatives) {
   check_name(file, profile, derivatives != nullptr);
-  const std::string extension = small_extension(file);
+  const std::string extension = extension_of(file);
   const std::string text = extension == ".csv"                          ? csv_text(profile, derivatives)
                            : extension == ".prr" || extension == ".prw" ? simpack_text(profile)
                                                                         : miniprof_text(profile, derivatives);

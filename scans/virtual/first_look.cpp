@@ -11,6 +11,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/roots.hpp"
 
 namespace treadmark::scans::scanner {
 namespace {
@@ -103,13 +104,10 @@ class Look {
     if (last && !part_.closed) return 0.5 * step_;
     const std::size_t other = direction < 0 ? (i + kStations - 1) % kStations : (i + 1) % kStations;
     if (stations[other].length() > 0.0) return 0.5 * step_;
-    double inside = 0.0, outside = step_;
     constexpr double kAccuracy = 1e-3;
-    while (outside - inside > kAccuracy * step_) {
-      const double at = 0.5 * (inside + outside);
-      (present(middle(i) + direction * at) ? inside : outside) = at;
-    }
-    return inside;
+    constexpr int kHalvings = 20;
+    const auto there = [&](double at) { return present(middle(i) + direction * at); };
+    return bisect(0.0, step_, there, kHalvings, kAccuracy * step_).low;
   }
 
   std::vector<Patch> patches_of(const std::vector<Station>& stations, std::size_t i) const {

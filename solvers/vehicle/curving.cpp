@@ -6,6 +6,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/roots.hpp"
 
 namespace treadmark::vehicle {
 
@@ -78,13 +79,10 @@ double overturning_speed(const CurvingVehicle& v, double curvature, double cant,
   // The left rail carries all where the moment equals that of the weight at half the base; it grows with gamma as long
   // as the mass leans less than a right angle.
   const auto surplus = [&](double gamma) { return tilting(v, gamma) - 0.5 * v.base * std::cos(gamma); };
-  double low = 0.0, high = kPi / 2.0 / std::max(1.0, v.roll_flexibility);
-  if (surplus(high) < 0.0) return kInfinity;
-  for (int k = 0; k < 200 && high - low > 1e-15; ++k) {
-    const double middle = 0.5 * (low + high);
-    (surplus(middle) < 0.0 ? low : high) = middle;
-  }
-  const double inclination = angle + high;
+  const double most = kPi / 2.0 / std::max(1.0, v.roll_flexibility);
+  if (surplus(most) < 0.0) return kInfinity;
+  const auto short_of = [&](double gamma) { return surplus(gamma) < 0.0; };
+  const double inclination = angle + bisect(0.0, most, short_of, 200, 1e-15).high;
   if (inclination >= kPi / 2.0) return kInfinity;
   return std::sqrt(gravity * std::tan(inclination) / std::abs(curvature));
 }

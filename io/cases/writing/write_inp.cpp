@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <string_view>
@@ -14,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/model/theories.hpp"
@@ -296,8 +296,7 @@ class InputWriter {
     refuse_if(!s.offsets.file.empty(), fmt::format("a table of deviations ({}.offsets)", body), advice);
     const auto* file = std::get_if<GeometryFile>(&s.geometry);
     refuse_if(file == nullptr, fmt::format("the shape of the {} by formula ({}.shape)", body, body), advice);
-    std::string extension = file->file.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string extension = extension_of(file->file);
     for (const std::string_view surface : {".ply", ".stl", ".obj", ".off", ".vdb"})
       refuse_if(extension == surface, fmt::format("the {} as {}", body, surface), advice);
 
