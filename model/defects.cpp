@@ -143,7 +143,8 @@ void check(const WheelSpall& s, double R, const Shape& shape) {
 
 void check(const FlattenedHead& h, double, const Shape& shape) {
   check_stretch(h, shape);
-  shape.finite({h.depth, h.roll});
+  shape.finite({h.depth, h.roll, h.edge_radius});
+  shape.require(h.edge_radius >= 0.0, "the radius of the edges must not be negative");
   shape.require(h.depth > 0.0, "the depth must be positive");
   shape.require(std::fabs(h.roll) < 0.25 * kPi, "the roll angle must lie within +-45 degrees");
   shape.gentle(1.5 * h.depth / h.ramp, "the ramp is too short for the depth");

@@ -107,6 +107,7 @@ struct FlattenedHead {
   double x_start = 0.0, x_end = 0.0, ramp = 0.0;  ///< ramp at least 1.5 depth and at most half of the stretch
   double depth = 0.0;                             ///< along z below the highest point of the base
   double roll = 0.0;                              ///< inclination of the plane about x, within +-45 degrees
+  double edge_radius = 0.0;                       ///< least one of its rounded edges, across the rail; 0: sharp
   friend bool operator==(const FlattenedHead&, const FlattenedHead&) = default;
 };
 

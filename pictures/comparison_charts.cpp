@@ -118,10 +118,11 @@ std::string memory_legend(double largest_bytes, double largest_radius, double x,
 std::string error_svg(const io::Comparison& comparison) {
   const Styles styles(comparison);
   std::vector<Chart> charts(2);
-  charts[0].title = "largest pressure";
-  charts[0].y_label = "largest error of pmax over the cases [%]";
+  const io::JudgedPressure pressure = io::judged_pressure(comparison);
+  charts[0].title = pressure.words;
+  charts[0].y_label = fmt::format("largest error of {} over the cases [%]", pressure.name);
   charts[0].series =
-      over_resolution(comparison, styles, "%", [](const io::CandidateDigest& d) { return d.pmax_error * 1e2; });
+      over_resolution(comparison, styles, "%", [&](const io::CandidateDigest& d) { return d.*pressure.error * 1e2; });
   charts[1].title = "surface";
   charts[1].y_label = "largest deviation from the reference [µm]";
   charts[1].series =
@@ -153,7 +154,8 @@ std::string cost_svg(const io::Comparison& comparison) {
   Chart chart;
   chart.title = "accuracy against cost";
   chart.x_label = "search and distance, mean time per case [ms]";
-  chart.y_label = "largest error of pmax over the cases [%]";
+  const io::JudgedPressure pressure = io::judged_pressure(comparison);
+  chart.y_label = fmt::format("largest error of {} over the cases [%]", pressure.name);
   chart.x_scale = chart.y_scale = AxisScale::log;
   chart.x_floor = kTimeFloor;
   chart.y_floor = kFloor;
@@ -162,7 +164,7 @@ std::string cost_svg(const io::Comparison& comparison) {
     const io::CandidateDigest all = io::digest(candidate);
     ChartPoint point;
     point.x = (all.search_s + all.distance_s) * 1e3;
-    point.y = all.pmax_error * 1e2;
+    point.y = all.*pressure.error * 1e2;
     if (i == 0 && !candidate.rows.empty()) point.y = 0.0;  // by definition, also where no case has contact
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
       sheet.remarks.push_back("not drawn: " + not_drawn(candidate));

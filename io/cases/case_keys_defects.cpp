@@ -47,6 +47,16 @@ Keys<Element> stretch_keys() {
           element_number<Element>("ramp_mm", kPositive, "length of the run-in and of the run-out", &Element::ramp))};
 }
 
+/// edge_radius_mm of the shapes that end in edges.
+template <class Element>
+ElementKey<Element> edge_key(const std::string& edges) {
+  return with_default(
+      element_number<Element>("edge_radius_mm", kNotNegative,
+                              "radius of " + edges + "; 0 = sharp, where the largest pressure has no limit",
+                              &Element::edge_radius),
+      "0");
+}
+
 DefectKeys<WheelFlat> keys_of(const std::vector<WheelFlat>&) {
   using Shape = WheelFlat::Shape;
   KeyInfo shape = key_info("shape", KeyType::choice,
@@ -63,12 +73,7 @@ DefectKeys<WheelFlat> keys_of(const std::vector<WheelFlat>&) {
                                 &WheelFlat::depth)};
   append(keys, element_angle<WheelFlat>("theta_center", "angle of the middle on the wheel", &WheelFlat::theta_center));
   append(keys, band_keys<WheelFlat>("wheel"));
-  keys.push_back(
-      with_default(element_number<WheelFlat>(
-                       "edge_radius_mm", kNotNegative,
-                       "radius of the edges of a fresh flat; 0 = sharp, where the largest pressure has no limit",
-                       &WheelFlat::edge_radius),
-                   "0"));
+  keys.push_back(edge_key<WheelFlat>("the edges of a fresh flat"));
   return {"flats worn into the wheel", std::move(keys)};
 }
 
@@ -191,6 +196,7 @@ DefectKeys<FlattenedHead> keys_of(const std::vector<FlattenedHead>&) {
   keys.push_back(required(element_number<FlattenedHead>(
       "depth_mm", kPositive, "depth of the plane below the highest point of the rail", &FlattenedHead::depth)));
   append(keys, element_angle<FlattenedHead>("roll", "inclination of the plane about x", &FlattenedHead::roll));
+  keys.push_back(edge_key<FlattenedHead>("the edges across the rail"));
   return {"stretches where the head is worn down to a plane", std::move(keys)};
 }
 

@@ -104,7 +104,10 @@ ComparisonRow row_in(const JsonTree& node) {
   read_numbers(node, kRowPatchNumbers, out);
   read_numbers(node, kRowTimes, out);
   out.comparable = node.has(kRowErrors[0].name);
-  if (out.comparable) read_numbers(node, kRowErrors, out);
+  if (!out.comparable) return out;
+  read_numbers(node, kRowErrors, out);
+  const auto& [name, value, factor] = kMeanPressureError;
+  out.*value = node.has(name) ? node.number(name) / factor : kNaN;
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -48,6 +49,7 @@ CandidateDigest digest(const ComparisonCandidate& candidate) {
   out.slope_max = worse(candidate, &SurfaceDifference::slope_max);
   out.curvature_max = worse(candidate, &SurfaceDifference::curvature_max);
   out.pmax_error = largest(candidate, &ComparisonRow::pmax_error);
+  out.mean_pressure_error = largest(candidate, &ComparisonRow::mean_pressure_error);
   out.area_error = largest(candidate, &ComparisonRow::area_error);
   out.force_error = largest(candidate, &ComparisonRow::force_error);
   out.position_error = largest(candidate, &ComparisonRow::position_error);
@@ -57,6 +59,25 @@ CandidateDigest digest(const ComparisonCandidate& candidate) {
   out.memory_bytes = candidate.wheel.memory_bytes + candidate.rail.memory_bytes;
   out.total = static_cast<int>(candidate.rows.size());
   for (const ComparisonRow& row : candidate.rows) out.ok += row.status == Status::ok;
+  return out;
+}
+
+JudgedPressure judged_pressure(const Comparison& comparison) {
+  const bool limited = cases_without_limit(comparison).empty() ||
+                       std::ranges::any_of(comparison.candidates, [&](const ComparisonCandidate& c) {
+                         return &c != comparison.candidates.data() && std::isfinite(digest(c).pmax_error);
+                       });
+  return limited ? JudgedPressure{"pmax", "largest pressure", &CandidateDigest::pmax_error}
+                 : JudgedPressure{"pmean", "mean pressure", &CandidateDigest::mean_pressure_error};
+}
+
+std::vector<int> cases_without_limit(const Comparison& comparison) {
+  std::vector<int> out;
+  for (const ComparisonCandidate& candidate : comparison.candidates)
+    for (const ComparisonRow& row : candidate.rows)
+      if (row.comparable && std::isnan(row.pmax_error)) out.push_back(row.case_number);
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

@@ -35,11 +35,13 @@ struct ComparisonRow {
   double approach = 0.0, area = 0.0;                ///< [m], [m^2]
   int ncon = 0;                                     ///< elements in contact
   double search_s = 0.0, distance_s = 0.0;          ///< [s]
-  bool comparable = false;                          ///< the reference has contact here too: the errors below hold
-  double pmax_error = 0.0;                          ///< relative, (p - p_ref)/p_ref
-  double area_error = 0.0, approach_error = 0.0;    ///< relative
-  double force_error = 0.0;                         ///< |F - F_ref|/|F_ref| of all patches together
-  double position_error = 0.0;                      ///< distance of the references in the track's x-y plane [m]
+  bool comparable = false;                          ///< the reference has contact in this case too: the errors below hold
+  /// Relative, (p - p_ref)/p_ref; NaN where the reference's has no limit (RemarkKind::edge_pressure).
+  double pmax_error = 0.0;
+  double mean_pressure_error = 0.0;               ///< relative, of fn / area
+  double area_error = 0.0, approach_error = 0.0;  ///< relative
+  double force_error = 0.0;                       ///< |F - F_ref|/|F_ref| of all patches together
+  double position_error = 0.0;                    ///< distance of the references in the track's x-y plane [m]
 };
 
 /// All cases in one representation.
@@ -72,16 +74,30 @@ struct Comparison {
 
 /// One candidate in a few numbers, in SI units. NaN where nothing was measured.
 struct CandidateDigest {
-  double height_max, height_rms, slope_max, curvature_max;     ///< the worse of wheel and rail [m], [rad], [1/m]
-  double pmax_error, area_error, force_error, position_error;  ///< largest size over the comparable cases [-], [m]
-  double search_s, distance_s;                                 ///< mean per case [s]
-  double build_s = 0.0;                                        ///< wheel and rail together [s]
-  std::size_t memory_bytes = 0;                                ///< wheel and rail together
-  int ok = 0, total = 0;                                       ///< cases
+  double height_max, height_rms, slope_max, curvature_max;  ///< the worse of wheel and rail [m], [rad], [1/m]
+  /// Largest size over the comparable cases [-], [m].
+  double pmax_error, mean_pressure_error, area_error, force_error, position_error;
+  double search_s, distance_s;   ///< mean per case [s]
+  double build_s = 0.0;          ///< wheel and rail together [s]
+  std::size_t memory_bytes = 0;  ///< wheel and rail together
+  int ok = 0, total = 0;         ///< cases
 };
 
 /// Values that are not finite are passed over in means and maxima. Thread-safe, like all functions here.
 CandidateDigest digest(const ComparisonCandidate& candidate);
+
+/// The pressure by which candidates are judged.
+struct JudgedPressure {
+  const char* name;   ///< "pmax"
+  const char* words;  ///< "largest pressure"
+  double CandidateDigest::*error;
+};
+
+/// The largest, or the mean where the largest has no limit in any case.
+JudgedPressure judged_pressure(const Comparison& comparison);
+
+/// Numbers of the cases in which the truth's largest pressure has no limit, increasing.
+std::vector<int> cases_without_limit(const Comparison& comparison);
 
 /// "mesh 0.5 mm"; without the resolution where it is 0 or not finite.
 std::string candidate_label(const ComparisonCandidate& candidate);

@@ -119,8 +119,11 @@ std::vector<NamedField> row_fields(const ComparisonCandidate& candidate, const C
   for (const auto& [name, value, factor] : kRowTimes) out.push_back({name, row.*value * factor});
   out.push_back({"build_s", all.build_s});
   out.push_back({"memory_bytes", count(all.memory_bytes)});
-  for (const auto& [name, value, factor] : kRowErrors)
-    out.push_back({name, row.comparable ? FieldValue(row.*value * factor) : FieldValue()});
+  const auto add_error = [&](const NamedNumber<ComparisonRow>& error) {
+    out.push_back({error.name, row.comparable ? FieldValue(row.*error.value * error.factor) : FieldValue()});
+  };
+  add_error(kMeanPressureError);
+  for (const NamedNumber<ComparisonRow>& error : kRowErrors) add_error(error);
   return out;
 }
 

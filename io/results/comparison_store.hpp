@@ -62,6 +62,10 @@ inline constexpr NamedNumber<ComparisonRow> kRowErrors[] = {
     {"force_error_percent", &ComparisonRow::force_error, 1e2},
     {"position_error_mm", &ComparisonRow::position_error, kMilli}};
 
+/// As the errors; older files lack it.
+inline constexpr NamedNumber<ComparisonRow> kMeanPressureError{"mean_pressure_error_percent",
+                                                               &ComparisonRow::mean_pressure_error, 1e2};
+
 /// Name with its unit, and the value in that unit: what the JSON and the CSV file say.
 struct NamedField {
   std::string_view name;

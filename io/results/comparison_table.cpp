@@ -19,14 +19,15 @@ namespace treadmark::io {
 
 namespace {
 
-constexpr std::size_t kColumns = 15;
+constexpr std::size_t kColumns = 16;
 using Line = std::array<std::string, kColumns>;
 
 const std::array<Line, 3> kHead{{
-    {"backend", "resolution", "height", "height", "slope", "curvature", "pmax", "force", "position", "area", "search",
-     "distance", "build", "memory", "cases"},
-    {"", "", "max", "rms", "max", "max", "error", "error", "error", "error", "", "", "", "", "ok"},
-    {"", "[mm]", "[um]", "[um]", "[mrad]", "[1/m]", "[%]", "[%]", "[mm]", "[%]", "[ms]", "[ms]", "[s]", "[MB]", ""},
+    {"backend", "resolution", "height", "height", "slope", "curvature", "pmax", "pmean", "force", "position", "area",
+     "search", "distance", "build", "memory", "cases"},
+    {"", "", "max", "rms", "max", "max", "error", "error", "error", "error", "error", "", "", "", "", "ok"},
+    {"", "[mm]", "[um]", "[um]", "[mrad]", "[1/m]", "[%]", "[%]", "[%]", "[mm]", "[%]", "[ms]", "[ms]", "[s]", "[MB]",
+     ""},
 }};
 
 /// Three significant digits, without an exponent where the number is of ordinary size.
@@ -59,11 +60,19 @@ Line candidate_line(const ComparisonCandidate& candidate, bool truth) {
     line.back() = "failed";
     return line;
   }
-  const double values[] = {
-      all.height_max * 1e6,     all.height_rms * 1e6, all.slope_max * 1e3,
-      all.curvature_max,        all.pmax_error * 1e2, all.force_error * 1e2,
-      all.position_error * 1e3, all.area_error * 1e2, all.search_s * 1e3,
-      all.distance_s * 1e3,     all.build_s,          static_cast<double>(all.memory_bytes) * 1e-6};
+  const double values[] = {all.height_max * 1e6,
+                           all.height_rms * 1e6,
+                           all.slope_max * 1e3,
+                           all.curvature_max,
+                           all.pmax_error * 1e2,
+                           all.mean_pressure_error * 1e2,
+                           all.force_error * 1e2,
+                           all.position_error * 1e3,
+                           all.area_error * 1e2,
+                           all.search_s * 1e3,
+                           all.distance_s * 1e3,
+                           all.build_s,
+                           static_cast<double>(all.memory_bytes) * 1e-6};
   std::transform(std::begin(values), std::end(values), line.begin() + 2, digits);
   line.back() = fmt::format("{}/{}", all.ok, all.total);
   return line;
@@ -111,6 +120,11 @@ std::string comparison_table(const Comparison& comparison) {
     }
     out += '\n';
   }
+  if (const std::vector<int> cases = cases_without_limit(comparison); !cases.empty())
+    out += fmt::format(
+        "case {}: the largest pressure has no limit (edge_pressure) and tells nothing of representations; force, mean "
+        "pressure and area do\n",
+        fmt::join(cases, ", "));
   for (const ComparisonCandidate& candidate : comparison.candidates) out += remarks(candidate);
   if (!comparison.complete) out += "interrupted: some candidates or cases are missing\n";
   return out;

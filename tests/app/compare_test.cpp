@@ -14,6 +14,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
+#include "treadmark/io/results/comparison_table.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
@@ -50,6 +51,31 @@ TEST(CompareCases, ThePrismaticSectionIsThatOfEachCase) {
   ASSERT_EQ(chords.failure, "");
   for (const io::ComparisonRow& row : chords.rows) EXPECT_LT(row.position_error, 1e-3);
   EXPECT_LT(chords.wheel.difference.height_max, 5e-6);
+}
+
+TEST(CompareCases, APressureWithoutLimitBlamesNoRepresentation) {
+  const treadmark::testing::SampleInput input;
+  // the wheel stands on an end of a fresh flat: sharp, and round
+  input.write("edge.toml",
+              treadmark::testing::standard_case(
+                  "0.3", "shape.standard = \"S1002\"\n[[wheel.flats]]\nshape = \"fresh\"\nlength_mm = 60\n",
+                  "[[cases]]\nwheelset.pitch_deg = 3.7393\n[[cases]]\nwheelset.pitch_deg = 3.7393\n"
+                  "[[cases.wheel.flats]]\nshape = \"fresh\"\nlength_mm = 60\nedge_radius_mm = 50\n"));
+  CompareSettings settings;
+  settings.backends = {"spline"};
+  settings.resolutions = {2e-3};
+  const io::Comparison comparison =
+      compare_cases(io::read_any_case((input.folder() / "edge.toml").string(), {}), settings);
+  const std::vector<io::ComparisonRow>& rows = find(comparison, "spline", 2e-3).rows;
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_TRUE(std::isnan(rows[0].pmax_error));
+  EXPECT_GT(std::abs(rows[1].pmax_error), 0.01) << "samples 2 mm apart do not hold an edge of 6 mm";
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const io::ComparisonRow& truth = comparison.candidates[0].rows[i];
+    EXPECT_NEAR(rows[i].mean_pressure_error, rows[i].fn / rows[i].area * truth.area / truth.fn - 1.0, 1e-12);
+    EXPECT_LT(rows[i].force_error, 0.01);
+  }
+  EXPECT_THAT(io::comparison_table(comparison), HasSubstr("case 1: the largest pressure has no limit (edge_pressure)"));
 }
 
 TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {

@@ -21,7 +21,7 @@ using Candidate = ComparedCandidate;
 using Value = double (*)(const Candidate&);
 constexpr std::size_t kFew = 8;
 
-double pmax_error(const Candidate& c) { return c.pmax_error_percent; }
+double pressure_error(const Candidate& c) { return c.judged_error_percent; }
 double height(const Candidate& c) { return c.height_max_um; }
 double time_ms(const Candidate& c) { return kMilli * c.mean_seconds(); }
 double memory(const Candidate& c) { return c.memory_MB; }
@@ -31,9 +31,9 @@ std::string with_unit(double value, const char* unit) {
   return std::isfinite(value) ? fmt::format("{} {}", shown({value, 3}), unit) : "–";
 }
 
-std::string hover(const Candidate& c) {
-  return fmt::format("{}: error of the largest pressure {}, surface {}, {} a case, {}", c.label,
-                     with_unit(c.pmax_error_percent, "%"), with_unit(c.height_max_um, "µm"),
+std::string hover(const ComparedCandidates& all, const Candidate& c) {
+  return fmt::format("{}: error of the {} {}, surface {}, {} a case, {}", c.label, all.pressure.words,
+                     with_unit(c.judged_error_percent, "%"), with_unit(c.height_max_um, "µm"),
                      with_unit(time_ms(c), "ms"), with_unit(c.memory_MB, "MB"));
 }
 
@@ -62,8 +62,8 @@ double placed(double value, double least) {
 }
 
 /// A curve a backend; what has no resolution becomes a level.
-Panel over_resolution(const ComparedCandidates& all, const char* label, const char* unit, Value value, double least,
-                      bool with_truth) {
+Panel over_resolution(const ComparedCandidates& all, const std::string& label, const char* unit, Value value,
+                      double least, bool with_truth) {
   Panel panel{label, unit, true};
   for (const auto& group : by_backend(all)) {
     Series series{group.front()->data->name, {}, {}, Series::Marks::both};
@@ -72,7 +72,7 @@ Panel over_resolution(const ComparedCandidates& all, const char* label, const ch
       if (std::isnan(y)) continue;
       series.x.push_back(c->resolution_mm);
       series.y.push_back(y);
-      series.texts.push_back(hover(*c));
+      series.texts.push_back(hover(all, *c));
     }
     if (!series.y.empty()) panel.series.push_back(std::move(series));
   }
@@ -82,6 +82,10 @@ Panel over_resolution(const ComparedCandidates& all, const char* label, const ch
     if (!std::isnan(y)) panel.levels.push_back({y, c.label + (&c == all.truth() ? " (reference)" : " (as given)")});
   }
   return panel;
+}
+
+std::string error_of_pressure(const ComparedCandidates& all) {
+  return fmt::format("error of the {}", all.pressure.words);
 }
 
 Axis resolution_axis() { return {"resolution", "mm", true}; }
@@ -105,12 +109,15 @@ double mean(const io::ComparisonCandidate& candidate, double io::ComparisonRow::
   return count > 0.0 ? sum / count : Candidate::kNone;
 }
 
-Candidate compared_candidate(const io::ComparisonCandidate& data, const std::vector<int>& cases) {
+Candidate compared_candidate(const io::ComparisonCandidate& data, const std::vector<int>& cases,
+                             const io::JudgedPressure& pressure) {
   Candidate out{&data, io::candidate_label(data)};
   if (data.has_resolution()) out.resolution_mm = in_file(kMilli * data.resolution);
   for (const int number : cases) out.rows.push_back(pictures::find_row(data, number));
   const io::CandidateDigest all = io::digest(data);
   out.pmax_error_percent = in_file(1e2 * all.pmax_error);
+  out.mean_pressure_error_percent = in_file(1e2 * all.mean_pressure_error);
+  out.judged_error_percent = in_file(1e2 * all.*pressure.error);
   out.area_error_percent = in_file(1e2 * all.area_error);
   out.force_error_percent = in_file(1e2 * all.force_error);
   out.position_error_mm = in_file(kMilli * all.position_error);
@@ -129,20 +136,20 @@ Candidate compared_candidate(const io::ComparisonCandidate& data, const std::vec
 }  // namespace
 
 ComparedCandidates compared(const io::Comparison& comparison) {
-  ComparedCandidates out;
+  ComparedCandidates out{io::judged_pressure(comparison), {}, {}};
   for (const io::ComparisonCandidate& candidate : comparison.candidates)
     for (const io::ComparisonRow& row : candidate.rows) out.cases.push_back(row.case_number);
   std::ranges::sort(out.cases);
   out.cases.erase(std::unique(out.cases.begin(), out.cases.end()), out.cases.end());
   for (const io::ComparisonCandidate& candidate : comparison.candidates)
-    out.candidates.push_back(compared_candidate(candidate, out.cases));
+    out.candidates.push_back(compared_candidate(candidate, out.cases, out.pressure));
   return out;
 }
 
 ChartView accuracy_chart(const ComparedCandidates& all) {
   ChartView view;
   view.x = resolution_axis();
-  view.panels = {over_resolution(all, "error of p_max", "%", pmax_error, kLeastShown, false),
+  view.panels = {over_resolution(all, error_of_pressure(all), "%", pressure_error, kLeastShown, false),
                  over_resolution(all, "surface deviation", "µm", height, kLeastShown, false)};
   return view;
 }
@@ -159,15 +166,15 @@ ChartView cost_chart(const ComparedCandidates& all) {
 ChartView trade_chart(const ComparedCandidates& all) {
   ChartView view;
   view.x = Axis{"mean time of search and distance a case", "ms", true};
-  Panel panel{"error of p_max", "%", true};
+  Panel panel{error_of_pressure(all), "%", true};
   const auto add = [&](const std::vector<const Candidate*>& group, const std::string& name) {
     Series series{name, {}, {}, Series::Marks::both};
     for (const Candidate* c : group) {
-      const double x = placed(time_ms(*c), 0.0), y = placed(c->pmax_error_percent, kLeastShown);
+      const double x = placed(time_ms(*c), 0.0), y = placed(c->judged_error_percent, kLeastShown);
       if (std::isnan(x) || std::isnan(y)) continue;
       series.x.push_back(x);
       series.y.push_back(y);
-      series.texts.push_back(hover(*c));
+      series.texts.push_back(hover(all, *c));
     }
     if (!series.y.empty()) panel.series.push_back(std::move(series));
   };
@@ -229,6 +236,7 @@ Table candidate_table(const ComparedCandidates& all) {
                {"cases"},
                {"ok"},
                {"error of p_max", "%"},
+               {"error of p_mean", "%"},
                {"error of area", "%"},
                {"error of force", "%"},
                {"error of position", "mm"},
@@ -250,9 +258,10 @@ Table candidate_table(const ComparedCandidates& all) {
                  data.rail.backend,
                  Number{static_cast<double>(data.rows.size())},
                  Number{static_cast<double>(std::ranges::count(data.rows, Status::ok, &io::ComparisonRow::status))}};
-    for (const double value : {c.pmax_error_percent, c.area_error_percent, c.force_error_percent, c.position_error_mm,
-                               c.height_max_um, c.height_rms_um, c.slope_max_mrad, c.curvature_max_per_m,
-                               kMilli * c.search_s, kMilli * c.distance_s, c.build_s, c.memory_MB})
+    for (const double value :
+         {c.pmax_error_percent, c.mean_pressure_error_percent, c.area_error_percent, c.force_error_percent,
+          c.position_error_mm, c.height_max_um, c.height_rms_um, c.slope_max_mrad, c.curvature_max_per_m,
+          kMilli * c.search_s, kMilli * c.distance_s, c.build_s, c.memory_MB})
       row.cells.emplace_back(Number{value, 3});
     std::string notes = data.failure.empty() ? "" : "failed: " + data.failure;
     for (const auto& [name, body] : {std::pair{"wheel", &data.wheel}, {"rail", &data.rail}})
@@ -273,6 +282,7 @@ Table compared_row_table(const ComparedCandidates& all) {
   const std::vector<Quantity> quantities{{"patches", {"patches"}},
                                          {"pmax_MPa", {"p_max", "MPa"}},
                                          {"pmax_error_percent", {"error of p_max", "%"}, 3},
+                                         {"mean_pressure_error_percent", {"error of p_mean", "%"}, 3},
                                          {"area_mm2", {"area", "mm²"}},
                                          {"area_error_percent", {"error of area", "%"}, 3},
                                          {"fn_N", {"F_n", "kN"}, 6, 1e-3},

@@ -21,7 +21,9 @@ struct ComparedCandidate {
   double resolution_mm = kNone;                     ///< NaN: the data as given
   std::vector<const io::ComparisonRow*> rows = {};  ///< of each case of the comparison; nullptr where it is missing
   // the largest in size over the cases
-  double pmax_error_percent = kNone, area_error_percent = kNone, force_error_percent = kNone, position_error_mm = kNone;
+  double pmax_error_percent = kNone, mean_pressure_error_percent = kNone, area_error_percent = kNone,
+         force_error_percent = kNone, position_error_mm = kNone;
+  double judged_error_percent = kNone;          ///< of the pressure by which all are judged
   double search_s = kNone, distance_s = kNone;  ///< mean per case
   // of wheel and rail the worse, and their sums
   double height_max_um = kNone, height_rms_um = kNone, slope_max_mrad = kNone, curvature_max_per_m = kNone;
@@ -33,6 +35,7 @@ struct ComparedCandidate {
 };
 
 struct ComparedCandidates {
+  io::JudgedPressure pressure;
   std::vector<int> cases;                     ///< numbers, increasing
   std::vector<ComparedCandidate> candidates;  ///< the truth first
 
@@ -46,13 +49,13 @@ ComparedCandidates compared(const io::Comparison& comparison);
 /// µm].
 inline constexpr double kLeastShown = 1e-3;
 
-/// Largest error of the largest pressure and largest deviation of the surface over the resolution, a curve a backend.
+/// Largest error of the judged pressure and largest deviation of the surface over the resolution, a curve a backend.
 ChartView accuracy_chart(const ComparedCandidates& all);
 
 /// Mean time of search and distance, memory, and time to build over the resolution, a curve a backend.
 ChartView cost_chart(const ComparedCandidates& all);
 
-/// Largest error of the largest pressure over the mean time of search and distance.
+/// Largest error of the judged pressure over the mean time of search and distance.
 ChartView trade_chart(const ComparedCandidates& all);
 
 /// The candidates whose results are drawn over the cases: all where they are few, else the truth, the data as given,

@@ -63,6 +63,10 @@ void add_banners(const io::Comparison& comparison, const ComparedCandidates& all
   add_status(all, std::nullopt, Banner::Kind::failed, "Cases that are missing:", overview);
   add_status(all, Status::not_converged, Banner::Kind::warning,
              "Cases that did not converge; judge them with care:", overview);
+  if (const std::vector<int> cases = io::cases_without_limit(comparison); !cases.empty())
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::note, "The largest pressure has no limit (edge_pressure):",
+               listed(cases) + ". It tells nothing of representations there; force, mean pressure and area do."});
   add_status(all, Status::no_contact, Banner::Kind::note, "Cases without contact:", overview);
 }
 
@@ -70,7 +74,7 @@ void add_banners(const io::Comparison& comparison, const ComparedCandidates& all
 std::vector<const Candidate*> judged_candidates(const ComparedCandidates& all) {
   std::vector<const Candidate*> out;
   for (const Candidate& c : all.candidates)
-    if (&c != all.truth() && std::isfinite(c.pmax_error_percent)) out.push_back(&c);
+    if (&c != all.truth() && std::isfinite(c.judged_error_percent)) out.push_back(&c);
   return out;
 }
 
@@ -89,10 +93,11 @@ Cards cards_of(const io::Comparison& comparison, const ComparedCandidates& all) 
   const std::vector<const Candidate*> judged = judged_candidates(all);
   if (!judged.empty()) {
     const auto [best, worst] =
-        std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->pmax_error_percent; });
-    const auto error = [](const Candidate* c) { return fmt::format("{} %", shown({c->pmax_error_percent, 3})); };
-    cards.cards.push_back({"Least error of pressure", error(*best), (*best)->label});
-    if (judged.size() > 1) cards.cards.push_back({"Greatest error of pressure", error(*worst), (*worst)->label});
+        std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->judged_error_percent; });
+    const auto error = [](const Candidate* c) { return fmt::format("{} %", shown({c->judged_error_percent, 3})); };
+    const std::string of = all.pressure.error == &io::CandidateDigest::pmax_error ? "pressure" : all.pressure.words;
+    cards.cards.push_back({"Least error of " + of, error(*best), (*best)->label});
+    if (judged.size() > 1) cards.cards.push_back({"Greatest error of " + of, error(*worst), (*worst)->label});
   }
   if (fastest != nullptr)
     cards.cards.push_back({"Fastest detection", fmt::format("{} ms", shown({1e3 * fastest->mean_seconds(), 3})),
@@ -155,11 +160,11 @@ Section accuracy_section(const ComparedCandidates& all) {
     if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
   };
   add("accuracy-chart", "Accuracy over resolution", accuracy_chart(all),
-      "Largest error of the largest pressure and largest deviation of wheel and rail, over all cases. Values below "
+      "Largest error of pressure and largest deviation of wheel and rail, over all cases. Values below "
       "0.001, zero included, "
       "are shown at 0.001. Levels belong to data as given, which is not sampled.");
   add("trade-chart", "Accuracy against time", trade_chart(all),
-      "p_max: largest error of the largest pressure over the cases. Towards the lower left it is faster and more "
+      "Largest error of pressure over the cases. Towards the lower left it is faster and more "
       "accurate. Errors below "
       "0.001 % are shown there.");
   add("cost-chart", "Cost over resolution", cost_chart(all),

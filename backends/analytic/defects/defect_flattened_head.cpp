@@ -16,12 +16,12 @@ namespace treadmark::analytic {
 
 namespace {
 
-/// max(0, plane - z of the base). First derivatives are exact on both sides of the edge, second ones are differences of
-/// the base's slopes.
+/// max(0, plane - z of the base), a parabola in their difference at round edges. First derivatives are exact on both
+/// sides of the edge, second ones are differences of the base's slopes.
 class FlattenedHeadShape final : public OffsetShape {
  public:
-  FlattenedHeadShape(const FlattenedHead& head, std::shared_ptr<const Surface> base)
-      : base_(std::move(base)), plane_(head, *base_) {}
+  FlattenedHeadShape(const FlattenedHead& head, const Surface& sound, std::shared_ptr<const Surface> base)
+      : base_(std::move(base)), plane_(head, sound) {}
 
   displacement::OffsetJet jet(double u, double y) const override {
     if (!inside(u)) return {};
@@ -32,17 +32,19 @@ class FlattenedHeadShape final : public OffsetShape {
     base_->heights_at(Pose{}, points, {z, z_x, z_y});
     const Jet level = plane_.level(u);
     const double cut = level.h + y * plane_.tan_roll - z[0];
-    if (!(cut > 0.0)) return {};
+    const Jet w = plane_.rounding(level);
+    if (!(cut > -w.h)) return {};
     const auto half_difference = [](const std::array<double, 5>& d, std::size_t i) {
       const double value = (d[i] - d[i + 1]) / (2.0 * kStep);
       return std::isnan(value) ? 0.0 : value;
     };
-    return {cut,
-            level.dh - z_x[0],
-            plane_.tan_roll - z_y[0],
-            level.ddh - half_difference(z_x, 1),
-            -0.5 * (half_difference(z_x, 3) + half_difference(z_y, 1)),
-            -half_difference(z_y, 3)};
+    const displacement::OffsetJet d{cut,
+                                    level.dh - z_x[0],
+                                    plane_.tan_roll - z_y[0],
+                                    level.ddh - half_difference(z_x, 1),
+                                    -0.5 * (half_difference(z_x, 3) + half_difference(z_y, 1)),
+                                    -half_difference(z_y, 3)};
+    return cut < w.h ? rounded(d, w) : d;
   }
 
   void add(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
@@ -57,10 +59,13 @@ class FlattenedHeadShape final : public OffsetShape {
       for (std::size_t k = 0; k < n; ++k) {
         const Jet level = plane_.level(points[k].x());
         const double cut = level.h + points[k].y() * plane_.tan_roll - z[k];
-        if (!(cut > 0.0)) continue;
-        value[which[k]] += cut;
-        if (!d_u.empty()) d_u[which[k]] += level.dh - z_x[k];
-        if (!d_y.empty()) d_y[which[k]] += plane_.tan_roll - z_y[k];
+        const Jet w = plane_.rounding(level);
+        if (!(cut > -w.h)) continue;
+        displacement::OffsetJet d{cut, level.dh - z_x[k], plane_.tan_roll - z_y[k]};
+        if (cut < w.h) d = rounded(d, w);
+        value[which[k]] += d.value;
+        if (!d_u.empty()) d_u[which[k]] += d.d_u;
+        if (!d_y.empty()) d_y[which[k]] += d.d_y;
       }
       n = 0;
     };
@@ -79,18 +84,31 @@ class FlattenedHeadShape final : public OffsetShape {
     const HeightBounds z = base_->height_bounds(Pose{}, in);
     if (z.empty) return {};
     const double a = in.y_min * plane_.tan_roll, b = in.y_max * plane_.tan_roll;
-    const double high = plane_.touching + plane_.depth + std::max(a, b) - z.z_min;
-    if (!(high > 0.0)) return {};
+    const double widest = plane_.edge * plane_.depth, high = plane_.touching + plane_.depth + std::max(a, b) - z.z_min;
+    if (!(high > -widest)) return {};
     // slopes between the points of a fine grid may be a little steeper than on them
     constexpr double kBetween = 1.1, kLeast = 0.01;
     const double steepest_ramp = 1.5 * plane_.depth / plane_.ramp;
-    return {0.0, high, steepest_ramp + kBetween * plane_.steepest_x + kLeast, kBetween * plane_.steepest_y + kLeast};
+    return {0.0, std::max(0.0, high) + 0.25 * widest,
+            (1.0 + 0.25 * plane_.edge) * steepest_ramp + kBetween * plane_.steepest_x + kLeast,
+            kBetween * plane_.steepest_y + kLeast};
   }
 
   Rectangle support() const override { return {plane_.x_start, plane_.x_end, -kEverywhere, kEverywhere}; }
   std::size_t memory_bytes() const override { return sizeof(*this); }
 
  private:
+  /// (d + w)^2 / (4 w) for |d| < w.
+  static displacement::OffsetJet rounded(const displacement::OffsetJet& d, const Jet& w) {
+    const double share = 0.5 * (d.value + w.h) / w.h, by_w = share * (1.0 - share), t = d.value / w.h, dd = 0.5 / w.h,
+                 dw = -t * dd, ww = t * t * dd;
+    return {w.h * share * share,
+            share * d.d_u + by_w * w.dh,
+            share * d.d_y,
+            dd * d.d_u * d.d_u + 2.0 * dw * d.d_u * w.dh + ww * w.dh * w.dh + share * d.d_uu + by_w * w.ddh,
+            (dd * d.d_u + dw * w.dh) * d.d_y + share * d.d_uy,
+            dd * d.d_y * d.d_y + share * d.d_yy};
+  }
   bool inside(double x) const { return x > plane_.x_start && x < plane_.x_end; }
 
   std::shared_ptr<const Surface> base_;
@@ -99,8 +117,9 @@ class FlattenedHeadShape final : public OffsetShape {
 
 }  // namespace
 
-ShapePtr make_flattened_head_shape(const FlattenedHead& head, std::shared_ptr<const Surface> base) {
-  return std::make_unique<FlattenedHeadShape>(head, std::move(base));
+ShapePtr make_flattened_head_shape(const FlattenedHead& head, const Surface& sound,
+                                   std::shared_ptr<const Surface> base) {
+  return std::make_unique<FlattenedHeadShape>(head, sound, std::move(base));
 }
 
 namespace {
@@ -141,6 +160,31 @@ double least_height(const Surface& base, const FlattenedHead& head, double tan_r
   return least;
 }
 
+/// Half the width of edges that are nowhere sharper than a radius, in depth, over the depth of the plane. On a round
+/// crown the squared slope against the plane is proportional to the depth, also on the ramps.
+double edge_share(const Surface& base, const FlattenedHead& head, double touching, double tan_roll) {
+  Grid2 g = stretch_grid(base, head);
+  g.x0 = 0.5 * (head.x_start + head.x_end), g.nx = 1;
+  std::vector<double> z(g.size()), z_x(g.size()), z_y(g.size());
+  base.heights({Pose{}, g}, {z, z_x, z_y});
+  const auto cut = [&](std::size_t i) { return touching + head.depth + g.y(static_cast<int>(i)) * tan_roll - z[i]; };
+  double widest = 0.0;
+  for (std::size_t i = 1; i < z.size(); ++i) {
+    const double before = cut(i - 1), here = cut(i), share = before / (before - here);
+    if ((before > 0.0) == (here > 0.0) || std::isnan(share)) continue;
+    const double rail = std::lerp(z_y[i - 1], z_y[i], share), slope = tan_roll - rail, square = 1.0 + rail * rail;
+    const double sharper = square * std::sqrt(square) / head.edge_radius - (z_y[i] - z_y[i - 1]) / g.dy;
+    if (!(sharper > 0.0))
+      throw Error(ErrorKind::configuration, "the rail itself is sharper than the edges of a flattened head", {},
+                  "take a smaller edge_radius_mm");
+    widest = std::max(widest, 0.5 * slope * slope / sharper);
+  }
+  if (widest > head.depth)
+    throw Error(ErrorKind::configuration, "the round edges of a flattened head meet in its middle", {},
+                "take a smaller edge_radius_mm");
+  return widest / head.depth;
+}
+
 }  // namespace
 
 HeadPlane::HeadPlane(const FlattenedHead& head, const Surface& base)
@@ -152,13 +196,14 @@ HeadPlane::HeadPlane(const FlattenedHead& head, const Surface& base)
       depth(head.depth) {
   if (std::isinf(touching))
     throw Error(ErrorKind::configuration, "a flattened head lies where the rail has no surface");
+  if (head.edge_radius > 0.0) edge = edge_share(base, head, touching, tan_roll);
   const Grid2 g = stretch_grid(base, head);
   std::vector<double> z(g.size()), z_x(g.size()), z_y(g.size());
   base.heights({Pose{}, g}, {z, z_x, z_y});
   for (int iy = 0; iy < g.ny; ++iy)
     for (int ix = 0; ix < g.nx; ++ix) {
       const std::size_t i = g.index(ix, iy);
-      if (!(z[i] - g.y(iy) * tan_roll < touching + depth)) continue;
+      if (!(z[i] - g.y(iy) * tan_roll < touching + (1.0 + edge) * depth)) continue;
       steepest_x = std::max(steepest_x, std::fabs(z_x[i]));
       steepest_y = std::max(steepest_y, std::fabs(z_y[i] - tan_roll));
     }

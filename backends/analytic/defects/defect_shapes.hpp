@@ -19,7 +19,9 @@ using Shapes = std::vector<ShapePtr>;
 
 /// One shape or more of every defect that displaces the surface; flattened heads and milling cut it instead.
 Shapes make_shapes(const Defects& defects, double nominal_radius);
-/// max(0, plane - base); asks the base for every value.
-ShapePtr make_flattened_head_shape(const FlattenedHead& head, std::shared_ptr<const Surface> base);
+/// max(0, plane - base), round at its edges if they have a radius; asks the base for every value. The plane touches the
+/// sound rail.
+ShapePtr make_flattened_head_shape(const FlattenedHead& head, const Surface& sound,
+                                   std::shared_ptr<const Surface> base);
 
 }  // namespace treadmark::analytic

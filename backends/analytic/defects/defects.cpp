@@ -71,7 +71,7 @@ std::shared_ptr<const displacement::OffsetField> make_defect_field(const Defects
   check_defects(defects, body, nominal_radius);
   Shapes shapes = make_shapes(defects, nominal_radius);
   if (!defects.flattened_heads.empty()) require_base(base);
-  for (const auto& h : defects.flattened_heads) shapes.push_back(make_flattened_head_shape(h, base));
+  for (const auto& h : defects.flattened_heads) shapes.push_back(make_flattened_head_shape(h, *base, base));
   return std::make_shared<DefectField>(std::move(shapes));
 }
 
@@ -82,15 +82,21 @@ std::shared_ptr<const Surface> add_defects(std::shared_ptr<const Surface> base, 
   require_base(base);
   std::shared_ptr<const Surface> surface = base;
   std::vector<Cutter> cutters;
+  const std::string name(base->backend());
   for (std::size_t i = 0; i < defects.flattened_heads.size(); ++i)
-    cutters.push_back(head_cutter(defects.flattened_heads[i], *base, i));
+    if (defects.flattened_heads[i].edge_radius == 0.0)
+      cutters.push_back(head_cutter(defects.flattened_heads[i], *base, i));
   if (!cutters.empty()) surface = std::make_shared<CutSurface>(surface, std::move(cutters));
-  Shapes shapes = make_shapes(defects, nominal_radius);
-  if (!shapes.empty()) {
-    std::string name(surface->backend());
-    surface = displacement::make_displaced_surface(surface, std::make_shared<DefectField>(std::move(shapes)), body,
-                                                   std::move(name));
+  for (const FlattenedHead& head : defects.flattened_heads) {
+    if (head.edge_radius == 0.0) continue;
+    Shapes one;
+    one.push_back(make_flattened_head_shape(head, *base, surface));
+    surface = displacement::make_displaced_surface(surface, std::make_shared<DefectField>(std::move(one)), body, name);
   }
+  Shapes shapes = make_shapes(defects, nominal_radius);
+  if (!shapes.empty())
+    surface =
+        displacement::make_displaced_surface(surface, std::make_shared<DefectField>(std::move(shapes)), body, name);
   cutters.clear();
   for (std::size_t i = 0; i < defects.milling_paths.size(); ++i)
     cutters.push_back(milling_cutter(defects.milling_paths[i], i));

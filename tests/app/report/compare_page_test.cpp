@@ -189,6 +189,21 @@ TEST_F(ComparePage, AnErrorOfZeroIsShownAtTheLeast) {
   EXPECT_EQ(numbers_in(table_of(page, "candidates"), "error of p_max")[2], 0.0);
 }
 
+TEST_F(ComparePage, JudgesByTheMeanWhereTheLargestPressureHasNoLimit) {
+  io::Comparison comparison = made_up_comparison();
+  double mean = 0.04;
+  for (std::size_t i = 1; i < 3; ++i, mean *= 0.5)
+    for (io::ComparisonRow& row : comparison.candidates[i].rows)
+      row.pmax_error = std::nan(""), row.mean_pressure_error = mean;
+  const Page page = page_of(comparison);
+  EXPECT_THAT(banners_of(page), HasSubstr("note: The largest pressure has no limit (edge_pressure): case 1, 2."));
+  EXPECT_EQ(card_of(page, "Least error of mean pressure"), "2 % | mesh 0.5 mm");
+  const auto& chart = std::get<ChartView>(figure_of(page, "accuracy-chart").view);
+  EXPECT_EQ(chart.panels.front().label, "error of the mean pressure");
+  EXPECT_NEAR(chart.panels.front().series.front().y[0], 4.0, 1e-9);
+  EXPECT_THAT(texts_in(table_of(page, "candidates"), "notes"), ElementsAre("", "", ""));
+}
+
 TEST_F(ComparePage, SaysWhatFailedAndWhatIsMissing) {
   io::Comparison comparison = made_up_comparison();
   comparison.complete = false;

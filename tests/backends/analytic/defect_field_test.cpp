@@ -170,6 +170,73 @@ TEST(DefectField, FlattenedHeadIsTheBaseCutToAPlane) {
   EXPECT_GT(cut, 200);
 }
 
+TEST(DefectField, FlattenedHeadHasRoundEdges) {
+  constexpr double kRadius = 0.3, kEdge = 0.06, kDepth = 0.4e-3, kRoll = 0.02;
+  const auto base = analytic::make_prismatic_surface(analytic::cylinder_chain(kRadius, 0.3));
+  const FlattenedHead head{-0.1, 0.2, 0.05, kDepth, kRoll, kEdge};
+  const auto field = analytic::make_defect_field({.flattened_heads = {head}}, Body::rail, 0.0, base);
+  const auto sharp =
+      analytic::make_defect_field({.flattened_heads = {{-0.1, 0.2, 0.05, kDepth, kRoll}}}, Body::rail, 0.0, base);
+  // Curvature of what is left, across the rail in the middle: flat, and nowhere more than that of the edges.
+  const auto curvature = [&](double y) {
+    const OffsetJet jet = field->jet(0.05, y);
+    const double root = std::sqrt(kRadius * kRadius - y * y), slope = y / root + jet.d_y,
+                 second = kRadius * kRadius / (root * root * root) + jet.d_yy;
+    return second / std::pow(1.0 + slope * slope, 1.5);
+  };
+  double sharpest = 0.0;
+  for (double y = -0.03; y < 0.03; y += 1e-5) sharpest = std::max(sharpest, curvature(y));
+  EXPECT_NEAR(sharpest, 1.0 / kEdge, 0.01 / kEdge);
+  EXPECT_NEAR(curvature(kRadius * std::sin(kRoll)), 0.0, 1e-4) << "flat in its middle";
+
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int round = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double x = -0.15 + 0.4 * unit(random), y = -0.04 + 0.08 * unit(random);
+    const OffsetJet jet = field->jet(x, y);
+    const double flat = sharp->jet(x, y).value;
+    ASSERT_GE(jet.value, flat);
+    ASSERT_LE(jet.value, flat + 0.25 * kDepth) << "material is gone at the edges only";
+    if (jet.value == flat) continue;
+    ++round;
+    constexpr double h = 1e-6;
+    const auto value = [&](double u, double v) { return field->jet(u, v).value; };
+    ASSERT_NEAR(jet.d_u, (value(x + h, y) - value(x - h, y)) / (2 * h), 1e-8);
+    ASSERT_NEAR(jet.d_y, (value(x, y + h) - value(x, y - h)) / (2 * h), 1e-7);
+    const auto slope_u = [&](double u, double v) { return field->jet(u, v).d_u; };
+    const auto slope_y = [&](double u, double v) { return field->jet(u, v).d_y; };
+    const auto near_end = [&](auto slope, double du, double dv, double second) {
+      const double difference = (slope(x + du, y + dv) - slope(x - du, y - dv)) / (2 * h);
+      return std::abs(difference - second) < 1e-3 * (1.0 + std::abs(second));
+    };
+    // where second derivatives jump, differences see both sides
+    const double margin = 2 * h, here = jet.d_yy;
+    if (std::abs(field->jet(x, y + margin).d_yy - here) + std::abs(field->jet(x, y - margin).d_yy - here) +
+            std::abs(field->jet(x + margin, y).d_yy - here) + std::abs(field->jet(x - margin, y).d_yy - here) >
+        0.5)
+      continue;
+    EXPECT_TRUE(near_end(slope_y, 0.0, h, jet.d_yy)) << x << ' ' << y;
+    EXPECT_TRUE(near_end(slope_y, h, 0.0, jet.d_uy)) << x << ' ' << y;
+    EXPECT_TRUE(near_end(slope_u, h, 0.0, jet.d_uu)) << x << ' ' << y;
+    const OffsetRange range = field->range({x - 0.001, x + 0.002, y - 0.001, y + 0.001});
+    ASSERT_LE(range.low, jet.value);
+    ASSERT_GE(range.high, jet.value);
+    ASSERT_GE(range.max_d_u, std::fabs(jet.d_u));
+    ASSERT_GE(range.max_d_y, std::fabs(jet.d_y));
+    double at[1], d_u[1], d_y[1];
+    field->evaluate({{x}}, {{y}}, at, d_u, d_y);
+    ASSERT_EQ(at[0], jet.value);
+    ASSERT_EQ(d_u[0], jet.d_u);
+    ASSERT_EQ(d_y[0], jet.d_y);
+  }
+  EXPECT_GT(round, 200);
+  for (const double radius : {0.3, 0.2})
+    EXPECT_THROW(analytic::make_defect_field({.flattened_heads = {{-0.1, 0.2, 0.05, kDepth, kRoll, radius}}},
+                                             Body::rail, 0.0, base),
+                 Error);
+}
+
 TEST(DefectRegion, HoldsEverythingThatChanges) {
   EXPECT_FALSE(analytic::defect_region({}, 0.46));
   for (const NamedDefects& d : offset_defects()) {

@@ -86,6 +86,7 @@ x_end_mm = 300
 ramp_mm = 50
 depth_mm = 1
 roll_deg = -1
+edge_radius_mm = 20
 [[rail.milling_paths]]
 stations = [{ x_mm = 0, y_mm = -30, z_mm = -1 }, { x_mm = 500, y_mm = -20, z_mm = 2, roll_deg = 2 }]
 section = [{ length_mm = 20, radius_mm = -100 }, { length_mm = 15 }, { length_mm = 10, curvature_per_m = 5 }]
@@ -115,7 +116,7 @@ Defects expected_rail() {
   d.corrugations = {{{{50e-3, 20e-6, 0.0}, {30e-3, 5e-6, 180.0 * kDegree}}, -0.5, 0.5, 0.1, 3e-3, 50e-3}};
   d.gauge_corner_collapses = {{0.4, 2e-3, 15e-3, 20e-3, -15e-3, -1}, {0.4, 2e-3, 15e-3, 0.0, 15e-3, 1}};
   d.spalls = {{.length = 30e-3, .width = 20e-3, .depth = 1.2e-3, .edge = 4e-3, .y_center = 5e-3}};
-  d.flattened_heads = {{-0.3, 0.3, 0.05, 1e-3, -kDegree}};
+  d.flattened_heads = {{-0.3, 0.3, 0.05, 1e-3, -kDegree, 20e-3}};
   d.milling_paths = {{{{0.0, -30e-3, -1e-3, 0.0}, {0.5, -20e-3, 2e-3, 2.0 * kDegree}},
                       -20e-3,
                       1e-3,
@@ -147,7 +148,7 @@ std::vector<double> numbers(const Defects& d) {
   }
   for (const auto& g : d.gauge_corner_collapses) put(g.length, g.depth, g.width, g.x_center, g.y_start, g.gauge_side);
   for (const auto& s : d.spalls) put(s.length, s.width, s.depth, s.edge, s.x_center, s.y_center);
-  for (const auto& h : d.flattened_heads) put(h.x_start, h.x_end, h.ramp, h.depth, h.roll);
+  for (const auto& h : d.flattened_heads) put(h.x_start, h.x_end, h.ramp, h.depth, h.roll, h.edge_radius);
   for (const auto& m : d.milling_paths) {
     put(m.start_y, m.start_z, m.start_angle);
     for (const auto& s : m.stations) put(s.x, s.y, s.z, s.roll);

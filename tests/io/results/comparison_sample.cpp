@@ -25,6 +25,7 @@ io::ComparisonRow sample_row(int case_number, double pmax_error) {
   row.distance_s = 0.001;
   row.comparable = true;
   row.pmax_error = pmax_error;
+  row.mean_pressure_error = 0.5 * pmax_error;
   row.area_error = -0.5 * pmax_error;
   row.approach_error = 0.25 * pmax_error;
   row.force_error = 0.1 * std::abs(pmax_error);

@@ -34,17 +34,17 @@ std::vector<std::string> words_of(const std::string& line) {
 TEST(ComparisonTable, OneLineACandidateWithTheWorstOfItsCases) {
   const auto lines = lines_of(io::comparison_table(testing::sample_comparison()));
   ASSERT_GE(lines.size(), 8u);
-  EXPECT_THAT(words_of(lines[2]), ElementsAre("[mm]", "[um]", "[um]", "[mrad]", "[1/m]", "[%]", "[%]", "[mm]", "[%]",
-                                              "[ms]", "[ms]", "[s]", "[MB]"));
+  EXPECT_THAT(words_of(lines[2]), ElementsAre("[mm]", "[um]", "[um]", "[mrad]", "[1/m]", "[%]", "[%]", "[%]", "[mm]",
+                                              "[%]", "[ms]", "[ms]", "[s]", "[MB]"));
   // Search times of the cases: 4, 8, 12 and 16 ms.
-  EXPECT_THAT(words_of(lines[3]), ElementsAre("analytic", "(reference)", "-", "-", "-", "-", "-", "0", "0", "0", "0",
+  EXPECT_THAT(words_of(lines[3]), ElementsAre("analytic", "(reference)", "-", "-", "-", "-", "-", "0", "0", "0", "0", "0",
                                               "10", "1", "1.25", "4", "3/4"));
-  EXPECT_THAT(words_of(lines[4]),
-              ElementsAre("mesh", "1", "4", "1", "1.5", "3", "20", "2", "0.4", "10", "10", "1", "1.25", "4", "3/4"));
-  EXPECT_THAT(words_of(lines[5]), ElementsAre("mesh", "0.5", "0.625", "0.25", "0.75", "1.5", "5", "0.5", "0.1", "2.5",
-                                              "10", "1", "1.25", "4", "2/4"));
+  EXPECT_THAT(words_of(lines[4]), ElementsAre("mesh", "1", "4", "1", "1.5", "3", "20", "10", "2", "0.4", "10", "10",
+                                              "1", "1.25", "4", "3/4"));
+  EXPECT_THAT(words_of(lines[5]), ElementsAre("mesh", "0.5", "0.625", "0.25", "0.75", "1.5", "5", "2.5", "0.5", "0.1",
+                                              "2.5", "10", "1", "1.25", "4", "2/4"));
   EXPECT_THAT(words_of(lines[7]),
-              ElementsAre("vdb", "1", "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", "failed"));
+              ElementsAre("vdb", "1", "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", "-", "failed"));
 }
 
 TEST(ComparisonTable, SaysBelowWhatTheNumbersDoNot) {
@@ -75,7 +75,28 @@ TEST(ComparisonTable, PassesOverWhatIsNotFinite) {
   comparison.candidates[1].rows[0].search_s = std::numeric_limits<double>::infinity();
   const auto words = words_of(lines_of(io::comparison_table(comparison))[4]);
   EXPECT_EQ(words[6], "10");   // case 1 is left
-  EXPECT_EQ(words[10], "12");  // 8, 12 and 16 ms
+  EXPECT_EQ(words[11], "12");  // 8, 12 and 16 ms
+}
+
+TEST(ComparisonTable, SaysWhereTheLargestPressureTellsNothing) {
+  io::Comparison comparison = testing::sample_comparison();
+  EXPECT_EQ(io::comparison_table(comparison).find("no limit"), std::string::npos);
+  EXPECT_STREQ(io::judged_pressure(comparison).name, "pmax");
+  for (std::size_t i = 1; i < 4; ++i)
+    for (io::ComparisonRow& row : comparison.candidates[i].rows)
+      if (row.case_number == 2) row.pmax_error = std::numeric_limits<double>::quiet_NaN();
+  std::string text = io::comparison_table(comparison);
+  EXPECT_THAT(text, HasSubstr("\ncase 2: the largest pressure has no limit (edge_pressure)"));
+  EXPECT_EQ(words_of(lines_of(text)[4])[6], "10") << "that of case 1";
+  EXPECT_STREQ(io::judged_pressure(comparison).name, "pmax") << "other cases have a limit";
+  for (std::size_t i = 1; i < 4; ++i)
+    for (io::ComparisonRow& row : comparison.candidates[i].rows)
+      row.pmax_error = std::numeric_limits<double>::quiet_NaN();
+  text = io::comparison_table(comparison);
+  EXPECT_THAT(text, HasSubstr("\ncase 1, 2, 3: the largest"));
+  EXPECT_EQ(words_of(lines_of(text)[4])[6], "-");
+  EXPECT_EQ(words_of(lines_of(text)[4])[7], "10") << "the mean pressure is left";
+  EXPECT_STREQ(io::judged_pressure(comparison).name, "pmean");
 }
 
 TEST(ComparisonTable, AnEmptyComparisonIsTheHead) { EXPECT_EQ(lines_of(io::comparison_table({})).size(), 3u); }
