@@ -96,7 +96,7 @@ struct JudgedPressure {
 /// The largest, or the mean where the largest has no limit in any case.
 JudgedPressure judged_pressure(const Comparison& comparison);
 
-/// Numbers of the cases in which the truth's largest pressure has no limit, increasing.
+/// Numbers of the cases in which the reference's largest pressure has no limit, increasing.
 std::vector<int> cases_without_limit(const Comparison& comparison);
 
 /// "mesh 0.5 mm"; without the resolution where it is 0 or not finite.
