@@ -7,13 +7,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
 
@@ -56,11 +55,7 @@ CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::s
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  require_file(file, "file", ErrorKind::configuration);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw Error(ErrorKind::configuration, "the file cannot be opened", {file.string()}, "check its permissions");
-  return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+  return read_input(file, "file");
 }
 
 }  // namespace treadmark::io
