@@ -8,6 +8,8 @@
 #include <system_error>
 #include <vector>
 
+#include "treadmark/core/output_claim.hpp"
+
 namespace treadmark {
 namespace {
 
@@ -89,6 +91,10 @@ void require_file(const fs::path& file, std::string_view what, ErrorKind kind, c
   const std::string name = where.file.empty() ? std::string() : " '" + file.string() + "'";
   if (status.type() == fs::file_type::not_found)
     throw MissingFile(kind, "the " + std::string(what) + name + " does not exist", place, advice_on_missing(file));
+  if (fs::is_character_file(status) || fs::is_block_file(status))
+    throw Error(kind, "a " + std::string(what) + " is expected," + (name.empty() ? " this" : name) + " is a device",
+                place, "name a file");
+  refuse_output_as_input(file);
   if (fs::is_directory(status))
     throw Error(kind, "a " + std::string(what) + " is expected," + (name.empty() ? " this" : name) + " is a folder",
                 place, "name a file in it");

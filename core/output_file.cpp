@@ -24,6 +24,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_claim.hpp"
 
 namespace treadmark {
 
@@ -216,6 +217,7 @@ OutputFile::OutputFile(const fs::path& target) : named_(target), target_(target)
   struct stat old {};
   const bool exists = ::stat(target_.c_str(), &old) == 0;
   if (exists && S_ISDIR(old.st_mode)) cannot_write(named_, "it is a folder", "choose another output path");
+  refuse_input_as_output(target_);
   if (exists && !S_ISREG(old.st_mode)) {
     descriptor_ = open_retrying(target_.c_str(), O_WRONLY | O_NOCTTY);
     if (descriptor_ < 0) fail(errno);
@@ -380,6 +382,7 @@ void OutputFolder::move_into(const std::string& last, const std::function<void()
     if (const int failed = folder_to_disk(folder); failed != 0) cannot_write(folder, failed);
   };
   const auto move = [&](const fs::path& name) {
+    refuse_input_as_output(target_ / name);
     if (fs::is_symlink(fs::symlink_status(target_ / name, error)) || is_stream(target_ / name))
       return copy_bytes(temporary_ / name, target_ / name);
     fs::rename(temporary_ / name, target_ / name, error);

@@ -8,7 +8,6 @@
 
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/assessment_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -56,7 +55,6 @@ AssessmentSection section_of(const std::string& text) {
 }
 
 int assess_command(const AssessOptions& options, const CommonOptions&) {
-  require_different(options.results, {options.csv_file, options.json_file, options.report_file});
   AssessmentRequest request;
   const auto kind = std::ranges::find(kVehicleKinds, options.vehicle);
   request.vehicle = static_cast<VehicleKind>(kind - kVehicleKinds.begin());
@@ -101,11 +99,14 @@ Command add_assess(CLI::App& verb) {
   add_values(verb, "--spectra", options->spectra, "Channels whose spectra are wanted, as ws1_*.Q_N", "CHANNEL,...");
   add_values(verb, "--channels", options->channels, "Channels that are drawn over the distance", "CHANNEL,...");
   verb.add_option("--csv", options->csv_file, "Write the table here; - for standard output instead of the text")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("--json", options->json_file, "Write all numbers here; - for standard output instead of the text")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("-o,--output", options->folder,
                   "Folder for assessment.csv, assessment.json, spectra.csv, runs.csv and pictures (SVG)")
+      ->check(is_output())
       ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
   return command(options, assess_command);

@@ -8,7 +8,6 @@
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -57,7 +56,6 @@ io::CaseFile case_of(const BenchOptions& options) {
 }
 
 int bench_command(const BenchOptions& options, const CommonOptions& common) {
-  require_different({options.case_file}, {options.json_file, options.report_file});
   const ThreadLimit limit(common.threads_given ? common.threads : 1);
   catch_interrupt();
   const io::CaseFile file = case_of(options);
@@ -88,9 +86,11 @@ Command add_bench(CLI::App& verb) {
                   "Each time is the median of repeats over so long [s]")
       ->type_name("S");
   verb.add_option("-o,--output", options->output_folder, "Folder for bench.json, bench.csv and a picture (SVG)")
+      ->check(is_output())
       ->type_name("FOLDER");
   CLI::Option* bench_json =
       verb.add_option("--json", options->json_file, "Write the rows here; - for standard output instead of the table")
+          ->check(is_output())
           ->type_name("FILE");
   verb.add_flag("--markdown", options->markdown, "Print the table in Markdown")->excludes(bench_json);
   add_report_file(verb, options->report_file);

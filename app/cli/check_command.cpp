@@ -147,7 +147,6 @@ std::map<std::string, std::filesystem::path> picture_folders(const CheckOptions&
 }
 
 int check_command(const CheckOptions& options, const CommonOptions&) {
-  require_different(options.cases, {options.report_file});
   std::map<std::string, std::filesystem::path> pictures = picture_folders(options);
   std::vector<CheckedInput> inputs;
   for (const std::string& name : options.cases) {
@@ -173,6 +172,7 @@ Command add_check(CLI::App& verb) {
   verb.add_option("-o,--output", options->output_folder,
                   "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg; of "
                   "several case files for one with the name of each")
+      ->check(is_output())
       ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
   verb.add_option("--body", options->body, "Of profiles: wheel or rail, where the file does not tell")

@@ -21,6 +21,19 @@
 #include "treadmark/model/body_name.hpp"
 
 namespace treadmark::cli {
+namespace {
+
+constexpr const char* kOutput = "output";
+
+bool is_marked(CLI::Option& option) {
+  try {
+    return option.get_validator(kOutput) != nullptr;
+  } catch (const CLI::OptionNotFound&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector<std::string>& overrides) {
   verb.add_option("CASE", cases, "Treadmark case (.toml) or CONTACT input file (.inp)")->required();
@@ -36,6 +49,7 @@ void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const ch
 
 void add_report_file(CLI::App& verb, std::string& file) {
   verb.add_option("--report", file, "Write a report here that opens in any browser, offline")
+      ->check(is_output())
       ->type_name("FILE.html")
       ->each([](const std::string&) { require_part("report", "--report"); });
 }
@@ -48,6 +62,20 @@ std::optional<Body> body_asked(const std::string& word, const std::filesystem::p
         {fmt::format("{}: taken for a {} by its shape: say --body if it is none", file.string(), body_name(*body))},
         quiet);
   return body;
+}
+
+CLI::Validator is_output() {
+  return {[](std::string&) { return std::string(); }, "", kOutput};
+}
+
+NamedFiles named_files(CLI::App& verb) {
+  NamedFiles named;
+  for (CLI::Option* option : verb.get_options()) {
+    const auto& words = option->results();
+    auto& list = is_marked(*option) ? named.outputs : named.others;
+    list.insert(list.end(), words.begin(), words.end());
+  }
+  return named;
 }
 
 Command add_left_out(CLI::App& verb) {

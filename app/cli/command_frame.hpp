@@ -68,6 +68,13 @@ void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector
 /// --set.
 /// example: a key of the files that the verb reads, with a value.
 void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const char* example = "wheelset.y_mm=3");
+/// Marks an option that names what is written.
+CLI::Validator is_output();
+/// The words that options of a verb were given: names of outputs, and others, files that are read among them.
+struct NamedFiles {
+  std::vector<std::string> outputs, others;
+};
+NamedFiles named_files(CLI::App& verb);
 /// --report of a file.
 void add_report_file(CLI::App& verb, std::string& file);
 /// The body that --body names; without it that of a profile by its shape, with a note.

@@ -75,7 +75,6 @@ int exit_status(const io::Comparison& result) {
 }
 
 int compare_command(const CompareOptions& options, const CommonOptions& common) {
-  require_different({options.case_file}, {options.json_file, options.report_file});
   const ThreadLimit limit(common.threads);
   catch_interrupt();
   const io::CaseFile file = io::read_any_case(options.case_file, options.overrides);
@@ -121,8 +120,10 @@ Command add_compare(CLI::App& verb) {
       ->excludes("--rail-backends");
   verb.add_option("-o,--output", options->output_folder,
                   "Folder for compare.json, compare.csv, table.txt and pictures (SVG)")
+      ->check(is_output())
       ->type_name("FOLDER");
   verb.add_option("--json", options->json_file, "Write the rows here; - for standard output instead of the table")
+      ->check(is_output())
       ->type_name("FILE");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides);

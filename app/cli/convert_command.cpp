@@ -166,6 +166,7 @@ Command add_convert(CLI::App& verb) {
   verb.add_option("OUT,-o,--output", options->output,
                   ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .step, .xml, or a profile: .prr .prw "
                   ".ban .whl .csv; of a case file also .inp (CONTACT) or .toml: its cases")
+      ->check(is_output())
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

@@ -9,7 +9,6 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/list_files.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/geometry/geometry_page.hpp"
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
@@ -73,7 +72,6 @@ int run_list(const GeometryOptions& options, const CommonOptions& common) {
                 "--pairs makes one table: CASE, --json, --output and --gauges-mm belong to one pair", {},
                 "write the table with --csv, --hdf5 or --report");
   const ListFiles files{options.csv_file, options.hdf5_file, options.report_file};
-  require_different({options.pairs}, files.all());
   const std::vector<app::GeometryRequest> requests = app::read_pair_list(options.pairs, request_of(options));
   const std::optional<app::ResultList> list =
       make_list(files, common, [&](const std::filesystem::path& kept, const Progress& progress) {
@@ -100,11 +98,6 @@ int geometry_command(const GeometryOptions& options, const CommonOptions& common
       (app::is_profile_file(options.case_file) || app::library_body_of(options.case_file)))
     throw Error(ErrorKind::configuration, options.case_file + " is a profile, and CASE is a case file", {},
                 "name profiles with --wheel and --rail");
-  std::vector<std::string> inputs;
-  for (const std::string& name :
-       {options.case_file, options.wheel, options.wheel_left, options.rail, options.rail_left})
-    if (!name.empty() && std::ranges::find(inputs, name) == inputs.end()) inputs.push_back(name);
-  require_different(inputs, {options.json_file, options.csv_file, options.report_file});
   app::SectionStore store;
   const app::GeometryResult result = app::run_geometry(request_of(options), store);
   std::optional<app::GaugeSweep> sweep;
@@ -188,12 +181,15 @@ Command add_geometry(CLI::App& verb) {
                   "rail_left, diameter_mm, gauge_mm, cant ...); the options hold where cells are empty")
       ->type_name("LIST.csv");
   verb.add_option("--json", options->json_file, "Write the results here; - for standard output instead of the text")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("--csv", options->csv_file,
                   "Write the contact over the shift here as a table, with --pairs one row a pair")
+      ->check(is_output())
       ->type_name("FILE");
   add_hdf5_file(verb, options->hdf5_file);
   verb.add_option("-o,--output", options->folder, "Folder for geometry.json, functions.csv, conicity.csv and pictures")
+      ->check(is_output())
       ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides);

@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"
@@ -45,11 +44,6 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   if (request.scans.empty()) throw Error(ErrorKind::configuration, "there is no scan to import", {}, "name its file");
 
   request.truth = options.truth;
-  std::vector<std::string> inputs = options.scans, outputs = options.outputs;
-  inputs.push_back(options.settings_file);
-  inputs.push_back(options.truth);
-  outputs.push_back(options.json_file);
-  require_different(inputs, outputs);
   const ThreadLimit limit(common.threads);
   const io::ImportReport report = with_progress(
       common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); }, Units::different);
@@ -87,13 +81,16 @@ Command add_import(CLI::App& verb) {
   verb.add_option(
           "-o,--output", options->outputs,
           "Surface file: .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset); may be given several times")
+      ->check(is_output())
       ->allow_extra_args(false)
       ->type_name("FILE");
   verb.add_option("--report", options->report_folder,
                   "Folder for the audit: report.json, summary.txt, settings.toml and pictures (SVG)")
+      ->check(is_output())
       ->type_name("FOLDER");
   verb.add_option("--json", options->json_file,
                   "Write the audit here (JSON); - for standard output instead of the summary")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("--settings", options->settings_file, "TOML file of settings (see --list-settings)")
       ->type_name("FILE");

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -16,11 +17,13 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/printable_stream.hpp"
 #include "treadmark/app/cli/usage_faults.hpp"
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_claim.hpp"
 
 namespace {
 
@@ -91,7 +94,7 @@ int parse_and_run(int argc, char** argv) {
       program.add_option("--threads", common.threads, "Number of threads, 0 = all cores")->check(CLI::Range(0, 4096));
   program.add_flag("--quiet", common.quiet, "No progress and no notes");
 
-  std::vector<std::pair<const CLI::App*, cli::Command>> commands;
+  std::vector<std::pair<CLI::App*, cli::Command>> commands;
   for (const cli::Verb& verb : cli::verbs()) {
     CLI::App* app = program.add_subcommand(verb.name, verb.summary);
     commands.emplace_back(app, verb.add(*app));
@@ -120,8 +123,13 @@ int parse_and_run(int argc, char** argv) {
     return cli::kUsage;
   }
   common.threads_given = threads->count() > 0;
-  for (const auto& [verb, command] : commands)
-    if (verb->parsed()) return command(common);
+  for (const auto& [verb, command] : commands) {
+    if (!verb->parsed()) continue;
+    const cli::NamedFiles named = cli::named_files(*verb);
+    const OutputClaim claim(named.outputs);
+    for (const std::string& word : named.others) refuse_output_as_input(word);
+    return command(common);
+  }
   return cli::kUsage;
 }
 
@@ -149,6 +157,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   hold_standard_streams();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is an error of writing
   std::set_terminate(leave_without_memory);
   cli::PrintableStream out(std::cout), err(std::cerr);
   const int status = run(argc, argv);

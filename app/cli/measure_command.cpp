@@ -7,10 +7,10 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/list_files.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -54,10 +54,7 @@ int measure_command(const MeasureOptions& options, const CommonOptions& common) 
   const app::MeasureRequest request = measure_request(options);
   const std::vector<std::string> names = app::measured_names(options.files, request.body);
   const ListFiles outputs{options.csv, options.hdf5, options.report};
-  std::vector<std::string> inputs = names, targets = outputs.all();
-  inputs.insert(inputs.end(), {options.limits, options.mate});
-  targets.push_back(options.json);
-  require_different(inputs, targets);
+  for (const std::string& name : names) refuse_output_as_input(name);  // a file that fails is but a row without numbers
   const ThreadLimit limit(common.threads);
   // Several were asked for, even if a folder holds one only.
   const bool one = names.size() == 1 && names == options.files;
@@ -104,8 +101,11 @@ Command add_measure(CLI::App& verb) {
   verb.add_option("--limits", options->limits, "TOML file of limits: tables [wheel], [rail] and [roughness]")
       ->type_name("FILE");
   verb.add_option("--json", options->json, "Write all of it here (JSON); - for standard output instead of the table")
+      ->check(is_output())
       ->type_name("FILE");
-  verb.add_option("--csv", options->csv, "Write a row a file here (CSV); - for standard output")->type_name("FILE");
+  verb.add_option("--csv", options->csv, "Write a row a file here (CSV); - for standard output")
+      ->check(is_output())
+      ->type_name("FILE");
   add_hdf5_file(verb, options->hdf5);
   add_report_file(verb, options->report);
   verb.add_option("--nominal-radius", options->nominal_radius_mm, "Wheel radius at profile z = 0 [mm]")

@@ -382,7 +382,8 @@ Command add_new(CLI::App& verb) {
   verb.add_option("KIND", options->kind, "What to begin")->required()->check(CLI::IsMember(kinds));
   verb.add_option("FILE", options->file,
                   "Where to; without it KIND.toml, of a backend backend.py. Files that it names are written beside it "
-                  "where they are not there");
+                  "where they are not there")
+      ->check(is_output());
   return command(options, new_command);
 }
 

@@ -50,26 +50,6 @@ std::vector<std::filesystem::path> output_folders(const std::filesystem::path& f
   return folders;
 }
 
-void require_different(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
-  namespace fs = std::filesystem;
-  const auto place = [](const std::string& name) {
-    std::error_code failed;
-    const fs::path whole = fs::absolute(name, failed).lexically_normal();
-    const fs::path found = fs::weakly_canonical(whole, failed);
-    return failed ? whole : found;
-  };
-  std::map<fs::path, std::string> taken;
-  for (const std::string& input : inputs)
-    if (!input.empty()) taken.emplace(place(input), input);
-  for (const std::string& output : outputs) {
-    std::error_code unknown;
-    if (output.empty() || output == "-" || fs::is_other(output, unknown)) continue;
-    if (const auto [other, is_new] = taken.emplace(place(output), output); !is_new)
-      throw Error(ErrorKind::configuration, fmt::format("{} would overwrite {}", output, other->second), {},
-                  "give every output a name of its own");
-  }
-}
-
 namespace {
 
 /// Writes fields.h5, or says in a note that this build leaves it out.

@@ -16,10 +16,6 @@ namespace treadmark::cli {
 std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,
                                                   const std::vector<std::string>& inputs);
 
-/// Outputs have places of their own. Names that are empty, "-" or those of devices do not count. Errors:
-/// Error(configuration) where an output would overwrite an input or another output.
-void require_different(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
-
 /// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures;
 /// `bodies`: wheel and rail for ParaView too.
 /// The JSON file comes last: where it stands the folder is complete. Returns notes on files that this build leaves out.

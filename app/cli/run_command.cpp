@@ -84,7 +84,6 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
   if (options.cases.size() > 1 && !options.report_file.empty())
     throw Error(ErrorKind::configuration, "--report shows the results of one case file only", {},
                 "use -o FOLDER, then treadmark report for each");
-  require_different(options.cases, {options.json_file, options.report_file});
   const std::vector<std::filesystem::path> folders = options.output_folder.empty()
                                                          ? std::vector<std::filesystem::path>{}
                                                          : output_folders(options.output_folder, options.cases);
@@ -140,9 +139,11 @@ Command add_run(CLI::App& verb) {
   add_case_files(verb, options->cases, options->overrides);
   verb.add_option("-o,--output", options->output_folder,
                   "Folder for result.json, fields.h5, ParaView files, pressure.svg")
+      ->check(is_output())
       ->type_name("FOLDER");
   verb.add_option("--json", options->json_file,
                   "Write the result file here; - for standard output instead of the summary")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_flag("--vtk", options->bodies, "Write wheel and rail of every case for ParaView too: FOLDER/vtk/bodies.pvd");
   verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/import/scan_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -71,10 +70,6 @@ app::ScanRequest request_of(const ScanOptions& options, bool quiet) {
 }
 
 int scan_command(const ScanOptions& options, const CommonOptions& common) {
-  if (!options.truth_file.empty() && std::filesystem::path(options.truth_file) == std::filesystem::path(options.cloud))
-    throw Error(ErrorKind::configuration, "the points and the reference about them cannot go to the same file",
-                {options.cloud});
-  require_different({options.surface}, {options.cloud, options.truth_file});
   const ThreadLimit limit(common.threads);
   const app::Scanned scanned = with_progress(common.quiet, [&](const Progress& progress) {
     return app::scan_surface(options.surface, options.cloud, request_of(options, common.quiet), progress);
@@ -102,10 +97,12 @@ Command add_scan(CLI::App& verb) {
                   "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")
       ->required();
   verb.add_option("-o,--output", options->cloud, "File of points: .ply .las .xyz .asc .txt .csv")
+      ->check(is_output())
       ->required()
       ->type_name("FILE");
   verb.add_option("--truth", options->truth_file,
                   "Write what is known about the scan here (JSON); - for standard output instead of the summary")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

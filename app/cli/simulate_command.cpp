@@ -10,7 +10,6 @@
 
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
@@ -87,7 +86,6 @@ void write_snapshots_vtk(const std::filesystem::path& folder, const io::Simulati
 }
 
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
-  require_different({options.file}, {options.json_file, options.report_file});
   if (options.resume && options.output_folder.empty())
     throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted simulation", {},
                 "give it with -o FOLDER");
@@ -180,8 +178,10 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("FILE", options->file, "Simulation file (.toml)")->required();
   verb.add_option("-o,--output", options->output_folder,
                   "Folder for simulation.h5, history.csv, events.csv, modes.csv and pictures (SVG)")
+      ->check(is_output())
       ->type_name("FOLDER");
   verb.add_option("--json", options->json_file, "Write the summary here; - for standard output instead of the table")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail");
   verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
@@ -192,6 +192,7 @@ Command add_simulate(CLI::App& verb) {
   verb.add_flag("--modes", options->modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
   verb.add_option("--receptance", options->track_folder,
                   "Write the track dynamics (track.json, receptance.csv, track.svg) into this folder, and stop")
+      ->check(is_output())
       ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides, "simulation.speed_m_s=20");

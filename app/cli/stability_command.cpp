@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/stability/stability_run.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -20,7 +19,6 @@ struct StabilityOptions {
 };
 
 int stability_command(const StabilityOptions& options, const CommonOptions& common) {
-  require_different({options.file}, {options.json_file});
   const ThreadLimit limit(common.threads);
   app::StabilityRequest request = options.request;
   request.file = options.file;
@@ -70,9 +68,11 @@ Command add_stability(CLI::App& verb) {
       ->capture_default_str()
       ->type_name("HZ");
   verb.add_option("--json", options->json_file, "Write the numbers here; - for standard output instead of the text")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("-o,--output", options->folder,
                   "Folder for stability.json, eigenvalues.csv and stability.svg, with --falling histories too")
+      ->check(is_output())
       ->type_name("FOLDER");
   app::FallingRequest& falling = options->falling;
   CLI::Option* const falls =

@@ -141,6 +141,7 @@ Command add_sweep(CLI::App& verb) {
   auto options = std::make_shared<SweepOptions>();
   verb.add_option("STUDY", options->file, "Study file (.toml)")->required();
   verb.add_option("-o,--output", options->output_folder, "Folder for sweep.h5, sweep.csv, figures and the runs")
+      ->check(is_output())
       ->type_name("FOLDER")
       ->required();
   verb.add_flag("--resume", options->resume, "Go on with a study that was stopped; there must be one in the folder");

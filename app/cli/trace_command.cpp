@@ -85,7 +85,9 @@ int trace_command(const TraceOptions& options, const CommonOptions& common) {
 Command add_trace(CLI::App& verb) {
   auto options = std::make_shared<TraceOptions>();
   verb.add_option("FILE", options->file, "Profile, slices, triangles, offsets (.vdb) or case file")->required();
-  verb.add_option("-o,--output", options->output, "CSV file; default: standard output")->type_name("FILE");
+  verb.add_option("-o,--output", options->output, "CSV file; default: standard output")
+      ->check(is_output())
+      ->type_name("FILE");
   verb.add_option("--body", options->body, "wheel or rail, where the file does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
   verb.add_option("--section-mm", options->section_mm, "Across a rail (constant u): at this x [mm]")->type_name("MM");

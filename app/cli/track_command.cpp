@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -23,7 +22,6 @@ struct TrackOptions {
 };
 
 int track_command(const TrackOptions& options, const CommonOptions&) {
-  require_different({options.file}, {options.csv_file, options.json_file});
   catch_interrupt();
   const CancellationScope scope(&interrupted());
   app::TrackRequest request;
@@ -55,6 +53,7 @@ Command add_track(CLI::App& verb) {
   verb.add_option("FILE", options->file, "Track file (.toml), flexible or lumped")->required();
   verb.add_option("--receptance", options->csv_file,
                   "Write magnitude and phase over the frequency here (CSV); - for standard output instead of the text")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("--fit", options->layers, "Fit a lumped track of so many masses at each rail to the receptance")
       ->check(CLI::Range(1, vehicle::kMostLumpedLayers))
@@ -76,9 +75,11 @@ Command add_track(CLI::App& verb) {
       ->capture_default_str()
       ->type_name("MM");
   verb.add_option("--json", options->json_file, "Write all numbers here; - for standard output instead of the text")
+      ->check(is_output())
       ->type_name("FILE");
   verb.add_option("-o,--output", options->folder,
                   "Folder for track.json, receptance.csv, track.svg and the fitted track, fitted.toml")
+      ->check(is_output())
       ->type_name("FOLDER");
   add_overrides(verb, options->overrides, "scale_stiffness=2");
   return command(options, track_command);

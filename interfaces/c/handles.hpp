@@ -29,6 +29,7 @@ struct tm_pair {
   treadmark::wheelrail::Geometry geometry;
   treadmark::wheelrail::Pair pair;
   double wheel_radius = 0.0, roller_radius = 0.0;  ///< of the surfaces [m]; 0 = unknown, no roller
+  mutable std::vector<double> samples = {};        ///< heights of rail and wheel [m], by which states know them
 };
 
 struct tm_patch {
@@ -37,6 +38,7 @@ struct tm_patch {
 
 struct tm_state {
   std::shared_ptr<const treadmark::wheelrail::Pair::State> state;
+  std::vector<double> samples;  ///< of its pair
 };
 
 struct tm_solution {

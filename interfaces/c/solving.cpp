@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/byte_archive.hpp"
@@ -63,6 +65,39 @@ void require_radii(const tm_pair& p, const io::WheelRailCase& given) {
                 "make the surface of this case (tm_surface_of_case)");
 }
 
+/// Heights of some sections of rail and wheel [m].
+const std::vector<double>& samples_of(const tm_pair& p) {
+  if (!p.samples.empty()) return p.samples;
+  constexpr int kSections = 6, kPoints = 33;
+  constexpr double kWidest = 1.0;  // [m], of bounds that may be infinite
+  std::vector<double> samples;
+  for (const Surface* surface : {p.geometry.rail.get(), p.geometry.wheel.get()}) {
+    const Box3 box = surface->bounds();
+    const auto between = [&](int axis, double share) {
+      const double low = std::max(box.min[axis], -kWidest), high = std::min(box.max[axis], kWidest);
+      return low + share * (high - low);
+    };
+    for (int k = 0; k < kSections; ++k) {
+      const bool rail = surface->facing() == Facing::up;
+      Pose X_SP;
+      if (!rail) X_SP.rotation = rotation_y(k);
+      std::vector<Vec2> points;
+      for (int i = 0; i < kPoints; ++i)
+        points.emplace_back(rail ? between(0, (k + 0.5) / kSections) : 0.0, between(1, (i + 0.5) / kPoints));
+      std::vector<double> z(points.size());
+      surface->heights_at(X_SP, points, {z, {}, {}});
+      samples.insert(samples.end(), z.begin(), z.end());
+    }
+  }
+  return p.samples = std::move(samples);
+}
+
+bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double kSame = 1e-9;  // [m]
+  return std::ranges::equal(
+      a, b, [](double x, double y) { return std::abs(x - y) < kSame || (std::isnan(x) && std::isnan(y)); });
+}
+
 }  // namespace
 }  // namespace treadmark::c
 
@@ -118,13 +153,16 @@ tm_status tm_pair_reset(tm_pair* p) {
 tm_status tm_pair_save(const tm_pair* p, tm_state** out) {
   return make(out, [&] {
     require(p != nullptr, "pair must not be null");
-    return std::make_unique<tm_state>(tm_state{p->pair.save()});
+    return std::make_unique<tm_state>(tm_state{p->pair.save(), samples_of(*p)});
   });
 }
 
 tm_status tm_pair_restore(tm_pair* p, const tm_state* s) {
   return guarded([&] {
     require(p != nullptr && s != nullptr, "pair and state must not be null");
+    if (!are_same(s->samples, samples_of(*p)))
+      throw Error(ErrorKind::configuration, "the state is that of a pair of other surfaces", {},
+                  "restore it into a pair of the same ones, or start anew");
     p->pair.restore(s->state);
   });
 }
@@ -136,6 +174,7 @@ tm_status tm_state_to_bytes(const tm_state* s, void* buffer, size_t* size) {
     require(s != nullptr && size != nullptr, "state and size must not be null");
     ByteWriter out;
     wheelrail::write(s->state, out);
+    out.put(s->samples);
     const std::size_t room = std::exchange(*size, out.bytes().size());
     if (buffer == nullptr) return;
     require(room >= out.bytes().size(), "the buffer is too small");
@@ -147,7 +186,8 @@ tm_status tm_state_from_bytes(const void* bytes, size_t size, tm_state** out) {
   return make(out, [&] {
     require(bytes != nullptr, "bytes must not be null");
     ByteReader in({static_cast<const std::byte*>(bytes), size});
-    auto state = std::make_unique<tm_state>(tm_state{wheelrail::read_state(in)});
+    auto state = std::make_unique<tm_state>(tm_state{wheelrail::read_state(in), {}});
+    in.get(state->samples);
     if (!in.at_end()) refuse_saved_state("more bytes than it has");
     return state;
   });

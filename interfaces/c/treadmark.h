@@ -152,7 +152,7 @@ TM_API tm_status tm_pair_solve(tm_pair *p, const tm_case *c, tm_solution **out);
 /* Forgets the last solution. */
 TM_API tm_status tm_pair_reset(tm_pair *p);
 TM_API tm_status tm_pair_save(const tm_pair *p, tm_state **out);
-/* Into any pair of the same surfaces: goes on to the same bits. */
+/* Into any pair of the same surfaces: goes on to the same bits. TM_BAD_REQUEST for a state of other surfaces. */
 TM_API tm_status tm_pair_restore(tm_pair *p, const tm_state *s);
 TM_API void tm_pair_free(tm_pair *p);
 

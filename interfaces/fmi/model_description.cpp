@@ -14,34 +14,15 @@
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/interfaces/fmi/instance.hpp"
+#include "treadmark/io/files/replaced.hpp"
+#include "treadmark/pictures/svg_text.hpp"
 
 namespace treadmark::fmi {
 namespace {
 
 using Kind = Variable::Kind;
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-    }
-  }
-  return out;
-}
+std::string escaped(std::string_view text) { return io::replaced(pictures::xml_text(text), "\"", "&quot;"); }
 
 template <class Value>
 std::string attribute(std::string_view name, const Value& value) {

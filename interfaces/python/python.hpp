@@ -25,6 +25,16 @@
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
+/// Texts may hold bytes of file names and files that are no UTF-8.
+template <>
+struct pybind11::detail::type_caster<std::string> : string_caster<std::string> {
+  static handle cast(const std::string& text, return_value_policy, handle) {
+    const handle made = PyUnicode_DecodeUTF8(text.data(), static_cast<ssize_t>(text.size()), "replace");
+    if (!made) throw error_already_set();
+    return made;
+  }
+};
+
 // What stands behind the module _treadmark: the functions of treadmark.h and of app/ with Python's objects around them.
 // What is said for users of Python stands in the package treadmark.
 

@@ -4,8 +4,8 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
-#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 
 extern char** environ;
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char* kProgram = "treadmark-opencascade";
 constexpr int kSocketThere = 3;       // the program's end of the socket
 constexpr int kLongestSilence = 120;  // [s]
+constexpr int kSlice = 50;            // [ms] between questions whether the work is to end
 
 /// Errors: Error(configuration) where it is nowhere.
 fs::path program() {
@@ -59,8 +61,6 @@ class ProcessChannel final : public SocketChannel {
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
       throw Error(ErrorKind::configuration, "no socket can be opened for OpenCASCADE", {file},
                   "are too many files open?");
-    const timeval silence{kLongestSilence, 0};
-    ::setsockopt(ends[0], SOL_SOCKET, SO_RCVTIMEO, &silence, sizeof silence);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -86,15 +86,44 @@ class ProcessChannel final : public SocketChannel {
   }
 
  private:
+  void put_bytes(const void* data, std::size_t size) override {
+    for (const char* bytes = static_cast<const char*>(data); size > 0;) {
+      const std::size_t n = moved(POLLOUT, [&] { return ::send(socket_, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT); });
+      bytes += n, size -= n;
+    }
+  }
+  void take_bytes(void* data, std::size_t size) override {
+    for (char* bytes = static_cast<char*>(data); size > 0;) {
+      const std::size_t n = moved(POLLIN, [&] { return ::recv(socket_, bytes, size, MSG_DONTWAIT); });
+      bytes += n, size -= n;
+    }
+  }
+  /// Bytes that a call moves once the socket is ready for it.
+  template <class Call>
+  std::size_t moved(short ready, Call call) {
+    for (int slices = 0; slices < kLongestSilence * 1000 / kSlice;) {
+      check_cancelled();
+      const ssize_t n = call();
+      if (n > 0) return static_cast<std::size_t>(n);
+      if (n == 0 || (errno != EINTR && errno != EAGAIN && errno != EWOULDBLOCK)) throw Broken{};
+      pollfd wait{socket_, ready, 0};
+      if (::poll(&wait, 1, kSlice) == 0) ++slices;
+    }
+    throw Broken{};
+  }
+
   pid_t process_ = -1;
 };
 
-/// Calls talk(channel); ends the channel where it is broken.
+/// Calls talk(channel); ends the channel where it is broken or in the midst of an answer.
 template <class Talk>
 auto talk_to(std::unique_ptr<Channel>& channel, const std::string& file, Talk talk) {
   try {
     if (channel == nullptr) throw Broken{};
     return talk(*channel);
+  } catch (const Cancelled&) {
+    channel.reset();
+    throw;
   } catch (const Broken&) {
     channel.reset();
     throw Error(ErrorKind::input_data, "OpenCASCADE broke down over the CAD file", {file},

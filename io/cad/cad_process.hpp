@@ -16,7 +16,7 @@ namespace treadmark::io::cad {
 std::unique_ptr<Channel> start_opencascade(const std::string& file);
 
 /// The faces of a CAD file, trimmed as it says. One thread. Errors of all: Error(input_data) where the program at the
-/// other end breaks down, says nothing for two minutes, or what makes no sense.
+/// other end breaks down, says nothing for two minutes, or what makes no sense. Cancelled within a tenth of a second.
 class CadShape {
  public:
   /// Errors: Error(input_data) also for what OpenCASCADE finds wrong with the file.

@@ -16,6 +16,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cad/cad_process.hpp"
 #include "treadmark/io/files/text.hpp"
@@ -577,6 +578,7 @@ CadSurface cad::running_surface(const CadShape& shape, Body body, double nominal
 CadSurface read_cad(const std::filesystem::path& file, Body body, double nominal_radius,
                     const SourcePosition& asked_by) {
   constexpr std::uintmax_t kMostBytes = 512'000'000;
+  require_file(file, "CAD file", ErrorKind::input_data, asked_by);
   std::error_code failed;
   const std::uintmax_t size = std::filesystem::file_size(file, failed);
   if (failed)

@@ -5,14 +5,12 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
 
@@ -52,12 +50,6 @@ CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::s
   return result;
 }
 
-std::string read_text(const std::filesystem::path& file) {
-  require_file(file, "file", ErrorKind::configuration);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream)
-    throw Error(ErrorKind::configuration, "the file cannot be opened", {file.string()}, "check its permissions");
-  return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-}
+std::string read_text(const std::filesystem::path& file) { return read_input(file, "file"); }
 
 }  // namespace treadmark::io

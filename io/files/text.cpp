@@ -15,6 +15,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/output_claim.hpp"
 
 namespace treadmark::io::profiles {
 
@@ -57,6 +58,7 @@ std::string read_text(const fs::path& file, const std::string& what, const Sourc
   }
   if (status.type() == fs::file_type::none) refuse("cannot be looked up: " + code.message(), "check its name");
   if (!fs::is_regular_file(status)) refuse("is not a regular file", "name a text file");
+  refuse_output_as_input(actual);
   const std::uintmax_t size = fs::file_size(actual, code);
   if (code) refuse("cannot be read: " + code.message(), "check its permissions");
   if (size > kMaxBytes) refuse("is larger than 1 GB", "thin out the points");
@@ -144,6 +146,27 @@ std::string from_utf16(std::string_view bytes) {
 
 namespace treadmark::io {
 
+std::string read_input(const std::filesystem::path& file, std::string_view what) {
+  require_file(file, what, ErrorKind::configuration);
+  const auto refuse = [&](const char* why, const char* advice) {
+    throw Error(ErrorKind::configuration, fmt::format("the {} {}", what, why), {file.string()}, advice);
+  };
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) refuse("cannot be opened", "check its permissions");
+  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  std::string text;
+  while (stream) {
+    check_cancelled();
+    const std::size_t before = text.size();
+    if (before > profiles::kMaxBytes) refuse("is larger than 1 GB", "is it the right file?");
+    text.resize(before + kPiece);
+    stream.read(text.data() + before, kPiece);
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) refuse("cannot be read to its end", "is it the right file?");
+  return text;
+}
+
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -193,7 +216,22 @@ std::string to_base64(std::span<const std::byte> bytes) {
   return text;
 }
 
+namespace {
+
+/// Whether spreadsheets take a cell for a formula, which may ask for files and programs.
+bool is_formula(const std::string& text) {
+  if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) return false;
+  const char* const first = text.data() + (text.front() == '+' ? 1 : 0);
+  const char* const end = text.data() + text.size();
+  double number = 0.0;
+  const auto [stop, failed] = std::from_chars(first, end, number);
+  return failed != std::errc() || stop != end;
+}
+
+}  // namespace
+
 std::string csv_cell(const std::string& text) {
+  if (is_formula(text)) return csv_cell('\'' + text);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) {

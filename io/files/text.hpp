@@ -32,6 +32,10 @@ std::string from_utf16(std::string_view bytes);
 
 namespace treadmark::io {
 
+/// The whole content of a file of settings, of a pipe too. what: its role, "file". Errors: Error(configuration), also
+/// for devices, which may have no end, and for more than profiles::kMaxBytes.
+std::string read_input(const std::filesystem::path& file, std::string_view what);
+
 /// Bytes of the UTF-8 character (RFC 3629) at the start of a text that is not empty; 0 where there is none.
 std::size_t utf8_length(std::string_view text);
 
@@ -48,7 +52,8 @@ int decimals_of(double value, int digits);
 /// Base64 text (RFC 4648) of some bytes, padded with '='.
 std::string to_base64(std::span<const std::byte> bytes);
 
-/// A text as a cell of a table with commas (RFC 4180): in quotes where it needs them. Thread-safe.
+/// A text as a cell of a table with commas (RFC 4180): in quotes where it needs them, after an apostrophe where a
+/// spreadsheet would take it for a formula. Thread-safe.
 std::string csv_cell(const std::string& text);
 
 /// The shortest number that reads back exactly, "nan", "inf" or "-inf". Thread-safe.

@@ -294,6 +294,37 @@ Hdf5Id open_in_memory(const std::string& name, Hdf5Image& image) {
   return written(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
 }
 
+// What stands behind the content of a file: this and eight hexadecimal digits (CRC-32 of ISO 3309).
+constexpr std::string_view kCheckSum = "treadmark-crc32 ";
+constexpr std::size_t kDigits = 8;
+
+uLong crc_of(uLong before, std::string_view bytes) {
+  return crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+}
+
+std::string check_sum_text(uLong crc) { return fmt::format("{}{:08x}", kCheckSum, crc); }
+
+/// False where a file is not as Hdf5Writer left it. Earlier versions and other programs write no check sum.
+bool check_sum_holds(const std::filesystem::path& file) {
+  constexpr std::size_t kBehind = kCheckSum.size() + kDigits;
+  std::error_code failure;
+  const std::uint64_t size = std::filesystem::file_size(file, failure);
+  std::ifstream in(file, std::ios::binary);
+  if (failure || !in || size < kBehind) return true;
+  std::string behind(kBehind, '\0'), piece(std::size_t{1} << 20, '\0');
+  in.seekg(static_cast<std::streamoff>(size - kBehind));
+  if (!in.read(behind.data(), kBehind) || !behind.starts_with(kCheckSum)) return true;
+  in.seekg(0);
+  uLong crc = 0;
+  for (std::uint64_t left = size - kBehind; left > 0;) {
+    const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(left, piece.size()));
+    if (!in.read(piece.data(), static_cast<std::streamsize>(count))) return true;
+    crc = crc_of(crc, {piece.data(), count});
+    left -= count;
+  }
+  return behind == check_sum_text(crc);
+}
+
 /// Whether a program holds the lock that HDF5 takes of files that it writes.
 bool is_locked(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -311,6 +342,7 @@ Hdf5Id open_to_read(const std::filesystem::path& file) {
                   "close it there first");
     cannot_read(file.string(), what);
   };
+  if (!check_sum_holds(file)) refuse("the file: it is damaged, or another program has changed it");
   if (!text_heaps_sound(file)) refuse("the file: it is damaged");
   Hdf5Id id(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (id.get() < 0) refuse("the file");
@@ -380,6 +412,25 @@ void require_shape(const std::vector<std::size_t>& found, const std::vector<std:
       file, fmt::format("{}: it has the shape [{}], not [{}]", name, fmt::join(found, ", "), fmt::join(wanted, ", ")));
 }
 
+/// A chunk whose place is lost would read as zeros: its index has no check sum.
+bool chunks_are_there(const Hdf5Id& dataset, const Hdf5Id& space) {
+  const Hdf5Id creation(H5Dget_create_plist(dataset.get()));
+  if (creation.get() < 0) return false;
+  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return true;
+  hsize_t size[H5S_MAX_RANK] = {}, chunk[H5S_MAX_RANK] = {}, offset[H5S_MAX_RANK] = {};
+  const int rank = H5Sget_simple_extent_dims(space.get(), size, nullptr);
+  if (rank < 1 || H5Pget_chunk(creation.get(), rank, chunk) != rank) return false;
+  for (int k = rank - 1; k >= 0;) {
+    haddr_t place = HADDR_UNDEF;
+    hsize_t stored = 0;
+    unsigned mask = 0;
+    if (H5Dget_chunk_info_by_coord(dataset.get(), offset, &mask, &place, &stored) < 0 || place == HADDR_UNDEF)
+      return false;
+    for (k = rank - 1; k >= 0 && (offset[k] += chunk[k]) >= size[k]; --k) offset[k] = 0;
+  }
+  return true;
+}
+
 template <class Value>
 std::vector<Value> read_values(hid_t group, const std::string& name, hid_t type, const std::string& file) {
   const Hdf5Id dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
@@ -390,6 +441,7 @@ std::vector<Value> read_values(hid_t group, const std::string& name, hid_t type,
   // A damaged file may claim any number of values.
   const double stored = static_cast<double>(H5Dget_storage_size(dataset.get()));
   if (static_cast<double>(count) * static_cast<double>(sizeof(Value)) > kDensest * stored) cannot_read(file, name);
+  if (count > 0 && !chunks_are_there(dataset, space)) cannot_read(file, name + ": a part of it is lost");
   std::vector<Value> out(static_cast<std::size_t>(count));
   if (count > 0 && H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) cannot_read(file, name);
   return out;
@@ -454,11 +506,19 @@ void Hdf5Writer::commit() {
   root_ = {Hdf5Id(), nullptr};
   const ssize_t size = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(file_.get(), nullptr, 0);
   if (size < 0 || H5Fclose(file_.release()) < 0 || !image_.bytes) cannot_write(target_.string());
-  write_file(target_, {image_.bytes.get(), static_cast<std::size_t>(size)});
+  const std::string_view content(image_.bytes.get(), static_cast<std::size_t>(size));
+  OutputFile file(target_);
+  file.write(content);
+  file.write(check_sum_text(crc_of(0, content)));
+  file.commit();
   image_.bytes.reset();
 }
 
-bool Hdf5GroupReader::has(const std::string& name) const { return H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT) > 0; }
+bool Hdf5GroupReader::has(const std::string& name) const {
+  const htri_t there = H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT);
+  if (there < 0) cannot_read(file_, name);
+  return there > 0;
+}
 
 Hdf5GroupReader Hdf5GroupReader::open_group(const std::string& name) const {
   Hdf5Id id(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT));
@@ -482,7 +542,11 @@ std::vector<std::string> Hdf5GroupReader::names() const {
   return out;
 }
 
-bool Hdf5GroupReader::has_attribute(const std::string& name) const { return H5Aexists(id_.get(), name.c_str()) > 0; }
+bool Hdf5GroupReader::has_attribute(const std::string& name) const {
+  const htri_t there = H5Aexists(id_.get(), name.c_str());
+  if (there < 0) cannot_read(file_, "the attribute " + name);
+  return there > 0;
+}
 
 int Hdf5GroupReader::integer(const std::string& name) const {
   int value = 0;

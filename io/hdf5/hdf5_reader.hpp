@@ -13,12 +13,12 @@
 
 namespace treadmark::io {
 
-/// A group of an HDF5 file. Errors of all functions but has() and has_attribute(): Error(input_data) that names file
-/// and object, for objects that are missing or hold something else: other types, other sizes, more values than are
-/// stored. Not to be used from two threads at once, not even for different files.
+/// A group of an HDF5 file. Errors of all functions: Error(input_data) that names file and object, for objects that are
+/// missing or hold something else: other types, other sizes, more values than are stored. Not to be used from two
+/// threads at once, not even for different files.
 class Hdf5GroupReader {
  public:
-  bool has(const std::string& name) const;  ///< a group or dataset
+  bool has(const std::string& name) const;  ///< a group or dataset; Error only where a damaged file does not tell
   Hdf5GroupReader open_group(const std::string& name) const;
   std::vector<std::string> names() const;  ///< of groups and datasets, sorted
 

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
-#include "treadmark/core/missing_file.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/settings/key_info.hpp"
 #include "treadmark/io/settings/key_list.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
@@ -207,11 +205,7 @@ const ImportKey& known_key(const std::string& path, const SourcePosition& where)
 }  // namespace
 
 void read_import_settings(const std::filesystem::path& file, ImportSettings& settings) {
-  require_file(file, "file of settings", ErrorKind::configuration);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail("the file of settings cannot be opened", {file.string()}, "check its permissions");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  for (const CaseEntry& table : parse_toml(text, file.string())) {
+  for (const CaseEntry& table : parse_toml(read_input(file, "file of settings"), file.string())) {
     if (!table.value.is_table()) unknown(table.key, table.value.where);
     for (const CaseEntry& entry : table.value.table())
       set(settings, known_key(table.key + '.' + entry.key, entry.value.where), entry.value);

@@ -13,6 +13,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/output_claim.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::points {
@@ -35,6 +36,7 @@ ByteBlocks::ByteBlocks(const fs::path& file, const SourcePosition& asked_by, con
   if (status.type() == fs::file_type::none) refuse("cannot be looked up: " + code.message(), "check its name");
   if (fs::is_directory(status)) refuse("is a folder", "name a file in it");
   if (!fs::is_regular_file(status)) refuse("is not a regular file", "name a file of points");
+  refuse_output_as_input(file);
   size_ = fs::file_size(file, code);
   if (code) refuse("cannot be read: " + code.message(), "check its permissions");
   if (size_ == 0) refuse("is empty", "was it copied to its end?");

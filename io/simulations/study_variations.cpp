@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -124,6 +125,12 @@ Variation read_variation(const TableReader& table) {
                   table.need(key).where);
   variation.values = spaced ? spaced_values(table, variation.key) : listed_values(table, variation.key);
   variation.label = table.text_or("label", variation.key);
+  // it names the values in the results, too
+  if (variation.key.empty() &&
+      (variation.label == "." || variation.label.find_first_of(std::string_view("/\0", 2)) != std::string::npos))
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} without a key is the name of a dataset, which has no slash", table.path_of("label")),
+                table.need("label").where, "write it without, or name the key");
   return variation;
 }
 
@@ -131,10 +138,14 @@ Variation read_variation(const TableReader& table) {
 
 std::vector<Variation> read_variations(const TableReader& study) {
   std::vector<Variation> variations;
-  std::set<std::string> seen;
+  std::set<std::string> seen, names;
   for (const CaseValue* one : study.tables("vary")) {
     const TableReader table(one->table(), one->where, study.path_of("vary"), vary_keys());
     variations.push_back(read_variation(table));
+    const Variation& added = variations.back();
+    if (const std::string& name = added.key.empty() ? added.label : added.key;
+        !name.empty() && !names.insert(name).second)
+      table.fail(fmt::format("two variations are called {}", name), "give each a label of its own");
     std::set<std::string> keys;
     for (const VariedValue& value : variations.back().values)
       for (const std::string& assignment : value.overrides) keys.insert(parse_override(assignment).path);

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "treadmark/core/parts.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 
@@ -14,6 +17,7 @@ namespace treadmark::testing {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class BadInput : public ::testing::Test {
  protected:
@@ -147,6 +151,27 @@ TEST_F(BadInput, OutputFolderThatCannotBeMade) {
   const ProgramResult r = run_program({"run", input.inp().string(), "-o", "/dev/null/results"});
   EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("/dev/null/results"));
+}
+
+TEST_F(BadInput, WhatHasNoEndIsNotRead) {
+  std::vector<std::vector<std::string>> commands{{"run", "@.toml"}, {"check", "@.toml"}, {"check", "@"}};
+  if (has_part("vehicle"))
+    for (const char* verb : {"simulate", "evolve", "stability", "track", "sweep"})
+      for (const char* name : {"@", "@.toml"})
+        commands.push_back({verb, name, "-o", (input.folder() / "out").string()});
+  if (has_part("scans")) commands.push_back({"import", "a.ply", "--settings", "@"});
+  for (const char* device : {"/dev/zero", "/dev/full"}) {
+    if (!std::filesystem::is_character_file(device)) GTEST_SKIP() << "no " << device;
+    std::filesystem::remove(input.folder() / "x.toml");
+    std::filesystem::create_symlink(device, input.folder() / "x.toml");
+    for (std::vector<std::string> words : commands) {
+      for (std::string& word : words)
+        if (word == "@" || word == "@.toml") word = word == "@" ? device : (input.folder() / "x.toml").string();
+      const ProgramResult r = run_program(words);
+      EXPECT_TRUE(r.status == 2 || r.status == 3) << words[0] << ' ' << words[1] << r.err;
+      EXPECT_THAT(r.err, Not(HasSubstr("memory"))) << words[0];
+    }
+  }
 }
 
 }  // namespace

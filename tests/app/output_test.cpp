@@ -141,6 +141,21 @@ TEST_F(OutputPlaces, OutputsAreNotWrittenOverInputsOrEachOther) {
   }
 }
 
+TEST_F(OutputPlaces, AFileBeyondTheLimitOfItsSizeIsAnError) {
+  for (const std::string& words :
+       {"run \"$1\" -o \"$2\"", "run \"$1\" --json \"$2\"", "convert S1002 \"$2.ply\" --body wheel"}) {
+    const std::string out = path("limited");
+    const ProgramResult r = RunningProgram({"sh", "-c", "ulimit -f 1; exec \"$0\" --quiet " + words, TREADMARK_PROGRAM,
+                                            input_.inp().string(), out})
+                                .wait();
+    EXPECT_EQ(r.status, 2) << words << r.err;
+    EXPECT_THAT(r.err, HasSubstr("File too large")) << words;
+    for (const auto& entry : fs::recursive_directory_iterator(input_.folder()))
+      EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
+    fs::remove_all(out);
+  }
+}
+
 TEST_F(OutputPlaces, MessagesCannotCommandTheTerminal) {
   const std::string name = path("\x1b[31mred\x80\xc2\x9b\u00e4.toml");
   const ProgramResult missing = run_program({"run", name});

@@ -190,7 +190,7 @@ TEST_F(ScanCommand, RefusesWhatMakesNoSense) {
   refused("x.ply", {"--body", "wheel", "--outliers", "2"}, "--outliers");
   refused("x.ply", {"--body", "wheel", "--unit", "ft"}, "--unit");
   refused("x.ply", {"--body", "wheel", "--points", "10", "--spacing-mm", "1"}, "--spacing-mm");
-  refused("x.ply", {"--body", "wheel", "--truth", path("x.ply")}, "same file");
+  refused("x.ply", {"--body", "wheel", "--truth", path("x.ply")}, "would overwrite");
   EXPECT_EQ(run_program({"scan", path("none.prr"), "-o", path("x.ply"), "--range-mm=0,1"}).status, 3);
 }
 

@@ -212,7 +212,7 @@ class Pair:
         return made
 
     def restore(self, state: State) -> None:
-        """Goes on from a state of any pair of the same surfaces."""
+        """Goes on from a state of any pair of the same surfaces. Errors: InputError for other surfaces."""
         with self._lock:
             self._open().restore(state._state)
 

@@ -12,6 +12,7 @@ import json
 import math
 import os
 import pathlib
+import re
 from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence
 
 import numpy as np
@@ -692,13 +693,18 @@ def read_simulation(file: Path) -> Simulation:
     return _simulation_of(_treadmark.Simulated.read(path / "simulation.h5" if path.is_dir() else path))
 
 
+def _text(cell: str) -> str:
+    """Without the apostrophe that keeps spreadsheets from taking a text for a formula."""
+    return cell[1:] if re.match(r"'[=+\-@\t\r]", cell) else cell
+
+
 def read_sweep(folder: Path) -> Sweep:
     """The folder of ``treadmark sweep -o``, or its sweep.h5."""
     path = pathlib.Path(folder)
     path = path.parent if path.suffix == ".h5" else path
     head = _treadmark.read_sweep(path / "sweep.h5")
     with open(path / "sweep.csv", newline="", encoding="utf-8") as table:
-        labels = {int(row["run"]): (row["label"], row["message"]) for row in csv.DictReader(table)}
+        labels = {int(row["run"]): (_text(row["label"]), _text(row["message"])) for row in csv.DictReader(table)}
     runs = []
     for number, (label, message) in sorted(labels.items()):
         store = path / "runs" / f"run_{number:04}" / "simulation.h5"

@@ -34,6 +34,7 @@
 #include <STEPControl_Writer.hxx>
 #include <Standard_Failure.hxx>
 #include <StepBasic_Product.hxx>
+#include <StepGeom_CartesianPoint.hxx>
 #include <StepShape_Face.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -56,11 +57,14 @@
 #include <gp_Ax1.hxx>
 #include <gp_Lin.hxx>
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
+#include <ctime>
 #include <limits>
 #include <memory>
 #include <string>
@@ -586,6 +590,18 @@ std::unique_ptr<Shape> finished(XSControl_Reader& reader, std::string unit, CadF
   return std::make_unique<Shape>(whole, std::move(unit), reader.WS());
 }
 
+/// Translating does not end where they are not.
+bool points_are_finite(const Interface_InterfaceModel& model) {
+  constexpr double kFarthest = 1e12;  // in any unit
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const Handle(StepGeom_CartesianPoint) point = Handle(StepGeom_CartesianPoint)::DownCast(model.Value(i));
+    if (point.IsNull()) continue;
+    for (int k = 1; k <= point->NbCoordinates(); ++k)
+      if (!(std::abs(point->CoordinatesValue(k)) < kFarthest)) return false;
+  }
+  return true;
+}
+
 std::unique_ptr<Shape> read_step(const std::string& file, CadFault& fault) {
   STEPControl_Reader reader;
   if (reader.ReadFile(file.c_str()) != IFSelect_RetDone) {
@@ -606,6 +622,10 @@ std::unique_ptr<Shape> read_step(const std::string& file, CadFault& fault) {
                "export it in one of them"};
       return nullptr;
     }
+  if (!points_are_finite(*reader.Model())) {
+    fault = {"has points that lie nowhere: a coordinate is no finite number", "is it damaged? export it again"};
+    return nullptr;
+  }
   return finished(reader, lengths(1).ToCString(), fault);
 }
 
@@ -695,6 +715,9 @@ TopoDS_Shape shape_of(const CadSheet& sheet) {
 }
 
 CadFault write(const std::string& file, const CadSheet& sheet) {
+  constexpr std::time_t kFirstDate = 315'619'200;  // 2 January 1980: OpenCASCADE knows none before it
+  if (std::time(nullptr) < kFirstDate)
+    return {"cannot be written: the clock of this machine stands before 1980", "set the clock"};
   try {
     be_quiet();
     STEPControl_Writer writer;
@@ -779,8 +802,10 @@ void answer(Channel& channel, const Shape& shape) {
   }
 }
 
-/// A file may ask for anything.
+/// A file may ask for anything. Ctrl-C is for the other end, and nothing goes on without it.
 void bound_what_it_takes() {
+  std::signal(SIGINT, SIG_IGN);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   constexpr rlim_t kMemory = 16ULL << 30, kSeconds = 3600;
   const rlimit none{0, 0}, memory{kMemory, kMemory}, time{kSeconds, kSeconds};
   ::setrlimit(RLIMIT_CORE, &none);

@@ -153,6 +153,23 @@ TEST(CInterface, ASavedStateGoesOnToTheSameBits) {
   EXPECT_EQ(read, nullptr);
 }
 
+TEST(CInterface, AStateOfOtherSurfacesIsRefused) {
+  const CaseOf given = case_of(kText);
+  const PairOf pair = pair_of(given.get());
+  const std::vector<double> once = field(solved(pair.get(), given.get()).get(), 0, "pressure");
+  for (const char* other : {"wheel.shape.standard=EPS", "rail.shape.standard=54E1"}) {
+    const CaseOf changed = case_of(kText);
+    ASSERT_EQ(tm_case_set(changed.get(), other), TM_OK) << tm_message();
+    const PairOf foreign = pair_of(changed.get());
+    tm_state* saved = nullptr;
+    ASSERT_EQ(tm_pair_save(foreign.get(), &saved), TM_OK);
+    const StateOf state(saved);
+    EXPECT_EQ(tm_pair_restore(pair.get(), state.get()), TM_BAD_REQUEST) << other;
+    EXPECT_NE(std::string(tm_message()).find("other surfaces"), std::string::npos);
+  }
+  EXPECT_EQ(field(solved(pair.get(), given.get()).get(), 0, "pressure"), once) << "it is as it was";
+}
+
 int parabola(void* user, double u, const double* y, std::size_t n, double* z) {
   ++*static_cast<int*>(user);
   for (std::size_t k = 0; k < n; ++k) z[k] = 2.0 * y[k] * y[k] + 0.1 * u * u;

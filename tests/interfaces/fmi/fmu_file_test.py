@@ -75,6 +75,14 @@ class FmuFiles(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr.decode())
         return tree
 
+    def test_names_that_are_no_text(self):
+        for name in (b"\xff", "\ufffe".encode("utf-8", "surrogatepass"), b"a\x01<&\""):
+            output = pathlib.Path(os.fsdecode(bytes(self.folder) + b"/" + name + b".fmu"))
+            done = subprocess.run([PROGRAM, "fmu", self.folder / "case.toml", "-o", output], capture_output=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with zipfile.ZipFile(output) as archive:
+                xml.etree.ElementTree.fromstring(archive.read("modelDescription.xml"))
+
     def test_runs_where_only_the_run_time_is(self):
         self.assertRegex(self.said, r"pair.fmu: wheel on a rail: A <wheel> & its rail, FMI 3.0 co-simulation, \d+ variables")
         with zipfile.ZipFile(self.pair) as archive:

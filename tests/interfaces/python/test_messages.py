@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 """What people do wrong in Python: errors of the right class, in the words and units of the package."""
+import os
 import pickle
 import re
 
@@ -74,3 +75,24 @@ def test_types(pair):
     with pytest.raises(TypeError, match="nominal_radius must be a number in m, not '460'"):
         tm.Surface.standard("S1002", nominal_radius="460")
     assert pair.solve(y=np.float32(0.0)).ok and pair.solve(y=np.array(0.0)).ok
+
+
+def test_bytes_that_are_no_text(tmp_path):
+    """Of a file in another encoding, and of its name: the error is that of the package, and results keep the rest of the text."""
+    broken = tmp_path / "latin.inp"
+    broken.write_bytes("3 MODULE\n % mm\u00e9\n".encode("latin-1") + b"0.\xe9\xe9 x\n")
+    with pytest.raises(tm.InputError) as caught:
+        tm.run(broken)
+    assert "latin.inp" in str(caught.value)
+    named = tmp_path / os.fsdecode(b"\xe9.toml")
+    with pytest.raises(tm.TreadmarkError):
+        tm.run(named)
+    named.write_text("wheell = 3\n")
+    with pytest.raises(tm.InputError, match="wheell"):
+        tm.run(named)
+    named.write_text("[rail]\nshape.standard = '60E1'\n[wheel]\nshape.standard = 'S1002'\n[track]\ncant = '1:40'\n"
+                     "[wheelset]\nvertical_force_N = 80e3\n[discretisation]\ndx_mm = 1\nds_mm = 1\n")
+    result = tm.run(named)
+    assert "\ufffd.toml" in result.input_file and result.cases[0].status == "ok"
+    result.write(tmp_path / "fields.h5")
+    assert "\ufffd.toml" in tm.read_result(tmp_path / "fields.h5").input_file

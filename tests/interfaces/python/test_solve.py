@@ -76,6 +76,9 @@ def test_sequences_in_time_and_states(pair):
     for wrong in (b"", b"nonsense" * 9, state.to_bytes()[:-5]):
         with pytest.raises(tm.InputError):
             tm.State(wrong)
+    foreign = tm.Pair(tm.Surface.standard("54E1"), pair.wheel, pair.problem)
+    with pytest.raises(tm.InputError, match="other surfaces"):
+        foreign.restore(state)
 
 
 def test_statuses_warn(pair):

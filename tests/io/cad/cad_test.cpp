@@ -5,21 +5,30 @@
 
 #include <fmt/format.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <random>
+#include <sstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/io/cad/cad_process.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -442,6 +451,65 @@ void expect_sound(const CadSurface& s, const std::string& which) {
     for (const auto& t : mesh.triangles)
       for (const std::uint32_t corner : t) EXPECT_LT(corner, mesh.vertices.size()) << which;
   }
+}
+
+TEST_F(Cad, RefusesPointsThatLieNowhere) {
+  for (const char* nowhere : {"-inf", "1e999", "1e300"}) {
+    std::string text = sample("rail.step");
+    const std::size_t point = text.find("CARTESIAN_POINT"), from = text.rfind(',', text.find("))", point)) + 1;
+    text.replace(from, text.find(')', from) - from, nowhere);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_THAT(refusal(text), HasSubstr("points that lie nowhere")) << nowhere;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
+  }
+}
+
+/// Waits for what the other end never says.
+void ask_nothing(cad::Channel& channel) { channel.take<std::int64_t>(); }
+
+TEST_F(Cad, HearsThatItsWorkIsToEnd) {
+  std::atomic<bool> stop{false};
+  const std::unique_ptr<cad::Channel> channel = cad::start_opencascade("a.step");
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    stop = true;
+  });
+  const CancellationScope scope(&stop);
+  EXPECT_THROW(ask_nothing(*channel), Cancelled);
+  later.join();
+}
+
+/// The state of a process as /proc has it: 'T' stopped, 'Z' dead but not yet waited for; ' ': gone.
+char state_of(pid_t process) {
+  const std::string stat = file_text(fmt::format("/proc/{}/stat", process));
+  const std::size_t name_end = stat.rfind(')');
+  return name_end == std::string::npos ? ' ' : stat.at(name_end + 2);
+}
+
+TEST_F(Cad, DiesWithItsParent) {
+  const pid_t parent = ::fork();
+  if (parent == 0) {
+    const std::unique_ptr<cad::Channel> channel = cad::start_opencascade("a.step");
+    for (;;) ::pause();
+  }
+  const auto wait_for = [](const auto& what) {
+    for (int i = 0; i < 3000 && !what(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return what();
+  };
+  pid_t child = 0;
+  const auto has_begun = [&] {
+    std::istringstream(file_text(fmt::format("/proc/{0}/task/{0}/children", parent))) >> child;
+    return child > 0 && file_text(fmt::format("/proc/{}/comm", child)).starts_with("treadmark-openc");
+  };
+  ASSERT_TRUE(wait_for(has_begun));
+  // Once it sleeps it has done what it does first. Stopped, it cannot see that its socket is closed.
+  ASSERT_TRUE(wait_for([&] { return state_of(child) == 'S'; }));
+  ::kill(child, SIGSTOP);
+  ASSERT_TRUE(wait_for([&] { return state_of(child) == 'T'; }));
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  EXPECT_TRUE(wait_for([&] { return state_of(child) == ' ' || state_of(child) == 'Z'; }));
+  ::kill(child, SIGKILL);
 }
 
 TEST_F(Cad, SurvivesDamagedFiles) {

@@ -146,5 +146,84 @@ TEST_F(Hdf5File, WrongNamesShapesAndKindsAreErrors) {
   EXPECT_EQ(kind_of_error([&] { io::Hdf5Writer(path_ / "a.h5").commit(); }), ErrorKind::configuration);
 }
 
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct SmallFile {
+  std::vector<double> compressed, plain;
+  std::string text;
+  bool operator==(const SmallFile&) const = default;
+};
+
+void write_small(const std::filesystem::path& path, const SmallFile& content) {
+  io::Hdf5Writer file(path);
+  file.root().add({"text", content.text});
+  file.root().write({"compressed", {content.compressed.size() / 4, 4}, "Pa", "numbers", true}, content.compressed);
+  file.root().write({"plain", {content.plain.size()}, "m", "numbers"}, content.plain);
+  file.commit();
+}
+
+SmallFile read_small(const std::filesystem::path& path) {
+  const io::Hdf5Reader file(path);
+  return {file.root().has("compressed") ? file.root().numbers("compressed") : std::vector<double>(),
+          file.root().has("plain") ? file.root().numbers("plain") : std::vector<double>(), file.root().text("text")};
+}
+
+SmallFile small_content() {
+  SmallFile content{{}, {}, "a text that says something"};
+  for (int i = 0; i < 2400; ++i) content.compressed.push_back(1e9 / (1 + i));  // two chunks
+  for (int i = 0; i < 20; ++i) content.plain.push_back(0.1 * i);
+  return content;
+}
+
+TEST_F(Hdf5File, NoFlippedBitIsSilent) {
+  const SmallFile content = small_content();
+  write_small(path_, content);
+  const std::string sound = bytes_of(path_);
+  int refused = 0;
+  for (std::size_t k = 0; k < sound.size(); ++k) {
+    std::string damaged = sound;
+    damaged[k] = static_cast<char>(damaged[k] ^ 1 << k % 8);
+    std::ofstream(path_, std::ios::binary) << damaged;
+    try {
+      EXPECT_EQ(read_small(path_), content) << "byte " << k;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input_data);
+      ++refused;
+    }
+  }
+  // all but the name of the check sum, without which nothing is checked
+  EXPECT_GE(refused, static_cast<int>(sound.size()) - 16);
+}
+
+TEST_F(Hdf5File, AChunkThatIsLostIsNoZeros) {
+  const SmallFile content = small_content();
+  write_small(path_, content);
+  std::string sound = bytes_of(path_);
+  sound.resize(sound.size() - 24);  // as earlier versions wrote it
+  std::ofstream(path_, std::ios::binary) << sound;
+  ASSERT_EQ(read_small(path_), content);
+  // The nodes of the index (HDF5 File Format Specification, III.A.1), which has no check sum.
+  const std::string node{"TREE\1\0", 6};
+  int found = 0, refused = 0;
+  for (std::size_t at = sound.find(node); at != std::string::npos; at = sound.find(node, at + 1), ++found) {
+    constexpr std::size_t kHead = 24, kEntries = 2 * 40 + 32;
+    for (std::size_t bit = 8 * kHead; bit < 8 * (kHead + kEntries); ++bit) {
+      std::string damaged = sound;
+      damaged[at + bit / 8] = static_cast<char>(damaged[at + bit / 8] ^ 1 << bit % 8);
+      std::ofstream(path_, std::ios::binary) << damaged;
+      try {
+        EXPECT_EQ(read_small(path_).compressed, content.compressed) << "bit " << bit;
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_EQ(found, 1);
+  EXPECT_GT(refused, 100);
+}
+
 }  // namespace
 }  // namespace treadmark

@@ -199,6 +199,12 @@ TEST_F(Study, ErrorsOfVariations) {
   EXPECT_THAT(error("contact.reference_surface=plane", "contact.reference_surface"),
               HasSubstr("study.toml:13:28: 'contact.reference_surface': '=' is missing"));
   EXPECT_THAT(error("spacing", "spacin"), HasSubstr("did you mean 'study.vary.spacing'?"));
+  EXPECT_THAT(
+      error("label = \"theory\"", "label = \"full/simplified\""),
+      HasSubstr("study.toml:11:9: study.vary.label without a key is the name of a dataset, which has no slash"));
+  EXPECT_THAT(error("label = \"theory\"", "label = \".\""), HasSubstr("study.vary.label without a key"));
+  EXPECT_THAT(error("label = \"theory\"", "label = \"simulation.speed_m_s\""),
+              HasSubstr("two variations are called simulation.speed_m_s"));
   EXPECT_THAT(error("[study]", "[study]", {"simulation.speed_m_s=3"}),
               HasSubstr("the study varies simulation.speed_m_s itself"));
 }
