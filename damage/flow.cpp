@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::damage {
 namespace {
@@ -19,7 +20,7 @@ struct Range {
 
 /// Cells of step d, the middle of the first at x0, whose middles lie from low on and before high.
 Range middles_between(double low, double high, double x0, double d) {
-  const auto from = [&](double x) { return static_cast<int>(std::ceil((x - x0) / d - 1e-9)); };
+  const auto from = [&](double x) { return to_whole<int>(std::ceil((x - x0) / d - 1e-9)); };
   return {from(low), from(high) - 1};
 }
 

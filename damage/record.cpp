@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/damage/wear.hpp"
 
 namespace treadmark::damage {
@@ -38,8 +39,8 @@ double below(double t, double a, double b) {
 Shares shares_of(double middle, double a, double b, double x0, double d) {
   Shares shares;
   const double first_edge = x0 - 0.5 * d;
-  const int first = static_cast<int>(std::floor((middle - a - b - first_edge) / d)),
-            last = static_cast<int>(std::floor((middle + a + b - first_edge) / d));
+  const int first = to_whole<int>(std::floor((middle - a - b - first_edge) / d)),
+            last = to_whole<int>(std::floor((middle + a + b - first_edge) / d));
   double before = 0.0;
   for (int k = first; k <= last; ++k) {
     const double upto = k == last ? 1.0 : below(first_edge + (k + 1) * d - middle, a, b);
@@ -309,7 +310,7 @@ OffsetMap offsets_of(const SurfaceCells& cells, const CellSheet& volume, double 
     map.grid.nx = kTurnColumns;
     map.grid.dx = kTurn / kTurnColumns;
   } else if (cells.uniform()) {
-    const int side = static_cast<int>(std::ceil(half_length / kRailStep));
+    const int side = to_whole<int>(std::ceil(half_length / kRailStep));
     map.grid.nx = 2 * side + 1;
     map.grid.dx = kRailStep;
     map.grid.x0 = -side * kRailStep;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::detection {
 namespace {
@@ -18,7 +19,7 @@ double arc_length(const BodyPair& bodies, double x_T, double y_from, double y_to
   constexpr double kStep = 5e-5;
   const double length = y_to - y_from;
   if (length == 0.0) return 0.0;
-  const int n = std::clamp(static_cast<int>(std::abs(length) / kStep), 32, 2000);
+  const int n = std::clamp(to_whole<int>(std::abs(length) / kStep), 32, 2000);
   const double y_low = std::min(y_from, y_to), step = std::abs(length) / n;
   std::vector<double> z(static_cast<std::size_t>(n) + 1);
   bodies.rail->heights({bodies.X_TR.inverse(), {x_T, y_low, 1.0, step, 1, n + 1}}, {z, {}, {}});

@@ -8,6 +8,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/closest_gap.hpp"
 #include "treadmark/detection/rail_sections.hpp"
 
@@ -169,8 +170,8 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
     const double rise = b.y - a.y;
     if (std::abs(rise) > 1e-3 * s.step) {
       const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
-      const int first = static_cast<int>(std::ceil(std::max(0.0, (low - rows.first) / rows.step - 1e-9)));
-      const int last = static_cast<int>(std::floor(std::min(rows.count - 1.0, (high - rows.first) / rows.step + 1e-9)));
+      const int first = to_whole<int>(std::ceil(std::max(0.0, (low - rows.first) / rows.step - 1e-9)));
+      const int last = to_whole<int>(std::floor(std::min(rows.count - 1.0, (high - rows.first) / rows.step + 1e-9)));
       // Walls are straight: the cubic of their slopes would swing.
       constexpr double kWall = 6.0;
       const double secant = b.z - a.z;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::detection {
 namespace {
 
@@ -83,7 +85,7 @@ std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches,
                                           const std::vector<ContactPatch>& near_misses, const PatchRules& rules) {
   // To the nanometre: patches behind one another at the same y must not change places by rounding.
   const auto field_side_first = [](const ContactPatch& a, const ContactPatch& b) {
-    const long long y_a = std::llround(1e9 * a.y), y_b = std::llround(1e9 * b.y);
+    const long long y_a = to_whole<long long>(std::round(1e9 * a.y)), y_b = to_whole<long long>(std::round(1e9 * b.y));
     return y_a != y_b ? y_a > y_b : a.x < b.x;
   };
   std::stable_sort(patches.begin(), patches.end(), field_side_first);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::detection {
 namespace {
 
@@ -93,7 +95,7 @@ ReferenceRows curved_reference(const BodyPair& bodies, const ContactFrame& frame
     double s = 0.0;
     for (int iy = first; iy != last; iy += direction) {
       const double way = arc_length(iy) - s;
-      const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(way) / kLongestStep - 1e-6)));
+      const int steps = std::max(1, to_whole<int>(std::ceil(std::abs(way) / kLongestStep - 1e-6)));
       if (way != 0.0)
         for (int k = 0; k < steps; ++k) point = curve.at_arc_length(point, way / steps);
       s = arc_length(iy);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 
 namespace treadmark::detection {
@@ -32,7 +33,7 @@ bool section_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, s
 namespace {
 
 std::vector<double> equal_steps(double low, double high, double step) {
-  const int n = 1 + static_cast<int>(std::floor((high - low) / step));
+  const int n = 1 + to_whole<int>(std::floor((high - low) / step));
   std::vector<double> y;
   for (int i = 0; i <= n; ++i) y.push_back(low + (high - low) * i / n);
   return y;
@@ -41,7 +42,7 @@ std::vector<double> equal_steps(double low, double high, double step) {
 /// Points between which v is taken as linear.
 struct Lattice {
   explicit Lattice(const LateralInterval& y)
-      : range(y), steps(std::max(2, static_cast<int>(std::ceil((y.high - y.low) / kStep)))) {}
+      : range(y), steps(std::max(2, to_whole<int>(std::ceil((y.high - y.low) / kStep)))) {}
   double y(int i) const { return range.low + (range.high - range.low) * i / steps; }
   /// The last point not above, between both ends.
   int below(double at) const {

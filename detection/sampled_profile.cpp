@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/rail_sections.hpp"
 
 namespace treadmark::detection {
@@ -38,7 +39,7 @@ std::shared_ptr<const SampledProfile> whole_profile(const Surface& wheel) {
   constexpr double kStep = 0.25e-3;  // [m]; cubics between the points are good to a nanometre, kinks apart
   const Box3 box = wheel.bounds();
   const double width = box.max.y() - box.min.y();
-  const int count = std::clamp(static_cast<int>(width / kStep) + 2, 16, 20000);
+  const int count = 2 + std::clamp(to_whole<int>(width / kStep), 14, 19998);
   return std::make_shared<SampledProfile>(sample_profile(wheel, *angle, box.min.y(), width / (count - 1), count));
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/rail_sections.hpp"
 
 namespace treadmark::detection {
@@ -114,8 +115,8 @@ double FacetWheel::height_over(double x, double y, double& a, double& b) {
 
 void FacetWheel::heights(const Grid2& g, std::span<double> z) {
   constexpr double kNear = 2.0;  // corners beside the grid; more are made when asked for
-  wanted_first_ = static_cast<int>(std::max(0.0, corner_near(g.y(0)) - kNear));
-  wanted_last_ = static_cast<int>(std::min(across_ - 1.0, corner_near(g.y(g.ny - 1)) + kNear));
+  wanted_first_ = to_whole<int>(std::max(0.0, corner_near(g.y(0)) - kNear));
+  wanted_last_ = to_whole<int>(std::min(across_ - 1.0, corner_near(g.y(g.ny - 1)) + kNear));
   // Where a wheel that is round and upright has this point.
   const double radius = wheel_.bounds().max.z(), per_offset = 0.5 * (facets_.sections - 1) / facets_.half_range;
   const auto section_at = [&](double x) {

@@ -9,6 +9,7 @@
 
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::detection {
 
@@ -92,8 +93,8 @@ template <class Corner>
 bool find_facet(Corner&& corner, int rows, int columns, double x, double y, double& a, double& b, FacetPlace& place) {
   constexpr int kMaxSteps = 40;
   for (int step = 0; step < kMaxSteps; ++step) {
-    const int k = std::clamp(static_cast<int>(std::floor(a)), 0, rows - 2);
-    const int j = std::clamp(static_cast<int>(std::floor(b)), 0, columns - 2);
+    const int k = std::clamp(to_whole<int>(std::floor(a)), 0, rows - 2);
+    const int j = std::clamp(to_whole<int>(std::floor(b)), 0, columns - 2);
     const double u = a - k, v = b - j;
     // Copies: corners may be made, and moved, by asking for others.
     const Vec3 p00 = corner(k, j), p01 = corner(k, j + 1), p10 = corner(k + 1, j), p11 = corner(k + 1, j + 1);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/rail_sections.hpp"
 #include "treadmark/detection/search_mesh.hpp"
 
@@ -67,7 +68,7 @@ Reach reach_of(const Pose& X_TU, const Pose& X_TC, const Elements& e) {
 std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& r, double y_through, double step) {
   constexpr int kParts = 10;
   const double fine = step / kParts;
-  const auto steps_over = [&](double length) { return std::max(1, static_cast<int>(std::ceil(length / fine))); };
+  const auto steps_over = [&](double length) { return std::max(1, to_whole<int>(std::ceil(length / fine))); };
   const int below = steps_over(y_through - r.y_min + step), above = steps_over(r.y_max + step - y_through);
   std::vector<double> y;
   for (int i = -below; i <= above; ++i) y.push_back(y_through + i * fine);
@@ -122,7 +123,7 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   const Reach r = reach_of(X_TU, X_TC, e);
   const double lowest = lowest_angle(bodies.X_TW), from = std::atan(r.x_min / r.z_min),
                to = std::atan(r.x_max / r.z_min);
-  int rows = static_cast<int>(std::lround((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
+  int rows = to_whole<int>(std::round((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
   if (rows % 2 == 0) ++rows;
 
   const std::vector<double> all =
@@ -232,7 +233,7 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
       const double a_again = std::clamp(start_a + ix, 0.0, mesh.rows - 1.0);
       if (folded) {
         a = a_again;
-        b = foremost(mesh, static_cast<int>(std::lround(a)), s);
+        b = foremost(mesh, to_whole<int>(std::round(a)), s);
         if (std::isnan(b)) continue;
       }
       double a_try = a, b_try = b;

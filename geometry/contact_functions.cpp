@@ -12,6 +12,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -125,7 +126,7 @@ ContactFunctions contact_functions(const WheelsetOnTrack& wheelset, const Functi
     throw Error(ErrorKind::numerical, why, {}, "check gauge, distance of the wheels and the profiles' origins");
   require_guided(wheelset, middle);
 
-  const auto count = static_cast<int>(std::floor(settings.farthest / settings.step + 1e-9));
+  const auto count = to_whole<int>(std::floor(settings.farthest / settings.step + 1e-9));
   const auto half = [&](double sign, std::vector<Position>& rows, ShiftLimit& limit) {
     Position last = middle;
     for (int k = 1; k <= count; ++k) {

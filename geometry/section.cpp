@@ -11,6 +11,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/roots.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -35,8 +36,8 @@ Section sampled(const Surface& surface, const Pose& X_SP, Body body) {
   }
   low = std::isfinite(low) ? std::max(low, -kFarthest) : -kFarthest;
   high = std::isfinite(high) ? std::min(high, kFarthest) : kFarthest;
-  const auto first = static_cast<long>(std::floor(low / kSectionStep)),
-             last = static_cast<long>(std::ceil(high / kSectionStep));
+  const auto first = to_whole<long>(std::floor(low / kSectionStep)),
+             last = to_whole<long>(std::ceil(high / kSectionStep));
   const int count = static_cast<int>(std::max(last - first + 1, 2L));
   std::vector<double> z(static_cast<std::size_t>(count)), slope(z.size());
   HeightsOut out;

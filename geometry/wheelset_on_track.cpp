@@ -8,6 +8,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/roots.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -179,7 +180,7 @@ void WheelsetOnTrack::minima(const Side& side, double y, double roll, double wit
   if (roll == 0.0 && yaw_ == 0.0 && w.step() == rail.step()) {
     // Both sections have their samples side by side: all gaps at once.
     const double t = (shift + side.y[from] - rail.first()) / rail.step();
-    const auto whole = static_cast<std::ptrdiff_t>(std::floor(t));
+    const auto whole = to_whole<std::ptrdiff_t>(std::floor(t));
     const double u = t - static_cast<double>(whole);
     const auto wheel_from = static_cast<std::ptrdiff_t>(from), rail_last = static_cast<std::ptrdiff_t>(rail.size()) - 2;
     const std::ptrdiff_t k_from = std::max<std::ptrdiff_t>(0, -whole),

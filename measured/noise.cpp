@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measured {
 
@@ -76,7 +77,8 @@ double rounding_of(const std::vector<double>& values) {
   const auto step = std::ranges::find_if(steps, fits);
   if (step == steps.end()) return 0.0;
   std::map<long long, std::size_t> increments;
-  for (std::size_t i = 1; i < values.size(); ++i) ++increments[std::llround((values[i] - values[i - 1]) / *step)];
+  for (std::size_t i = 1; i < values.size(); ++i)
+    ++increments[to_whole<long long>(std::round((values[i] - values[i - 1]) / *step))];
   const auto usual = std::ranges::max_element(increments, {}, [](const auto& entry) { return entry.second; });
   const bool gauge =
       usual->first != 0 && static_cast<double>(usual->second) > kMostEqual * static_cast<double>(values.size() - 1);

@@ -12,6 +12,7 @@
 #include <Eigen/Dense>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measured {
 namespace {
@@ -216,7 +217,7 @@ NominalOutline nominal_outline(std::string name, Body body, std::span<const Vec2
   const auto [low, high] =
       std::minmax_element(outline.begin(), outline.end(), [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
   out.first = low->x();
-  out.z.assign(static_cast<std::size_t>((high->x() - low->x()) / out.step) + 1, kNaN);
+  out.z.assign(to_whole<std::size_t>((high->x() - low->x()) / out.step) + 1, kNaN);
   const double sign = body == Body::wheel ? 1.0 : -1.0;
   for (std::size_t i = 1; i < outline.size(); ++i) {
     Vec2 a = outline[i - 1], b = outline[i];

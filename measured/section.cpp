@@ -13,6 +13,7 @@
 #include <Eigen/Dense>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measured {
 namespace {
@@ -37,7 +38,7 @@ Envelope envelope(const SectionPoints& p, double sign) {
   const double margin = std::min(kFace, 0.05 * (*high - *low));
   e.first = *low + margin;
   const double width = *high - *low - 2.0 * margin;
-  e.height.assign(static_cast<std::size_t>(std::max(0.0, width) / kStep) + 1, kNaN);
+  e.height.assign(to_whole<std::size_t>(std::max(0.0, width) / kStep) + 1, kNaN);
   const auto last = static_cast<double>(e.height.size() - 1);
   for (std::size_t i = 1; i < p.y.size(); ++i) {
     double y0 = p.y[i - 1], y1 = p.y[i], z0 = sign * p.z[i - 1], z1 = sign * p.z[i];

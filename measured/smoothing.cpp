@@ -15,6 +15,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/core/roots.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/measured/noise.hpp"
 
 namespace treadmark::measured {
@@ -113,7 +114,7 @@ struct Knots {
   int cells = 1;
 
   static Knots over(double from, double to, double step) {
-    const int cells = std::max(4, static_cast<int>(std::lround((to - from) / step)));
+    const int cells = std::max(4, to_whole<int>(std::round((to - from) / step)));
     return {from, (to - from) / cells, cells};
   }
   int size() const { return cells + 3; }
@@ -122,7 +123,7 @@ struct Knots {
   /// The cell of s, and the four B-splines there or one of their derivatives.
   int basis(double s, int derivative, Row& out) const {
     const double x = (s - first) / step;
-    const int cell = std::clamp(static_cast<int>(std::floor(x)), 0, cells - 1);
+    const int cell = std::clamp(to_whole<int>(std::floor(x)), 0, cells - 1);
     const double t = x - cell, u = 1.0 - t;
     if (derivative == 0)
       out = {u * u * u / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
@@ -236,7 +237,7 @@ std::optional<Straightened> straighten(Points& points, const Curve& curve, doubl
   Values arc(at(old.cells + 1), 0.0);
   for (int k = 0; k < old.cells; ++k) arc[at(k + 1)] = arc[at(k)] + simpson(old.node(k), old.node(k + 1));
   const auto arc_at = [&](double s) {
-    const int cell = std::clamp(static_cast<int>(std::floor((s - old.first) / old.step)), 0, old.cells - 1);
+    const int cell = std::clamp(to_whole<int>(std::floor((s - old.first) / old.step)), 0, old.cells - 1);
     return arc[at(cell)] + simpson(old.node(cell), s);
   };
   Straightened out;
@@ -271,7 +272,7 @@ std::optional<Straightened> straighten(Points& points, const Curve& curve, doubl
         h / 6.0 * (out.angle[at(k)] + 4.0 * middle[at(k)] + out.angle[at(k + 1)] - 6.0 * level);
   const auto height_at = [&](double s) {  // Hermite's cubic between knots
     const double x = (s - out.knots.first) / h;
-    const int k = std::clamp(static_cast<int>(std::floor(x)), 0, cells - 1);
+    const int k = std::clamp(to_whole<int>(std::floor(x)), 0, cells - 1);
     const double t = x - k, t2 = t * t, t3 = t2 * t;
     return (2.0 * t3 - 3.0 * t2 + 1.0) * out.node_height[at(k)] + (3.0 * t2 - 2.0 * t3) * out.node_height[at(k + 1)] +
            h * ((t3 - 2.0 * t2 + t) * (out.angle[at(k)] - level) + (t3 - t2) * (out.angle[at(k + 1)] - level));
@@ -312,7 +313,7 @@ struct Fit {
 /// the curve is bent within a few millimetres.
 Values restlessness(const Knots& knots, const Knots& before, const Values& heights) {
   constexpr double kWindow = 4.0, kReach = 3.0, kFlattest = 1.0 / 200.0;
-  const int reach = static_cast<int>(std::lround(kReach * kWindow / knots.step));
+  const int reach = to_whole<int>(std::round(kReach * kWindow / knots.step));
   Values squares, out;
   for (int k = 0; k < knots.cells; ++k) {
     const double s = std::clamp(knots.node(k) + 0.5 * knots.step, before.first, before.last());

@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -50,7 +51,7 @@ Head head_of(const Section& nominal) {
     head.half = std::max(head.half, nominal.point(i).x());
   }
   constexpr double kStep = 0.05e-3;
-  const auto rows = static_cast<std::size_t>(head.low / kStep);
+  const auto rows = to_whole<std::size_t>(head.low / kStep);
   const auto left = nominal.y_over(0.5 * kStep, kStep, rows, -1), right = nominal.y_over(0.5 * kStep, kStep, rows, +1);
   for (std::size_t i = 0; i < rows; ++i)
     if (const double width = right[i] - left[i]; width == width) head.area += kStep * width;
@@ -63,14 +64,14 @@ class Outline {
   explicit Outline(const Section& nominal)
       : y_min_(nominal.y_min() - kMargin),
         z_min_(nominal.z_min() - kMargin),
-        columns_(static_cast<int>((nominal.y_max() - y_min_ + kMargin) / kCell) + 1),
-        rows_(static_cast<int>((nominal.z_max() - z_min_ + kMargin) / kCell) + 1),
+        columns_(to_whole<int>((nominal.y_max() - y_min_ + kMargin) / kCell) + 1),
+        rows_(to_whole<int>((nominal.z_max() - z_min_ + kMargin) / kCell) + 1),
         cells_(static_cast<std::size_t>(columns_ * rows_)) {
     for (std::size_t i = 0; i < nominal.size(); ++i) {
       const Vec2 next = nominal.point(i);
       if (!points_.empty()) {
         const Vec2 from = points_.back(), d = next - from;
-        const int steps = std::max(1, static_cast<int>(std::ceil(d.norm() / kStride)));
+        const int steps = std::max(1, to_whole<int>(std::ceil(d.norm() / kStride)));
         for (int k = 0; k <= steps; ++k) {
           std::vector<int>& cell = cells_[cell_of(from + d * (static_cast<double>(k) / steps))];
           if (cell.empty() || cell.back() != static_cast<int>(i) - 1) cell.push_back(static_cast<int>(i) - 1);
@@ -85,8 +86,8 @@ class Outline {
   };
   std::optional<Near> nearest(const Vec2& q, double farthest) const {
     std::optional<Near> found;
-    const int column = static_cast<int>(std::floor((q.x() - y_min_) / kCell)),
-              row = static_cast<int>(std::floor((q.y() - z_min_) / kCell));
+    const int column = to_whole<int>(std::floor((q.x() - y_min_) / kCell)),
+              row = to_whole<int>(std::floor((q.y() - z_min_) / kCell));
     double best = farthest;
     for (int ring = 0; (ring - 1) * kCell - kStride < best; ++ring)
       for (int r = row - ring; r <= row + ring; ++r)
@@ -110,8 +111,8 @@ class Outline {
  private:
   static constexpr double kCell = 2e-3, kStride = 1e-3, kMargin = 1e-2;  ///< [m]
   std::size_t cell_of(const Vec2& p) const {
-    const int c = std::clamp(static_cast<int>((p.x() - y_min_) / kCell), 0, columns_ - 1),
-              r = std::clamp(static_cast<int>((p.y() - z_min_) / kCell), 0, rows_ - 1);
+    const int c = std::clamp(to_whole<int>((p.x() - y_min_) / kCell), 0, columns_ - 1),
+              r = std::clamp(to_whole<int>((p.y() - z_min_) / kCell), 0, rows_ - 1);
     return static_cast<std::size_t>(r * columns_ + c);
   }
 
@@ -227,7 +228,7 @@ class RailRuler {
     for (std::size_t i = 0; i + 1 < original.size(); ++i) {
       const Vec2 from = original.point(i), d = original.point(i + 1) - from;
       if (!places.empty() && (from - places.back().p).norm() < kApart && d.norm() < kApart) continue;
-      const int parts = std::max(1, static_cast<int>(d.norm() / kApart));
+      const int parts = std::max(1, to_whole<int>(d.norm() / kApart));
       for (int k = 0; k < parts; ++k) places.push_back({from + d * (static_cast<double>(k) / parts), parts});
     }
     double rms = kUnknown;
@@ -422,7 +423,7 @@ class RailRuler {
     double top = 0.0, side = 0.0, lip = 0.0;
     {
       const double first = left->p.x(), across = right->p.x() - first;
-      const auto count = static_cast<std::size_t>(std::ceil(across / kStep));
+      const auto count = to_whole<std::size_t>(std::ceil(across / kStep));
       const double step = across / static_cast<double>(count);
       const auto own = s_.z_over(first + 0.5 * step, step, count),
                  wanted = nominal_->z_over(first + 0.5 * step, step, count);
@@ -435,7 +436,7 @@ class RailRuler {
     for (const int way : {-1, +1}) {
       const Section::Place& corner = way < 0 ? *left : *right;
       const double first = std::min(corner.p.y(), head.low), down = head.low - first, limit = std::fabs(corner.p.x());
-      const auto count = static_cast<std::size_t>(std::ceil(down / kStep));
+      const auto count = to_whole<std::size_t>(std::ceil(down / kStep));
       const double step = down / static_cast<double>(std::max<std::size_t>(1, count));
       const auto own = s_.y_over(first + 0.5 * step, step, count, way),
                  wanted = nominal_->y_over(first + 0.5 * step, step, count, way);

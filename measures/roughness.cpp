@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/measures/bands.hpp"
 
 namespace treadmark::measures {
@@ -30,7 +31,7 @@ void take_line(std::vector<double>& h) {
 /// Upward points that stand alone: above the line through both sides by more than these scatter about it.
 std::size_t take_spikes(std::vector<double>& h, double step) {
   constexpr double kReach = 8e-3;  // [m]
-  const auto half = std::max<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(kReach / step));
+  const auto half = std::max<std::ptrdiff_t>(3, to_whole<std::ptrdiff_t>(kReach / step));
   const std::vector<double> before = h;
   std::size_t count = 0;
   const auto n = static_cast<std::ptrdiff_t>(h.size());
@@ -91,9 +92,9 @@ Spectrum spectrum_of(std::vector<double> h, double step) {
 
 /// Wavelengths between two ends, by a windowed sinc; empty where the record is too short.
 std::vector<double> passed(const std::vector<double>& h, double step, double shortest, double longest) {
-  const auto half = static_cast<std::ptrdiff_t>(1.5 * longest / step);
+  const auto half = to_whole<std::ptrdiff_t>(1.5 * longest / step);
   const auto n = static_cast<std::ptrdiff_t>(h.size());
-  if (n < 2 * half + static_cast<std::ptrdiff_t>(longest / step) || shortest < 4.0 * step) return {};
+  if (n < 2 * half + to_whole<std::ptrdiff_t>(longest / step) || shortest < 4.0 * step) return {};
   std::vector<double> kernel(static_cast<std::size_t>(2 * half + 1));
   const double high = 1.0 / shortest, low = 1.0 / longest;
   for (std::ptrdiff_t i = -half; i <= half; ++i) {
@@ -120,7 +121,7 @@ WaveBand wave_band(const std::vector<double>& h, double step, double shortest, d
   double square = 0.0;
   for (const double v : wave) square += v * v;
   band.rms = std::sqrt(square / static_cast<double>(wave.size()));
-  const auto window = std::min(wave.size(), static_cast<std::size_t>(3.0 * longest / step));
+  const auto window = std::min(wave.size(), to_whole<std::size_t>(3.0 * longest / step));
   band.peak_to_peak = 0.0;
   for (std::size_t i = 0; i + window <= wave.size(); i += std::max<std::size_t>(1, window / 8)) {
     const auto [least, most] = std::minmax_element(wave.begin() + static_cast<std::ptrdiff_t>(i),
@@ -136,7 +137,7 @@ std::vector<double> closed_pits(std::span<const double> height, double step, dou
   const auto [least, most] = std::minmax_element(height.begin(), height.end());
   const auto n = static_cast<std::ptrdiff_t>(height.size());
   const auto reach = std::min<std::ptrdiff_t>(
-      n, static_cast<std::ptrdiff_t>(std::sqrt(2.0 * wheel_radius * (*most - *least)) / step) + 1);
+      n, to_whole<std::ptrdiff_t>(std::sqrt(2.0 * wheel_radius * (*most - *least)) / step) + 1);
   std::vector<double> lift(static_cast<std::size_t>(reach) + 1), centre(height.size()), out(height.size());
   for (std::ptrdiff_t j = 0; j <= reach; ++j) {
     const double x = static_cast<double>(j) * step;
@@ -172,7 +173,7 @@ RoughnessMeasures measure_roughness(std::span<const double> height, double step,
   if (gauge.remove_spikes) out.spikes = take_spikes(h, step);
   if (gauge.wheel_radius > 0.0) h = closed_pits(h, step, gauge.wheel_radius);
 
-  const auto size = std::min(h.size(), static_cast<std::size_t>(std::lround(gauge.segment / step)));
+  const auto size = std::min(h.size(), to_whole<std::size_t>(std::round(gauge.segment / step)));
   std::vector<Spectrum> spectra;
   for (std::size_t i = 0; i + size <= h.size(); i += std::max<std::size_t>(1, size / 2))
     spectra.push_back(spectrum_of(
@@ -184,8 +185,8 @@ RoughnessMeasures measure_roughness(std::span<const double> height, double step,
     band.limit = limits.empty() ? iso_3095_limit(band.wavelength) : limits[b];
     const BandEnds ends = ends_of(band.wavelength);
     const double low = 1.0 / ends.longest, high = 1.0 / ends.shortest, line = spectra.front().line;
-    const auto first = static_cast<std::size_t>(std::ceil(low / line)),
-               last = static_cast<std::size_t>(std::ceil(high / line));
+    const auto first = to_whole<std::size_t>(std::ceil(low / line)),
+               last = to_whole<std::size_t>(std::ceil(high / line));
     // in a segment: with fewer a band is narrower than what the window makes of one sine, which its neighbours get
     constexpr double kFewestWaves = 8.0;
     if (last > first && last <= spectra.front().power.size() &&

@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/measures/bands.hpp"
 
 namespace treadmark::measures {
@@ -103,7 +104,7 @@ class Revolution {
                    skirt = std::max(0.1 * g_.flat_threshold, 2.0 * sigma);
       const auto size = static_cast<std::ptrdiff_t>(theta_.size());
       const auto wrapped = [size](std::ptrdiff_t i) { return static_cast<std::size_t>(((i % size) + size) % size); };
-      const auto margin = static_cast<std::ptrdiff_t>(std::ceil(0.01 / step));
+      const auto margin = to_whole<std::ptrdiff_t>(std::ceil(0.01 / step));
       const auto longest = static_cast<std::ptrdiff_t>(g_.longest_flat / (base[0] * step));
       for (std::ptrdiff_t i = 0; i < size; ++i) {
         if (!(smooth(wrapped(i)) < -deep)) continue;
@@ -123,7 +124,7 @@ class Revolution {
   /// Mean of the deviation over a few samples: dips are wider than that.
   double smooth(std::size_t i) const {
     const auto size = static_cast<std::ptrdiff_t>(theta_.size());
-    const std::ptrdiff_t half = std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(kSmoothArc / out_arc()) / 2);
+    const std::ptrdiff_t half = std::max<std::ptrdiff_t>(0, to_whole<std::ptrdiff_t>(kSmoothArc / out_arc()) / 2);
     double sum = 0.0;
     int count = 0;
     for (std::ptrdiff_t j = -half; j <= half; ++j) {
@@ -280,7 +281,7 @@ class Revolution {
     // A fresh flat is a chord: a parabola of curvature 1/R down from the round wheel.
     const double low = std::min(level, -0.5 * bottom);
     const auto whole = [&](double length) {
-      return std::max<std::ptrdiff_t>(2, static_cast<std::ptrdiff_t>(length / arc));
+      return std::max<std::ptrdiff_t>(2, to_whole<std::ptrdiff_t>(length / arc));
     };
     const Dip wide = dip(deepest, whole(crossing(low, -1)), whole(crossing(low, +1)), arc, sigma, wrapped);
     constexpr double kAlike = 0.3;

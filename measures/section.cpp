@@ -8,6 +8,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/roots.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/natural_view.hpp"
 
@@ -213,7 +214,7 @@ Profile section_points(const Surface& surface, Body body, double nominal_radius,
     double angle;  // of the outline, from the field of view
   };
   std::vector<Seen> all;
-  const auto n = static_cast<std::size_t>(2.0 * kFarthest / step) + 1;
+  const auto n = to_whole<std::size_t>(2.0 * kFarthest / step) + 1;
   for (const double tilt : {-kTilt, 0.0, kTilt}) {
     const Pose view = section * Pose{Vec3(0.0, 0.0, origin), rotation_x(tilt)};
     std::vector<Vec2> across(n);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -56,7 +57,7 @@ EvenSignal means(const RunningIntegral& integral, double first, double last, dou
   if (!(step > 0.0) || !((last - first) / step < kMost))
     throw Error(ErrorKind::input_data, "a signal cannot be sampled so finely");
   EvenSignal out{first, step, {}};
-  const auto count = static_cast<std::size_t>(std::floor((last - first) / step + kSlack)) + 1;
+  const auto count = to_whole<std::size_t>(std::floor((last - first) / step + kSlack)) + 1;
   out.values.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double middle = first + step * static_cast<double>(i);
@@ -90,7 +91,7 @@ void filter_in_place(std::vector<double>& values, const FilterSection& s) {
 std::vector<double> both_ways(std::span<const double> values, const FilterSection& section, double settling) {
   if (values.empty()) return {};
   const auto n = static_cast<std::ptrdiff_t>(values.size());
-  const auto more = std::min<std::ptrdiff_t>(n - 1, static_cast<std::ptrdiff_t>(std::ceil(settling)));
+  const auto more = std::min<std::ptrdiff_t>(n - 1, to_whole<std::ptrdiff_t>(std::ceil(settling)));
   std::vector<double> v;
   v.reserve(static_cast<std::size_t>(n + 2 * more));
   for (std::ptrdiff_t i = more; i > 0; --i) v.push_back(2.0 * values.front() - values[static_cast<std::size_t>(i)]);

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -17,7 +18,7 @@ constexpr double kPiHere = std::numbers::pi;
 /// "1, 1.25, 1.6 ..." of whole powers of 10^(1/10).
 double nominal_frequency(int index) {
   constexpr double kNominal[] = {1.0, 1.25, 1.6, 2.0, 2.5, 3.15, 4.0, 5.0, 6.3, 8.0};
-  const int decade = static_cast<int>(std::floor(index / 10.0));
+  const int decade = to_whole<int>(std::floor(index / 10.0));
   return kNominal[index - 10 * decade] * std::pow(10.0, decade);
 }
 
@@ -83,14 +84,14 @@ std::vector<FrequencyBand> third_octave_bands(const PowerSpectrum& spectrum) {
   const double last = spectrum.line * static_cast<double>(spectrum.density.size() - 1);
   const double highest = std::min(spectrum.highest, last);
   std::vector<FrequencyBand> bands;
-  for (int index = static_cast<int>(std::floor(10.0 * std::log10(spectrum.line)));; ++index) {
+  for (int index = to_whole<int>(std::floor(10.0 * std::log10(spectrum.line)));; ++index) {
     FrequencyBand band{nominal_frequency(index), std::pow(10.0, 0.1 * index - kHalf),
                        std::pow(10.0, 0.1 * index + kHalf), 0.0};
     if (band.high > highest) break;
     if (band.high - band.low < kFewestLines * spectrum.line) continue;
     double square = 0.0;
-    const auto first = std::max<std::size_t>(1, static_cast<std::size_t>(band.low / spectrum.line));
-    const auto end = std::min(spectrum.density.size(), static_cast<std::size_t>(band.high / spectrum.line) + 2);
+    const auto first = std::max<std::size_t>(1, to_whole<std::size_t>(band.low / spectrum.line));
+    const auto end = std::min(spectrum.density.size(), to_whole<std::size_t>(band.high / spectrum.line) + 2);
     for (std::size_t k = first; k < end; ++k) {
       // each line stands for half a line to both sides
       const double middle = spectrum.line * static_cast<double>(k), half = 0.5 * spectrum.line;

@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -198,7 +199,7 @@ class WheelRuler {
     constexpr double kStep = 0.25e-3, kFirst = -25e-3;
     double deepest = std::numeric_limits<double>::infinity(), hollow = 0.0;
     double last = kUnknown, highest = kUnknown;
-    const auto count = static_cast<std::size_t>((g_.field_end - kFirst) / kStep) + 1;
+    const auto count = to_whole<std::size_t>((g_.field_end - kFirst) / kStep) + 1;
     const std::vector<double> all = s_.z_over(kFirst, kStep, count);
     for (std::size_t i = 0; i < count; ++i) {
       const double z = all[i];
@@ -279,7 +280,7 @@ class WheelRuler {
     constexpr double kStep = 0.05e-3;
     const double lift = tip_.p.y() - nominal_tip;  // tips at one height: worn z minus this
     const double from = tip_.p.x(), to = std::min(g_.field_end, s_.y_max());
-    const auto count = static_cast<std::size_t>(std::max(0.0, (to - from) / kStep));
+    const auto count = to_whole<std::size_t>(std::max(0.0, (to - from) / kStep));
     const auto worn = s_.z_over(from + 0.5 * kStep, kStep, count),
                fresh = nominal.z_over(from + 0.5 * kStep, kStep, count);
     double lost = 0.0, gained = 0.0;
@@ -302,7 +303,7 @@ class WheelRuler {
     // another profile than the first must save more than what is uncertain
     const double same = std::max(1e-6, 0.5 * kTwoSided * error);
     double least = std::numeric_limits<double>::infinity();
-    const auto count = static_cast<std::size_t>(std::max(0.0, (to - from) / kStep));
+    const auto count = to_whole<std::size_t>(std::max(0.0, (to - from) / kStep));
     const std::vector<double> worn = s_.z_over(from, kStep, count);
     for (const NominalWheel& aim : nominals) {
       const std::vector<double> wanted = aim.section.z_over(from, kStep, count);

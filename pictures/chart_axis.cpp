@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/pictures/chart.hpp"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ double scaled(double mantissa, int exponent) {
 
 /// Largest 1, 2 or 5 times a power of ten that is not above the value, and its counterpart.
 double round_down(double value) {
-  const int exponent = static_cast<int>(std::floor(std::log10(value)));
+  const int exponent = to_whole<int>(std::floor(std::log10(value)));
   double best = scaled(5.0, exponent - 1);
   for (const double mantissa : {1.0, 2.0, 5.0})
     if (scaled(mantissa, exponent) <= value) best = scaled(mantissa, exponent);
@@ -34,7 +35,7 @@ double round_down(double value) {
 }
 
 double round_up(double value) {
-  const int exponent = static_cast<int>(std::floor(std::log10(value)));
+  const int exponent = to_whole<int>(std::floor(std::log10(value)));
   for (const double mantissa : {1.0, 2.0, 5.0})
     if (scaled(mantissa, exponent) >= value) return scaled(mantissa, exponent);
   return scaled(1.0, exponent + 1);
@@ -116,8 +117,8 @@ std::vector<AxisTick> ChartAxis::linear_ticks(int most) const {
 }
 
 std::vector<AxisTick> ChartAxis::log_ticks() const {
-  const int first = static_cast<int>(std::floor(std::log10(low_) + kRounding));
-  const int last = static_cast<int>(std::floor(std::log10(high_) + kRounding));
+  const int first = to_whole<int>(std::floor(std::log10(low_) + kRounding));
+  const int last = to_whole<int>(std::floor(std::log10(high_) + kRounding));
   const double decades = std::log10(high_) - std::log10(low_);
   const int every = 1 + static_cast<int>(decades) / kMostDecades;
   const auto labelled = [&](int mantissa) {

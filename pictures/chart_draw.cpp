@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/pictures/chart.hpp"
 
 namespace treadmark::pictures {
@@ -219,7 +220,7 @@ std::string draw_dots(const ChartSeries& series, const Frame& frame) {
   const std::size_t stride = 1 + series.dots.size() / kMostTried;
   for (std::size_t i = 0; i < series.dots.size(); i += stride)
     if (const auto x = frame.x(series.dots[i][0]), y = frame.y(series.dots[i][1]); x && y)
-      places.insert({std::llround(2.0 * *x), std::llround(2.0 * *y)});
+      places.insert({to_whole<long long>(std::round(2.0 * *x)), to_whole<long long>(std::round(2.0 * *y))});
   if (places.empty()) return {};
   const std::size_t every = 1 + places.size() / kMostDots;
   std::string path;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <span>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/pictures/chart.hpp"
 
 namespace treadmark::pictures {
@@ -40,8 +41,7 @@ std::array<std::uint8_t, 4> map_colour(double part, Palette palette) {
   const double mix = position - static_cast<double>(lower);
   std::array<std::uint8_t, 4> out{0, 0, 0, 255};
   for (std::size_t i = 0; i < 3; ++i)
-    out[i] =
-        static_cast<std::uint8_t>(std::lround(anchors[lower][i] + mix * (anchors[lower + 1][i] - anchors[lower][i])));
+    out[i] = to_whole<std::uint8_t>(std::round(anchors[lower][i] + mix * (anchors[lower + 1][i] - anchors[lower][i])));
   return out;
 }
 

@@ -10,6 +10,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
@@ -121,7 +122,7 @@ BenchView make_bench_view(const Surface& surface, const Vec3& contact_S, double 
   BenchView view;
   Grid2& g = view.grid;
   g.dx = g.dy = size.step;
-  g.ny = std::max(3, static_cast<int>((y_after - y_before) / g.dy));
+  g.ny = std::max(3, to_whole<int>((y_after - y_before) / g.dy));
   g.nx = std::max(3, size.points / g.ny);
   g.x0 = -0.5 * (g.nx - 1) * g.dx;
   g.y0 = 0.5 * (y_before + y_after) - 0.5 * (g.ny - 1) * g.dy;

@@ -10,6 +10,7 @@
 #include <initializer_list>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 
 namespace treadmark::app {
@@ -46,7 +47,7 @@ std::string place(const Grid2& g, std::size_t i) {
 /// Normal distances from the truth over the whole grid.
 std::string check_truth(const BenchView::Plane& subject, const BenchView::Plane& truth, const Grid2& g,
                         double resolution, double limit, double& largest) {
-  const int reach = 2 + static_cast<int>(std::ceil(2.0 * resolution / g.dx));
+  const int reach = 2 + to_whole<int>(std::ceil(2.0 * resolution / g.dx));
   std::size_t worst = 0;
   double here = 0.0;
   for (int iy = 0; iy < g.ny; ++iy)

@@ -12,6 +12,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
@@ -199,7 +200,7 @@ double circular(const std::vector<double>& b, double x, double y) {
   double height = b[kFirstHeight];
   if (count > 1) {
     const double position = (y - y_first) / step;
-    const auto k = static_cast<std::size_t>(std::clamp(std::floor(position), 0.0, static_cast<double>(count - 2)));
+    const auto k = to_whole<std::size_t>(std::clamp(std::floor(position), 0.0, static_cast<double>(count - 2)));
     const double fraction = position - static_cast<double>(k);
     height = (1.0 - fraction) * b[kFirstHeight + k] + fraction * b[kFirstHeight + k + 1];
   }

@@ -21,6 +21,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/damage/record.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
@@ -296,7 +297,7 @@ class EvolutionRun {
   void report(const io::Generation& g) const {
     constexpr std::size_t kParts = 1000;
     if (progress_.report)
-      progress_.report(static_cast<std::size_t>(std::lround(kParts * g.progress)), kParts,
+      progress_.report(to_whole<std::size_t>(std::round(kParts * g.progress)), kParts,
                        fmt::format("generation {}", g.number));
   }
 

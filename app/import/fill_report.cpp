@@ -9,6 +9,7 @@
 
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::app {
@@ -303,9 +304,7 @@ io::ImportReport::Distances distances_of(std::vector<float> values) {
   out.mean = sum / count;
   out.rms = std::sqrt(squares / count);
   // of few numbers the next greater one
-  const auto at = [&](double share) {
-    return values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * count)) - 1;
-  };
+  const auto at = [&](double share) { return values.begin() + to_whole<std::ptrdiff_t>(std::ceil(share * count)) - 1; };
   const auto at_95 = at(0.95), at_99 = at(0.99);
   std::nth_element(values.begin(), at_95, values.end());
   out.within_95 = *at_95;

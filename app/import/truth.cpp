@@ -20,6 +20,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/json/json_tree.hpp"
@@ -148,11 +149,11 @@ Places places_of(const FittedScan& fit) {
     out.u[r] = begin + along / band.radius;
     if (!band.closed && (along < kMargin || along > band.length() - kMargin)) return;
     const double a = along_of(fitted, out.u[r]);
-    const auto row = std::min(fit.points.rows - 1, static_cast<std::size_t>(a / fit.points.cell_a));
+    const auto row = std::min(fit.points.rows - 1, to_whole<std::size_t>(a / fit.points.cell_a));
     for (std::size_t c = 0; c < out.columns; ++c) {
       const double s = step_s * (static_cast<double>(c) + 0.5);
       if (s < fitted.s_min + kMargin || s > fitted.s_max - kMargin) continue;
-      const auto column = std::min(fit.points.columns - 1, static_cast<std::size_t>(s / fit.points.cell_s));
+      const auto column = std::min(fit.points.columns - 1, to_whole<std::size_t>(s / fit.points.cell_s));
       if (!fit.coverage.open.empty() && fit.coverage.open[row * fit.points.columns + column] != 0) continue;
       const Vec2 p = fitted.across(a, s);
       out.y[out.index(r, c)] = p.x();
@@ -296,7 +297,7 @@ Along find_along(const FittedScan& fit, const Truth& truth) {
   const bool round = body == Body::wheel;
   const double turn = 2.0 * std::numbers::pi;
   const double even = round ? turn / std::ceil(turn * band.radius / step) : step;  // of u
-  const auto steps_of = [&](double range) { return static_cast<std::size_t>(std::max(2.0, std::round(range / even))); };
+  const auto steps_of = [&](double range) { return to_whole<std::size_t>(std::max(2.0, std::round(range / even))); };
   const std::size_t stations = steps_of(length / band.radius);
   const double begin = band.closed ? -std::numbers::pi : fitted.u_at(0.0);
   // as far as the truth goes, of one without ends some way

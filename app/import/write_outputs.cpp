@@ -18,6 +18,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -240,8 +241,8 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, const io:
     for (std::size_t k = 0; k < kAcross; ++k) {
       const double s = fit.fitted.s_min + margin +
                        (fit.fitted.s_max - fit.fitted.s_min - 2.0 * margin) * (static_cast<double>(k) + 0.41) / kAcross;
-      const auto row = std::min(fit.points.rows - 1, static_cast<std::size_t>(a / fit.points.cell_a)),
-                 column = std::min(fit.points.columns - 1, static_cast<std::size_t>(s / fit.points.cell_s));
+      const auto row = std::min(fit.points.rows - 1, to_whole<std::size_t>(a / fit.points.cell_a)),
+                 column = std::min(fit.points.columns - 1, to_whole<std::size_t>(s / fit.points.cell_s));
       if (!fit.coverage.open.empty() && fit.coverage.open[row * fit.points.columns + column] != 0) continue;
       // seen along the section's normal, so that flanks are compared like the top
       const Vec2 p = fit.fitted.across(a, s), normal = fit.fitted.band.section.at(s).normal;

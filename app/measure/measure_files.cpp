@@ -15,6 +15,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/measures/bands.hpp"
@@ -396,7 +397,7 @@ class RailFile {
     Measure& worst = numbers_.roughness_exceedance;
     worst = {};
     const double length = read_.x_max - read_.x_min;
-    const auto count = static_cast<std::size_t>(std::isfinite(length) ? length / request_.line_step : 0.0);
+    const auto count = to_whole<std::size_t>(std::isfinite(length) ? length / request_.line_step : 0.0);
     if (read_.surface->constant_profile() || count < 64) {
       worst.reason = "it takes a scan along the rail";
       return;

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app::report {
@@ -34,7 +35,7 @@ void append_quantised(std::vector<std::byte>& out, std::span<const double> value
     if (!std::isfinite(value))
       codes.push_back(kNone);
     else
-      codes.push_back(how.step > 0.0 ? static_cast<Code>(std::lround((value - how.low) / how.step)) : Code{0});
+      codes.push_back(how.step > 0.0 ? to_whole<Code>(std::round((value - how.low) / how.step)) : Code{0});
   }
   append_planes<Code>(out, codes);
 }

@@ -17,6 +17,7 @@
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/vehicle/check_rail.hpp"
 #include "treadmark/solvers/vehicle/contact_on_rail.hpp"
 #include "treadmark/solvers/vehicle/lateral_track.hpp"
@@ -237,7 +238,7 @@ class Builder {
     };
     const Pose X_TR = origin(rails.own), X_TR_table = origin(rails.of_table);
     const double apart = (X_TR.origin - X_TR_table.origin).norm();
-    const int nx = std::clamp(static_cast<int>((to - from) / kAlong) + 2, 2, kMost);
+    const int nx = 2 + std::clamp(to_whole<int>((to - from) / kAlong), 0, kMost - 2);
     const int ny = 2 * static_cast<int>(kAside / kAcross) + 1;
     const Grid2 grid{from, X_TR.origin.y() - kAside, (to - from) / (nx - 1), kAcross, nx, ny};
     std::vector<double> z(grid.size()), z_table(grid.size()), slope(grid.size());

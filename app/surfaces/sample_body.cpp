@@ -14,6 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::app {
@@ -54,14 +55,14 @@ bool has_station(const UsedBody& b, double u) {
 
 std::vector<double> round_stations(double radius, const std::vector<double>& contacts, double most) {
   for (double dense = kDenseRound;; dense *= kCoarser) {
-    const int per_coarse = std::max(1, static_cast<int>(std::ceil(2.0 * kPi * radius / (kCoarseRound * dense))));
+    const int per_coarse = std::max(1, to_whole<int>(std::ceil(2.0 * kPi * radius / (kCoarseRound * dense))));
     const int n = kCoarseRound * per_coarse;
     std::vector<bool> wanted(static_cast<std::size_t>(n), false);
     const auto want = [&](int i) { wanted[static_cast<std::size_t>((i % n + n) % n)] = true; };
     for (int i = 0; i < n; i += per_coarse) want(i);
-    const int reach = static_cast<int>(std::ceil(kWindow / radius * n / (2.0 * kPi)));
+    const int reach = to_whole<int>(std::ceil(kWindow / radius * n / (2.0 * kPi)));
     for (const double contact : contacts) {
-      const int middle = static_cast<int>(std::lround((wrap_angle(contact) + kPi) * n / (2.0 * kPi)));
+      const int middle = to_whole<int>(std::round((wrap_angle(contact) + kPi) * n / (2.0 * kPi)));
       for (int i = -std::min(reach, n / 2); i <= std::min(reach, n / 2); ++i) want(middle + i);
     }
     if (static_cast<double>(std::count(wanted.begin(), wanted.end(), true)) > most && per_coarse > 1) continue;
@@ -73,7 +74,7 @@ std::vector<double> round_stations(double radius, const std::vector<double>& con
 }
 
 std::vector<double> even(double low, double high, double step) {
-  const int n = std::max(1, static_cast<int>(std::ceil((high - low) / step)));
+  const int n = std::max(1, to_whole<int>(std::ceil((high - low) / step)));
   std::vector<double> u;
   for (int i = 0; i <= n; ++i) u.push_back(i == n ? high : low + (high - low) * i / n);
   return u;
@@ -86,7 +87,7 @@ std::vector<double> rail_stations(bool constant, const std::vector<double>& cont
   if ((high - low) / kDenseAlong < many) return even(low, high, kDenseAlong);
   for (double factor = 1.0;; factor *= kCoarser) {
     const std::vector<double> fine = even(low, high, factor * kDenseAlong);
-    const auto per_coarse = static_cast<std::size_t>(kCoarseAlong / kDenseAlong);
+    const auto per_coarse = to_whole<std::size_t>(kCoarseAlong / kDenseAlong);
     std::vector<bool> wanted(fine.size(), false);
     for (const double contact : contacts) {
       const auto begin = std::lower_bound(fine.begin(), fine.end(), contact - kWindow);

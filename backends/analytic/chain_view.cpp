@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::analytic {
 
 ChainView::ChainView(const std::vector<ChainSegment>& chain, double d_y, double d_z) : chain_(&chain) {
@@ -19,8 +21,7 @@ ChainView::ChainView(const std::vector<ChainSegment>& chain, double d_y, double 
     const ChainSegment& seg = chain[i];
     const double a = seg.angle + turn, b = a + seg.curvature * seg.length;
     const double low = std::min(a, b), high = std::max(a, b);
-    const int first = static_cast<int>(std::floor(low / kPi + 0.5)),
-              last = static_cast<int>(std::ceil(high / kPi - 0.5));
+    const int first = to_whole<int>(std::floor(low / kPi + 0.5)), last = to_whole<int>(std::ceil(high / kPi - 0.5));
     for (int half_turn = first; half_turn <= std::max(first, last); ++half_turn) {
       double from = 0.0, to = seg.length;
       if (seg.curvature != 0.0) {

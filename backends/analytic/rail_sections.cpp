@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "treadmark/backends/analytic/chain.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
 namespace {
@@ -809,7 +810,7 @@ std::vector<Vec2> outline_points(const RailSection& section, double step) {
     const double turn = turn_of(e, from.x() / kMm, from.y() / kMm), radius = e.radius * kMm;
     const Vec2 chord = to - from;
     const double length = turn == 0.0 ? 0.1 * chord.norm() : std::fabs(turn * radius);
-    const int n = std::max(1, static_cast<int>(std::ceil(length / step - 1e-9)));
+    const int n = std::max(1, to_whole<int>(std::ceil(length / step - 1e-9)));
     const double start = std::atan2(chord.y(), chord.x()) - 0.5 * turn;
     for (int i = 1; i < n; ++i) {
       const double part = static_cast<double>(i) / n, t = turn * part;

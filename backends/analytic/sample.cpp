@@ -12,6 +12,7 @@
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
 
@@ -39,7 +40,7 @@ void sample_piece(const GraphCurve& curve, int piece, double step, Profile& out)
       steepest = std::max(steepest, std::fabs(curve.jet(from + (to - from) * i / 32, piece).dh));
     length = (to - from) * std::hypot(1.0, steepest);
   }
-  const int n = std::max(1, static_cast<int>(std::ceil(length / step - 1e-9)));
+  const int n = std::max(1, to_whole<int>(std::ceil(length / step - 1e-9)));
   for (int i = 0; i < n; ++i) {
     const double f = static_cast<double>(i) / n;
     const double y = arc ? from + (std::sin(alpha + f * (beta - alpha)) - std::sin(alpha)) / k : from + f * (to - from);
@@ -78,7 +79,7 @@ Profile sample_profile(const ArcChain& chain, Body body, double step) {
   out.name = "arc chain";
   ChainPoint p;
   for (const ChainSegment& seg : resolve(chain)) {
-    const int n = std::max(1, static_cast<int>(std::ceil(seg.length / step - 1e-9)));
+    const int n = std::max(1, to_whole<int>(std::ceil(seg.length / step - 1e-9)));
     for (int i = 0; i < n; ++i) {
       p = point_on(seg, seg.length * i / n);
       out.y.push_back(p.y);
@@ -106,8 +107,8 @@ SliceSet sample_wheel(const Profile& profile, double nominal_radius, const std::
   slices.body = Body::wheel;
   slices.name = profile.name + " with flats";
   // Candidates on the fine raster; away from flats only every so many of them are kept.
-  const int n = static_cast<int>(std::ceil(2.0 * kPi / fine));
-  const int stride = std::max(1, static_cast<int>(coarse_angle / (2.0 * kPi / n)));
+  const int n = to_whole<int>(std::ceil(2.0 * kPi / fine));
+  const int stride = std::max(1, to_whole<int>(coarse_angle / (2.0 * kPi / n)));
   const double margin = 4.0 * coarse_angle;
   for (int i = 0, kept = -stride; i <= n; ++i) {
     const double theta = -kPi + 2.0 * kPi * i / n;

@@ -16,6 +16,7 @@
 #include "treadmark/backends/analytic/curve_pieces.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
 namespace {
@@ -167,7 +168,7 @@ void append_cone_40(GraphCurve& curve, double moved, double slope) {
 
 void append_eps(GraphCurve& curve, double thickness, double slope) {
   constexpr double kC1b = -26.0, kC11b = -17.587, kC12 = 19.0, kB1b = 29.0, kLevel = -0.547;
-  const auto& throat = eps_throats().at(static_cast<std::size_t>(std::lround(2.0 * (thickness - 28.5))));
+  const auto& throat = eps_throats().at(to_whole<std::size_t>(std::round(2.0 * (thickness - 28.5))));
   append_spline(curve, kD1 - (kFullThickness - thickness), kC1b, throat);
   curve.append(circle_mm(kC1b, kC11b, -6.5, 100.871, 100.0, -1, kC11b));
   curve.append(circle_mm(kC11b, kC12, 19.0, 329.453, 330.0, -1, kC12));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "treadmark/backends/displacement/displaced_line.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::displacement {
 
@@ -51,8 +52,8 @@ void order_by_squares(std::vector<PlanePoint>& points, const Rectangle& r) {
   if (!(std::max(r.x_max - r.x_min, r.y_max - r.y_min) <= kMost * kLeafSize)) return;
   std::vector<std::pair<std::uint64_t, std::size_t>> squares(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto ix = static_cast<std::uint64_t>((points[i].x - r.x_min) / kLeafSize);
-    const auto iy = static_cast<std::uint64_t>((points[i].y - r.y_min) / kLeafSize);
+    const auto ix = to_whole<std::uint64_t>((points[i].x - r.x_min) / kLeafSize);
+    const auto iy = to_whole<std::uint64_t>((points[i].y - r.y_min) / kLeafSize);
     squares[i] = {(iy << 32) | ix, i};
   }
   if (std::is_sorted(squares.begin(), squares.end())) return;

@@ -18,6 +18,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/parallel_sort.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::mesh {
 
@@ -173,7 +174,7 @@ class MergeCells {
     constexpr double kFar = 4e18;  // cells beyond are one; distances are compared anyway
     Cell cell;
     for (int k = 0; k < 3; ++k)
-      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(
+      cell[static_cast<std::size_t>(k)] = to_whole<std::int64_t>(
           std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - points_.front()[k] + shift) * per_cell_))));
     return cell;
   }

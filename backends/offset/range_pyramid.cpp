@@ -8,6 +8,7 @@
 
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::offset {
 
@@ -136,7 +137,7 @@ void RangePyramid::include(const Box& given, Cell& sum) const {
   const Box box{std::clamp(given.i_low, -kFar, kFar), std::clamp(given.i_high, -kFar, kFar),
                 std::clamp(given.j_low, -kFar, kFar), std::clamp(given.j_high, -kFar, kFar)};
   const double size = std::max(box.i_high - box.i_low, box.j_high - box.j_low);
-  const auto down = [](double x) { return static_cast<int>(std::floor(x)); };
+  const auto down = [](double x) { return to_whole<int>(std::floor(x)); };
   if (size <= kCell) {
     // few voxels: exactly these, unless there are none in their cells
     Cell around{};
@@ -154,7 +155,7 @@ void RangePyramid::include(const Box& given, Cell& sum) const {
 
 void RangePyramid::include_level(const Box& box, std::size_t level, Cell& sum) const {
   const double cell = std::ldexp(kCell, static_cast<int>(level));
-  const auto index = [cell](double x) { return static_cast<std::int32_t>(std::floor(x / cell)); };
+  const auto index = [cell](double x) { return to_whole<std::int32_t>(std::floor(x / cell)); };
   const std::int32_t ci0 = index(box.i_low), ci1 = index(box.i_high), cj0 = index(box.j_low), cj1 = index(box.j_high);
   const std::vector<Cell>& cells = levels_[level];
   const auto seek = [&](auto from, std::int32_t ci, std::int32_t cj) {

@@ -12,13 +12,14 @@
 #include "treadmark/backends/offset/range_pyramid.hpp"
 #include "treadmark/backends/offset/sheet_kernel.hpp"
 #include "treadmark/core/kernel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::offset {
 
 namespace {
 
 /// Of numbers up to 2^30 in size, which SheetField::within has made sure of.
-inline int round_down(double x) { return static_cast<int>(std::floor(x)); }
+inline int round_down(double x) { return to_whole<int>(std::floor(x)); }
 
 /// Weights of a B-spline of one degree, with derivatives by voxel.
 template <int kDegree>

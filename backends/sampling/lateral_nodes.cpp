@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::sampling {
@@ -108,7 +109,7 @@ LateralArc lateral_arc(const Surface& surface, Body body, std::span<const double
   if (stations.empty() || !(high > low)) return {};
 
   const Sections sections(surface, body, stations, common);
-  const int n = std::max(32, static_cast<int>(std::ceil((high - low) / spacing * kPerStep)));
+  const int n = std::max(32, to_whole<int>(std::ceil((high - low) / spacing * kPerStep)));
   std::vector<double> raster(static_cast<std::size_t>(n) + 1);
   for (int i = 0; i <= n; ++i) raster[static_cast<std::size_t>(i)] = i == n ? high : low + (high - low) * i / n;
   std::vector<Column> columns = sections.at(raster);
@@ -145,7 +146,7 @@ LateralArc lateral_arc(const Surface& surface, Body body, std::span<const double
 }
 
 int steps_along(double length, double spacing) {
-  return std::max(3, static_cast<int>(std::ceil(length / spacing - 1e-9)));
+  return std::max(3, to_whole<int>(std::ceil(length / spacing - 1e-9)));
 }
 
 void refuse_empty_range() {

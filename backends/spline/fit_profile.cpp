@@ -10,6 +10,7 @@
 #include "treadmark/backends/spline/banded.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/pose.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 
@@ -74,7 +75,7 @@ void add_section_knots(const ProfileData& data, int first, int last, double lamb
   const double begin = position(first), length = position(last) - begin;
   if (last - first < 2) return;
   if (lambda >= kTinyBsplinePenalty) {
-    const int intervals = std::max(1, static_cast<int>(std::lround(length / spacing)));
+    const int intervals = std::max(1, to_whole<int>(std::round(length / spacing)));
     for (int i = 1; i < intervals; ++i) knots.push_back(begin + length * i / intervals);
     return;
   }

@@ -16,6 +16,7 @@
 #include "treadmark/backends/spline/given_spline.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -145,9 +146,7 @@ std::string spline_gaps(std::span<const SplineSurface> surfaces, std::span<const
   // those whose ends meet have middles of the two ends near each other
   std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> by_middle;
   const auto cell = [](const Vec3& p) {
-    const auto of = [](double x) {
-      return static_cast<std::int64_t>(std::floor(std::clamp(x / kMeeting, -1e15, 1e15)));
-    };
+    const auto of = [](double x) { return to_whole<std::int64_t>(std::floor(std::clamp(x / kMeeting, -1e15, 1e15))); };
     return std::array<std::int64_t, 3>{of(p.x()), of(p.y()), of(p.z())};
   };
   constexpr std::size_t kMostPairs = 8;  // of a side; two meet where a surface ends

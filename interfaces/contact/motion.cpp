@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
@@ -20,7 +21,7 @@ using Values = std::span<const double>;
   throw Refusal{CNTC_err_input, fmt::format("{} = {} does not exist, or not with {} values", what, which, count)};
 }
 
-int elements(double count) { return static_cast<int>(std::clamp(std::round(count), 1.0, 1e6)); }
+int elements(double count) { return to_whole<int>(std::clamp(std::round(count), 1.0, 1e6)); }
 
 void set_hertz(Problem& p, int kind, Values v) {
   if (kind < -6 || kind > -1 || v.size() != (kind == -6 ? 6u : 5u)) refuse_values("IPOTCN", kind, v.size());

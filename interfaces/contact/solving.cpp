@@ -11,6 +11,7 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/input_file.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
@@ -241,7 +242,7 @@ std::vector<int> indices(std::span<const double> values) {
   require_finite(values, "element numbers");
   std::vector<int> out;
   for (const double value : values)
-    if (value >= 1.0 && value <= 1e6) out.push_back(static_cast<int>(std::round(value)) - 1);
+    if (value >= 1.0 && value <= 1e6) out.push_back(to_whole<int>(std::round(value)) - 1);
   std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   if (out.empty() || static_cast<double>(out.size()) > kMostPlaces)
@@ -286,7 +287,7 @@ io::SubsurfaceInput::Block block_of(int kind, std::span<const double> x, std::sp
   if (z.size() < 3 || !(z[0] >= 1.0 && z[0] <= kMostPlaces))
     throw Refusal{CNTC_err_input, "planes have number, first depth and step"};
   const double step = std::max(z[2] * unit, kThinnest);
-  for (int k = 0; k < static_cast<int>(std::round(z[0])); ++k) block.z.push_back(z[1] * unit + k * step);
+  for (int k = 0; k < to_whole<int>(std::round(z[0])); ++k) block.z.push_back(z[1] * unit + k * step);
   return block;
 }
 

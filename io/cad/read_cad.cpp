@@ -18,6 +18,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/cad_process.hpp"
 #include "treadmark/io/files/text.hpp"
 
@@ -85,7 +86,7 @@ class RunningSurface {
   };
   Section section(double u) const {
     const double from = low_[1] + 1e-9, to = high_[1] - 1e-9;
-    const int n = std::max(8, static_cast<int>(std::ceil((to - from) / kScan)));
+    const int n = std::max(8, to_whole<int>(std::ceil((to - from) / kScan)));
     std::vector<double> across(static_cast<std::size_t>(n) + 1);
     for (int i = 0; i <= n; ++i) across[static_cast<std::size_t>(i)] = from + (to - from) * i / n;
     const std::vector<Seen> seen = at(u, across);
@@ -120,7 +121,7 @@ class RunningSurface {
     }
     arc.push_back(arc.back() + std::hypot(y_last - y.back(), at(u, y_last).h - before));
     y.push_back(y_last);
-    const int steps = std::max(4, static_cast<int>(std::ceil(arc.back() / kNodes)));
+    const int steps = std::max(4, to_whole<int>(std::ceil(arc.back() / kNodes)));
     std::size_t k = 0;
     for (int i = 0; i <= steps; ++i) {
       const double s = arc.back() * i / steps;
@@ -375,7 +376,7 @@ SliceSet slices_of(const RunningSurface& surface, Body body, double radius, cons
   std::vector<double> some;
   some.reserve(y.size() / kEach + 1);
   for (std::size_t i = 0; i < y.size(); i += kEach) some.push_back(y[i]);
-  const int n = std::max(4, static_cast<int>(std::ceil(scale * (to - from) / kCoarse)));
+  const int n = std::max(4, to_whole<int>(std::ceil(scale * (to - from) / kCoarse)));
   const auto refine = [&](const auto& self, const Slice& a, const Slice& b) -> void {
     if (scale * (b.u - a.u) > 2.0 * kFine) {
       const double halfway = 0.5 * (a.u + b.u);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cases/key_builder.hpp"
 #include "treadmark/model/magnitudes.hpp"
 
@@ -179,7 +180,7 @@ std::vector<double> symmetric(const std::vector<double>& above) {
 }
 
 std::vector<double> above_diagonal(const std::vector<double>& full) {
-  const auto size = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(full.size()))));
+  const auto size = to_whole<std::size_t>(std::round(std::sqrt(static_cast<double>(full.size()))));
   std::vector<double> above;
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t j = i + 1; j < size; ++j) above.push_back(full.at(i * size + j));

@@ -16,6 +16,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/output_claim.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io::profiles {
 
@@ -194,7 +195,7 @@ double rounded(double value, Digits digits) {
 
 int decimals_of(double value, int digits) {
   const auto decimals = [&](double size) {
-    return std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(size))));
+    return std::max(0, digits - 1 - to_whole<int>(std::floor(std::log10(size))));
   };
   const double size = std::abs(value), scale = std::pow(10.0, decimals(size));
   return decimals(std::round(size * scale) / scale);

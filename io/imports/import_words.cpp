@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -18,7 +19,7 @@ std::string three(double value) {
   const double size = std::abs(value);
   if (size == 0.0) return "0";
   if (!(size >= 1e-4 && size < 1e9)) return fmt::format("{:.3g}", value);
-  return fmt::format("{:.{}f}", value, std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
+  return fmt::format("{:.{}f}", value, std::max(0, 2 - to_whole<int>(std::floor(std::log10(size)))));
 }
 
 }  // namespace

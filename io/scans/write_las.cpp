@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/las_header.hpp"
 #include "treadmark/io/scans/write_scan.hpp"
@@ -90,8 +91,7 @@ void write_las(const std::filesystem::path& file, const PointCloud& cloud, Lengt
   out.text() = header_of(q, static_cast<std::uint32_t>(cloud.points.size()), unit, kRecord);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     const Vec3 p = scale * cloud.points[i];
-    for (int k = 0; k < 3; ++k)
-      put(out.text(), static_cast<std::int32_t>(std::llround((p[k] - q.origin[k]) / q.step[k])));
+    for (int k = 0; k < 3; ++k) put(out.text(), to_whole<std::int32_t>(std::round((p[k] - q.origin[k]) / q.step[k])));
     put(out.text(), std::uint16_t{0});    // intensity
     put(out.text(), std::uint8_t{0x09});  // the first of one return
     put(out.text(), std::uint8_t{0});

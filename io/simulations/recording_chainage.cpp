@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io {
 
@@ -113,7 +114,7 @@ bool same_values(const RecordedRows& rows, std::size_t a, std::size_t b) {
 std::size_t rows_recorded_again(const RecordedRows& rows, const std::vector<double>& d, std::size_t from, double step) {
   constexpr double kSame = 0.2;  // of the signal's own variation
   constexpr std::size_t kLeast = 4;
-  const auto back = static_cast<std::size_t>(std::lround((d[from - 1] - d[from]) / step)) + 1;
+  const auto back = to_whole<std::size_t>(std::round((d[from - 1] - d[from]) / step)) + 1;
   if (back < kLeast || back > from || from + back > d.size()) return 0;
   for (const std::vector<double>& s : rows.signals) {
     double apart = 0.0, mean = 0.0, square = 0.0;

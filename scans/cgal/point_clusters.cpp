@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::scans {
 
 namespace {
@@ -47,7 +49,7 @@ std::vector<std::uint32_t> cluster_points(std::span<const Vec3> points, double g
   std::vector<CellOfPoint> sorted(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      sorted[i].cell[axis] = static_cast<std::int64_t>(std::floor(points[i][static_cast<Eigen::Index>(axis)] / side));
+      sorted[i].cell[axis] = to_whole<std::int64_t>(std::floor(points[i][static_cast<Eigen::Index>(axis)] / side));
     sorted[i].point = static_cast<std::uint32_t>(i);
   }
   std::sort(sorted.begin(), sorted.end());

@@ -11,6 +11,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::scans {
@@ -40,11 +41,11 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
   const bool wheel = body == Body::wheel;
   const double start = wheel ? -std::numbers::pi * radius : least,
                length = wheel ? 2.0 * std::numbers::pi * radius : most - least;
-  const auto rows = static_cast<std::size_t>(std::max(1.0, std::ceil(length / kRow)));
+  const auto rows = to_whole<std::size_t>(std::max(1.0, std::ceil(length / kRow)));
   const double row = length / static_cast<double>(rows);
   std::vector<std::size_t> count(rows, 0);
   for (std::size_t i = 0; i < a.size(); ++i)
-    if (what[i] == kOn) ++count[std::min(rows - 1, static_cast<std::size_t>(std::max(0.0, (a[i] - start) / row)))];
+    if (what[i] == kOn) ++count[std::min(rows - 1, to_whole<std::size_t>(std::max(0.0, (a[i] - start) / row)))];
   std::vector<std::size_t> filled;
   for (const std::size_t c : count)
     if (c > 0) filled.push_back(c);
@@ -130,7 +131,7 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
   BandPoints& band = out.points;
   // whole numbers of coarse cells: four or more round a wheel, so that rows four apart never meet (see fit/)
   const auto halvings = [&](double coarse) {
-    return static_cast<std::size_t>(std::clamp(std::floor(std::log2(coarse / settings.finest) + 0.3), 0.0, 8.0));
+    return to_whole<std::size_t>(std::clamp(std::floor(std::log2(coarse / settings.finest) + 0.3), 0.0, 8.0));
   };
   double coarse_rows =
       std::max(1.0, std::round(ends.a_max - ends.a_min > 0.0 ? (ends.a_max - ends.a_min) / kCoarseA : 1.0));
@@ -157,8 +158,8 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
       continue;
     }
     a[i] = static_cast<float>(from);
-    const auto row = std::min(band.rows - 1, static_cast<std::size_t>(from / band.cell_a));
-    const auto column = std::min(band.columns - 1, static_cast<std::size_t>(s[i] / band.cell_s));
+    const auto row = std::min(band.rows - 1, to_whole<std::size_t>(from / band.cell_a));
+    const auto column = std::min(band.columns - 1, to_whole<std::size_t>(s[i] / band.cell_s));
     cell[i] = static_cast<std::uint32_t>(row * band.columns + column);
     ++band.begin[cell[i] + 1];
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::scans {
 namespace {
 
@@ -142,7 +144,7 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
 
   // random points cover far beyond their last ones: as much of the length has to have points in the next column at
   // least
-  const auto block = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(out.gap_a / points.cell_a)));
+  const auto block = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(out.gap_a / points.cell_a)));
   std::vector<std::size_t> lows, highs;
   for (std::size_t from = 0; from < rows; from += block) {
     lows.push_back(columns);

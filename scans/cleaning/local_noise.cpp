@@ -12,6 +12,7 @@
 #include "treadmark/core/kernel.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/cleaning/window.hpp"
 
 namespace treadmark::scans {
@@ -126,7 +127,7 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
   for (std::size_t k = 0; k + 1 < points.begin.size(); ++k) filled += points.begin[k + 1] > points.begin[k] ? 1 : 0;
   const double per_cell = static_cast<double>(points.size()) / static_cast<double>(std::max<std::size_t>(filled, 1));
   out.window =
-      std::clamp(static_cast<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
+      std::clamp(to_whole<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
   const auto columns = static_cast<int>(points.columns);
   std::vector<float> of_cell(points.begin.size() - 1, -1.0f);
   std::vector<std::size_t> outliers(points.rows, 0), spared(points.rows, 0), isolated(points.rows, 0);

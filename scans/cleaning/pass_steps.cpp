@@ -11,6 +11,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::scans {
@@ -55,8 +56,8 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
   for (PassStep& pass : out.passes) pass.middle_S /= static_cast<double>(pass.points);
 
   // cells of a few of the points' cells
-  const auto stride_a = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kCell / points.cell_a)));
-  const auto stride_s = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kCell / points.cell_s)));
+  const auto stride_a = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(kCell / points.cell_a)));
+  const auto stride_s = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(kCell / points.cell_s)));
   const std::size_t rows = (points.rows + stride_a - 1) / stride_a,
                     columns = (points.columns + stride_s - 1) / stride_s;
   std::vector<std::vector<Level>> levels(rows * columns);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::scans {
@@ -33,7 +34,7 @@ Profile ordered(Body body, std::vector<double> y, std::vector<double> z, std::st
 }
 
 std::vector<double> nodes_across(const FittedBand& fitted, double spacing) {
-  const auto steps = static_cast<std::size_t>(std::max(4.0, std::ceil((fitted.s_max - fitted.s_min) / spacing)));
+  const auto steps = to_whole<std::size_t>(std::max(4.0, std::ceil((fitted.s_max - fitted.s_min) / spacing)));
   std::vector<double> out(steps + 1);
   for (std::size_t k = 0; k <= steps; ++k)
     out[k] = fitted.s_min + (fitted.s_max - fitted.s_min) * static_cast<double>(k) / static_cast<double>(steps);
@@ -61,7 +62,7 @@ SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, s
     finest = std::min(finest, level.knot_a);
     coarsest = std::max(coarsest, level.knot_a);
   }
-  auto count = static_cast<std::size_t>(std::lround(band.length() / finest));
+  auto count = to_whole<std::size_t>(std::round(band.length() / finest));
   // short bands have few knots: between them the splines are what slices on both sides make them again
   constexpr std::size_t kFewestPlaces = 8;
   for (; count < kFewestPlaces; count *= 2) finest *= 0.5;
@@ -76,7 +77,7 @@ SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, s
     for (const double beside : {a - 0.5 * finest, a + 0.5 * finest})
       step = std::min(
           step, fitted.field.finest_knot_a(band.closed ? beside : std::clamp(beside, 0.0, band.length()), tolerance));
-    const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(step / finest + 1e-6)));
+    const auto stride = to_whole<std::size_t>(std::max(1.0, std::floor(step / finest + 1e-6)));
     std::size_t power = 1;
     while (2 * power <= stride) power *= 2;
     if (k % power == 0 || k == count || k - last >= power) {
@@ -141,14 +142,14 @@ std::vector<Vec2> triangle_nodes(const FittedBand& fitted, const BandPoints& poi
   // rows along a; every second column half a step further, sides of triangles a little below spacing
   const double side = 0.866 * spacing;
   const double length = fitted.band.length(), width = fitted.s_max - fitted.s_min;
-  const auto along = static_cast<std::size_t>(std::max(4.0, std::ceil(length / side)));
-  const auto across = static_cast<std::size_t>(std::max(4.0, std::ceil(width / (0.866 * side))));
+  const auto along = to_whole<std::size_t>(std::max(4.0, std::ceil(length / side)));
+  const auto across = to_whole<std::size_t>(std::max(4.0, std::ceil(width / (0.866 * side))));
   const double step = length / static_cast<double>(along);
   std::vector<Vec2> out;
   const auto add = [&](double a, double s) {
     if (!open.empty()) {
-      const auto row = std::min(points.rows - 1, static_cast<std::size_t>(a / points.cell_a)),
-                 column = std::min(points.columns - 1, static_cast<std::size_t>(s / points.cell_s));
+      const auto row = std::min(points.rows - 1, to_whole<std::size_t>(a / points.cell_a)),
+                 column = std::min(points.columns - 1, to_whole<std::size_t>(s / points.cell_s));
       if (open[row * points.columns + column] != 0) return;
     }
     out.emplace_back(a, s);
@@ -168,7 +169,7 @@ std::vector<double> sagitta(const FittedBand& fitted, std::span<const Vec2> node
   // the section's share: what is left of it over the straight line between its ends
   const Section& section = fitted.band.section;
   constexpr double kStep = 0.1e-3;
-  const auto steps = static_cast<std::size_t>(section.length() / kStep) + 2;
+  const auto steps = to_whole<std::size_t>(section.length() / kStep) + 2;
   std::vector<double> bent(steps, 0.0);  // twice integrated curvature
   double slope = 0.0;
   for (std::size_t k = 1; k < steps; ++k) {
@@ -178,7 +179,7 @@ std::vector<double> sagitta(const FittedBand& fitted, std::span<const Vec2> node
   }
   std::vector<double> out;
   for (const Vec2& n : nodes) {
-    const auto k = std::min(steps - 2, static_cast<std::size_t>(n.y() / kStep));
+    const auto k = std::min(steps - 2, to_whole<std::size_t>(n.y() / kStep));
     const double t = n.y() / kStep - static_cast<double>(k);
     double h = fitted.field.value(n.x(), n.y()) + bent[k] + t * (bent[k + 1] - bent[k]);
     if (fitted.band.body == Body::wheel) h -= n.x() * n.x() / (2.0 * fitted.band.radius);

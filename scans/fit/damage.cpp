@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -19,8 +20,8 @@ constexpr std::size_t kSmallest = 12;  // cells
 
 std::vector<Damage> find_damage(const Band& band, const SplineField& field, double s_min, double s_max,
                                 double threshold) {
-  const auto rows = static_cast<std::size_t>(std::max(1.0, std::round(band.length() / kStep)));
-  const auto columns = static_cast<std::size_t>(std::max(1.0, std::round((s_max - s_min) / kStep)));
+  const auto rows = to_whole<std::size_t>(std::max(1.0, std::round(band.length() / kStep)));
+  const auto columns = to_whole<std::size_t>(std::max(1.0, std::round((s_max - s_min) / kStep)));
   const double da = band.length() / static_cast<double>(rows), ds = (s_max - s_min) / static_cast<double>(columns);
   std::vector<float> depth(rows * columns);
   parallel_for(rows, [&](std::size_t r) {

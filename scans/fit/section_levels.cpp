@@ -12,6 +12,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/fit/spline_field.hpp"
 
 namespace treadmark::scans {
@@ -62,17 +63,17 @@ Strip strip_of(std::vector<Strip>& inside) {
 
 Section refine_section(const BandPoints& points, const Band& band, double finest, double* moved) {
   const double length = band.section.length();
-  const auto count = static_cast<std::size_t>(std::ceil(length / kStrip));
+  const auto count = to_whole<std::size_t>(std::ceil(length / kStrip));
   std::vector<std::vector<Strip>> inside(count);
   // parts of the band that were scanned more densely, as a damage often is, must not count more
-  const auto block_rows = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kBlock / points.cell_a)));
+  const auto block_rows = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(kBlock / points.cell_a)));
   const std::size_t blocks = (points.rows + block_rows - 1) / block_rows;
   std::vector<std::uint32_t> in_block(blocks * count, 0);
   const auto each_point = [&](const auto& visit) {
     for (std::size_t row = 0; row < points.rows; ++row)
       for (std::size_t i = points.first(row, 0); i < points.begin[(row + 1) * points.columns]; ++i)
         if (points.state[i] != PointState::off_band)
-          visit(row / block_rows, std::min(count - 1, static_cast<std::size_t>(points.s[i] / kStrip)), i);
+          visit(row / block_rows, std::min(count - 1, to_whole<std::size_t>(points.s[i] / kStrip)), i);
   };
   each_point([&](std::size_t block, std::size_t strip, std::size_t) { ++in_block[block * count + strip]; });
   std::vector<std::uint32_t> usual(count, 0), counts;
@@ -97,7 +98,7 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
   SplineField field(1.0, length, false);
   std::vector<double> residual(count);
   for (std::size_t k = 0; k < count; ++k) residual[k] = strips[k].d;
-  auto intervals = static_cast<std::size_t>(std::max(1.0, std::round(length / kCoarsest)));
+  auto intervals = to_whole<std::size_t>(std::max(1.0, std::round(length / kCoarsest)));
   // beside the noise of the points there is what they are off in company along the whole band, which no number of them
   // averages out
   constexpr double kSystematic = 0.05e-6;
@@ -164,7 +165,7 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
   double largest = 0.0;
   std::vector<Vec2> nodes;
   if (!field.levels().empty()) {
-    const auto steps = static_cast<std::size_t>(std::ceil(length / kStrip));
+    const auto steps = to_whole<std::size_t>(std::ceil(length / kStrip));
     for (std::size_t k = 0; k <= steps; ++k) {
       const double s = length * static_cast<double>(k) / static_cast<double>(steps), d = field.value(0.5, s);
       const Section::Point at = band.section.at(s);

@@ -15,6 +15,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -26,7 +27,7 @@ constexpr double kAlike = 4e-3;       // sections that differ more at their bett
 std::vector<Vec2> nodes_of(const Section& section) {
   constexpr double kStep = 0.5e-3;
   std::vector<Vec2> out;
-  const auto steps = static_cast<std::size_t>(section.length() / kStep);
+  const auto steps = to_whole<std::size_t>(section.length() / kStep);
   for (std::size_t k = 0; k <= steps; ++k) out.push_back(section.at(kStep * static_cast<double>(k)).position);
   return out;
 }

@@ -13,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::scans {
@@ -33,7 +34,7 @@ struct Residual {
 
 struct Knots {
   Knots(double length, double spacing)
-      : intervals(static_cast<std::size_t>(std::max(2.0, std::round(length / spacing)))),
+      : intervals(to_whole<std::size_t>(std::max(2.0, std::round(length / spacing)))),
         apart(length / static_cast<double>(intervals)) {}
 
   std::size_t intervals;
@@ -44,7 +45,7 @@ struct Knots {
     std::array<double, 4> basis;
   };
   Place at(double s) const {
-    const std::size_t k = std::min(intervals - 1, static_cast<std::size_t>(s / apart));
+    const std::size_t k = std::min(intervals - 1, to_whole<std::size_t>(s / apart));
     return {k, cubic_basis(s / apart - static_cast<double>(k))};
   }
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -71,7 +72,7 @@ Section::Section(std::span<const Vec2> points) {
     }
   }
   length_ = arc.back();
-  const auto steps = static_cast<std::size_t>(std::max(4.0, std::ceil(length_ / kStep)));
+  const auto steps = to_whole<std::size_t>(std::max(4.0, std::ceil(length_ / kStep)));
   step_ = length_ / static_cast<double>(steps);
   std::vector<double> s(steps + 1);
   std::size_t k = 1;

@@ -18,6 +18,7 @@
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans {
 
@@ -77,7 +78,7 @@ class NearPoints {
         all[i].first = kFar;
         const auto foot = section.foot(points[i], farthest);
         if (!foot) continue;
-        const auto cell = std::min(intervals - 1, static_cast<std::size_t>(foot->s / knot));
+        const auto cell = std::min(intervals - 1, to_whole<std::size_t>(foot->s / knot));
         all[i] = {static_cast<std::uint32_t>(cell),
                   {static_cast<float>(foot->s / knot - static_cast<double>(cell)), static_cast<float>(foot->distance)}};
       }
@@ -121,10 +122,10 @@ Section outline(std::span<const Vec2> points) {
     y_min = -kWidest;
     y_max = kWidest;
   }
-  const auto count = static_cast<std::size_t>(std::ceil((y_max - y_min) / kStrip));
+  const auto count = to_whole<std::size_t>(std::ceil((y_max - y_min) / kStrip));
   std::vector<std::vector<Vec2>> in_strip(count + 1);
   for (const Vec2& p : points)
-    if (p.x() >= y_min && p.x() <= y_max) in_strip[static_cast<std::size_t>((p.x() - y_min) / kStrip)].push_back(p);
+    if (p.x() >= y_min && p.x() <= y_max) in_strip[to_whole<std::size_t>((p.x() - y_min) / kStrip)].push_back(p);
   std::vector<Strip> strips(in_strip.size());
   parallel_for(in_strip.size(), [&](std::size_t k) {
     strips[k] = strip_of(in_strip[k], y_min + kStrip * (static_cast<double>(k) + 0.5));
@@ -166,7 +167,7 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
   out.section = start;
   for (int round = 0; round < rounds; ++round) {
     const double length = out.section.length();
-    const auto intervals = static_cast<std::size_t>(std::max(2.0, std::round(length / knot_spacing)));
+    const auto intervals = to_whole<std::size_t>(std::max(2.0, std::round(length / knot_spacing)));
     const double knot = length / static_cast<double>(intervals);
     const NearPoints near(out.section, points, farthest, intervals);
     if (near.size() < 4 * intervals)
@@ -249,7 +250,7 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
     out.spread = std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(near.size()));
     out.scale = kMad * median_of(sizes);
     // the curve moves along its normals; what would fold at badly known ends is left out, from the middle on
-    const auto nodes = static_cast<std::size_t>(std::ceil(2.0 * static_cast<double>(intervals)));
+    const auto nodes = to_whole<std::size_t>(std::ceil(2.0 * static_cast<double>(intervals)));
     std::vector<Vec2> all(nodes + 1);
     for (std::size_t k = 0; k <= nodes; ++k) {
       const double place = static_cast<double>(k) * static_cast<double>(intervals) / static_cast<double>(nodes);

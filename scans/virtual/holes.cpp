@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans::scanner {
 namespace {
@@ -30,7 +31,7 @@ bool Holes::Hole::contains(const Vec3& p) const {
 std::uint64_t Holes::cell(const Vec3& p) const {
   // far cells may share a number: what lies in a hole is decided by its equation
   const auto index = [&](double x) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell_size_))) & 0x1fffffu;
+    return static_cast<std::uint64_t>(to_whole<std::int64_t>(std::floor(x / cell_size_))) & 0x1fffffu;
   };
   return index(p.x()) << 42 | index(p.y()) << 21 | index(p.z());
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/virtual/draws.hpp"
 #include "treadmark/scans/virtual/drop_outs.hpp"
 
@@ -23,10 +24,10 @@ std::vector<double> places(const Station& station, double step, Draws draws) {
   std::vector<double> y;
   const double length = station.length();
   if (!(length > 0.0)) return y;
-  y.reserve(static_cast<std::size_t>(length / step) + 2);
+  y.reserve(to_whole<std::size_t>(length / step) + 2);
   const double phase = draws.uniform();
   std::size_t piece = 1;
-  const auto last = static_cast<long>(length / step) + 2;
+  const auto last = to_whole<long>(length / step) + 2;
   for (long i = -1; i <= last; ++i) {
     const double arc = (static_cast<double>(i) + phase + draws.uniform(-kJitter, kJitter)) * step;
     if (arc > 0.0 && arc < length) y.push_back(station.y_at(arc, piece));

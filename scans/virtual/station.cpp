@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::scans::scanner {
 namespace {
 
@@ -111,7 +113,7 @@ double Station::y_at(double arc, std::size_t& piece) const {
 std::vector<double> raster(const Surface& surface, Body body, std::span<const double> stations, double low, double high,
                            double longest) {
   const double wanted = std::min((high - low) / longest, kMostPieces);
-  const std::size_t n = std::max(kLeastPieces, static_cast<std::size_t>(std::ceil(wanted)));
+  const std::size_t n = std::max(kLeastPieces, to_whole<std::size_t>(std::ceil(wanted)));
   std::vector<double> y(n + 1);
   for (std::size_t i = 0; i <= n; ++i)
     y[i] = i == n ? high : low + (high - low) * static_cast<double>(i) / static_cast<double>(n);

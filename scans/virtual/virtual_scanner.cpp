@@ -8,6 +8,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/virtual/check_settings.hpp"
 #include "treadmark/scans/virtual/draws.hpp"
 #include "treadmark/scans/virtual/first_look.hpp"
@@ -58,7 +59,7 @@ Plan plan_lines(const FirstLook& part, const std::vector<Pass>& passes, const Sc
                 "ask for a wider spacing or a smaller part");
   for (const Pass& pass : passes) {
     const double width = (pass.u_max - pass.u_min) * part.metres_per_u;
-    plan.lines.push_back(std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(width / plan.spacing))));
+    plan.lines.push_back(std::max<std::size_t>(1, to_whole<std::size_t>(std::round(width / plan.spacing))));
     plan.total_lines += plan.lines.back();
     scanned += static_cast<double>(plan.lines.back()) * pass.nominal_area / width;
   }

@@ -16,6 +16,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::vehicle {
@@ -289,7 +290,7 @@ std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry&
   const Builder builder(geometry, rest, nominal, loads_of(reference_load, options));
 
   constexpr double kRounding = 1e-9;
-  const auto each_way = static_cast<std::size_t>(options.lateral_range / options.step + kRounding);
+  const auto each_way = to_whole<std::size_t>(options.lateral_range / options.step + kRounding);
   std::vector<double> y;
   for (std::size_t i = 0; i <= 2 * each_way; ++i)
     y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));

@@ -13,6 +13,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 
@@ -160,7 +161,7 @@ constexpr double kVanishing = 1e-3;
 
 /// Cell of a coordinate in units of nodes, and how far in it.
 std::pair<int, double> cell_of(double position, int first, int last) {
-  const int cell = std::clamp(static_cast<int>(std::floor(position)), first, last);
+  const int cell = std::clamp(to_whole<int>(std::floor(position)), first, last);
   return {cell, position - cell};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
 
@@ -47,7 +48,7 @@ PatchTangent tangent_of(const wheelrail::PatchSolution& patch, const wheelrail::
 
 /// Traction of a row at a place between element centres, 0 outside.
 double traction_at(const std::vector<double>& field, const Grid2& grid, double ix, int iy) {
-  const int low = static_cast<int>(std::floor(ix));
+  const int low = to_whole<int>(std::floor(ix));
   const double share = ix - low;
   const auto at = [&](int i) { return i >= 0 && i < grid.nx ? field[grid.index(i, iy)] : 0.0; };
   return (1.0 - share) * at(low) + share * at(low + 1);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -75,7 +76,7 @@ MovingRail::MovingRail(const FlexibleTrack& track, const SpeedProfile& speed, co
                   fmt::format("two wheels on one rail are {:.6g} m apart, not more than an element of the rail is long",
                               ordered[i] - ordered[i - 1]),
                   {}, "give the rail more elements in a bay (seats.bay_elements), at most 8 are used");
-  seats_about_ = static_cast<std::int64_t>(std::max(kFewest, std::ceil(length / bay)));
+  seats_about_ = to_whole<std::int64_t>(std::max(kFewest, std::ceil(length / bay)));
   // As many more as the forces reach over where seats are closest.
   std::int64_t within = 0, front = 0;
   for (std::int64_t i = 0; reach > 0.0 && i < static_cast<std::int64_t>(seats.size()); ++i) {

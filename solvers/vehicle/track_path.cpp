@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::vehicle {
 
 namespace {
@@ -52,7 +54,7 @@ Vec2 way(const LayoutElement& e, double heading, double x) {
                                  0.0666713443086881};
   constexpr double kTurnOfPanel = 0.5;  // [rad], for which ten points give all digits
   const double most = std::max(std::abs(e.curvature.from), std::abs(e.curvature.to));
-  const int panels = std::max(1, static_cast<int>(std::ceil(most * x / kTurnOfPanel)));
+  const int panels = std::max(1, to_whole<int>(std::ceil(most * x / kTurnOfPanel)));
   const double half = 0.5 * x / panels;
   Vec2 sum = Vec2::Zero();
   for (int p = 0; p < panels; ++p) {
@@ -167,7 +169,7 @@ std::optional<PathPlace> TrackPath::locate(const Vec3& point_L) const {
   for (std::size_t i = 0; i < layout_.elements.size(); ++i) {
     const LayoutElement& e = layout_.elements[i];
     const double most = std::max(std::abs(e.curvature.from), std::abs(e.curvature.to));
-    const int parts = static_cast<int>(std::ceil(e.length * std::max(1.0 / kSpacing, most / kTurn)));
+    const int parts = to_whole<int>(std::ceil(e.length * std::max(1.0 / kSpacing, most / kTurn)));
     for (int k = 1; k <= parts; ++k) {
       const double s = starts_[i].distance + e.length * k / parts;
       const double distance = (point_L - at(s).origin_L).squaredNorm();

@@ -7,6 +7,7 @@
 #include <compare>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -17,7 +18,7 @@ struct Lines {
 };
 
 Lines lines_of(const Grid2& g) {
-  const long ix = std::lround(g.x0 / g.dx), iy = std::lround(g.y0 / g.dy);
+  const long ix = to_whole<long>(std::round(g.x0 / g.dx)), iy = to_whole<long>(std::round(g.y0 / g.dy));
   return {ix, ix + g.nx - 1, iy, iy + g.ny - 1};
 }
 

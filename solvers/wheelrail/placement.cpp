@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -37,7 +38,7 @@ struct Section {
 };
 
 Section lateral_section(const Surface& surface, const Pose& X_ST, double x_T, const LateralRange& range, double step) {
-  const int n = std::clamp(static_cast<int>((range.y_max - range.y_min) / step) + 2, 16, 20000);
+  const int n = 2 + std::clamp(to_whole<int>((range.y_max - range.y_min) / step), 14, 19998);
   const Grid2 grid{x_T, range.y_min, 1.0, (range.y_max - range.y_min) / (n - 1), 1, n};
   Section section;
   section.z.resize(grid.size());

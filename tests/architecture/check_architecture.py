@@ -6,7 +6,7 @@
 usage: check_architecture.py ROOT
 
 Checked: who may include whom, one source file per heavy third-party header, surfaces asked through their contract only,
-licence lines, no package hosts, no other programs started.
+licence lines, no package hosts, no other programs started, no rounded number cast to an integer that may not hold it.
 """
 import pathlib
 import re
@@ -65,6 +65,13 @@ CONTRACT_ONLY = ("damage/", "detection/", "geometry/", "measured/", "measures/",
 STARTS_PROGRAMS = re.compile(r"(?<![\w.>])(system|w?popen|v?fork|exec[lv]p?e?|posix_spawnp?)\s*\(")
 MAY_START = ("tests", "bench")
 STARTS_ITS_OWN = ("io/cad/cad_process.cpp",)
+
+# A double beyond an integer's range has no value as one (core/to_whole.hpp): what is rounded, or counted in steps or cells.
+CAST = re.compile(r"static_cast<(?:unsigned|int|long|long long|short|std::size_t|std::ptrdiff_t|std::u?int\d+_t)>\(")
+ROUNDED = re.compile(r"(?<!\w)(?:floor|ceil|trunc|round|rint|nearbyint)\(|"
+                     r" / [\w.]*(?:[Ss]tep|[Cc]ell|[Ss]trip)(?:_[as])?\b")
+ROUNDED_TO_LONG = re.compile(r"(?<!\w)ll?(?:round|rint)\(")
+MAY_CAST = ("tests", "bench", "examples")
 
 # Put together here, so that this file does not contain them.
 HOSTS = [".".join(parts) for parts in (
@@ -132,6 +139,20 @@ def check_includes(relative, text, heavy_users):
                 heavy_users.setdefault((pattern, group), (header, set()))[1].add(relative)
 
 
+def unchecked_casts(text):
+    """Casts of doubles to integers, as they stand in a source."""
+    for found in ROUNDED_TO_LONG.finditer(text):
+        yield found.group()
+    for found in CAST.finditer(text):
+        depth, end = 1, found.end()
+        while depth > 0 and end < len(text):
+            depth += {"(": 1, ")": -1}.get(text[end], 0)
+            end += 1
+        cast = text[found.end():end]
+        if ROUNDED.search(cast) and "to_whole<" not in cast and "static_cast<" not in cast.replace("static_cast<double>", ""):
+            yield found.group() + cast
+
+
 def check(root):
     """All violations below a folder, as texts "file: what"."""
     violations, heavy_users = [], {}
@@ -148,6 +169,8 @@ def check(root):
             found = STARTS_PROGRAMS.search(text)
             if found and layer(relative) not in MAY_START and relative not in STARTS_ITS_OWN:
                 violations.append(f"{relative}: {found.group(1)}: no other program is started")
+            if layer(relative) not in MAY_CAST:
+                violations += [f"{relative}: {cast}: use to_whole (core/to_whole.hpp)" for cast in unchecked_casts(text)]
         if relative.endswith(LICENSED) and "SPDX-License-Identifier: Apache-2.0" not in text[:400]:
             violations.append(f"{relative}: no SPDX-License-Identifier line at its top")
         violations += [f"{relative}: mentions the package host {host}" for host in HOSTS if host in text.lower()]

@@ -65,6 +65,15 @@ class Planted(unittest.TestCase):
             self.assertEqual(self.violations({"tests/a.cpp": f"void f() {{ {call}; }}\n"}), [])
         self.assertEqual(self.violations({"io/a.cpp": "void f() { built.system(1); subsystem(2); a->system(3); }\n"}), [])
 
+    def test_no_unchecked_casts(self):
+        for cast in ("static_cast<int>(std::floor(x))", "static_cast<std::size_t>(std::max(1.0, std::round(a / b)))",
+                     "static_cast<std::int32_t>(std::ceil(f(x) - 1e-9))", "static_cast<int>((x - x0) / step)",
+                     "static_cast<std::size_t>(s / points.cell_a)", "std::lround(x)", "std::llround(2.0 * x)"):
+            self.expect("detection/a.cpp", f"const auto n = {cast};\n", "to_whole")
+        self.assertEqual(self.violations({"detection/a.cpp": "a = to_whole<int>(std::floor(x)) + static_cast<int>(i / 2);\n"
+                                          "b = static_cast<std::uint64_t>(to_whole<std::int64_t>(std::floor(x)));\n",
+                                          "tests/core/a.cpp": "std::lround(x);\n"}), [])
+
     def test_spelling_of_includes(self):
         self.expect("core/a.cpp", '#include "pose.hpp"\n', "must read")
         self.expect("core/a.cpp", '#include "../app/run.hpp"\n', "must read")

@@ -11,6 +11,7 @@
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/model/body_name.hpp"
@@ -213,7 +214,7 @@ void add_surface_figures(Section& section, const io::EvolutionResult& result, co
   const auto [first, last_column] = changed_columns(last);
   const int ny = last_row - first_row + 1, nu = last_column - first + 1, middle = changed_row(last);
   const double cells = static_cast<double>(nu) * ny * static_cast<double>(result.generations.size());
-  const int every = std::max({1, nu / 1000, static_cast<int>(std::ceil(cells / kMostNumbers))});
+  const int every = std::max({1, nu / 1000, to_whole<int>(std::ceil(cells / kMostNumbers))});
   const std::vector<SurfaceSheet> sheets = surface_sheets(last);
   ChartView lines;
   lines.x = along_axis(last.body);

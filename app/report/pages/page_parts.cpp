@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app::report {
@@ -44,7 +45,7 @@ std::string counted(std::size_t count, const std::string& word) {
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return "–";
   if (seconds < 60.0) return fmt::format("{:.3g} s", seconds);
-  const long whole = std::lround(seconds);
+  const long whole = to_whole<long>(std::round(seconds));
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }

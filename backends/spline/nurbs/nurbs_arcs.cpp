@@ -5,6 +5,7 @@
 
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -52,7 +53,7 @@ PlanarCurve profile_curve(const ArcChain& chain) {
             "segments of an arc chain need a positive length and a finite curvature");
     require(std::abs(turn) <= 2.0 * std::numbers::pi, "a segment of an arc chain is longer than a full circle");
     const int pieces = std::max(
-        1, static_cast<int>(std::ceil(std::max(std::abs(turn) / kLongestTurn, segment.length / kLongestPiece) - 1e-9)));
+        1, to_whole<int>(std::ceil(std::max(std::abs(turn) / kLongestTurn, segment.length / kLongestPiece) - 1e-9)));
     // Points from the start of the segment, so that errors do not add up.
     const auto at = [&](double d) {
       const double half = 0.5 * segment.curvature * d;
@@ -83,7 +84,7 @@ NurbsNet sweep_chain(const ArcChain& chain, double x_min, double x_max) {
   require(std::isfinite(x_min) && std::isfinite(x_max) && x_min < x_max,
           "a swept rail needs a finite range of x with x_min < x_max");
   const PlanarCurve profile = profile_curve(chain);
-  const int pieces = std::clamp(static_cast<int>(std::ceil((x_max - x_min) / kLongestSweep)), 1, 100'000);
+  const int pieces = std::clamp(to_whole<int>(std::ceil((x_max - x_min) / kLongestSweep)), 1, 100'000);
   std::vector<double> breaks;
   for (int i = 0; i <= pieces; ++i) breaks.push_back(i == pieces ? x_max : x_min + (x_max - x_min) * i / pieces);
   std::vector<Quad> points;

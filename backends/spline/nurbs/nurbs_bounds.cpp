@@ -6,6 +6,7 @@
 
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -23,7 +24,7 @@ std::vector<Cell> cells_of(const std::vector<double>& lengths, double smallest, 
   const int n = static_cast<int>(lengths.size());
   for (int i = 0; i < n;) {
     double length = lengths[static_cast<std::size_t>(i)];
-    const int parts = static_cast<int>(std::ceil(length / largest - 1e-9));
+    const int parts = to_whole<int>(std::ceil(length / largest - 1e-9));
     if (parts > 1) {
       for (int k = 0; k < parts; ++k)
         cells.push_back({i, i + 1, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts});

@@ -16,6 +16,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 
@@ -382,7 +383,7 @@ SampledSlices sample_slices(const SliceSet& slices) {
     double longest = 0.0;
     for (const auto& f : features)
       if (f[p + 1] > f[p]) longest = std::max(longest, f[p + 1] - f[p]);  // false where one of them is missing
-    intervals[p] = 1 + static_cast<int>((longest + kLengthSlack) / kPositionSpacing);
+    intervals[p] = 1 + to_whole<int>((longest + kLengthSlack) / kPositionSpacing);
     sampled.positions += intervals[p];
   }
 

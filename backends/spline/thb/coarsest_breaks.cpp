@@ -7,6 +7,7 @@
 
 #include "treadmark/backends/spline/thb/normal_equations.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -155,7 +156,7 @@ CoarsestBreaks coarsest_breaks(const FitPoints& points, Body body, int degree, c
   const auto section_at = [&](double y) {
     // linear between the middles of columns
     const double at = (y - v.at.front()) / (v.at[1] - v.at[0]) - 0.5;
-    const int j = std::clamp(static_cast<int>(std::floor(at)), 0, std::max(0, columns - 2));
+    const int j = std::clamp(to_whole<int>(std::floor(at)), 0, std::max(0, columns - 2));
     const auto k = static_cast<std::size_t>(j);
     return columns < 2 ? section[k] : section[k] + (at - j) * (section[k + 1] - section[k]);
   };

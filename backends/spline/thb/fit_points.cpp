@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -142,8 +143,8 @@ FitPoints::FitPoints(std::vector<double> u, std::vector<double> v, std::vector<V
   const double from_u = closed ? -std::numbers::pi : *u_low, width_v = *v_high - *v_low;
   const double width_u = closed ? 2.0 * std::numbers::pi : *u_high - from_u;
   const double step = std::sqrt(width_u * length_of_u * width_v * points_a_place / static_cast<double>(points.size()));
-  const int rows = std::max(1, static_cast<int>(width_u * length_of_u / step));
-  columns_ = std::max(1, static_cast<int>(width_v / step));
+  const int rows = std::max(1, to_whole<int>(width_u * length_of_u / step));
+  columns_ = std::max(1, to_whole<int>(width_v / step));
   const auto places = [](double from, double width, int steps, bool round) {
     std::vector<double> out;
     out.reserve(static_cast<std::size_t>(steps) + 1);
@@ -154,8 +155,8 @@ FitPoints::FitPoints(std::vector<double> u, std::vector<double> v, std::vector<V
   u_.period = closed ? width_u : 0.0;
   v_.at = places(*v_low, width_v, columns_, false);
   const auto cell = [&](std::size_t k) {
-    const int i = std::clamp(static_cast<int>((u[k] - from_u) / width_u * rows), 0, rows - 1),
-              j = std::clamp(static_cast<int>((v[k] - v_.at.front()) / width_v * columns_), 0, columns_ - 1);
+    const int i = std::clamp(to_whole<int>((u[k] - from_u) / width_u * rows), 0, rows - 1),
+              j = std::clamp(to_whole<int>((v[k] - v_.at.front()) / width_v * columns_), 0, columns_ - 1);
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(j);
   };
   begin_.assign(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns_) + 1, 0);

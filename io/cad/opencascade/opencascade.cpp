@@ -72,6 +72,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/cad_messages.hpp"
 
 namespace treadmark::io::cad {
@@ -497,7 +498,8 @@ void join_corners(const std::vector<gp_Pnt>& points, CadTriangles& out) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const gp_Pnt& p = points[i];
     std::array<std::int64_t, 3> cell{};
-    for (int k = 0; k < 3; ++k) cell[static_cast<std::size_t>(k)] = std::llround(p.Coord(k + 1) / kSame);
+    for (int k = 0; k < 3; ++k)
+      cell[static_cast<std::size_t>(k)] = to_whole<long long>(std::round(p.Coord(k + 1) / kSame));
     std::int32_t found = -1;
     for (std::int64_t n = 0; n < 27 && found < 0; ++n) {
       const auto at = known.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/theories.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
 #include "treadmark/solvers/kalker/fastsim/strip_theory.hpp"
@@ -74,8 +75,8 @@ class Sweep {
     normal_force_ = std::accumulate(solution.pressure.begin(), solution.pressure.end(), 0.0) * problem.grid.cell_area();
     const double columns = std::abs(shift_x_) / problem.grid.dx, rows = std::abs(shift_y_) / problem.grid.dy;
     const double stretch = 1.0 / std::min(1.0, std::max(columns, rows));
-    ahead_x_ = static_cast<int>(std::copysign(std::round(stretch * columns), shift_x_));
-    ahead_y_ = static_cast<int>(std::copysign(std::round(stretch * rows), shift_y_));
+    ahead_x_ = to_whole<int>(std::copysign(std::round(stretch * columns), shift_x_));
+    ahead_y_ = to_whole<int>(std::copysign(std::round(stretch * rows), shift_y_));
   }
 
   double normal_force() const { return normal_force_; }

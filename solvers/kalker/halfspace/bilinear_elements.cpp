@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/kalker/halfspace/constant_elements.hpp"
 #include "treadmark/solvers/kalker/halfspace/gauss_legendre.hpp"
 
@@ -91,7 +92,7 @@ PointSolutionIntegrals in_closed_form(const LinearSide& x, const LinearSide& y) 
 GaussRule rule_for(double length, double distance) {
   constexpr double kDigits = 36.0;  // natural logarithm of the accuracy
   const double ellipse = std::asinh(2.0 * distance / length);
-  return gauss_legendre(std::clamp(static_cast<int>(std::ceil(0.5 * kDigits / ellipse)), 2, kMostGaussNodes));
+  return gauss_legendre(std::clamp(to_whole<int>(std::ceil(0.5 * kDigits / ellipse)), 2, kMostGaussNodes));
 }
 
 PointSolutionIntegrals by_quadrature(const LinearSide& x, const LinearSide& y, double distance) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/theories.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
@@ -33,11 +34,11 @@ std::vector<Shares> shares_of(double offset, double ratio, int count) {
   for (int i = 0; i < count; ++i) {
     Shares& s = all[static_cast<std::size_t>(i)];
     if (whole) {
-      s = {std::lround(offset) + i, {1.0}};
+      s = {to_whole<long>(std::round(offset)) + i, {1.0}};
       continue;
     }
     const double low = offset + ratio * (i - 0.5) + 0.5, high = low + ratio;  // in old elements, from the first edge
-    s.first = static_cast<long>(std::floor(low));
+    s.first = to_whole<long>(std::floor(low));
     for (long j = s.first; static_cast<double>(j) < high; ++j)
       s.share.push_back((std::fmin(high, static_cast<double>(j + 1)) - std::fmax(low, static_cast<double>(j))) / ratio);
   }

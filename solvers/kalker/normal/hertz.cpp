@@ -9,6 +9,7 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/hertz_ellipse.hpp"
 
 namespace treadmark::kalker {
@@ -149,7 +150,7 @@ Grid2 hertz_grid(const HertzShape& shape, int nx, int ny, double scale) {
   if (is_line_contact(shape)) {
     int rows_inside = ny;
     if (scale > 1.0) {
-      rows_inside = std::max(1, static_cast<int>(std::lround(ny / scale)));
+      rows_inside = std::max(1, to_whole<int>(std::round(ny / scale)));
       if ((ny - rows_inside) % 2 != 0) ++rows_inside;
     }
     grid.dy = 2.0 * shape.semi_axis_y / rows_inside;

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/kalker/normal/assumed_pressure.hpp"
 #include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
 #include "treadmark/solvers/kalker/normal/contact_estimate.hpp"
@@ -150,7 +151,7 @@ bool NormalSolver::Workspace::take_last(const Grid2& grid, std::vector<double>& 
   if (last_pressure.empty() || grid.dx != last_grid.dx || grid.dy != last_grid.dy) return false;
   const double shift_x = (grid.x0 - last_grid.x0) / grid.dx, shift_y = (grid.y0 - last_grid.y0) / grid.dy;
   if (std::abs(shift_x) > 1e6 || std::abs(shift_y) > 1e6) return false;
-  const int sx = static_cast<int>(std::lround(shift_x)), sy = static_cast<int>(std::lround(shift_y));
+  const int sx = to_whole<int>(std::round(shift_x)), sy = to_whole<int>(std::round(shift_y));
   bool any = false;
   for (int iy = 0; iy < grid.ny; ++iy)
     for (int ix = 0; ix < grid.nx; ++ix) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::kalker {
 
@@ -81,8 +82,8 @@ std::vector<double> share_of_step(const Patch& patch, const RollingStep& step) {
     // elements passed on the way ahead
     int steps = 0;
     for (; steps <= grid.nx + grid.ny; ++steps) {
-      const long ix = patch.column[i] + std::lround((steps + 1) * element * cx / grid.dx),
-                 iy = patch.row[i] + std::lround((steps + 1) * element * cy / grid.dy);
+      const long ix = patch.column[i] + to_whole<long>(std::round((steps + 1) * element * cx / grid.dx)),
+                 iy = patch.row[i] + to_whole<long>(std::round((steps + 1) * element * cy / grid.dy));
       if (ix < 0 || iy < 0 || ix >= grid.nx || iy >= grid.ny ||
           contact[grid.index(static_cast<int>(ix), static_cast<int>(iy))] == 0)
         break;
@@ -220,10 +221,10 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
     if (known.share[i] >= 1.0) continue;
     const double way = known.share[i] * step.distance;
     const int ix = std::clamp(
-                  patch.column[i] - box.x + static_cast<int>(std::lround(way * step.shift_x / step.distance / grid.dx)),
-                  0, box.nx - 1),
+                  patch.column[i] - box.x + to_whole<int>(std::round(way * step.shift_x / step.distance / grid.dx)), 0,
+                  box.nx - 1),
               iy = std::clamp(
-                  patch.row[i] - box.y + static_cast<int>(std::lround(way * step.shift_y / step.distance / grid.dy)), 0,
+                  patch.row[i] - box.y + to_whole<int>(std::round(way * step.shift_y / step.distance / grid.dy)), 0,
                   box.ny - 1);
     const std::size_t at = static_cast<std::size_t>(iy) * static_cast<std::size_t>(box.nx) +
                            static_cast<std::size_t>(ix),

@@ -13,6 +13,7 @@
 
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/kalker/tangential/creepage_search.hpp"
 #include "treadmark/solvers/kalker/tangential/previous_instant.hpp"
 
@@ -64,7 +65,7 @@ std::optional<std::array<int, 2>> offset_between(const Grid2& from, const Grid2&
   const double ox = (to.x0 - from.x0) / to.dx, oy = (to.y0 - from.y0) / to.dy;
   // Grids that do not overlap have nothing to tell each other.
   if (!(ox > -to.nx && ox < from.nx && oy > -to.ny && oy < from.ny)) return std::nullopt;
-  return std::array<int, 2>{static_cast<int>(std::lround(ox)), static_cast<int>(std::lround(oy))};
+  return std::array<int, 2>{to_whole<int>(std::round(ox)), to_whole<int>(std::round(oy))};
 }
 
 }  // namespace
