@@ -48,6 +48,7 @@ struct KeyInfo {
   std::string group, alternative;                  ///< keys of one group with different alternatives exclude each other
   KeyScope scope = KeyScope::any;
   bool required = false;          ///< not of a case file but in its lists of tables
+  std::string missing;            ///< what to do where it is not there but should be
   std::vector<KeyInfo> elements;  ///< keys of a table or of the tables of a table_list
 };
 

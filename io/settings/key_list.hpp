@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -34,6 +35,12 @@ struct SettingKey {
   /// The value as a file writes it, as TOML, from which the reader makes this value; empty text where the key
   /// says nothing of this Root. Relative paths count from folder. Without it text is written.
   std::function<std::string(const Root&, const std::filesystem::path& folder)> written = {};
+  /// The member that the key sets, by its address: so readers find the key of a member, whose name stands here only.
+  std::function<const void*(const Root&)> member = {};
+  /// The numbers of a number or a triple, which factors change.
+  std::function<std::span<double>(Root&)> numbers = {};
+  /// Which factors change it, as bits that the reader of the table knows.
+  unsigned factors = 0;
 };
 
 template <class Root>
@@ -78,7 +85,18 @@ KeyScope scope_of() {
     return static_cast<KeyScope>(1 + decltype(Root::content)(std::in_place_type<Content>).index());
 }
 
-/// A list of keys under construction: a line for each member of a Root. place: Content& -> member&.
+/// The type that is read into a member.
+template <class Member>
+struct ValueOf {
+  using type = Member;
+};
+template <class Value>
+struct ValueOf<std::optional<Value>> {
+  using type = Value;
+};
+
+/// A list of keys under construction: a line for each member of a Root. place: Content& -> member&, or a pointer to the
+/// member.
 template <class Root>
 class SettingKeys {
  public:
@@ -100,8 +118,8 @@ class SettingKeys {
   KeyInfo& number(std::string path, KeyLimits limits, std::string doc, Place place) {
     KeyInfo info = key_info(std::move(path), KeyType::number, std::move(doc), limits);
     info.scope = scope_of<Content, Root>();
-    return number_at(std::move(info), place(fresh<Content>()),
-                     [place](Root& c) -> double& { return place(content_of<Content>(c)); });
+    return number_at(std::move(info), std::invoke(place, fresh<Content>()),
+                     [place](Root& c) -> double& { return std::invoke(place, content_of<Content>(c)); });
   }
 
   template <class Content = Root, class Place>
@@ -110,12 +128,13 @@ class SettingKeys {
     const double unit = unit_of(path);
     Key& key = add<Content>(key_info(std::move(path), type, std::move(doc), limits));
     key.set = [place, unit](Root& c, const CaseValue& v, Folder) {
-      place(content_of<Content>(c)) = numbers_of(v, unit);
+      std::invoke(place, content_of<Content>(c)) = numbers_of(v, unit);
     };
     key.written = [place, unit](const Root& c, Folder) {
-      const std::vector<double>& values = place(content_of<Content>(const_cast<Root&>(c)));
+      const std::vector<double>& values = std::invoke(place, content_of<Content>(const_cast<Root&>(c)));
       return values.empty() ? std::string() : exact_list(values, unit);
     };
+    key.member = member_at<Content>(place);
     return key.info;
   }
 
@@ -124,7 +143,7 @@ class SettingKeys {
   KeyInfo& direction(std::string path, std::string doc, Place place) {
     KeyInfo& info = number_list(std::move(path), std::move(doc), place, kAnyNumber, KeyType::direction);
     info.default_text = "[]";
-    keys.back().text = [place](const Root& c) { return fmt::format("[{}]", fmt::join(place(c), ", ")); };
+    keys.back().text = [place](const Root& c) { return fmt::format("[{}]", fmt::join(std::invoke(place, c), ", ")); };
     return info;
   }
 
@@ -144,14 +163,17 @@ class SettingKeys {
   template <class Content = Root, class Place>
   KeyInfo& integer(std::string path, double least, double most, std::string doc, Place place) {
     KeyInfo info = key_info(std::move(path), KeyType::integer, std::move(doc), {{}, least, most});
-    info.default_text = std::to_string(place(fresh<Content>()));
+    using Member = std::remove_cvref_t<std::invoke_result_t<Place, Content&>>;
+    if constexpr (std::is_integral_v<Member>) info.default_text = std::to_string(std::invoke(place, fresh<Content>()));
     Key& key = add<Content>(std::move(info));
     key.set = [place](Root& c, const CaseValue& v, Folder) {
-      place(content_of<Content>(c)) = static_cast<int>(v.integer());
+      std::invoke(place, content_of<Content>(c)) = static_cast<typename ValueOf<Member>::type>(v.integer());
     };
-    key.written = [place](const Root& c, Folder) {
-      return std::to_string(place(content_of<Content>(const_cast<Root&>(c))));
-    };
+    if constexpr (std::is_integral_v<Member>)
+      key.written = [place](const Root& c, Folder) {
+        return std::to_string(std::invoke(place, content_of<Content>(const_cast<Root&>(c))));
+      };
+    key.member = member_at<Content>(place);
     return key.info;
   }
 
@@ -159,8 +181,9 @@ class SettingKeys {
   template <class Place>
   KeyInfo& flag(std::string path, std::string doc, Place place) {
     Key& key = add(key_info(std::move(path), KeyType::flag, std::move(doc)));
-    key.set = [place](Root& c, const CaseValue& v, Folder) { place(c) = v.flag(); };
-    key.text = [place](const Root& c) { return std::string(place(c) ? "true" : "false"); };
+    key.set = [place](Root& c, const CaseValue& v, Folder) { std::invoke(place, c) = v.flag(); };
+    key.text = [place](const Root& c) { return std::string(std::invoke(place, c) ? "true" : "false"); };
+    key.member = member_at<Root>(place);
     key.info.default_text = key.text(Root{});
     return key.info;
   }
@@ -171,10 +194,11 @@ class SettingKeys {
     KeyInfo info = key_info(std::move(path), choices.empty() ? KeyType::text : KeyType::choice, std::move(doc));
     info.choices = std::move(choices);
     Key& key = add(std::move(info));
-    key.set = [place](Root& c, const CaseValue& v, Folder) { place(c) = v.text(); };
-    key.text = [place](const Root& c) { return toml_text(place(c)); };
+    key.set = [place](Root& c, const CaseValue& v, Folder) { std::invoke(place, c) = v.text(); };
+    key.text = [place](const Root& c) { return toml_text(std::invoke(place, c)); };
+    key.member = member_at<Root>(place);
     const Root fresh;
-    key.info.default_text = '"' + place(fresh) + '"';
+    key.info.default_text = '"' + std::invoke(place, fresh) + '"';
     return key.info;
   }
 
@@ -184,18 +208,19 @@ class SettingKeys {
     KeyInfo info = key_info(std::move(path), KeyType::choice, std::move(doc));
     for (const auto& [word, value] : choices) {
       info.choices.push_back(word);
-      if (place(fresh<Content>()) == value) info.default_text = '"' + word + '"';
+      if (std::invoke(place, fresh<Content>()) == value) info.default_text = '"' + word + '"';
     }
     Key& key = add<Content>(std::move(info));
     key.set = [place, choices](Root& c, const CaseValue& v, Folder) {
       for (const auto& [word, value] : choices)
-        if (word == v.text()) place(content_of<Content>(c)) = value;
+        if (word == v.text()) std::invoke(place, content_of<Content>(c)) = value;
     };
     key.written = [place, choices](const Root& c, Folder) {
       for (const auto& [word, value] : choices)
-        if (place(content_of<Content>(const_cast<Root&>(c))) == value) return toml_text(word);
+        if (std::invoke(place, content_of<Content>(const_cast<Root&>(c))) == value) return toml_text(word);
       return std::string();
     };
+    key.member = member_at<Content>(place);
     return key.info;
   }
 
@@ -207,6 +232,8 @@ class SettingKeys {
     // at only finds the member: reading through it changes nothing.
     key.get = [at, unit](const Root& c) { return at(const_cast<Root&>(c)) / unit; };
     key.written = [at, unit](const Root& c, Folder) { return exact_text(at(const_cast<Root&>(c)), unit); };
+    key.member = [at](const Root& c) { return static_cast<const void*>(&at(const_cast<Root&>(c))); };
+    key.numbers = [at](Root& c) { return std::span(&at(c), 1); };
     key.set = [at = std::move(at), unit](Root& c, const CaseValue& v, Folder) { at(c) = v.number() * unit; };
     return key.info;
   }
@@ -221,6 +248,12 @@ class SettingKeys {
   Key& add(KeyInfo info) {
     info.scope = scope_of<Content, Root>();
     return add(std::move(info));
+  }
+  template <class Content, class Place>
+  static std::function<const void*(const Root&)> member_at(Place place) {
+    return [place](const Root& c) -> const void* {
+      return &std::invoke(place, content_of<Content>(const_cast<Root&>(c)));
+    };
   }
   double unit_of(std::string_view path) const { return numbers_ == Numbers::si ? unit_of_key(path) : 1.0; }
 

@@ -8,7 +8,8 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/simulations/read_vehicle.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/table_of.hpp"
+#include "treadmark/io/simulations/vehicle_keys.hpp"
 
 namespace treadmark::io {
 
@@ -21,29 +22,28 @@ bool is_part_name(std::string_view text) {
   return std::isalpha(static_cast<unsigned char>(text.front())) && std::all_of(text.begin(), text.end(), good);
 }
 
-std::array<bool, kFreedoms> free_directions(const TableReader& part) {
-  const CaseValue& list =
-      part.need("free", "list the directions in which it can move: \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\"");
-  const std::vector<std::string> words = part.words("free");
+std::array<bool, kFreedoms> free_directions(const TableOf<BodySpec>& part) {
+  const CaseValue& list = part.need(&BodySpec::free);
+  const std::string path = part.path_of(&BodySpec::free);
+  const std::vector<std::string> words = part.words(part.key(&BodySpec::free));
   if (words.empty())
-    throw Error(ErrorKind::configuration, fmt::format("{} is empty", part.path_of("free")), list.where,
+    part.refuse(&BodySpec::free, fmt::format("{} is empty", path),
                 "leave the body out, and connect with \"ground\" instead");
   std::array<bool, kFreedoms> free{};
   const std::vector<std::string> known(kFreedomWords.begin(), kFreedomWords.end());
   for (std::size_t i = 0; i < words.size(); ++i) {
     const SourcePosition& where = list.list()[i].where;
-    check_name(fmt::format("the direction in {}", part.path_of("free")), words[i], known, where);
+    check_name(fmt::format("the direction in {}", path), words[i], known, where);
     bool& direction =
         free.at(static_cast<std::size_t>(std::find(known.begin(), known.end(), words[i]) - known.begin()));
-    if (direction)
-      throw Error(ErrorKind::configuration, fmt::format("{} names '{}' twice", part.path_of("free"), words[i]), where);
+    if (direction) throw Error(ErrorKind::configuration, fmt::format("{} names '{}' twice", path, words[i]), where);
     direction = true;
   }
   return free;
 }
 
-void check_inertia(const TableReader& part, const BodySpec& body) {
-  const CaseValue* given = part.find("inertia_kg_m2");
+void check_inertia(const TableOf<BodySpec>& part, const BodySpec& body) {
+  const CaseValue* given = part.find(&BodySpec::inertia);
   for (int axis = 0; axis < 3; ++axis) {
     const auto rotation = static_cast<std::size_t>(axis + 3);
     if (!body.free.at(rotation) || body.inertia[axis] > 0.0) continue;
@@ -51,7 +51,7 @@ void check_inertia(const TableReader& part, const BodySpec& body) {
         fmt::format("the moment of inertia about {}", kFreedomWords.at(static_cast<std::size_t>(axis)));
     if (given == nullptr)
       part.fail(fmt::format("{}: {} is missing, but the body can {}", part.path(), what, kFreedomWords.at(rotation)),
-                "give inertia_kg_m2");
+                fmt::format("give {}", part.key(&BodySpec::inertia)));
     throw Error(
         ErrorKind::configuration,
         fmt::format("{}: {} must be positive, as the body can {}", part.path(), what, kFreedomWords.at(rotation)),
@@ -60,25 +60,20 @@ void check_inertia(const TableReader& part, const BodySpec& body) {
 }
 
 void add_bodies(const CaseValue& table, std::vector<BodySpec>& bodies) {
-  const TableReader unnamed(table.table(), table.where, "bodies", body_keys());
-  const std::string name = part_name(unnamed);
-  const TableReader part(table.table(), table.where, "bodies." + name, body_keys());
-  BodySpec body;
-  body.name = name;
+  const std::string name = part_name(TableOf(table, "bodies", body_keys()));
+  const TableOf part(table, "bodies." + name, body_keys());
+  BodySpec body = part.read();
   body.where = part.where();
-  body.mass = part.number("mass_kg");
   body.free = free_directions(part);
-  body.inertia = part.triple("inertia_kg_m2").value_or(Vec3::Zero());
   check_inertia(part, body);
-  part.exclude("position_m", "positions_m");
-  if (part.find("positions_m") == nullptr) {
-    part.need("position_m", "centre of mass [x, y, z]; positions_m for several equal bodies");
-    body.position = *part.triple("position_m");
+  part.need(&BodySpec::position);
+  const std::string_view key = part.key(&BodySpec::position);
+  if (part.type_of(key) == KeyType::triple) {
     bodies.push_back(std::move(body));
     return;
   }
   int number = 0;
-  for (const Vec3& position : part.points("positions_m")) {
+  for (const Vec3& position : part.points(key)) {
     body.name = fmt::format("{}{}", name, ++number);
     body.position = position;
     bodies.push_back(body);

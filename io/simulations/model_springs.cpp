@@ -6,49 +6,37 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/simulations/read_vehicle.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/table_of.hpp"
+#include "treadmark/io/simulations/vehicle_keys.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
-/// Two bodies, and the points at which parts of one kind connect them.
-struct Places {
-  std::string body_a, body_b;
-  std::vector<Vec3> points;
-};
-
-Places read_place(const TableReader& table, const std::vector<std::string>& known) {
-  Places place;
-  const CaseValue& between = table.need("between", "the two bodies that are connected");
-  const std::vector<std::string> names = table.words("between");
-  if (names.size() != 2)
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} has {} names, it needs 2", table.path_of("between"), names.size()), between.where);
+Places read_place(const TableOf<Places>& table, const std::vector<std::string>& known) {
+  const CaseValue& between = table.need(&Places::between);
+  table.need(&Places::points);
+  Places place = table.read();
+  const std::vector<std::string>& names = place.between;
+  const std::string path = table.path_of(&Places::between);
+  if (names.size() != 2) table.refuse(&Places::between, fmt::format("{} has {} names, it needs 2", path, names.size()));
   for (std::size_t i = 0; i < 2; ++i)
-    check_name(fmt::format("{}: the body", table.path_of("between")), names[i], known, between.list()[i].where);
-  if (names[0] == names[1])
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} connects '{}' with itself", table.path_of("between"), names[0]), between.where);
-  place.body_a = names[0];
-  place.body_b = names[1];
-  table.need("at_m", "a list of points, one part at each of them");
-  place.points = table.points("at_m");
+    check_name(fmt::format("{}: the body", path), names[i], known, between.list()[i].where);
+  if (names[0] == names[1]) table.refuse(&Places::between, fmt::format("{} connects '{}' with itself", path, names[0]));
   return place;
 }
 
-std::vector<Places> read_places(const TableReader& part, const std::vector<BodySpec>& bodies) {
+std::vector<Places> read_places(const TableOf<Places>& part, const std::vector<BodySpec>& bodies) {
   std::vector<std::string> known = names_of(bodies);
   known.emplace_back(kGround);
-  part.exclude("between", "places");
-  part.exclude("at_m", "places");
-  if (part.find("places") == nullptr) return {read_place(part, known)};
+  part.exclude(&Places::between, &Places::several);
+  part.exclude(&Places::points, &Places::several);
+  if (part.find(&Places::several) == nullptr) return {read_place(part, known)};
   std::vector<Places> all;
-  for (const CaseValue* one : part.tables("places"))
-    all.push_back(read_place(TableReader(one->table(), one->where, part.path_of("places"), place_keys()), known));
-  if (all.empty())
-    throw Error(ErrorKind::configuration, fmt::format("{} is empty", part.path_of("places")),
-                part.need("places").where);
+  const std::string path = part.path_of(&Places::several);
+  for (const CaseValue* one : part.tables(&Places::several))
+    all.push_back(read_place(TableOf(*one, path, place_keys()), known));
+  if (all.empty()) part.refuse(&Places::several, fmt::format("{} is empty", path));
   return all;
 }
 
@@ -61,8 +49,8 @@ void add_at(const std::vector<Places>& places, Part part, std::vector<Part>& out
   for (const Places& place : places)
     for (const Vec3& point : place.points) {
       if (count > 1) part.name = fmt::format("{}{}", name, ++number);
-      part.body_a = place.body_a;
-      part.body_b = place.body_b;
+      part.body_a = place.between[0];
+      part.body_b = place.between[1];
       part.position = point;
       out.push_back(part);
     }
@@ -80,13 +68,7 @@ void check_names(const std::vector<Part>& parts, std::string_view kind) {
       throw Error(ErrorKind::configuration, fmt::format("there are two {} named '{}'", kind, part.name), part.where);
 }
 
-SixValues six(const TableReader& part, std::string_view linear, std::string_view rotational) {
-  const Vec3 along = part.triple(linear).value_or(Vec3::Zero());
-  const Vec3 about = part.triple(rotational).value_or(Vec3::Zero());
-  return {along[0], along[1], along[2], about[0], about[1], about[2]};
-}
-
-void check_spring(const TableReader& part, const SpringSpec& spring) {
+void check_spring(const TableOf<SpringSpec>& part, const SpringSpec& spring) {
   const auto none = [](const SixValues& values) {
     return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
   };
@@ -95,40 +77,49 @@ void check_spring(const TableReader& part, const SpringSpec& spring) {
               "give stiffness_N_per_m, damping_N_s_per_m ...");
   for (std::size_t i = 0; i < spring.damping.size(); ++i)
     if (spring.damper_stiffness.at(i) > 0.0 && spring.damping.at(i) == 0.0)
-      throw Error(ErrorKind::configuration,
+      part.refuse([first = i / 3 * 3](const SpringSpec& s) -> const double& { return s.damper_stiffness.at(first); },
                   fmt::format("{}: a spring in series with the damper in {} needs that damper", part.path(),
-                              freedom_word(static_cast<int>(i))),
-                  part.need(i < 3 ? "damper_stiffness_N_per_m" : "rotational_damper_stiffness_N_m_per_rad").where);
+                              freedom_word(static_cast<int>(i))));
 }
 
-void check_characteristic(const TableReader& part, const BumpStopSpec& stop) {
-  const auto fail = [&](std::string_view key, const std::string& what) {
-    throw Error(ErrorKind::configuration, fmt::format("{} {}", part.path_of(key), what), part.need(key).where);
+void check_characteristic(const TableOf<BumpStopSpec>& part, const BumpStopSpec& stop) {
+  using B = BumpStopSpec;
+  const auto fail = [&](std::vector<double> B::*list, const std::string& what) {
+    part.refuse(list, fmt::format("{} {}", part.path_of(list), what));
   };
   const auto &d = stop.displacement, &f = stop.force;
-  if (d.size() < 2) fail("displacement_mm", "needs at least 2 values");
-  if (d.size() != f.size()) fail("force_N", fmt::format("has {} values for {} displacements", f.size(), d.size()));
+  if (d.size() < 2) fail(&B::displacement, "needs at least 2 values");
+  if (d.size() != f.size()) fail(&B::force, fmt::format("has {} values for {} displacements", f.size(), d.size()));
   if (std::adjacent_find(d.begin(), d.end(), std::greater_equal<>()) != d.end())
-    fail("displacement_mm", "must increase");
-  if (std::adjacent_find(f.begin(), f.end(), std::greater<>()) != f.end()) fail("force_N", "must not decrease");
-  if (f.front() != 0.0) fail("force_N", "must start from 0");
+    fail(&B::displacement, "must increase");
+  if (std::adjacent_find(f.begin(), f.end(), std::greater<>()) != f.end()) fail(&B::force, "must not decrease");
+  if (f.front() != 0.0) fail(&B::force, "must start from 0");
+}
+
+/// What all parts that connect bodies begin with.
+template <class Part>
+Part named_part(const TableReader& table, const std::string& name, const KeyTable<Part>& keys) {
+  Part part = TableOf(table, keys).read();
+  part.name = name;
+  part.where = table.where();
+  return part;
+}
+
+TableReader part_table(const CaseValue& table, const std::string& list, const TableKeys& keys, std::string& name) {
+  name = part_name(TableReader(table.table(), table.where, list, keys));
+  return {table.table(), table.where, list + '.' + name, keys};
 }
 
 }  // namespace
 
 std::vector<SpringSpec> read_springs(const TableReader& document, const std::vector<BodySpec>& bodies) {
   std::vector<SpringSpec> springs;
-  for (const CaseValue* table : document.tables("springs")) {
-    const std::string name = part_name(TableReader(table->table(), table->where, "springs", spring_keys()));
-    const TableReader part(table->table(), table->where, "springs." + name, spring_keys());
-    SpringSpec spring;
-    spring.name = name;
-    spring.where = part.where();
-    spring.stiffness = six(part, "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad");
-    spring.damping = six(part, "damping_N_s_per_m", "rotational_damping_N_m_s_per_rad");
-    spring.damper_stiffness = six(part, "damper_stiffness_N_per_m", "rotational_damper_stiffness_N_m_per_rad");
-    check_spring(part, spring);
-    add_at(read_places(part, bodies), spring, springs);
+  std::string name;
+  for (const CaseValue* one : document.tables("springs")) {
+    const TableReader table = part_table(*one, "springs", spring_table_keys(), name);
+    const SpringSpec spring = named_part(table, name, spring_keys());
+    check_spring(TableOf(table, spring_keys()), spring);
+    add_at(read_places(TableOf(table, spring_place_keys()), bodies), spring, springs);
   }
   check_names(springs, "springs");
   return springs;
@@ -136,20 +127,12 @@ std::vector<SpringSpec> read_springs(const TableReader& document, const std::vec
 
 std::vector<BumpStopSpec> read_bump_stops(const TableReader& document, const std::vector<BodySpec>& bodies) {
   std::vector<BumpStopSpec> stops;
-  for (const CaseValue* table : document.tables("bump_stops")) {
-    const std::string name = part_name(TableReader(table->table(), table->where, "bump_stops", bump_stop_keys()));
-    const TableReader part(table->table(), table->where, "bump_stops." + name, bump_stop_keys());
-    BumpStopSpec stop;
-    stop.name = name;
-    stop.where = part.where();
-    const std::string direction = part.text("direction");
-    stop.direction = static_cast<Freedom>(direction.front() - 'x');
-    part.need("displacement_mm");
-    part.need("force_N");
-    stop.displacement = part.numbers("displacement_mm");
-    stop.force = part.numbers("force_N");
-    check_characteristic(part, stop);
-    add_at(read_places(part, bodies), stop, stops);
+  std::string name;
+  for (const CaseValue* one : document.tables("bump_stops")) {
+    const TableReader table = part_table(*one, "bump_stops", bump_stop_table_keys(), name);
+    const BumpStopSpec stop = named_part(table, name, bump_stop_keys());
+    check_characteristic(TableOf(table, bump_stop_keys()), stop);
+    add_at(read_places(TableOf(table, bump_stop_place_keys()), bodies), stop, stops);
   }
   check_names(stops, "bump stops");
   return stops;

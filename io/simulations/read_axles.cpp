@@ -6,51 +6,42 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/table_of.hpp"
+#include "treadmark/io/simulations/vehicle_keys.hpp"
 
 namespace treadmark::io {
 namespace {
 
-struct Oscillator {
-  double mass, stiffness, damping;
-};
-
-Oscillator read_oscillator(const TableReader& table, std::string_view mass_key) {
-  const double mass = table.number(mass_key), omega = 2.0 * kPi * table.number("frequency_Hz");
-  return {mass, mass * omega * omega, 2.0 * table.number_or("damping_ratio", 0.0) * mass * omega};
+/// As many numbers of a list as there are places or wheels.
+void check_count(const TableOf<AxleMode>& table, std::vector<double> AxleMode::*list, const AxleMode& mode,
+                 std::size_t count, std::string_view what) {
+  if ((mode.*list).size() != count)
+    table.refuse(list,
+                 fmt::format("{} has {} values for {} {}", table.path_of(list), (mode.*list).size(), count, what));
 }
 
-std::vector<double> needed_numbers(const TableReader& table, std::string_view key, std::size_t count,
-                                   std::string_view what) {
-  const SourcePosition& where = table.need(key).where;
-  std::vector<double> values = table.numbers(key);
-  if (values.size() != count)
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} has {} values for {} {}", table.path_of(key), values.size(), count, what), where);
-  return values;
-}
+double angular(const AxleMode& mode) { return 2.0 * kPi * mode.frequency; }
+double stiffness_of(const AxleMode& mode) { return mode.mass * angular(mode) * angular(mode); }
+double damping_of(const AxleMode& mode) { return 2.0 * mode.damping_ratio * mode.mass * angular(mode); }
 
 FlexibleAxle read_axle(const CaseValue& value) {
-  const std::string name = part_name(TableReader(value.table(), value.where, "axles", axle_keys()));
-  const TableReader table(value.table(), value.where, "axles." + name, axle_keys());
-  FlexibleAxle axle;
-  axle.name = name;
+  const std::string name = part_name(TableOf(value, "axles", axle_keys()));
+  const TableOf table(value, "axles." + name, axle_keys());
+  FlexibleAxle axle = table.read();
   axle.where = table.where();
-  axle.wheel_distance = table.number("wheel_distance_mm");
-  axle.wheel_polar_inertia = table.number("wheel_polar_inertia_kg_m2");
-  axle.places = table.numbers("places_mm");
-  for (const CaseValue* one : table.tables("bending")) {
-    table.need("places_mm", "shapes need the places at which they are given");
-    const TableReader mode(one->table(), one->where, table.path_of("bending"), bending_keys());
-    const auto [mass, stiffness, damping] = read_oscillator(mode, "modal_mass_kg");
-    axle.bending.push_back({mass, stiffness, damping, needed_numbers(mode, "shape", axle.places.size(), "places"),
-                            needed_numbers(mode, "slope_per_m", axle.places.size(), "places"), mode.where()});
+  for (const CaseValue* one : table.tables(&FlexibleAxle::bending)) {
+    table.need(&FlexibleAxle::places);
+    const TableOf part(*one, table.path_of(&FlexibleAxle::bending), bending_keys());
+    const AxleMode mode = part.read();
+    for (auto list : {&AxleMode::shape, &AxleMode::slope}) check_count(part, list, mode, axle.places.size(), "places");
+    axle.bending.push_back({mode.mass, stiffness_of(mode), damping_of(mode), mode.shape, mode.slope, part.where()});
   }
-  for (const CaseValue* one : table.tables("torsion")) {
-    const TableReader mode(one->table(), one->where, table.path_of("torsion"), torsion_keys());
-    const auto [inertia, stiffness, damping] = read_oscillator(mode, "modal_inertia_kg_m2");
-    const std::vector<double> rotation = needed_numbers(mode, "wheel_rotation", 2, "wheels");
-    axle.torsion.push_back({inertia, stiffness, damping, {rotation[0], rotation[1]}, mode.where()});
+  for (const CaseValue* one : table.tables(&FlexibleAxle::torsion)) {
+    const TableOf part(*one, table.path_of(&FlexibleAxle::torsion), torsion_keys());
+    const AxleMode mode = part.read();
+    check_count(part, &AxleMode::rotation, mode, 2, "wheels");
+    axle.torsion.push_back(
+        {mode.mass, stiffness_of(mode), damping_of(mode), {mode.rotation[0], mode.rotation[1]}, part.where()});
   }
   check_axle(axle);
   return axle;

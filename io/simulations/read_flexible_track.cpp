@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "treadmark/io/simulations/read_vehicle.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/table_of.hpp"
+#include "treadmark/io/simulations/track_keys.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -17,132 +18,83 @@ TableReader part_of(const TableReader& document, std::string_view key, const Tab
   return {*table, document.find(key)->where, std::string(key), known};
 }
 
-int integer_or(const TableReader& table, std::string_view key, int otherwise) {
-  return table.find(key) == nullptr ? otherwise : table.integer(key);
-}
-
-RailBeam read_beam(const TableReader& table) {
-  return {table.number("bending_stiffness_N_m2"), table.number("shear_stiffness_N"), table.number("mass_kg_per_m"),
-          table.number_or("rotary_inertia_kg_m", 0.0), table.number_or("damping_us", 0.0)};
-}
-
-constexpr std::string_view kSideways = "lateral_bending_stiffness_N_m2";
-
 /// None where rails do not bend sideways.
-std::optional<RailSideways> read_sideways(const TableReader& table) {
-  if (table.find(kSideways) == nullptr) {
-    for (const std::string_view key :
-         {"lateral_shear_stiffness_N", "lateral_rotary_inertia_kg_m", "torsional_stiffness_N_m2", "polar_inertia_kg_m",
-          "height_mm", "centroid_height_mm", "shear_centre_height_mm"})
-      if (table.find(key) != nullptr) table.need(kSideways, fmt::format("{} goes with it", table.path_of(key)));
+std::optional<RailSideways> read_sideways(const TableReader& rail) {
+  using S = RailSideways;
+  const TableOf<S> table(rail, sideways_keys());
+  if (table.find(&S::bending_stiffness) == nullptr) {
+    for (const KeyInfo& key : sideways_keys().infos)
+      if (table.find(key.path) != nullptr)
+        table.need(&S::bending_stiffness, fmt::format("{} goes with it", table.path_of(key.path)));
     return std::nullopt;
   }
-  RailSideways s;
-  s.bending_stiffness = table.number(kSideways);
-  s.shear_stiffness = table.number("lateral_shear_stiffness_N");
-  s.rotary_inertia = table.number_or("lateral_rotary_inertia_kg_m", 0.0);
-  s.torsional_stiffness = table.number("torsional_stiffness_N_m2");
-  s.polar_inertia = table.number("polar_inertia_kg_m");
-  s.height = table.number("height_mm");
-  s.centroid = table.number("centroid_height_mm");
-  s.shear_centre = table.number_or("shear_centre_height_mm", s.centroid);
-  for (const std::string_view key : {"centroid_height_mm", "shear_centre_height_mm"})
-    if (const CaseValue* value = table.find(key); value != nullptr && table.number(key) > s.height)
-      throw Error(ErrorKind::configuration,
-                  fmt::format("{} is larger than {}", table.path_of(key), table.path_of("height_mm")), value->where,
-                  "heights are above the foot");
+  S s = table.read();
+  if (table.find(&S::shear_centre) == nullptr) s.shear_centre = s.centroid;
+  for (double S::*height : {&S::centroid, &S::shear_centre})
+    if (table.find(height) != nullptr && s.*height > s.height)
+      table.refuse(height, fmt::format("{} is larger than {}", table.path_of(height), table.path_of(&S::height)),
+                   "heights are above the foot");
   return s;
 }
 
-void read_seats_sideways(const TableReader& table, bool sideways, RailSeat& seat) {
-  if (!sideways) {
-    for (const std::string_view key :
-         {"lateral_pad_stiffness_N_per_m", "lateral_pad_damping_N_s_per_m", "roll_stiffness_N_m_per_rad",
-          "roll_damping_N_m_s_per_rad", "lateral_bed_stiffness_N_per_m", "lateral_bed_damping_N_s_per_m"})
-      if (const CaseValue* value = table.find(key))
-        throw Error(ErrorKind::configuration, fmt::format("{} is for rails that bend sideways", table.path_of(key)),
-                    value->where, fmt::format("give rail.{}, or [lateral] instead", kSideways));
-    return;
+RailSeat read_seat(const TableReader& table, bool sideways) {
+  RailSeat seat = TableOf(table, seat_keys()).read();
+  if (sideways) {
+    TableOf(table, sideways_seat_keys()).read(seat);
+    return seat;
   }
-  seat.lateral_pad_stiffness = table.number("lateral_pad_stiffness_N_per_m");
-  seat.lateral_pad_damping = table.number_or("lateral_pad_damping_N_s_per_m", 0.0);
-  seat.roll_stiffness = table.number("roll_stiffness_N_m_per_rad");
-  seat.roll_damping = table.number_or("roll_damping_N_m_s_per_rad", 0.0);
-  seat.lateral_bed_stiffness = table.number("lateral_bed_stiffness_N_per_m");
-  seat.lateral_bed_damping = table.number_or("lateral_bed_damping_N_s_per_m", 0.0);
+  for (const KeyInfo& key : sideways_seat_keys().infos)
+    if (const CaseValue* value = table.find(key.path))
+      throw Error(ErrorKind::configuration, fmt::format("{} is for rails that bend sideways", table.path_of(key.path)),
+                  value->where, fmt::format("give rail.{}, or [lateral] instead", sideways_keys().infos.front().path));
+  return seat;
 }
 
-/// Distances from each seat to the next, one for each seat.
-std::vector<double> read_spacings(const TableReader& table, std::size_t count) {
-  table.exclude("spacing_m", "spacings_m");
-  std::vector<double> pattern = table.numbers("spacings_m");
-  if (table.find("spacings_m") == nullptr) {
-    table.need("spacing_m", "spacings_m for unequal ones");
-    pattern = {table.number("spacing_m")};
-  }
-  if (pattern.empty())
-    throw Error(ErrorKind::configuration, "seats.spacings_m is empty", table.find("spacings_m")->where);
-  std::vector<double> spacings;
-  for (std::size_t i = 0; i < count; ++i) spacings.push_back(pattern[i % pattern.size()]);
-  return spacings;
-}
-
-void read_seats(const TableReader& table, FlexibleTrack& track) {
-  const auto count = static_cast<std::size_t>(integer_or(table, "count", 120));
-  const std::vector<double> spacings = read_spacings(table, count);
-  RailSeat seat;
-  seat.pad_stiffness = table.number("pad_stiffness_N_per_m");
-  seat.pad_damping = table.number_or("pad_damping_N_s_per_m", 0.0);
-  seat.sleeper_mass = 0.5 * table.number("sleeper_mass_kg");
-  seat.bed_stiffness = table.number("bed_stiffness_N_per_m");
-  seat.bed_damping = table.number_or("bed_damping_N_s_per_m", 0.0);
-  read_seats_sideways(table, track.sideways.has_value(), seat);
-  for (const double spacing : spacings) {
+void read_seats(const TableReader& all, FlexibleTrack& track) {
+  const TableOf<SeatRow> table(all, seat_row_keys());
+  table.need(&SeatRow::spacings);
+  SeatRow row = table.read();
+  if (row.spacings.empty())
+    table.refuse(&SeatRow::spacings, fmt::format("{} is empty", table.path_of(&SeatRow::spacings)));
+  RailSeat seat = read_seat(all, track.sideways.has_value());
+  const auto count = static_cast<std::size_t>(row.count);
+  for (std::size_t i = 0; i < count; ++i) {
     track.seats.push_back(seat);
-    seat.x += spacing;
+    seat.x += row.spacings[i % row.spacings.size()];
   }
-  track.bay_elements = integer_or(table, "bay_elements", track.bay_elements);
-  track.absorption = table.number_or("absorption_per_s", 2000.0);
-  const int most = static_cast<int>(count / 4);
-  track.absorbing_bays = integer_or(table, "absorbing_bays", std::min(30, most));
+  track.bay_elements = row.bay_elements;
+  track.absorption = row.absorption;
+  const int most = row.count / 4;
+  if (table.find(&SeatRow::absorbing_bays) == nullptr) row.absorbing_bays = std::min(row.absorbing_bays, most);
+  track.absorbing_bays = row.absorbing_bays;
   if (track.absorbing_bays > most)
-    throw Error(
-        ErrorKind::configuration,
+    table.refuse(
+        &SeatRow::absorbing_bays,
         fmt::format("seats.absorbing_bays = {} are more than a quarter of {} seats", track.absorbing_bays, count),
-        table.find("absorbing_bays")->where, "make seats.count larger");
+        "make seats.count larger");
 }
 
-void vary_seats(const TableReader& table, FlexibleTrack& track) {
+void vary_seats(const TableOf<VariedSeats>& table, FlexibleTrack& track) {
+  const VariedSeats varied = table.read();
   const auto count = static_cast<int>(track.seats.size());
-  const int first = table.integer("first_seat"), last = integer_or(table, "last_seat", first);
+  const int first = varied.first, last = varied.last.value_or(first);
   if (last < first || last > count)
     table.fail(fmt::format("varied: there are no seats {} to {} among {}", first, last, count),
                "seats are counted from 1");
-  const double pad = table.number_or("pad_factor", 1.0), sleeper = table.number_or("sleeper_factor", 1.0),
-               bed = table.number_or("bed_factor", 1.0);
-  for (int i = first - 1; i < last; ++i) {
-    RailSeat& seat = track.seats[static_cast<std::size_t>(i)];
-    for (double* of_pad : {&seat.pad_stiffness, &seat.pad_damping, &seat.lateral_pad_stiffness,
-                           &seat.lateral_pad_damping, &seat.roll_stiffness, &seat.roll_damping})
-      *of_pad *= pad;
-    seat.sleeper_mass *= sleeper;
-    for (double* of_bed :
-         {&seat.bed_stiffness, &seat.bed_damping, &seat.lateral_bed_stiffness, &seat.lateral_bed_damping})
-      *of_bed *= bed;
-  }
+  for (int i = first - 1; i < last; ++i)
+    for (const KeyTable<RailSeat>* keys : {&seat_keys(), &sideways_seat_keys()}) {
+      RailSeat& seat = track.seats[static_cast<std::size_t>(i)];
+      scale(*keys, seat, kByPad, varied.pad);
+      scale(*keys, seat, kBySleeper, varied.sleeper);
+      scale(*keys, seat, kByBed, varied.bed);
+    }
 }
 
-RailJoint read_joint(const TableReader& table, const FlexibleTrack& track) {
-  RailJoint joint;
-  joint.x = table.number("place_m");
-  joint.hinge_stiffness = table.number("hinge_stiffness_N_m_per_rad");
-  joint.dip_depth = table.number_or("dip_mm", joint.dip_depth);
-  joint.dip_length = table.number_or("dip_length_mm", joint.dip_length);
-  joint.lateral_hinge_stiffness = table.number_if("lateral_hinge_stiffness_N_m_per_rad");
+RailJoint read_joint(const TableOf<RailJoint>& table, const FlexibleTrack& track) {
+  const RailJoint joint = table.read();
   const std::vector<RailSeat>& seats = track.seats;
   const auto refuse = [&](const std::string& what, const std::string& advice) {
-    throw Error(ErrorKind::configuration, fmt::format("joints.place_m = {:.6g}: {}", joint.x, what),
-                table.need("place_m").where, advice);
+    table.refuse(&RailJoint::x, fmt::format("{} = {:.6g}: {}", table.path_of(&RailJoint::x), joint.x, what), advice);
   };
   if (!(joint.x <= seats.back().x))
     refuse(fmt::format("the last seat lies {:.6g} m from the first one", seats.back().x),
@@ -156,30 +108,22 @@ RailJoint read_joint(const TableReader& table, const FlexibleTrack& track) {
   return joint;
 }
 
-LateralSupport read_lateral(const TableReader& table) {
-  const double radius = table.number("roll_radius_mm");
-  return {table.number("pad_stiffness_N_per_m"), table.number_or("pad_damping_N_s_per_m", 0.0),
-          table.number("bed_stiffness_N_per_m"), table.number_or("bed_damping_N_s_per_m", 0.0),
-          table.number("foot_width_mm"),         radius * radius,
-          table.number("rail_mass_kg"),          table.number("sleeper_mass_kg")};
-}
-
 }  // namespace
 
 FlexibleTrack read_flexible_track(const TableReader& document) {
   FlexibleTrack track;
-  const TableReader rail = part_of(document, "rail", rail_beam_keys());
-  track.rail = read_beam(rail);
-  track.gauge = rail.number_or("distance_m", track.gauge);
+  const TableReader rail = part_of(document, "rail", rail_keys());
+  TableOf(rail, beam_keys()).read(track.rail);
+  TableOf(rail, rail_distance_keys()).read(track);
   track.sideways = read_sideways(rail);
-  read_seats(part_of(document, "seats", seat_keys()), track);
-  for (const CaseValue* one : document.tables("varied"))
-    vary_seats(TableReader(one->table(), one->where, "varied", varied_seat_keys()), track);
+  read_seats(part_of(document, "seats", seats_keys()), track);
+  for (const CaseValue* one : document.tables("varied")) vary_seats(TableOf(*one, "varied", varied_seat_keys()), track);
   if (std::ranges::none_of(track.seats, [](const RailSeat& seat) { return seat.bed_stiffness > 0.0; }))
     document.fail("all sleepers hang: nothing holds the track");
   for (const CaseValue* one : document.tables("joints"))
-    track.joints.push_back(read_joint(TableReader(one->table(), one->where, "joints", joint_keys()), track));
-  if (document.find("lateral") != nullptr) track.lateral = read_lateral(part_of(document, "lateral", lateral_keys()));
+    track.joints.push_back(read_joint(TableOf(*one, "joints", joint_keys()), track));
+  if (document.find("lateral") != nullptr)
+    track.lateral = TableOf(part_of(document, "lateral", lateral_keys().infos), lateral_keys()).read();
   return track;
 }
 

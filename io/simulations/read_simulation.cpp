@@ -12,6 +12,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
+#include "treadmark/io/simulations/line_keys.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
@@ -49,31 +50,34 @@ Overrides sorted(std::span<const std::string> assignments) {
 }
 
 void change_simulation(CaseTable& document, const std::vector<CaseOverride>& changes) {
-  constexpr std::string_view kDistance = "distance_m", kDuration = "duration_s";
+  const CaseTable none;
+  const SimulationTable settings(none, {}, {}, simulation_keys());
+  const std::string_view distance = settings.key(setting(&SimulationSettings::distance)),
+                         duration = settings.key(setting(&SimulationSettings::duration));
   for (const CaseOverride& change : changes) {
     change_value(document, change.path, change);
     // Distance and duration exclude each other: the one that is set last counts.
     std::string key = change.path;
-    if (!cut(key, "simulation.") || (key != kDistance && key != kDuration)) continue;
+    if (!cut(key, "simulation.") || (key != distance && key != duration)) continue;
     for (CaseEntry& entry : document)
       if (auto* table = std::get_if<CaseTable>(&entry.value.data); table != nullptr && entry.key == "simulation")
         std::erase_if(*table,
-                      [&](const CaseEntry& e) { return e.key != key && (e.key == kDistance || e.key == kDuration); });
+                      [&](const CaseEntry& e) { return e.key != key && (e.key == distance || e.key == duration); });
   }
 }
 
-void read_models(const TableReader& simulation, const std::filesystem::path& folder, const Overrides& overrides,
+void read_models(const SimulationTable& simulation, const std::filesystem::path& folder, const Overrides& overrides,
                  SimulationFile& out) {
-  simulation.need("vehicle", "name the vehicle file");
-  const FileText vehicle = named_text(simulation, "vehicle", folder);
+  const FileText vehicle = named_text(simulation, simulation.key(&SimulationFile::vehicle_file), folder);
   out.vehicle = parse_vehicle_text(vehicle.text, vehicle.file.path.string(), overrides.vehicle);
   out.vehicle_file = vehicle.file;
-  if (simulation.find("track") == nullptr) {
+  const std::string_view key = simulation.key(&SimulationFile::track_file);
+  if (simulation.find(key) == nullptr) {
     if (overrides.track.empty()) return;
     throw Error(ErrorKind::configuration, "there is no track to change, simulation.track is not given",
                 overrides.track.front().value.where, "without it the track is rigid");
   }
-  const FileText track = named_text(simulation, "track", folder);
+  const FileText track = named_text(simulation, key, folder);
   AnyTrack any = parse_any_track_text(track.text, track.file.path.string(), overrides.track);
   if (TrackModel* const lumped = std::get_if<TrackModel>(&any))
     out.track = std::move(*lumped);
@@ -82,25 +86,28 @@ void read_models(const TableReader& simulation, const std::filesystem::path& fol
   out.track_file = track.file;
 }
 
-void require_rails_to_share(const TableReader& simulation, const SimulationFile& file) {
+void require_rails_to_share(const SimulationTable& simulation, const SimulationFile& file) {
   if (!file.settings.shared_rails || file.flexible_track) return;
-  throw Error(ErrorKind::configuration,
-              file.track ? "simulation.shared_rails = true, but the track is lumped: each wheelset has its own"
-                         : "simulation.shared_rails = true, but there is no flexible track",
-              simulation.need("shared_rails").where, "give a track whose kind is \"flexible\" (docs/track.md)");
+  simulation.refuse(setting(&SimulationSettings::shared_rails),
+                    file.track ? "simulation.shared_rails = true, but the track is lumped: each wheelset has its own"
+                               : "simulation.shared_rails = true, but there is no flexible track",
+                    "give a track whose kind is \"flexible\" (docs/track.md)");
 }
 
 /// With steps of more than an element the elements at the leading edge stick or slip at random.
-void choose_steps(const TableReader& simulation, SimulationFile& out) {
-  if (out.contact.regime == Regime::transient && simulation.find("max_step_elements") == nullptr)
+void choose_steps(const SimulationTable& simulation, SimulationFile& out) {
+  if (out.contact.regime == Regime::transient &&
+      simulation.find(setting(&SimulationSettings::max_step_elements)) == nullptr)
     out.settings.max_step_elements = 1.0;
 }
 
 /// Histories of transient rolling reach two elements back.
-void check_steps(const TableReader& simulation, const SimulationFile& out) {
+void check_steps(const SimulationTable& simulation, const SimulationFile& out) {
   const SimulationSettings& s = out.settings;
-  const auto place = [&](std::string_view key) {
-    return simulation.find(key) ? simulation.find(key)->where : simulation.where();
+  using S = SimulationSettings;
+  const auto place = [&](auto S::*member) {
+    const CaseValue* value = simulation.find(setting(member));
+    return value != nullptr ? value->where : simulation.where();
   };
   constexpr double kMostElements = 2.0;
   if (out.contact.regime == Regime::transient && s.max_step_elements > kMostElements)
@@ -108,17 +115,17 @@ void check_steps(const TableReader& simulation, const SimulationFile& out) {
         ErrorKind::configuration,
         fmt::format("simulation.max_step_elements = {:.6g}: steps of transient rolling must not exceed dt = 2 dx / V",
                     s.max_step_elements),
-        place("max_step_elements"), "give at most 2, or case.regime = \"steady\"");
+        place(&S::max_step_elements), "give at most 2, or case.regime = \"steady\"");
   const double longest = s.longest_step(out.contact.discretisation.dx);
   if (s.min_step > longest)
     throw Error(ErrorKind::configuration,
                 fmt::format("simulation.min_step_us = {:.6g} exceeds the longest step of {:.6g} us", s.min_step * 1e6,
                             longest * 1e6),
-                place("min_step_us"), "the longest step follows from max_step_us and max_step_elements * dx / V");
+                place(&S::min_step), "the longest step follows from max_step_us and max_step_elements * dx / V");
 
   // Each line holds some hundred numbers in memory, and a step takes a millisecond at least.
   constexpr double kMostSteps = 1e9, kMostLines = 1e7;
-  const std::string_view extent = simulation.find("duration_s") ? "duration_s" : "distance_m";
+  const auto extent = simulation.find(setting(&S::duration)) ? &S::duration : &S::distance;
   const double steps = s.duration / longest, lines = s.output_every > 0.0 ? s.distance / s.output_every : steps;
   if (steps > kMostSteps)
     throw Error(ErrorKind::configuration,
@@ -136,14 +143,15 @@ void check_steps(const TableReader& simulation, const SimulationFile& out) {
 constexpr std::string_view kLineTables[] = {"layout", "irregularities", "assessment"};
 
 /// Reader of one of them, if it is there.
-std::optional<TableReader> line_table(const CaseTable& document, std::string_view key, const TableKeys& known) {
+template <class Root>
+std::optional<TableOf<Root>> line_table(const CaseTable& document, std::string_view key, const KeyTable<Root>& keys) {
   const auto entry =
       std::find_if(document.begin(), document.end(), [&](const CaseEntry& one) { return one.key == key; });
   if (entry == document.end()) return std::nullopt;
   if (!entry->value.is_table())
     throw Error(ErrorKind::configuration, fmt::format("{} must be a table, found {}", key, entry->value.kind()),
                 entry->value.where);
-  return TableReader(entry->value.table(), entry->value.where, std::string(key), known);
+  return TableOf(entry->value, std::string(key), keys);
 }
 
 }  // namespace
@@ -184,9 +192,8 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
     throw Error(ErrorKind::configuration, "[simulation] is missing, this is no simulation file",
                 simulation_table == nullptr ? top : simulation_table->value.where, "see docs/simulation-files.md");
 
-  const TableReader simulation(simulation_table->value.table(), simulation_table->value.where, "simulation",
-                               simulation_keys());
-  result.settings = read_settings(simulation);
+  const SimulationTable simulation(simulation_table->value, "simulation", simulation_keys());
+  read_settings(simulation, result);
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
   require_rails_to_share(simulation, result);

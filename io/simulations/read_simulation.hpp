@@ -10,9 +10,12 @@
 
 #include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
-#include "treadmark/io/simulations/table_reader.hpp"
+#include "treadmark/io/simulations/table_of.hpp"
 
 namespace treadmark::io {
+
+struct LayoutInput;
+struct IrregularityInput;
 
 /// Reads a simulation file (TOML, docs/simulation-files.md) with the vehicle and the track that it names, relative to
 /// its folder. overrides: "key.path=value", applied after everything else: keys of the simulation
@@ -32,18 +35,20 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
 
 /// Parts of the reader of simulation files. Error(configuration) at the place of what is wrong.
 
-/// [simulation] but for its tables.
-SimulationSettings read_settings(const TableReader& simulation);
+/// [simulation].
+using SimulationTable = TableOf<SimulationFile>;
+/// Its keys that are one member each, and its speeds.
+void read_settings(const SimulationTable& simulation, SimulationFile& out);
 /// [simulation.fields].
-FieldRequests read_fields(const TableReader& simulation);
+FieldRequests read_fields(const SimulationTable& simulation);
 /// What [simulation] says of the history; out.vehicle and out.settings are set.
-void read_history(const TableReader& simulation, SimulationFile& out);
+void read_history(const SimulationTable& simulation, SimulationFile& out);
 /// [assessment]; out.vehicle, out.settings and out.irregularities are set.
-void read_assessment(const TableReader& assessment, SimulationFile& out);
+void read_assessment(const TableOf<AssessmentRequest>& assessment, SimulationFile& out);
 /// [[simulation.torques]].
-std::vector<AxleTorque> read_torques(const TableReader& simulation, const VehicleModel& vehicle);
+std::vector<AxleTorque> read_torques(const SimulationTable& simulation, const VehicleModel& vehicle);
 /// One entry for every wheel of the vehicle.
-std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets);
+std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, std::size_t wheelsets);
 
 /// A file that a key names, from the folder of the simulation file, with its text.
 struct FileText {
@@ -57,9 +62,10 @@ FileText named_text(const TableReader& table, std::string_view key, const std::f
 FromTo wheelset_places(const VehicleModel& vehicle);
 
 /// [layout], which must reach as far as the vehicle runs: out.vehicle, out.settings and out.contact are set.
-void read_layout(const TableReader& layout, SimulationFile& out);
+void read_layout(const TableOf<LayoutInput>& layout, SimulationFile& out);
 /// [irregularities], which must reach as far: out.vehicle, out.settings and out.layout are set.
-void read_irregularities(const TableReader& irregularities, const std::filesystem::path& folder, SimulationFile& out);
+void read_irregularities(const TableOf<IrregularityInput>& irregularities, const std::filesystem::path& folder,
+                         SimulationFile& out);
 
 /// Everything outside of [simulation], [layout] and [irregularities]: the keys of a case file.
 struct ContactPart {
@@ -71,12 +77,12 @@ struct ContactPart {
 /// out.settings are set.
 void read_contact(const ContactPart& part, SimulationFile& out);
 /// [simulation.other_wheel] into out.other_wheel; out.contact and out.wheels are set.
-void read_other_wheel(const ContactPart& part, const TableReader& simulation, SimulationFile& out);
+void read_other_wheel(const ContactPart& part, const SimulationTable& simulation, SimulationFile& out);
 /// [[simulation.check_rails]]; out.contact is set.
-void read_check_rails(const TableReader& simulation, SimulationFile& out);
+void read_check_rails(const SimulationTable& simulation, SimulationFile& out);
 /// The contact with a [rail], where both sides have rails of their own.
-ContactPart with_rail(ContactPart part, const TableReader& simulation);
+ContactPart with_rail(ContactPart part, const SimulationTable& simulation);
 /// [simulation.left_rail], right_rail and table_rail; part: as with_rail() gives it, out.contact is set.
-void read_rails(const ContactPart& part, const TableReader& simulation, SimulationFile& out);
+void read_rails(const ContactPart& part, const SimulationTable& simulation, SimulationFile& out);
 
 }  // namespace treadmark::io

@@ -14,7 +14,7 @@
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/study_keys.hpp"
 
 namespace treadmark::io {
 
@@ -54,27 +54,26 @@ BaseTables read_base(const std::filesystem::path& path) {
   return base_of(parse_toml(text, path.string()), path, sha256_hex(text));
 }
 
-BaseTables named_base(const TableReader& study, const CaseTable& document, const std::filesystem::path& folder) {
+BaseTables named_base(const TableOf<StudyFile>& study, const CaseTable& document, const std::filesystem::path& folder) {
+  const std::string base = study.path_of(&StudyFile::base);
   for (const CaseEntry& entry : document)
     if (entry.key != study.path() && entry.key != "title")
-      throw Error(ErrorKind::configuration,
-                  fmt::format("{} stands beside {}, which says it all", entry.key, study.path_of("base")),
+      throw Error(ErrorKind::configuration, fmt::format("{} stands beside {}, which says it all", entry.key, base),
                   entry.key_where,
-                  fmt::format("change keys of the base in [[{}]], or leave {} out", study.path_of("vary"),
-                              study.path_of("base")));
-  std::string name = study.text("base");
+                  fmt::format("change keys of the base in [[{}]], or leave {} out",
+                              study.path_of(&StudyFile::variations), base));
+  std::string name = study.text(study.key(&StudyFile::base));
   std::replace(name.begin(), name.end(), '\\', '/');
   const std::filesystem::path path = (folder / name).lexically_normal();
-  const SourcePosition& where = study.need("base").where;
+  const SourcePosition& where = study.need(&StudyFile::base).where;
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    throw MissingFile(ErrorKind::configuration,
-                      fmt::format("{}: there is no file {}", study.path_of("base"), path.string()), where,
+    throw MissingFile(ErrorKind::configuration, fmt::format("{}: there is no file {}", base, path.string()), where,
                       advice_on_missing(path, "names count from the folder of the study file"));
   if (path.extension() != ".toml")
-    throw Error(ErrorKind::configuration, fmt::format("{} must be a .toml file", study.path_of("base")), where);
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a .toml file", base), where);
   if (is_study_file(path))
-    throw Error(ErrorKind::configuration, fmt::format("{} is a study itself", study.path_of("base")), where,
+    throw Error(ErrorKind::configuration, fmt::format("{} is a study itself", base), where,
                 "name a simulation or case file");
   return read_base(path);
 }
@@ -140,10 +139,10 @@ void check_runs(const StudyFile& study, const BaseTables& base, const RunRange& 
   }
 }
 
-std::string title_of(const CaseTable& document, const TableReader& study, const std::filesystem::path& file) {
-  std::string title = study.text_or("title", file.stem().string());
+std::string title_of(const CaseTable& document, const TableOf<StudyFile>& study, const std::filesystem::path& file) {
+  std::string title = study.text_or(study.key(&StudyFile::title), file.stem().string());
   const CaseEntry* top = find_entry(document, "title");
-  if (top == nullptr || study.find("title") != nullptr) return title;
+  if (top == nullptr || study.find(&StudyFile::title) != nullptr) return title;
   if (!std::holds_alternative<std::string>(top->value.data))
     throw Error(ErrorKind::configuration, fmt::format("title must be text, found {}", top->value.kind()),
                 top->value.where);
@@ -167,14 +166,15 @@ StudyTables::StudyTables(const std::filesystem::path& file, std::string_view nam
                 "see docs/simulation-files.md for studies, docs/evolve.md for evolutions");
 }
 
-void StudyTables::read_runs(const TableReader& reader, const RunRange& checked) {
+void StudyTables::read_runs(const TableReader& all, const RunRange& checked) {
+  const TableOf<StudyFile> reader(all, study_keys());
   study.title = title_of(document, reader, study.path);
   study.variations = read_variations(reader);
   check_not_varied(study.variations, common_);
   study.runs = runs_of(study.variations, common_);
-  const bool named = reader.find("base") != nullptr;
+  const bool named = reader.find(&StudyFile::base) != nullptr;
   if (!named && document.size() == 1)
-    reader.fail(fmt::format("{} is missing", reader.path_of("base")),
+    reader.fail(fmt::format("{} is missing", reader.path_of(&StudyFile::base)),
                 fmt::format("name a simulation or case file, or give its tables beside [{}]", reader.path()));
   const BaseTables base =
       named ? named_base(reader, document, study.path.parent_path()) : base_of(document, study.path, study.sha256);
@@ -186,7 +186,7 @@ void StudyTables::read_runs(const TableReader& reader, const RunRange& checked) 
 StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides,
                           const RunRange& checked) {
   StudyTables tables(file, "study", overrides);
-  const TableReader reader(tables.table->value.table(), tables.table->value.where, "study", study_keys());
+  const TableOf reader(tables.table->value, "study", study_keys());
   tables.read_runs(reader, checked);
   tables.study.figures = read_figures(reader, tables.study.variations);
   return std::move(tables.study);
@@ -196,28 +196,9 @@ Base read_study_run(const StudyFile& study, const StudyRun& run) { return read_b
 
 namespace {
 
-std::vector<FigureMark> read_marks(const TableReader& figure) {
-  std::vector<FigureMark> marks;
-  for (const CaseValue* one : figure.tables("mark")) {
-    const TableReader table(one->table(), one->where, figure.path_of("mark"), mark_keys());
-    marks.push_back({table.number("x"), table.number("y"), table.text_or("label", {})});
-  }
-  return marks;
-}
-
-std::optional<std::array<double, 2>> read_range(const TableReader& figure) {
-  if (figure.find("x_range") == nullptr) return std::nullopt;
-  const std::vector<double> range = figure.numbers("x_range");
-  if (range.size() != 2 || !(range[0] < range[1]))
-    throw Error(ErrorKind::configuration, fmt::format("{} must be two increasing numbers", figure.path_of("x_range")),
-                figure.need("x_range").where);
-  return std::array<double, 2>{range[0], range[1]};
-}
-
 /// Which variation makes the lines, by its key or its label.
-void read_series(const TableReader& figure, const std::vector<Variation>& variations, StudyFigure& out) {
-  out.series = figure.text_or("series", {});
-  out.labels = figure.words("labels");
+void check_series(const TableOf<StudyFigure>& figure, const std::vector<Variation>& variations,
+                  const StudyFigure& out) {
   if (out.series.empty()) return;
   std::vector<std::string> known;
   const Variation* lines = nullptr;
@@ -227,13 +208,12 @@ void read_series(const TableReader& figure, const std::vector<Variation>& variat
       known.push_back(name);
       if (name == out.series) lines = &variation;
     }
-  check_name(fmt::format("{}: the variation", figure.path_of("series")), out.series, known,
-             figure.need("series").where);
+  check_name(fmt::format("{}: the variation", figure.path_of(&StudyFigure::series)), out.series, known,
+             figure.need(&StudyFigure::series).where);
   if (!out.labels.empty() && out.labels.size() != lines->values.size())
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} has {} texts for {} values of {}", figure.path_of("labels"), out.labels.size(),
-                            lines->values.size(), out.series),
-                figure.need("labels").where);
+    figure.refuse(&StudyFigure::labels,
+                  fmt::format("{} has {} texts for {} values of {}", figure.path_of(&StudyFigure::labels),
+                              out.labels.size(), lines->values.size(), out.series));
 }
 
 /// Which value of a variation a text means: its label, or its number.
@@ -248,21 +228,21 @@ std::size_t value_of(const Variation& variation, const std::string& text, const 
 }
 
 /// "key=value" texts: of each variation named only these values are drawn.
-void read_only(const TableReader& figure, const std::vector<Variation>& variations, StudyFigure& out) {
+void read_only(const TableOf<StudyFigure>& figure, const std::vector<Variation>& variations, StudyFigure& out) {
   out.only.assign(variations.size(), {});
-  const std::vector<std::string> texts = figure.words("only");
+  const std::vector<std::string> texts = figure.words(figure.key(&StudyFigure::only));
   std::vector<std::string> known;
   for (const Variation& variation : variations)
     for (const std::string& name : {variation.key, variation.label})
       if (!name.empty()) known.push_back(name);
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    const SourcePosition& where = figure.need("only").list()[i].where;
+    const SourcePosition& where = figure.need(&StudyFigure::only).list()[i].where;
     const auto sign = texts[i].find('=');
     if (sign == std::string::npos)
       throw Error(ErrorKind::configuration,
-                  fmt::format("{}: '{}' is not \"key=value\"", figure.path_of("only"), texts[i]), where);
+                  fmt::format("{}: '{}' is not \"key=value\"", figure.path_of(&StudyFigure::only), texts[i]), where);
     const std::string name = texts[i].substr(0, sign);
-    check_name(fmt::format("{}: the variation", figure.path_of("only")), name, known, where);
+    check_name(fmt::format("{}: the variation", figure.path_of(&StudyFigure::only)), name, known, where);
     const auto variation = std::find_if(variations.begin(), variations.end(),
                                         [&](const Variation& v) { return v.key == name || v.label == name; });
     out.only[static_cast<std::size_t>(variation - variations.begin())].push_back(
@@ -270,52 +250,41 @@ void read_only(const TableReader& figure, const std::vector<Variation>& variatio
   }
 }
 
-StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& variations) {
-  using Kind = StudyFigure::Kind;
-  StudyFigure figure;
-  figure.file = table.text("file");
-  if (figure.file.extension() != ".svg")
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} = '{}' must end with .svg", table.path_of("file"), figure.file.string()),
-                table.need("file").where);
+StudyFigure read_figure(const TableOf<StudyFigure>& table, const std::vector<Variation>& variations) {
+  using F = StudyFigure;
+  F figure = table.read();
+  const std::string file = fmt::format("{} = '{}'", table.path_of(&F::file), figure.file.string());
+  if (figure.file.extension() != ".svg") table.refuse(&F::file, file + " must end with .svg");
   if (figure.file != figure.file.filename() || figure.file == "sweep.svg")
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} = '{}' is no name for a figure", table.path_of("file"), figure.file.string()),
-                table.need("file").where, "figures lie in the folder of results: give a name without folders");
-  const std::string kind = table.text("kind");
-  figure.kind = kind == "history" ? Kind::history : kind == "summary" ? Kind::summary : Kind::patches;
-  if (figure.kind != Kind::patches) {
-    table.need("x", "the column along the axis");
-    table.need("y", "a list of columns");
+    table.refuse(&F::file, file + " is no name for a figure",
+                 "figures lie in the folder of results: give a name without folders");
+  if (figure.kind != F::Kind::patches) {
+    table.need(&F::x);
+    table.need(&F::y);
   }
-  figure.x = table.text_or("x", {});
-  if (const CaseValue* x = table.find("x")) figure.x_where = x->where;
-  figure.y = table.words("y");
-  for (std::size_t i = 0; i < figure.y.size(); ++i) figure.y_where.push_back(table.need("y").list()[i].where);
-  if (figure.kind != Kind::patches && figure.y.empty())
-    throw Error(ErrorKind::configuration, fmt::format("{} is empty", table.path_of("y")), table.need("y").where);
-  figure.title = table.text_or("title", {});
-  figure.x_label = table.text_or("x_label", {});
-  figure.y_label = table.text_or("y_label", {});
-  figure.x_range = read_range(table);
-  read_series(table, variations, figure);
+  if (const CaseValue* x = table.find(&F::x)) figure.x_where = x->where;
+  for (std::size_t i = 0; i < figure.y.size(); ++i) figure.y_where.push_back(table.need(&F::y).list()[i].where);
+  if (figure.kind != F::Kind::patches && figure.y.empty())
+    table.refuse(&F::y, fmt::format("{} is empty", table.path_of(&F::y)));
+  if (table.find(&F::x_range) != nullptr && !figure.x_range)
+    table.refuse(&F::x_range, fmt::format("{} must be two increasing numbers", table.path_of(&F::x_range)));
+  check_series(table, variations, figure);
   read_only(table, variations, figure);
-  figure.marks = read_marks(table);
+  for (const CaseValue* one : table.tables(&F::marks))
+    figure.marks.push_back(TableOf(*one, table.path_of(&F::marks), mark_keys()).read());
   return figure;
 }
 
 }  // namespace
 
-std::vector<StudyFigure> read_figures(const TableReader& study, const std::vector<Variation>& variations) {
+std::vector<StudyFigure> read_figures(const TableOf<StudyFile>& study, const std::vector<Variation>& variations) {
   std::vector<StudyFigure> figures;
-  for (const CaseValue* one : study.tables("figures")) {
-    const TableReader table(one->table(), one->where, study.path_of("figures"), figure_keys());
+  for (const CaseValue* one : study.tables(&StudyFile::figures)) {
+    const TableOf table(*one, study.path_of(&StudyFile::figures), figure_keys());
     figures.push_back(read_figure(table, variations));
     const auto same = [&](const StudyFigure& figure) { return figure.file == figures.back().file; };
     if (std::count_if(figures.begin(), figures.end(), same) > 1)
-      throw Error(ErrorKind::configuration,
-                  fmt::format("two figures would be written to {}", figures.back().file.string()),
-                  table.need("file").where);
+      table.refuse(&StudyFigure::file, fmt::format("two figures would be written to {}", figures.back().file.string()));
   }
   return figures;
 }

@@ -12,7 +12,7 @@
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/io/simulations/study_model.hpp"
-#include "treadmark/io/simulations/table_reader.hpp"
+#include "treadmark/io/simulations/table_of.hpp"
 
 namespace treadmark::io {
 
@@ -47,12 +47,12 @@ struct StudyTables {
 };
 
 /// [[study.vary]].
-std::vector<Variation> read_variations(const TableReader& study);
+std::vector<Variation> read_variations(const TableOf<StudyFile>& study);
 
 /// All combinations, the last variation fastest. common: overrides of all runs.
 std::vector<StudyRun> runs_of(const std::vector<Variation>& variations, const std::vector<std::string>& common);
 
 /// [[study.figures]].
-std::vector<StudyFigure> read_figures(const TableReader& study, const std::vector<Variation>& variations);
+std::vector<StudyFigure> read_figures(const TableOf<StudyFile>& study, const std::vector<Variation>& variations);
 
 }  // namespace treadmark::io

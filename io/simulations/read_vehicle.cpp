@@ -11,7 +11,8 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/check_held.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/table_of.hpp"
+#include "treadmark/io/simulations/vehicle_keys.hpp"
 
 namespace treadmark::io {
 
@@ -27,82 +28,52 @@ void change_model(CaseTable& document, std::span<const CaseOverride> changes, co
   }
 }
 
-/// Reader of the table that gives the model its name.
-TableReader main_table(const TableReader& document, const std::string& key, const std::vector<KeyInfo>& known) {
+/// The table that gives the model its name.
+TableOf<ModelHead> main_table(const TableReader& document, const std::string& key, const KeyTable<ModelHead>& keys) {
   const CaseTable* table = document.table(key);
   if (table == nullptr)
     document.fail(fmt::format("[{0}] is missing, this is no {0} file", key), "see docs/simulation-files.md");
-  TableReader reader(*table, document.find(key)->where, key, known);
-  reader.text_or("source", {});
-  return reader;
-}
-
-void scale(SixValues& values, double factor) {
-  for (double& value : values) value *= factor;
+  return {*table, document.find(key)->where, key, keys};
 }
 
 template <class Model>
-void scale_model(Model& model, const TableReader& table) {
-  const double mass = table.number_or("scale_mass", 1.0), stiffness = table.number_or("scale_stiffness", 1.0),
-               damping = table.number_or("scale_damping", 1.0);
-  for (BodySpec& body : model.bodies) {
-    body.mass *= mass;
-    body.inertia *= mass;
-  }
+void scale_model(Model& model, const ModelHead& head) {
+  for (BodySpec& body : model.bodies) scale(body_keys(), body, head);
   for (SpringSpec& spring : model.springs) {
-    scale(spring.stiffness, stiffness);
-    scale(spring.damping, damping);
-    scale(spring.damper_stiffness, damping > 0.0 ? stiffness : 0.0);
+    scale(spring_keys(), spring, head);
+    if (!(head.damping > 0.0)) spring.damper_stiffness = {};
   }
 }
 
 /// The stiffness of steel stays: frequencies follow.
-void scale_axles(VehicleModel& vehicle, const TableReader& table) {
-  const double mass = table.number_or("scale_mass", 1.0), damping = table.number_or("scale_damping", 1.0);
+void scale_axles(VehicleModel& vehicle, const ModelHead& head) {
   for (WheelsetSpec& wheelset : vehicle.wheelsets) {
     if (!wheelset.axle) continue;
-    wheelset.axle->wheel_polar_inertia *= mass;
+    scale(axle_keys(), *wheelset.axle, head);
     for (BendingMode& mode : wheelset.axle->bending) {
-      mode.mass *= mass;
-      mode.damping *= damping;
+      mode.mass *= head.mass;
+      mode.damping *= head.damping;
     }
     for (TorsionMode& mode : wheelset.axle->torsion) {
-      mode.inertia *= mass;
-      mode.damping *= damping;
+      mode.inertia *= head.mass;
+      mode.damping *= head.damping;
     }
   }
 }
 
 /// Springs are scaled, not the rail, whose stiffness is known well.
-void scale_track(FlexibleTrack& track, const TableReader& table) {
-  const double mass = table.number_or("scale_mass", 1.0), stiffness = table.number_or("scale_stiffness", 1.0),
-               damping = table.number_or("scale_damping", 1.0);
-  track.rail.mass *= mass;
-  track.rail.rotary_inertia *= mass;
-  if (track.sideways) {
-    track.sideways->rotary_inertia *= mass;
-    track.sideways->polar_inertia *= mass;
-  }
+void scale_track(FlexibleTrack& track, const ModelHead& head) {
+  scale(beam_keys(), track.rail, head);
+  if (track.sideways) scale(sideways_keys(), *track.sideways, head);
   for (RailSeat& seat : track.seats) {
-    seat.sleeper_mass *= mass;
-    for (double* spring : {&seat.pad_stiffness, &seat.bed_stiffness, &seat.lateral_pad_stiffness, &seat.roll_stiffness,
-                           &seat.lateral_bed_stiffness})
-      *spring *= stiffness;
-    for (double* damper : {&seat.pad_damping, &seat.bed_damping, &seat.lateral_pad_damping, &seat.roll_damping,
-                           &seat.lateral_bed_damping})
-      *damper *= damping;
+    scale(seat_keys(), seat, head);
+    scale(sideways_seat_keys(), seat, head);
   }
-  if (!track.lateral) return;
-  track.lateral->pad_stiffness *= stiffness;
-  track.lateral->bed_stiffness *= stiffness;
-  track.lateral->pad_damping *= damping;
-  track.lateral->bed_damping *= damping;
-  track.lateral->rail_mass *= mass;
-  track.lateral->sleeper_mass *= mass;
+  if (track.lateral) scale(lateral_keys(), *track.lateral, head);
 }
 
 /// Tables and keys of the other kind of track say that the kind is not what was meant.
-void refuse_other_kind(const TableReader& document, const TableReader& table, bool flexible) {
+void refuse_other_kind(const TableReader& document, const TableOf<ModelHead>& table, bool flexible) {
   const auto refuse = [&](const TableReader& reader, std::string_view key) {
     if (reader.find(key) == nullptr) return;
     throw Error(
@@ -111,7 +82,7 @@ void refuse_other_kind(const TableReader& document, const TableReader& table, bo
         reader.find(key)->where, "see docs/simulation-files.md");
   };
   if (flexible) {
-    refuse(table, "rails");
+    refuse(table, table.key(&ModelHead::rails));
     for (const char* key : {"bodies", "springs"}) refuse(document, key);
   } else {
     for (const char* key : {"rail", "seats", "varied", "joints", "lateral"}) refuse(document, key);
@@ -125,10 +96,10 @@ std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std:
   for (const FlexibleAxle& axle : axles) axle_names.push_back(axle.name);
   std::set<std::string> seen;
   for (const CaseValue* one : document.tables("wheelsets")) {
-    const TableReader part(one->table(), one->where, "wheelsets", wheelset_keys());
-    WheelsetSpec wheelset{part.text("body"), part.number("nominal_radius_mm")};
-    const SourcePosition& where = part.need("body").where;
-    check_name("wheelsets.body: the body", wheelset.body, names_of(bodies), where);
+    const TableOf part(*one, "wheelsets", wheelset_keys());
+    WheelsetSpec wheelset = part.read();
+    const SourcePosition& where = part.need(&WheelsetSpec::body).where;
+    check_name(part.path_of(&WheelsetSpec::body) + ": the body", wheelset.body, names_of(bodies), where);
     if (!seen.insert(wheelset.body).second)
       throw Error(ErrorKind::configuration, fmt::format("the body '{}' is a wheelset twice", wheelset.body), where);
     const auto body =
@@ -136,8 +107,8 @@ std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std:
     if (!body->free.at(static_cast<std::size_t>(Freedom::z)))
       throw Error(ErrorKind::configuration, fmt::format("the wheelset '{}' cannot move in z", wheelset.body), where,
                   "add \"z\" to what is free: the load of its wheels follows from its vertical motion");
-    if (const CaseValue* name = part.checked_if("axle")) {
-      check_name("wheelsets.axle: the axle", name->text(), axle_names, name->where);
+    if (const CaseValue* name = part.checked_if(part.key(&WheelsetSpec::axle))) {
+      check_name(part.path_of(&WheelsetSpec::axle) + ": the axle", name->text(), axle_names, name->where);
       wheelset.axle = *std::ranges::find(axles, name->text(), &FlexibleAxle::name);
     }
     wheelsets.push_back(std::move(wheelset));
@@ -158,9 +129,8 @@ void check_vehicle(const VehicleModel& vehicle) {
   check_held(vehicle.bodies, vehicle.springs, wheels);
 }
 
-void read_rails(const TableReader& table, TrackModel& track) {
-  const CaseValue& list = table.need("rails", "the bodies that are the left and the right rail");
-  const std::vector<std::string> rails = table.words("rails");
+void take_rails(const TableOf<ModelHead>& table, const std::vector<std::string>& rails, TrackModel& track) {
+  const CaseValue& list = table.need(&ModelHead::rails);
   if (rails.size() != 2 || rails[0] == rails[1])
     throw Error(ErrorKind::configuration, "track.rails must name two bodies, the left and the right rail", list.where);
   for (std::size_t i = 0; i < 2; ++i)
@@ -181,16 +151,16 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
   CaseTable tables = parse_toml(text, name);
   change_model(tables, changes, "vehicle", vehicle_tables());
   const TableReader document(tables, {name, 1, 1}, "", vehicle_tables());
-  const TableReader table = main_table(document, "vehicle", vehicle_keys());
+  const ModelHead head = main_table(document, "vehicle", vehicle_keys()).read();
   VehicleModel vehicle;
-  vehicle.name = table.text("name");
+  vehicle.name = head.name;
   vehicle.bodies = read_bodies(document);
   vehicle.springs = read_springs(document, vehicle.bodies);
   vehicle.bump_stops = read_bump_stops(document, vehicle.bodies);
   vehicle.wheelsets = read_wheelsets(document, vehicle.bodies);
   check_vehicle(vehicle);
-  scale_model(vehicle, table);
-  scale_axles(vehicle, table);
+  scale_model(vehicle, head);
+  scale_axles(vehicle, head);
   return vehicle;
 }
 
@@ -198,23 +168,23 @@ AnyTrack parse_any_track_text(std::string_view text, const std::string& name, st
   CaseTable tables = parse_toml(text, name);
   change_model(tables, changes, "track", track_tables());
   const TableReader document(tables, {name, 1, 1}, "", track_tables());
-  const TableReader table = main_table(document, "track", track_keys());
-  const bool flexible = table.text_or("kind", "lumped") == "flexible";
-  refuse_other_kind(document, table, flexible);
-  if (flexible) {
+  const TableOf<ModelHead> table = main_table(document, "track", track_keys());
+  const ModelHead head = table.read();
+  refuse_other_kind(document, table, head.flexible);
+  if (head.flexible) {
     FlexibleTrack track = read_flexible_track(document);
-    track.name = table.text("name");
-    track.source = table.text_or("source", {});
-    scale_track(track, table);
+    track.name = head.name;
+    track.source = head.source;
+    scale_track(track, head);
     return track;
   }
   TrackModel track;
-  track.name = table.text("name");
+  track.name = head.name;
   track.bodies = read_bodies(document);
   track.springs = read_springs(document, track.bodies);
-  read_rails(table, track);
+  take_rails(table, head.rails, track);
   check_held(track.bodies, track.springs, {"the ground", {kGround}, {}});
-  scale_model(track, table);
+  scale_model(track, head);
   return track;
 }
 

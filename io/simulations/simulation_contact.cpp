@@ -9,6 +9,7 @@
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
 
 namespace treadmark::io {
 
@@ -154,7 +155,7 @@ bool is_of_all_rails(const std::string& change) {
 }
 
 /// A table of [simulation] with the keys of a body of a case file, read in its place.
-WheelRailCase read_in_place(const ContactPart& part, const TableReader& simulation, std::string_view key,
+WheelRailCase read_in_place(const ContactPart& part, const SimulationTable& simulation, std::string_view key,
                             const std::string& body, const SimulationFile& out) {
   const CaseValue& value = simulation.need(key);
   CaseTable tables = completed(part, out);
@@ -166,7 +167,7 @@ WheelRailCase read_in_place(const ContactPart& part, const TableReader& simulati
   return contact_of(tables, other, nullptr);
 }
 
-void refuse_defects(const SurfaceSource& source, const TableReader& simulation, std::string_view key,
+void refuse_defects(const SurfaceSource& source, const SimulationTable& simulation, std::string_view key,
                     std::string_view what, std::string_view advice) {
   if (source.defects.empty() && source.offsets.file.empty()) return;
   throw Error(ErrorKind::configuration,
@@ -176,10 +177,11 @@ void refuse_defects(const SurfaceSource& source, const TableReader& simulation, 
 
 }  // namespace
 
-void read_other_wheel(const ContactPart& part, const TableReader& simulation, SimulationFile& out) {
-  if (simulation.table("other_wheel") != nullptr) {
-    out.other_wheel = read_in_place(part, simulation, "other_wheel", "wheel", out).wheel;
-    refuse_defects(*out.other_wheel, simulation, "other_wheel", "round wheels", "give them in [wheel]");
+void read_other_wheel(const ContactPart& part, const SimulationTable& simulation, SimulationFile& out) {
+  const std::string_view key = simulation.key(&SimulationFile::other_wheel);
+  if (simulation.table(key) != nullptr) {
+    out.other_wheel = read_in_place(part, simulation, key, "wheel", out).wheel;
+    refuse_defects(*out.other_wheel, simulation, key, "round wheels", "give them in [wheel]");
     return;
   }
   const auto round =
@@ -191,14 +193,16 @@ void read_other_wheel(const ContactPart& part, const TableReader& simulation, Si
       "give [simulation.other_wheel], for example shape.standard = \"S1002\"");
 }
 
-ContactPart with_rail(ContactPart part, const TableReader& simulation) {
-  const bool left = simulation.table("left_rail") != nullptr, right = simulation.table("right_rail") != nullptr;
+ContactPart with_rail(ContactPart part, const SimulationTable& simulation) {
+  using F = SimulationFile;
+  const auto given_table = [&](auto rail) { return simulation.table(simulation.key(rail)) != nullptr; };
+  const bool left = given_table(&F::left_rail), right = given_table(&F::right_rail);
   const auto common = std::ranges::find(part.tables, "rail", &CaseEntry::key);
   const auto change = std::ranges::find_if(
       part.overrides, [](const std::string& one) { return one.starts_with("rail.") && !is_of_all_rails(one); });
   const bool given = common != part.tables.end(), changed = change != part.overrides.end();
   if (left && right) {
-    const CaseValue& own = simulation.need("right_rail");
+    const CaseValue& own = simulation.need(&F::right_rail);
     if (given || changed)
       throw Error(ErrorKind::configuration, "[rail] is the rail of no wheel: both sides have rails of their own",
                   given ? common->key_where : parse_override(*change).value.where,
@@ -206,23 +210,24 @@ ContactPart with_rail(ContactPart part, const TableReader& simulation) {
     part.tables.push_back({"rail", own.where, {own.where, own.table()}});
   } else if ((left || right) && !given && !changed) {
     throw Error(ErrorKind::configuration, fmt::format("the {} rail has no shape", left ? "right" : "left"),
-                simulation.need(left ? "left_rail" : "right_rail").where,
+                simulation.need(left ? &F::left_rail : &F::right_rail).where,
                 fmt::format("give [rail] or [simulation.{}_rail]", left ? "right" : "left"));
   }
   return part;
 }
 
-void read_rails(const ContactPart& part, const TableReader& simulation, SimulationFile& out) {
-  const auto read = [&](std::string_view key, std::optional<SurfaceSource>& rail) {
-    if (simulation.table(key) == nullptr) return;
+void read_rails(const ContactPart& part, const SimulationTable& simulation, SimulationFile& out) {
+  using F = SimulationFile;
+  for (auto member : {&F::left_rail, &F::right_rail, &F::table_rail}) {
+    const std::string_view key = simulation.key(member);
+    if (simulation.table(key) == nullptr) continue;
+    std::optional<SurfaceSource>& rail = out.*member;
     rail = read_in_place(part, simulation, key, "rail", out).rail;
     if (rail->where.file.empty()) rail->where = simulation.need(key).where;  // of parts
-  };
-  read("left_rail", out.left_rail);
-  read("right_rail", out.right_rail);
-  read("table_rail", out.table_rail);
+  }
   if (out.table_rail)
-    refuse_defects(*out.table_rail, simulation, "table_rail", "rails for tables", "give them to the rail itself");
+    refuse_defects(*out.table_rail, simulation, simulation.key(&F::table_rail), "rails for tables",
+                   "give them to the rail itself");
   const Track& track = out.contact.track;
   if (!track.gauge_based && !(track.rail_y0 > 0.0))
     throw Error(ErrorKind::configuration,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -19,141 +18,127 @@ double SimulationSettings::longest_step(double dx) const {
 
 namespace {
 
-double read_speed(const TableReader& simulation) {
-  simulation.exclude("speed_m_s", "speed_km_h");
-  const std::string key = simulation.find("speed_km_h") != nullptr ? "speed_km_h" : "speed_m_s";
-  const CaseValue& value = simulation.need(key, "a simulation needs a speed");
-  const double speed = simulation.number(key);
-  if (!(speed > 0.0))
-    throw Error(ErrorKind::configuration, fmt::format("simulation.{} = 0: a simulation needs a speed", key),
-                value.where, "for a wheel that stands still use a case file");
-  return speed;
-}
-
-std::vector<double> increasing(const TableReader& fields, std::string_view key) {
-  std::vector<double> values = fields.numbers(key);
+template <class Root>
+std::vector<double> increasing(const TableOf<Root>& table, std::vector<double> Root::*list, const Root& root) {
+  const std::vector<double>& values = root.*list;
   if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end())
-    throw Error(ErrorKind::configuration, fmt::format("{} must increase", fields.path_of(key)), fields.need(key).where);
+    table.refuse(list, fmt::format("{} must increase", table.path_of(list)));
   return values;
 }
 
 /// Two lists of the same length, the first one increasing.
-std::pair<std::vector<double>, std::vector<double>> read_points(const TableReader& table, std::string_view x,
-                                                                std::string_view y) {
-  table.need(x);
-  table.need(y);
-  std::pair<std::vector<double>, std::vector<double>> points{increasing(table, x), table.numbers(y)};
-  if (points.first.empty() || points.first.size() != points.second.size())
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} has {} values, {} has {}", table.path_of(x), points.first.size(), table.path_of(y),
-                            points.second.size()),
-                table.need(y).where, "give one for each time");
-  return points;
+template <class Root>
+void check_points(const TableOf<Root>& table, const Root& root, std::vector<double> Root::*x,
+                  std::vector<double> Root::*y) {
+  const std::size_t xs = increasing(table, x, root).size(), ys = (root.*y).size();
+  if (xs == 0 || xs != ys)
+    table.refuse(y, fmt::format("{} has {} values, {} has {}", table.path_of(x), xs, table.path_of(y), ys),
+                 "give one for each time");
 }
 
-SpeedProfile read_profile(const TableReader& simulation, double speed) {
+SpeedProfile read_profile(const SimulationTable& simulation, double speed) {
   SpeedProfile profile{{0.0}, {speed}};
-  const CaseTable* found = simulation.table("speed_profile");
-  if (found == nullptr) return profile;
-  const TableReader table(*found, simulation.need("speed_profile").where, simulation.path_of("speed_profile"),
-                          speed_profile_keys());
-  const auto [times, speeds] = read_points(table, "time_s", "speed_m_s");
-  for (const double value : speeds)
+  const std::string_view key = simulation.key(setting(&SimulationSettings::profile));
+  if (simulation.table(key) == nullptr) return profile;
+  using P = SpeedProfile;
+  const TableOf table(simulation.need(key), simulation.path_of(key), speed_profile_keys());
+  const P later = table.read();
+  check_points(table, later, &P::time, &P::speed);
+  for (const double value : later.speed)
     if (!(value > 0.0))
-      throw Error(ErrorKind::configuration, fmt::format("{} reaches 0", table.path_of("speed_m_s")),
-                  table.need("speed_m_s").where, "wheels of a simulation roll");
-  if (!(times.front() > 0.0))
-    throw Error(ErrorKind::configuration, fmt::format("{} begins at 0", table.path_of("time_s")),
-                table.need("time_s").where, "the speed at the start is simulation.speed_m_s");
-  profile.time.insert(profile.time.end(), times.begin(), times.end());
-  profile.speed.insert(profile.speed.end(), speeds.begin(), speeds.end());
+      table.refuse(&P::speed, fmt::format("{} reaches 0", table.path_of(&P::speed)), "wheels of a simulation roll");
+  if (!(later.time.front() > 0.0))
+    table.refuse(&P::time, fmt::format("{} begins at 0", table.path_of(&P::time)),
+                 "the speed at the start is simulation.speed_m_s");
+  profile.time.insert(profile.time.end(), later.time.begin(), later.time.end());
+  profile.speed.insert(profile.speed.end(), later.speed.begin(), later.speed.end());
   return profile;
 }
 
-WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
-  WheelContactInput wheel;
-  wheel.wheelset = table.integer("wheelset") - 1;
-  if (static_cast<std::size_t>(wheel.wheelset) >= wheelsets)
-    throw Error(ErrorKind::configuration,
-                fmt::format("simulation.wheels.wheelset = {}, but the vehicle has {} wheelset{}", wheel.wheelset + 1,
-                            wheelsets, wheelsets == 1 ? "" : "s"),
-                table.need("wheelset").where, "wheelsets count from 1, the leading one");
-  wheel.side = table.text("side") == "left" ? Side::left : Side::right;
-  wheel.model = table.text("contact") == "full" ? ContactModelInput::full : ContactModelInput::table;
-  wheel.defects = table.flag_or("defects", true);
-  wheel.pitch = table.number_if("pitch_deg");
-  wheel.full_from = table.number_if("full_from_m");
-  wheel.full_to = table.number_if("full_to_m");
+template <class Root>
+void check_wheelset(const TableOf<Root>& table, const Root& root, std::size_t wheelsets) {
+  if (static_cast<std::size_t>(root.wheelset) >= wheelsets)
+    table.refuse(&Root::wheelset,
+                 fmt::format("{} = {}, but the vehicle has {} wheelset{}", table.path_of(&Root::wheelset),
+                             root.wheelset + 1, wheelsets, wheelsets == 1 ? "" : "s"),
+                 "wheelsets count from 1, the leading one");
+}
+
+WheelContactInput read_wheel(const TableOf<WheelContactInput>& table, std::size_t wheelsets) {
+  using W = WheelContactInput;
+  W wheel;
+  wheel.defects = true;
+  table.read(wheel);
+  check_wheelset(table, wheel, wheelsets);
   if (!wheel.changes_over()) return wheel;
-  const SourcePosition& where = table.need(wheel.full_from ? "full_from_m" : "full_to_m").where;
+  const auto place = wheel.full_from ? &W::full_from : &W::full_to;
   if (wheel.model != ContactModelInput::full)
-    throw Error(ErrorKind::configuration, "full_from_m and full_to_m belong to a wheel with contact = \"full\"", where);
+    table.refuse(place, "full_from_m and full_to_m belong to a wheel with contact = \"full\"");
   constexpr double kShortest = 0.1 - 1e-9;
   if (wheel.full_from && wheel.full_to && !(*wheel.full_to - *wheel.full_from >= kShortest))
-    throw Error(ErrorKind::configuration, "full_to_m must lie at least 0.1 m behind full_from_m", where,
-                "the contacts go over into each other within 0.05 m at both ends");
+    table.refuse(place, "full_to_m must lie at least 0.1 m behind full_from_m",
+                 "the contacts go over into each other within 0.05 m at both ends");
   return wheel;
 }
 
 }  // namespace
 
-SimulationSettings read_settings(const TableReader& simulation) {
-  SimulationSettings s;
-  s.speed = read_speed(simulation);
+void read_settings(const SimulationTable& simulation, SimulationFile& out) {
+  const auto speed = setting(&SimulationSettings::speed);
+  const auto distance = setting(&SimulationSettings::distance), duration = setting(&SimulationSettings::duration);
+  simulation.need(speed);
+  simulation.exclude(distance, duration);
+  simulation.read(out);
+  SimulationSettings& s = out.settings;
+  if (!(s.speed > 0.0))
+    simulation.refuse(speed, fmt::format("{} = 0: a simulation needs a speed", simulation.path_of(speed)),
+                      "for a wheel that stands still use a case file");
   s.profile = read_profile(simulation, s.speed);
-  simulation.exclude("distance_m", "duration_s");
-  if (simulation.find("duration_s") != nullptr) {
-    s.duration = simulation.number("duration_s");
+  if (simulation.find(duration) != nullptr) {
     s.distance = travel_at(s.profile, s.duration).distance;
   } else {
-    simulation.need("distance_m", "say how far, distance_m, or how long, duration_s");
-    s.distance = simulation.number("distance_m");
+    simulation.need(distance);
     s.duration = s.profile.time.size() > 1 ? time_at(s.profile, s.distance) : s.distance / s.speed;
   }
   constexpr double kNeverEnds = 1e9;  // [s], [m], as the keys themselves
   if (!(s.duration <= kNeverEnds) || !(s.distance <= kNeverEnds)) simulation.fail("the simulation has no end");
-  for (const SettingKey<SimulationSettings>& key : plain_setting_keys())
-    if (const CaseValue* value = simulation.checked_if(key.info.path)) key.set(s, *value, {});
-  return s;
 }
 
-FieldRequests read_fields(const TableReader& simulation) {
-  const CaseTable* table = simulation.table("fields");
-  if (table == nullptr) return {};
-  const TableReader fields(*table, simulation.need("fields").where, simulation.path_of("fields"), field_keys());
-  return {increasing(fields, "pitch_deg"), increasing(fields, "position_m")};
+FieldRequests read_fields(const SimulationTable& simulation) {
+  const std::string_view key = simulation.key(&SimulationFile::fields);
+  if (simulation.table(key) == nullptr) return {};
+  const TableOf table(simulation.need(key), simulation.path_of(key), field_keys());
+  FieldRequests fields = table.read();
+  for (auto list : {&FieldRequests::pitch, &FieldRequests::position}) increasing(table, list, fields);
+  return fields;
 }
 
-std::vector<AxleTorque> read_torques(const TableReader& simulation, const VehicleModel& vehicle) {
+std::vector<AxleTorque> read_torques(const SimulationTable& simulation, const VehicleModel& vehicle) {
   std::vector<AxleTorque> torques;
-  for (const CaseValue* one : simulation.tables("torques")) {
-    const TableReader table(one->table(), one->where, simulation.path_of("torques"), torque_keys());
-    AxleTorque& torque = torques.emplace_back();
+  const auto list = &SimulationFile::torques;
+  for (const CaseValue* one : simulation.tables(list)) {
+    const TableOf table(*one, simulation.path_of(list), torque_keys());
+    AxleTorque& torque = torques.emplace_back(table.read());
     torque.where = one->where;
-    torque.wheelset = table.integer("wheelset") - 1;
-    if (static_cast<std::size_t>(torque.wheelset) >= vehicle.wheelsets.size())
-      throw Error(ErrorKind::configuration,
-                  fmt::format("{} = {}, but the vehicle has {} wheelset{}", table.path_of("wheelset"),
-                              torque.wheelset + 1, vehicle.wheelsets.size(), vehicle.wheelsets.size() == 1 ? "" : "s"),
-                  table.need("wheelset").where, "wheelsets count from 1, the leading one");
-    std::tie(torque.time, torque.torque) = read_points(table, "time_s", "torque_N_m");
-    torque.reaction = table.text("reaction");
+    check_wheelset(table, torque, vehicle.wheelsets.size());
+    check_points(table, torque, &AxleTorque::time, &AxleTorque::torque);
     std::vector<std::string> names{kGround};
     for (const BodySpec& body : vehicle.bodies) names.push_back(body.name);
-    check_name("body", torque.reaction, names, table.need("reaction").where);
+    check_name("body", torque.reaction, names, table.need(&AxleTorque::reaction).where);
   }
   return torques;
 }
 
-std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets) {
+std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, std::size_t wheelsets) {
   std::vector<WheelContactInput> wheels(2 * wheelsets);
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     wheels[i].wheelset = static_cast<int>(i / 2);
     wheels[i].side = i % 2 == 0 ? Side::left : Side::right;
   }
   std::vector<bool> given(wheels.size());
-  for (const CaseValue* one : simulation.tables("wheels")) {
-    const TableReader table(one->table(), one->where, simulation.path_of("wheels"), wheel_keys());
+  const auto list = &SimulationFile::wheels;
+  for (const CaseValue* one : simulation.tables(list)) {
+    const TableOf table(*one, simulation.path_of(list), wheel_keys());
     const WheelContactInput wheel = read_wheel(table, wheelsets);
     const std::size_t index = 2 * static_cast<std::size_t>(wheel.wheelset) + (wheel.side == Side::left ? 0 : 1);
     if (given[index])
@@ -162,9 +147,9 @@ std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::s
     given[index] = true;
     std::optional<double>& other = wheels[index ^ 1].pitch;
     if (wheel.pitch && other && *other != *wheel.pitch)
-      throw Error(ErrorKind::configuration,
-                  fmt::format("wheelset {} has two different pitch angles at the start", wheel.wheelset + 1),
-                  table.need("pitch_deg").where, "both wheels turn with the axle");
+      table.refuse(&WheelContactInput::pitch,
+                   fmt::format("wheelset {} has two different pitch angles at the start", wheel.wheelset + 1),
+                   "both wheels turn with the axle");
     const std::optional<double> pitch = wheel.pitch ? wheel.pitch : other;
     wheels[index] = wheel;
     wheels[index].pitch = other = pitch;
@@ -172,36 +157,26 @@ std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::s
   return wheels;
 }
 
-void read_check_rails(const TableReader& simulation, SimulationFile& out) {
-  for (const CaseValue* one : simulation.tables("check_rails")) {
-    const TableReader table(one->table(), one->where, simulation.path_of("check_rails"), check_rail_keys());
-    CheckRailInput rail;
-    rail.side = table.text("side") == "left" ? Side::left : Side::right;
-    rail.from = table.number("from_m");
-    rail.to = table.number("to_m");
-    rail.face_y = table.number("face_y_mm");
-    rail.depth = table.number_or("depth_mm", rail.depth);
-    rail.stiffness = table.number("stiffness_N_per_m");
-    rail.damping = table.number_or("damping_N_s_per_m", rail.damping);
-    rail.friction = table.number_or("friction", rail.friction);
-    rail.flare_length = table.number_or("flare_m", rail.flare_length);
-    rail.flare = table.number_or("flare_mm", rail.flare);
-    const auto refuse = [&](std::string_view key, const std::string& message, std::string advice = {}) {
-      throw Error(ErrorKind::configuration, message, table.need(key).where, std::move(advice));
-    };
-    if (!(rail.to > rail.from)) refuse("to_m", "a check rail ends before it begins");
+void read_check_rails(const SimulationTable& simulation, SimulationFile& out) {
+  using C = CheckRailInput;
+  const auto list = &SimulationFile::check_rails;
+  for (const CaseValue* one : simulation.tables(list)) {
+    const TableOf table(*one, simulation.path_of(list), check_rail_keys());
+    const C rail = table.read();
+    if (!(rail.to > rail.from)) table.refuse(&C::to, "a check rail ends before it begins");
     if (2.0 * rail.flare_length > rail.to - rail.from)
-      refuse("flare_m", "the flares at both ends are longer than the check rail");
+      table.refuse(&C::flare_length, "the flares at both ends are longer than the check rail");
     constexpr double kMostPush = 5e-3;
     const double back = 0.5 * out.contact.wheelset.flange_back_distance;
     if (rail.face_y > back + kMostPush)
-      refuse("face_y_mm",
-             fmt::format("the check rail lies {:.4g} mm within the flange of a wheelset in the middle of the track",
-                         1e3 * (rail.face_y - back)),
-             "the backs of the flanges are wheelset.flange_back_distance_mm apart");
+      table.refuse(
+          &C::face_y,
+          fmt::format("the check rail lies {:.4g} mm within the flange of a wheelset in the middle of the track",
+                      1e3 * (rail.face_y - back)),
+          "the backs of the flanges are wheelset.flange_back_distance_mm apart");
     if (rail.face_y - (rail.flare_length > 0.0 ? rail.flare : 0.0) > back)
-      refuse("face_y_mm", "the check rail begins within the flange of a wheelset in the middle of the track",
-             "give it flares, flare_m and flare_mm");
+      table.refuse(&C::face_y, "the check rail begins within the flange of a wheelset in the middle of the track",
+                   "give it flares, flare_m and flare_mm");
     out.check_rails.push_back(rail);
   }
 }

@@ -9,7 +9,7 @@
 
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/study_keys.hpp"
 
 namespace treadmark::io {
 
@@ -56,14 +56,12 @@ VariedValue single_value(const std::string& key, const CaseValue& value) {
 
 /// { label = "FASTSIM", set = ["solver.tangential_model=fastsim", ...] }
 VariedValue set_of_keys(const CaseValue& value, const std::string& path) {
-  const TableReader table(value.table(), value.where, path, vary_value_keys());
-  VariedValue result;
+  const TableOf table(value, path, vary_value_keys());
+  VariedValue result = table.read();
   result.where = value.where;
-  result.label = table.text("label");
-  const CaseValue& set = table.need("set", "a list of \"key=value\"");
-  result.overrides = table.words("set");
-  if (result.overrides.empty())
-    throw Error(ErrorKind::configuration, fmt::format("{} is empty", table.path_of("set")), set.where);
+  const auto overrides = &VariedValue::overrides;
+  const CaseValue& set = table.need(overrides);
+  if (result.overrides.empty()) table.refuse(overrides, fmt::format("{} is empty", table.path_of(overrides)));
   for (std::size_t i = 0; i < result.overrides.size(); ++i) {
     try {
       parse_override(result.overrides[i]);
@@ -75,31 +73,40 @@ VariedValue set_of_keys(const CaseValue& value, const std::string& path) {
   return result;
 }
 
-std::vector<VariedValue> listed_values(const TableReader& table, const std::string& key) {
-  const CaseValue& list = table.need("values", "a list of values, or from, to and count");
+/// Members of [[study.vary]].
+const auto kVariedKey = [](auto& v) -> auto& { return v.variation.key; };
+const auto kVariedLabel = [](auto& v) -> auto& { return v.variation.label; };
+const auto kVariedValues = [](auto& v) -> auto& { return v.variation.values; };
+
+std::vector<VariedValue> listed_values(const TableOf<VaryInput>& table, const std::string& key) {
+  const CaseValue& list = table.need(kVariedValues);
+  const std::string path = table.path_of(kVariedValues);
   if (!list.is_list() || list.list().empty())
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} must be a list with at least one value", table.path_of("values")), list.where);
+    table.refuse(kVariedValues, fmt::format("{} must be a list with at least one value", path));
   std::vector<VariedValue> values;
   for (const CaseValue& one : list.list()) {
-    const bool set = one.is_table() && (key.empty() || find_entry(one.table(), "set") != nullptr);
+    const bool set =
+        one.is_table() && (key.empty() || find_entry(one.table(), vary_value_keys().infos.back().path) != nullptr);
     if (!set && key.empty())
       throw Error(
-          ErrorKind::configuration, fmt::format("{} is missing", table.path_of("key")), one.where,
+          ErrorKind::configuration, fmt::format("{} is missing", table.path_of(kVariedKey)), one.where,
           "name the key that has these values, or give sets of keys, { label = \"...\", set = [\"key=value\"] }");
-    values.push_back(set ? set_of_keys(one, table.path_of("values")) : single_value(key, one));
+    values.push_back(set ? set_of_keys(one, path) : single_value(key, one));
   }
   return values;
 }
 
-std::vector<VariedValue> spaced_values(const TableReader& table, const std::string& key) {
-  if (key.empty()) table.fail(fmt::format("{} is missing", table.path_of("key")), "name the key that has these values");
-  const bool logarithmic = table.find("spacing") != nullptr && table.text("spacing") == "logarithmic";
-  table.need("to", "from, to and count belong together");
-  table.need("count", "from, to and count belong together");
-  const KeyLimits limits = logarithmic ? kPositive : kAnyNumber;
-  const double from = table.number("from", limits), to = table.number("to", limits);
-  const int count = table.integer("count");
+std::vector<VariedValue> spaced_values(const TableOf<VaryInput>& table, const VaryInput& given) {
+  using V = VaryInput;
+  const std::string& key = given.variation.key;
+  if (key.empty())
+    table.fail(fmt::format("{} is missing", table.path_of(kVariedKey)), "name the key that has these values");
+  table.need(&V::to);
+  table.need(&V::count);
+  const auto [variation, from, to, count, logarithmic] = given;
+  if (logarithmic)
+    for (double V::*end : {&V::from, &V::to})
+      check_value(key_info(table.path_of(end), KeyType::number, {}, kPositive), table.need(end));
   std::vector<VariedValue> values;
   for (int i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / (count - 1);
@@ -111,36 +118,41 @@ std::vector<VariedValue> spaced_values(const TableReader& table, const std::stri
   return values;
 }
 
-Variation read_variation(const TableReader& table) {
-  Variation variation;
-  variation.key = table.text_or("key", {});
+Variation read_variation(const TableOf<VaryInput>& table) {
+  using V = VaryInput;
+  VaryInput given = table.read();
+  Variation& variation = given.variation;
   if (variation.key.find('=') != std::string::npos)
-    throw Error(ErrorKind::configuration, fmt::format("{} must be a key only", table.path_of("key")),
-                table.need("key").where, "its values stand in values = [...]");
-  table.exclude("values", "from");
-  const bool spaced = table.find("from") != nullptr;
-  for (const char* key : {"to", "count", "spacing"})
-    if (!spaced && table.find(key) != nullptr)
-      throw Error(ErrorKind::configuration, fmt::format("{} needs {}", table.path_of(key), table.path_of("from")),
-                  table.need(key).where);
-  variation.values = spaced ? spaced_values(table, variation.key) : listed_values(table, variation.key);
-  variation.label = table.text_or("label", variation.key);
+    table.refuse(kVariedKey, fmt::format("{} must be a key only", table.path_of(kVariedKey)),
+                 "its values stand in values = [...]");
+  table.exclude(kVariedValues, &V::from);
+  const bool spaced = table.find(&V::from) != nullptr;
+  const auto needs_from = [&](auto member) {
+    if (!spaced && table.find(member) != nullptr)
+      table.refuse(member, fmt::format("{} needs {}", table.path_of(member), table.path_of(&V::from)));
+  };
+  needs_from(&V::to);
+  needs_from(&V::count);
+  needs_from(&V::logarithmic);
+  variation.values = spaced ? spaced_values(table, given) : listed_values(table, variation.key);
+  if (table.find(kVariedLabel) == nullptr) variation.label = variation.key;
   // it names the values in the results, too
   if (variation.key.empty() &&
       (variation.label == "." || variation.label.find_first_of(std::string_view("/\0", 2)) != std::string::npos))
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} without a key is the name of a dataset, which has no slash", table.path_of("label")),
-                table.need("label").where, "write it without, or name the key");
+    table.refuse(
+        kVariedLabel,
+        fmt::format("{} without a key is the name of a dataset, which has no slash", table.path_of(kVariedLabel)),
+        "write it without, or name the key");
   return variation;
 }
 
 }  // namespace
 
-std::vector<Variation> read_variations(const TableReader& study) {
+std::vector<Variation> read_variations(const TableOf<StudyFile>& study) {
   std::vector<Variation> variations;
   std::set<std::string> seen, names;
-  for (const CaseValue* one : study.tables("vary")) {
-    const TableReader table(one->table(), one->where, study.path_of("vary"), vary_keys());
+  for (const CaseValue* one : study.tables(&StudyFile::variations)) {
+    const TableOf table(*one, study.path_of(&StudyFile::variations), vary_keys());
     variations.push_back(read_variation(table));
     const Variation& added = variations.back();
     if (const std::string& name = added.key.empty() ? added.label : added.key;

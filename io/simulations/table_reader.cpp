@@ -55,7 +55,8 @@ const CaseValue* TableReader::find(std::string_view key) const {
 
 const CaseValue& TableReader::need(std::string_view key, std::string advice) const {
   const CaseValue* value = find(key);
-  if (value == nullptr) fail(fmt::format("{} is missing", path_of(key)), std::move(advice));
+  if (value == nullptr)
+    fail(fmt::format("{} is missing", path_of(key)), advice.empty() ? info(key).missing : std::move(advice));
   return *value;
 }
 
@@ -97,42 +98,22 @@ const CaseValue* TableReader::checked_if(std::string_view key) const {
 
 const CaseValue& TableReader::checked(std::string_view key) const {
   const CaseValue& value = need(key);
-  check_value(info(key), value);
+  const KeyInfo one = info(key);
+  if (one.type == KeyType::text_list)
+    words(key);
+  else if (one.type == KeyType::triple)
+    triple_of(one, value);
+  else if (one.type == KeyType::triple_list)
+    points(key);
+  else
+    check_value(one, value);
   return value;
-}
-
-double TableReader::number(std::string_view key) const { return checked(key).number() * unit_of_key(key); }
-
-double TableReader::number(std::string_view key, const KeyLimits& limits) const {
-  check_value(key_info(path_of(key), KeyType::number, {}, limits), need(key));
-  return number(key);
-}
-
-std::optional<double> TableReader::number_if(std::string_view key) const {
-  if (find(key) == nullptr) return std::nullopt;
-  return number(key);
-}
-
-double TableReader::number_or(std::string_view key, double otherwise) const {
-  return number_if(key).value_or(otherwise);
-}
-
-int TableReader::integer(std::string_view key) const { return static_cast<int>(checked(key).integer()); }
-
-bool TableReader::flag_or(std::string_view key, bool otherwise) const {
-  const CaseValue* value = checked_if(key);
-  return value == nullptr ? otherwise : value->flag();
 }
 
 std::string TableReader::text(std::string_view key) const { return checked(key).text(); }
 
 std::string TableReader::text_or(std::string_view key, std::string otherwise) const {
   return find(key) == nullptr ? std::move(otherwise) : text(key);
-}
-
-std::vector<double> TableReader::numbers(std::string_view key) const {
-  const CaseValue* value = checked_if(key);
-  return value == nullptr ? std::vector<double>{} : numbers_of(*value, unit_of_key(key));
 }
 
 std::vector<std::string> TableReader::words(std::string_view key) const {
@@ -149,12 +130,6 @@ std::vector<std::string> TableReader::words(std::string_view key) const {
     result.push_back(one.text());
   }
   return result;
-}
-
-std::optional<Vec3> TableReader::triple(std::string_view key) const {
-  const CaseValue* value = find(key);
-  if (value == nullptr) return std::nullopt;
-  return triple_of(info(key), *value);
 }
 
 std::vector<Vec3> TableReader::points(std::string_view key) const {

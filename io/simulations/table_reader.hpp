@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,9 +25,11 @@ class TableReader {
   const SourcePosition& where() const { return where_; }
   const std::string& path() const { return path_; }
   std::string path_of(std::string_view key) const;
+  KeyType type_of(std::string_view key) const { return info(key).type; }
 
   /// The value, or null without it.
   const CaseValue* find(std::string_view key) const;
+  /// The value. advice: without it, instead of what the key says itself.
   const CaseValue& need(std::string_view key, std::string advice = {}) const;
   const CaseTable* table(std::string_view key) const;
   /// The tables of a list [[key]]; none without it.
@@ -36,20 +37,10 @@ class TableReader {
 
   /// The value, checked, or null without it.
   const CaseValue* checked_if(std::string_view key) const;
-  double number(std::string_view key) const;
-  /// Within limits that another key decides.
-  double number(std::string_view key, const KeyLimits& limits) const;
-  std::optional<double> number_if(std::string_view key) const;
-  double number_or(std::string_view key, double otherwise) const;
-  int integer(std::string_view key) const;
-  bool flag_or(std::string_view key, bool otherwise) const;
   std::string text(std::string_view key) const;
   std::string text_or(std::string_view key, std::string otherwise) const;
   /// Empty without the key.
-  std::vector<double> numbers(std::string_view key) const;
   std::vector<std::string> words(std::string_view key) const;
-  /// Three numbers, or null without the key.
-  std::optional<Vec3> triple(std::string_view key) const;
   /// A list of three numbers each.
   std::vector<Vec3> points(std::string_view key) const;
   /// Refuses that both are given.

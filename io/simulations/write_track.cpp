@@ -4,44 +4,18 @@
 
 #include <fmt/format.h>
 
-#include <span>
-
 #include "treadmark/io/settings/toml_value.hpp"
-#include "treadmark/io/simulations/read_vehicle.hpp"
+#include "treadmark/io/simulations/vehicle_keys.hpp"
 
 namespace treadmark::io {
 namespace {
 
-std::string number_list(std::span<const double> values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
-std::string point_list(const Vec3& p) { return number_list(std::span(p.data(), 3)); }
-
-/// The first or last three values of a spring as a key, nothing where all are zero.
-std::string spring_line(const std::string& key, const SixValues& values, bool rotations) {
-  const auto part = std::span(values).subspan(rotations ? 3 : 0, 3);
-  for (const double value : part)
-    if (value != 0.0) return fmt::format("{} = {}\n", key, number_list(part));
-  return {};
-}
-
-std::string body_text(const BodySpec& body) {
-  std::string free;
-  for (int f = 0; f < kFreedoms; ++f)
-    if (body.free.at(static_cast<std::size_t>(f)))
-      free += fmt::format("{}\"{}\"", free.empty() ? "" : ", ", freedom_word(f));
-  std::string text = fmt::format("\n[[bodies]]\nname = {}\nmass_kg = {}\n", toml_text(body.name), body.mass);
-  if (!body.inertia.isZero(0.0)) text += fmt::format("inertia_kg_m2 = {}\n", point_list(body.inertia));
-  return text + fmt::format("position_m = {}\nfree = [{}]\n", point_list(body.position), free);
-}
+std::string body_text(const BodySpec& body) { return "\n[[bodies]]\n" + written_lines(body_keys(), body); }
 
 std::string spring_text(const SpringSpec& spring) {
-  return fmt::format("\n[[springs]]\nname = {}\nbetween = [{}, {}]\nat_m = [{}]\n", toml_text(spring.name),
-                     toml_text(spring.body_a), toml_text(spring.body_b), point_list(spring.position)) +
-         spring_line("stiffness_N_per_m", spring.stiffness, false) +
-         spring_line("damping_N_s_per_m", spring.damping, false) +
-         spring_line("damper_stiffness_N_per_m", spring.damper_stiffness, false) +
-         spring_line("rotational_stiffness_N_m_per_rad", spring.stiffness, true) +
-         spring_line("rotational_damping_N_m_s_per_rad", spring.damping, true) +
-         spring_line("rotational_damper_stiffness_N_m_per_rad", spring.damper_stiffness, true);
+  return fmt::format("\n[[springs]]\nname = {}\n", toml_text(spring.name)) +
+         written_lines(spring_place_keys(), Places{{spring.body_a, spring.body_b}, {spring.position}, {}}) +
+         written_lines(spring_keys(), spring);
 }
 
 }  // namespace

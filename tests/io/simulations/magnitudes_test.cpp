@@ -14,6 +14,8 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/study_keys.hpp"
+#include "treadmark/io/simulations/vehicle_keys.hpp"
 #include "treadmark/tests/io/simulations/samples.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -52,7 +54,7 @@ bool taken(const KeyInfo& key, double number) {
 
 TEST(Magnitudes, EveryNumberOfEveryFileHasLimits) {
   std::vector<KeyInfo> numbers;
-  for (const TableKeys* tables : {&vehicle_tables(), &track_tables(), &simulation_keys(), &study_keys()})
+  for (const TableKeys* tables : {&vehicle_tables(), &track_tables(), &simulation_keys().infos, &study_keys().infos})
     collect(*tables, numbers);
   for (const CaseKey& key : case_keys()) collect(std::span(&key.info, 1), numbers);
   ASSERT_GT(numbers.size(), 150u);

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/simulations/evolve_keys.hpp"
+
+#include "treadmark/io/simulations/study_keys.hpp"
+
+namespace treadmark::io {
+
+const KeyTable<EvolveInput>& evolve_keys() {
+  using I = EvolveInput;
+  static const auto keys = key_table<I>([](auto& list) {
+    list.text(
+        "title", "without it the name of the file", [](auto& i) -> auto& { return i.file.positions.title; });
+    list.value(
+        key_info("base", KeyType::path, "case or simulation file; its tables may stand beside [evolve] instead"),
+        [](auto& i) -> auto& { return i.file.positions.base; });
+    list.number("distance_km", kPositive, "that the wheelset runs; required where [evolve.wheel] is", &I::distance,
+                kNoDefault, "a wheel evolves over it");
+    list.number("passages", kPositive, "of wheels over a rail; required where [evolve.rail] is", &I::passages,
+                kNoDefault, "a rail evolves over it");
+    list.table(
+        "vary", KeyType::table_list, "positions: their product, the last one fastest, as in [[study.vary]]",
+        vary_keys().infos, [](auto& i) -> auto& { return i.file.positions.variations; });
+    list.number_list(
+        "weights", kNotNegative,
+        "share of each position in the order of the product, made to sum up to 1; default: equal",
+        [](auto& i) -> auto& { return i.file.weights; });
+    list.number(
+        "max_depth_mm", kPositive, "most that an update may remove", [](auto& i) -> auto& { return i.file.max_depth; });
+    list.number(
+        "max_pressure_change", kPositive, "most that an update may change the largest pressure of a case, as a share",
+        [](auto& i) -> auto& { return i.file.max_pressure_change; });
+    list.number(
+        "smallest_step", {0.0, {}, 1.0}, "share of the whole that an update makes at least, whatever the limits say",
+        [](auto& i) -> auto& { return i.file.smallest_step; });
+    list.integer(
+        "updates", 1, kMostValues, "so many equal updates instead of those that keep the limits",
+        [](auto& i) -> auto& { return i.file.updates; }, kNoDefault);
+    list.integer(
+        "fields_every", 0, kMostValues, "contact fields of every so many generations are kept; 0: none",
+        [](auto& i) -> auto& { return i.file.fields_every; });
+    list.table("wheel", KeyType::table, "the wheel evolves", evolving_body_keys().infos, &I::wheel);
+    list.table("rail", KeyType::table, "the rail evolves", evolving_body_keys().infos, &I::rail);
+  });
+  return keys;
+}
+
+const KeyTable<EvolvingBody>& evolving_body_keys() {
+  using B = EvolvingBody;
+  static const auto keys = key_table<B>([](auto& list) {
+    list.choice("along", {{"uniform", false}, {"local", true}},
+                "the same all round or along the track, or each place by itself: cases of the base follow each other "
+                "round the wheel or along the rail",
+                &B::local);
+    list.number("du_mm", kPositive, "step of the cells along, where it is local", &B::du);
+    list.number("dy_mm", kPositive, "step of the cells across", &B::dy);
+    list.number("smoothing_mm", kNotNegative,
+                "standard deviation of the Gaussian kernel over what an update removes; 0: none", &B::smoothing);
+    list.table("law", KeyType::table, "how contact removes depth", wear_law_keys().infos, &B::law, kNeeded,
+               "a law of wear has no numbers of its own: see `treadmark list laws`");
+    list.table("fatigue", KeyType::table, "what contact does to the material below, without changing it",
+               fatigue_keys().infos, &B::fatigue);
+    list.table("flow", KeyType::table, "how contact makes the material below flow", flow_law_keys().infos, &B::flow);
+  });
+  return keys;
+}
+
+namespace {
+
+constexpr const char* kSourceDoc = "where the numbers come from; results repeat it";
+
+/// Which law of a registry, and the source of its numbers.
+template <class Law, class Rows>
+void add_law(KeyRows<Law>& list, const Rows& rows) {
+  std::vector<std::pair<std::string, decltype(Law::theory)>> words;
+  for (const auto& row : rows) words.emplace_back(row.word, row.theory);
+  list.choice("theory", std::move(words), "see `treadmark list laws`", &Law::theory, kNeeded);
+  list.text("source", kSourceDoc, &Law::source, kNeeded);
+}
+
+}  // namespace
+
+const KeyTable<WearLaw>& wear_law_keys() {
+  using L = WearLaw;
+  static const auto keys = key_table<L>([](auto& list) {
+    add_law(list, kWearTheories);
+    list.number("hardness_GPa", kPositive, "archard: of the body that wears", &L::hardness, kNoDefault);
+    list.number_list("k", kNotNegative, "archard: coefficient, one for each regime of slip speed", &L::k);
+    list.number_list("slip_m_s", kPositive, "archard: slip speeds between the regimes", &L::slip_limits);
+    list.number("k_seizure", kNotNegative, "archard: coefficient at high pressures; 0: there is no such regime",
+                &L::k_seizure);
+    list.number("seizure_pressure_over_hardness", kPositive, "archard: where high pressures begin", &L::seizure_ratio);
+    list.number_list("t_gamma_area_MPa", kNotNegative,
+                     "t_gamma: points of a broken line (1 MPa = 1 N/mm²), which goes on straight behind the last",
+                     &L::t_gamma_area);
+    list.number_list("wear_rate_ug_m_mm2", kNotNegative, "t_gamma: mass by distance and area at these points",
+                     &L::wear_rate);
+    list.number("density_kg_m3", kPositive, "t_gamma: of the body that wears", &L::density, kNoDefault);
+    list.number_list("volume_per_work_mm3_J", kNotNegative, "energy: coefficient, one for each regime of power by area",
+                     &L::volume_per_work);
+    list.number_list("power_density_W_mm2", kPositive, "energy: powers by area between the regimes", &L::power_limits);
+  });
+  return keys;
+}
+
+const KeyTable<FatigueSettings>& fatigue_keys() {
+  using F = FatigueSettings;
+  static const auto keys = key_table<F>([](auto& list) {
+    std::string words;
+    for (const FatigueMeasureRow& row : fatigue_measures())
+      words += fmt::format("{}`\"{}\"`", words.empty() ? "" : ", ", row.word);
+    list.value(key_info("measures", KeyType::text_list, words + ": see `treadmark list laws`"), &F::measures, kNeeded,
+               "name some, or leave the table out");
+    list.text("source", kSourceDoc, &F::source, kNeeded);
+    for (const FatigueNumber& number : kFatigueNumbers)
+      list.number(std::string(number.key), kPositive, std::string(number.meaning), number.value, kNoDefault);
+    list.number_list("depths_mm", kPositive,
+                     "subsurface, dang_van: below the surface, increasing, from the size of an element on", &F::depths);
+    list.number_list("t_gamma_N", kNotNegative,
+                     "whole_life: points of a broken line, which goes on straight behind the last", &F::t_gamma);
+    list.number_list("damage_per_passage", kAnyNumber,
+                     "whole_life: at these points; 1: failure, negative: wear takes more than fatigue adds",
+                     &F::passage_damage);
+  });
+  return keys;
+}
+
+const KeyTable<FlowLaw>& flow_law_keys() {
+  using L = FlowLaw;
+  static const auto keys = key_table<L>([](auto& list) {
+    add_law(list, kFlowTheories);
+    list.number("shear_yield_MPa", kPositive, "k of the fresh material, in cyclic shear", &L::shear_yield, kNoDefault);
+    list.number("strain_per_cycle", kPositive,
+                "C: shear strain of a passage with twice the shear stress at which the material yields",
+                &L::strain_per_cycle, kNoDefault);
+    list.number_list("depths_mm", kPositive,
+                     "of the layers, increasing, at least two: from the size of an element down to where nothing flows",
+                     &L::depths);
+    list.number("hardening_factor", kPositive,
+                "beta: yield after much strain over k; without it the material does not harden", &L::hardening_factor,
+                kNoDefault);
+    list.number("hardening_rate", kPositive, "alpha: yield is k max(1, beta sqrt(1 - exp(-alpha strain)))",
+                &L::hardening_rate, kNoDefault);
+  });
+  return keys;
+}
+
+}  // namespace treadmark::io
