@@ -117,7 +117,7 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
     if (module_line) {
       if ((text.drop_line(), text.at_end())) {
         if (number == 0) text.fail("the file contains no case");
-        result.notes.push_back("the file ends without the closing line '0 MODULE'");
+        result.notes.emplace_back("the file ends without the closing line '0 MODULE'");
         return result;
       }
       text.begin_record("the module line");

@@ -53,7 +53,7 @@ const std::vector<FoundFault> kFound{
      {"^mu 1e1[123]: case 1: ok", "^creepage .* ok"}},
     {"leftovers", "hdf5", false, {"^after a full run:", "^fields.h5", "^result.json"}, {"after.*part"}},
     {"mesh-part-race", "", false, {"^rc=0", "^rc=0"}, {"treadmark:"}},
-    {"patch-touches-grid-silent", "", false, {"2 doubts.*border", "1 doubt.*border", "1 doubt.*border"}, {}},
+    {"patch-touches-grid-silent", "", false, {"2 warnings.*border", "1 warning.*border", "1 warning.*border"}, {}},
     {"same-stem-overwritten", "", false, {"would both go to", "^rc=1"}, {"^case"}},
     {"slices-share-folder", "", false, {"^case 1: ok", "^convert rail rc=0", "^check rc=0", "^case 1: ok"}, {}},
     {"stdout-full-exit-0",
