@@ -333,6 +333,31 @@ Values restlessness(const Knots& knots, const Knots& before, const Values& heigh
   return out;
 }
 
+/// Where the curvature of a rail's head changed in the fit before it may change more: arcs that meet in jumps.
+Values changes(const Knots& knots, const Knots& before, const Values& heights) {
+  constexpr double kWindow = 3.0, kLeast = 0.05;
+  const int reach = static_cast<int>(std::lround(3.0 * kWindow / knots.step));
+  Values squares, out;
+  double mean = 0.0;
+  for (int k = 0; k < knots.cells; ++k) {
+    Row unused;
+    const double s = std::clamp(knots.node(k) + 0.5 * knots.step, before.first, before.last());
+    const double change = third_difference(heights, before.basis(s, 0, unused));
+    squares.push_back(change * change);
+    mean += change * change / knots.cells;
+  }
+  for (int k = 0; k < knots.cells; ++k) {
+    double sum = 0.0, weights = 0.0;
+    for (int j = std::max(0, k - reach); j <= std::min(knots.cells - 1, k + reach); ++j) {
+      const double x = (j - k) * knots.step / kWindow, weight = std::exp(-0.5 * x * x);
+      sum += weight * squares[at(j)];
+      weights += weight;
+    }
+    out.push_back(std::pow(sum / (weights * mean) + kLeast, 3));
+  }
+  return out;
+}
+
 double log_normal_share(double from, double to, double& slope, double& bend) {
   // log of the normal probability between two bounds, its derivative by the mean and the negative second one
   constexpr double kRoot = 0.7071067811865476, kDensity = 0.3989422804014327, kFar = 5.0;
@@ -557,8 +582,8 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
     std::optional<Straightened> straight = straighten(points, laid.curve, knot_step);
     if (!straight) return std::nullopt;
     Straightened line = std::move(*straight);
-    Values restless = assumed.level || round == 0 ? Values(at(line.knots.cells), 1.0)
-                                                  : restlessness(line.knots, laid.line.knots, laid.fit.heights);
+    Values restless(at(line.knots.cells), 1.0);
+    if (round > 0) restless = (assumed.level ? changes : restlessness)(line.knots, laid.line.knots, laid.fit.heights);
     Values third_differences(at(line.knots.cells), 0.0);
     for (auto& [point, known] : breaks) {
       known.s = line.s[point];
