@@ -341,8 +341,8 @@ namespace {
 
 /// What noise or a tilted frame would do to a section of slices, which are not smoothed.
 /// next: the section beside it.
-std::string doubt_of_section(const Profile& section, const Profile& next, measured::Understanding seen,
-                             const io::ExpectedProfile& expected) {
+std::optional<io::ProfileRemark> doubt_of_section(const Profile& section, const Profile& next,
+                                                  measured::Understanding seen, const io::ExpectedProfile& expected) {
   constexpr double kFelt = 2e-6;  // [m] neighbouring sections take some away
   constexpr double kSamePlace = 2e-3;
   constexpr double kDense = 1e-3;  // [m] points farther apart scatter by the curve between them
@@ -351,19 +351,22 @@ std::string doubt_of_section(const Profile& section, const Profile& next, measur
   sourced.source.understood = std::move(seen);
   io::ProfileJudgement judged;
   judge_against_nominal(sourced, expected, judged);
-  if (!judged.remarks.empty()) return judged.remarks.front().name + ": " + judged.remarks.front().text;
+  if (!judged.remarks.empty()) return std::move(judged.remarks.front());
   const measured::PointNoise noise = measured::profile_noise(section);
   const std::optional<measured::Lump> lump = measured::highest_lump(section, noise.across),
                                       beside = measured::highest_lump(next, noise.across);
   if (lump && beside && std::fabs(section.y[lump->first] - next.y[beside->first]) < kSamePlace)
-    return fmt::format(
-        "lump: {} of {:.2g} mm at y = {:.2f} mm: dirt or damage? where it touches, the pressure is that of it",
-        lump->height > 0.0 ? "a lump" : "a notch", kMilli * std::fabs(lump->height), kMilli * section.y[lump->first]);
-  if (section.smoothing.strength > 0.0 || noise.across < kFelt || noise.step > kDense) return {};
-  return fmt::format(
-      "noise: the points scatter by {:.2g} mm and the surface runs through all of them: pressures are too "
-      "large; smooth the sections in the file, or import the points anew",
-      kMilli * noise.across);
+    return io::ProfileRemark{
+        "lump",
+        fmt::format("{} of {:.2g} mm at y = {:.2f} mm: dirt or damage? where it touches, the pressure is that of it",
+                    lump->height > 0.0 ? "a lump" : "a notch", kMilli * std::fabs(lump->height),
+                    kMilli * section.y[lump->first])};
+  if (section.smoothing.strength > 0.0 || noise.across < kFelt || noise.step > kDense) return std::nullopt;
+  return io::ProfileRemark{
+      "noise",
+      fmt::format("the points scatter by {:.2g} mm and the surface runs through all of them: pressures are too "
+                  "large; smooth the sections in the file, or import the points anew",
+                  kMilli * noise.across)};
 }
 
 }  // namespace
@@ -383,21 +386,20 @@ std::optional<io::ProfileRemark> remark_on_slices(const SliceSet& slices, Body b
     if (!agrees) return std::nullopt;
     seen = std::move(one);
   }
-  std::string what;
-  if (seen.mirrored_z && seen.z.sure())
-    what = "upside_down: mirrored in z a section shows " + seen.z.evidence;
-  else if (seen.mirrored_y)
-    what = "flange_side: " + seen.y.evidence + ", on the side of great y, as that of a left wheel";
-  else if (seen.shift_y != 0.0)
-    what = fmt::format("tape_line: y = 0 lies {:.2f} mm from the tape line, 70 mm from the back of the flange",
-                       kMilli * std::fabs(seen.shift_y));
+  std::optional<io::ProfileRemark> remark;
   const std::size_t middle = slices.profiles.size() / 2;
-  if (what.empty())
-    what = doubt_of_section(slices.profiles[middle], slices.profiles[std::max<std::size_t>(1, middle) - 1],
-                            std::move(seen), expected);
-  if (what.empty()) return std::nullopt;
-  const std::size_t name = what.find(": ");
-  return io::ProfileRemark{what.substr(0, name), what.substr(name + 2) + "; slices are taken as they lie"};
+  if (seen.mirrored_z && seen.z.sure())
+    remark = {"upside_down", "mirrored in z a section shows " + seen.z.evidence};
+  else if (seen.mirrored_y)
+    remark = {"flange_side", seen.y.evidence + ", on the side of great y, as that of a left wheel"};
+  else if (seen.shift_y != 0.0)
+    remark = {"tape_line", fmt::format("y = 0 lies {:.2f} mm from the tape line, 70 mm from the back of the flange",
+                                       kMilli * std::fabs(seen.shift_y))};
+  else
+    remark = doubt_of_section(slices.profiles[middle], slices.profiles[std::max<std::size_t>(1, middle) - 1],
+                              std::move(seen), expected);
+  if (remark) remark->text += "; slices are taken as they lie";
+  return remark;
 }
 
 std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Body body,
