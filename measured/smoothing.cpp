@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -29,6 +30,7 @@ using Values = std::vector<double>;
 constexpr double kMm = 1e3;
 constexpr double kFinestKnots = 0.1, kCoarsestKnots = 0.5;  ///< the step of the points between these
 constexpr int kRounds = 4;                                  ///< of straightening the curve and laying it anew
+constexpr int kErrorDraws = 16;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -540,6 +542,8 @@ struct Laid {
   Straightened line;
   Curve curve;
   Fit fit;
+  Values third_differences;   ///< that breaks leave free
+  double first_factor = 0.0;  ///< log of the penalty of a curve that is equally restless anywhere
 };
 
 /// Lets slope or curvature change by about as much as a break does, across two cells to each side of a corner.
@@ -552,17 +556,81 @@ void free_break(const Knots& knots, const Break& found, Values& third_difference
       third_differences[at(k)] = std::max(third_differences[at(k)], kTimes * size);
 }
 
+/// Where the curvature may change most.
+enum class Restless : std::uint8_t {
+  anywhere,
+  in_bends,    ///< as in a wheel: the tread hardly bends, flange and throat do
+  at_changes,  ///< as in the head of a rail, whose arcs of 300 and 80 mm meet in a jump
+};
+
 /// What is assumed of a curve before its points are seen.
 struct Assumptions {
-  /// The curvature may change as much anywhere, as in the head of a rail, whose arcs of 80 and 300 mm meet in a jump.
-  bool level = false;
+  Restless where = Restless::anywhere;
   double least_break = 0.0;  ///< standard deviations from which on a break is believed
 };
+
+Values restless_cells(Restless where, const Knots& knots, const Knots& before, const Values& heights) {
+  switch (where) {
+    case Restless::anywhere:
+      break;
+    case Restless::in_bends:
+      return restlessness(knots, before, heights);
+    case Restless::at_changes:
+      return changes(knots, before, heights);
+  }
+  return Values(at(knots.cells), 1.0);
+}
+
+constexpr double kNarrow = 3.0, kFine = 1.0;  ///< of the logarithm of the penalties
+
+/// Errors that the curve may have, as coefficients: of curves laid anew, penalties and all, through points that other
+/// probable curves would have given (Efron 1979). The curve's own covariance alone takes the penalties for known.
+std::vector<Values> errors_of(const Laid& laid, Restless where, double across, bool rounded, std::uint64_t seed) {
+  constexpr int kTurns = 3;
+  Random random(seed);
+  const auto normal = [&] {  // Box and Muller (1958)
+    const double size = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+    return size * std::cos(2.0 * kPi * random.uniform());
+  };
+  const Knots& knots = laid.line.knots;
+  const double deviation = std::sqrt(laid.fit.variance);
+  std::vector<Values> out;
+  Straightened line = laid.line;
+  for (int draw = 0; draw < kErrorDraws; ++draw) {
+    Values error(laid.fit.heights.size());
+    for (double& e : error) e = normal();
+    laid.fit.precision.draw(error);
+    for (double& e : error) e *= deviation;
+    if (!rounded) {
+      Values curve = laid.fit.heights;
+      for (std::size_t k = 0; k < curve.size(); ++k) curve[k] += error[k];
+      for (std::size_t i = 0; i < line.s.size(); ++i)
+        line.height[i] = knots.value(curve, line.s[i]) + deviation / std::sqrt(line.weight[i]) * normal();
+      Values heights;
+      for (int turn = 0; turn < kTurns; ++turn) {
+        const Problem problem(line, restless_cells(turn > 0 ? where : Restless::anywhere, knots, knots, heights),
+                              laid.third_differences);
+        const double middle = turn > 0 ? std::log(laid.fit.penalty) : laid.first_factor;
+        const double found = lowest(middle - kNarrow, middle + kNarrow, kFine,
+                                    [&](double x) { return problem.white(x, across).badness; });
+        heights = problem.white(found, across).heights;
+      }
+      for (std::size_t k = 0; k < error.size(); ++k) error[k] = curve[k] - heights[k];
+    }
+    out.push_back(std::move(error));
+  }
+  return out;
+}
+
+/// Whether rounding makes most of the noise.
+bool is_rounded(const PointNoise& noise) {
+  return std::max(noise.rounding_y, noise.rounding_z) / std::sqrt(12.0) > 0.5 * noise.across;
+}
 
 std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assumptions& assumed) {
   constexpr std::size_t kMostBreaks = 12;
   constexpr double kFirstCutoff = 1.0;  ///< wavelength that the first curve halves, which only has to lie near
-  constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kNarrow = 3.0, kFine = 1.0, kMostMore = 20.0;
+  constexpr double kLowest = -40.0, kHighest = 40.0, kCoarse = 2.0, kMostMore = 20.0;
   constexpr double kOfStep = 0.1;  ///< least noise before rounding, of the step
   const double knot_step = std::clamp(points.step, kFinestKnots, kCoarsestKnots);
   const Knots knots = Knots::over(points.s.front(), points.s.back(), knot_step);
@@ -574,7 +642,7 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
 
   const double rounding = std::max(points.rounding_y, points.rounding_z), rounded = rounding / std::sqrt(12.0);
   const double across = kMm * noise.across;
-  const bool by_halves = rounded > 0.5 * across;
+  const bool by_halves = is_rounded(noise);
   const double before = std::sqrt(std::max(across * across - rounded * rounded, std::pow(kOfStep * rounding, 2)));
   double found = 0.0;
   std::vector<std::pair<std::size_t, Break>> breaks;  ///< and the point nearest to each
@@ -582,8 +650,8 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
     std::optional<Straightened> straight = straighten(points, laid.curve, knot_step);
     if (!straight) return std::nullopt;
     Straightened line = std::move(*straight);
-    Values restless(at(line.knots.cells), 1.0);
-    if (round > 0) restless = (assumed.level ? changes : restlessness)(line.knots, laid.line.knots, laid.fit.heights);
+    const Values restless =
+        restless_cells(round > 0 ? assumed.where : Restless::anywhere, line.knots, laid.line.knots, laid.fit.heights);
     Values third_differences(at(line.knots.cells), 0.0);
     for (auto& [point, known] : breaks) {
       known.s = line.s[point];
@@ -622,6 +690,8 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
     laid.curve = moved_curve(line, laid.fit.heights);
     if (laid.curve.y.empty()) return std::nullopt;
     laid.line = std::move(line);
+    laid.third_differences = std::move(third_differences);
+    if (round == 0) laid.first_factor = found;
   }
   return laid;
 }
@@ -661,10 +731,15 @@ Profile smoothed_by_noise(Profile profile) {
     points.variance_y = over_usual(noise.steep);
   }
   constexpr double kCorner = 4.5, kPerhapsCorner = 3.0;
-  const bool level = profile.body == Body::rail;
-  const std::optional<Laid> laid = lay_curve(points, noise, {level, kCorner}),
-                            other = lay_curve(points, noise, {!level, kPerhapsCorner});
+  const bool rail = profile.body == Body::rail;
+  const Restless usual = rail ? Restless::at_changes : Restless::in_bends;
+  const std::optional<Laid> laid = lay_curve(points, noise, {usual, kCorner});
   if (!laid) return profile;
+  std::vector<Laid> others;
+  for (const Restless where : {Restless::anywhere, rail ? Restless::in_bends : Restless::at_changes})
+    if (std::optional<Laid> other = lay_curve(points, noise, {where, kPerhapsCorner}))
+      others.push_back(std::move(*other));
+  scatter->others.resize(others.size());
   double squares = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const double s = laid->line.s[i], y = laid->curve.at_y(s), z = laid->curve.at_z(s);
@@ -672,62 +747,56 @@ Profile smoothed_by_noise(Profile profile) {
     profile.y[i] = y / kMm;
     profile.z[i] = z / kMm;
     scatter->s.push_back(s / kMm);
-    if (!other) continue;
-    const double dy = other->curve.at_y(other->line.s[i]) - y, dz = other->curve.at_z(other->line.s[i]) - z;
     const double ty = laid->curve.at_y(s, 1), tz = laid->curve.at_z(s, 1);
-    scatter->other.push_back((dz * ty - dy * tz) / std::hypot(ty, tz) / kMm);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      const double foot = others[k].line.s[i], dy = others[k].curve.at_y(foot) - y, dz = others[k].curve.at_z(foot) - z;
+      scatter->others[k].push_back((dz * ty - dy * tz) / std::hypot(ty, tz) / kMm);
+    }
   }
   scatter->removed = std::sqrt(squares / static_cast<double>(n)) / kMm;
   scatter->first_knot = laid->line.knots.first / kMm;
   scatter->knot_step = laid->line.knots.step / kMm;
+  scatter->errors = errors_of(*laid, usual, kMm * noise.across, is_rounded(noise), rail ? 2 : 1);
+  for (Values& error : scatter->errors)
+    for (double& e : error) e /= kMm;
   scatter->factor = laid->fit.precision.rows();
   for (Row& row : scatter->factor) row[0] *= kMm * kMm / laid->fit.variance;
   return profile;
 }
 
-ErrorDraws::ErrorDraws(const Profile& profile, int count) {
-  const ProfileScatter& scatter = *profile.scatter;
-  first_ = scatter.first_knot, step_ = scatter.knot_step, s_ = scatter.s, other_ = scatter.other;
-  if (scatter.factor.empty()) return;
-  const Band factor(scatter.factor);
-  Random random(profile.body == Body::wheel ? 1 : 2);
-  for (int draw = 0; draw < count; ++draw) {
-    Values& coefficients = draws_.emplace_back(scatter.factor.size());
-    for (double& c : coefficients) {  // normal (Box and Muller 1958)
-      const double size = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
-      c = size * std::cos(2.0 * kPi * random.uniform());
-    }
-    factor.draw(coefficients);
-  }
-}
+ErrorDraws::ErrorDraws(const Profile& profile)
+    : scatter_(profile.scatter), shift_(profile.body == Body::rail ? 0 : 2) {}
+
+std::size_t ErrorDraws::size() const { return scatter_->errors.size(); }
 
 double ErrorDraws::at(std::size_t draw, double s) const {
-  if (draw >= draws_.size()) return 0.0;
-  const Values& coefficients = draws_[draw];
-  const Knots knots{first_, step_, static_cast<int>(coefficients.size()) - 3};
-  return knots.value(coefficients, std::clamp(s, knots.first, knots.last())) +
-         (draw % 2 == 0 ? 1.0 : -1.0) * other_at(s);
+  if (draw >= size()) return 0.0;
+  const Values& coefficients = scatter_->errors[draw];
+  const Knots knots{scatter_->first_knot, scatter_->knot_step, static_cast<int>(coefficients.size()) - 3};
+  double sum = knots.value(coefficients, std::clamp(s, knots.first, knots.last()));
+  for (std::size_t k = 0; k < scatter_->others.size(); ++k)
+    sum += ((draw >> (k + shift_)) % 2 == 0 ? 1.0 : -1.0) * other_at(scatter_->others[k], s);
+  return sum;
 }
 
 Profile ErrorDraws::moved(Profile profile, std::size_t draw) const {
   const Values y = profile.y, z = profile.z;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const std::size_t a = i > 0 ? i - 1 : i, b = std::min(i + 1, y.size() - 1);
-    const double length = std::hypot(y[b] - y[a], z[b] - z[a]), error = at(draw, s_[i]);
+    const double length = std::hypot(y[b] - y[a], z[b] - z[a]), error = at(draw, scatter_->s[i]);
     profile.y[i] -= error * (z[b] - z[a]) / length;
     profile.z[i] += error * (y[b] - y[a]) / length;
   }
   return profile;
 }
 
-double ErrorDraws::other_at(double s) const {
-  if (other_.size() != s_.size() || s_.size() < 2) return 0.0;
-  const auto after = std::clamp(std::lower_bound(s_.begin(), s_.end(), s), s_.begin() + 1, s_.end() - 1);
-  const auto k = after - s_.begin();
-  const double length = s_[static_cast<std::size_t>(k)] - s_[static_cast<std::size_t>(k - 1)];
-  const double t = length > 0.0 ? std::clamp((s - s_[static_cast<std::size_t>(k - 1)]) / length, 0.0, 1.0) : 0.0;
-  return other_[static_cast<std::size_t>(k - 1)] +
-         t * (other_[static_cast<std::size_t>(k)] - other_[static_cast<std::size_t>(k - 1)]);
+double ErrorDraws::other_at(const std::vector<double>& other, double s) const {
+  const Values& known = scatter_->s;
+  const auto after = std::clamp(std::ranges::lower_bound(known, s), known.begin() + 1, known.end() - 1);
+  const auto k = static_cast<std::size_t>(after - known.begin());
+  const double length = known[k] - known[k - 1];
+  const double t = length > 0.0 ? std::clamp((s - known[k - 1]) / length, 0.0, 1.0) : 0.0;
+  return std::lerp(other[k - 1], other[k], t);
 }
 
 double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s, std::span<const double> weights) {
@@ -745,9 +814,10 @@ double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s
 std::vector<double> deviations(const ProfileScatter& scatter) {
   std::vector<double> out;
   const double one = 1.0;
-  for (std::size_t i = 0; i < scatter.s.size(); ++i)
-    out.push_back(std::hypot(deviation_of_sum(scatter, {&scatter.s[i], 1}, {&one, 1}),
-                             scatter.other.empty() ? 0.0 : scatter.other[i]));
+  for (std::size_t i = 0; i < scatter.s.size(); ++i) {
+    out.push_back(deviation_of_sum(scatter, {&scatter.s[i], 1}, {&one, 1}));
+    for (const std::vector<double>& other : scatter.others) out.back() = std::hypot(out.back(), other[i]);
+  }
   return out;
 }
 

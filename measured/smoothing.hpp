@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -32,24 +33,24 @@ double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s
 /// Empty where the points were not smoothed.
 std::vector<double> deviations(const ProfileScatter& scatter);
 
-/// Errors that the curve may have across itself, each as probable as any other. Immutable; the same in every run.
+/// Errors that the curve may have across itself, each as probable as any other, those of wheels and rails independent
+/// of each other. Immutable; the same in every run.
 class ErrorDraws {
  public:
-  /// Of a smoothed profile. Those of wheels and rails are independent of each other.
-  ErrorDraws(const Profile& profile, int count);
+  /// Of a smoothed profile.
+  explicit ErrorDraws(const Profile& profile);
 
-  std::size_t size() const { return draws_.size(); }
-  /// At an arc length [m]; beyond the ends as at them. 0 where the points were not smoothed.
+  std::size_t size() const;
+  /// At an arc length [m]; beyond the ends as at them.
   double at(std::size_t draw, double s) const;
   /// The profile with these errors at its points.
   Profile moved(Profile profile, std::size_t draw) const;
 
  private:
-  double other_at(double s) const;
+  double other_at(const std::vector<double>& other, double s) const;
 
-  double first_ = 0.0, step_ = 1.0;
-  std::vector<std::vector<double>> draws_;  ///< coefficients [m]
-  std::vector<double> s_, other_;           ///< of the scatter, which every second draw has the other way round [m]
+  std::shared_ptr<const ProfileScatter> scatter_;
+  std::size_t shift_;  ///< of the bit of a draw that says which way round another assumption's difference is
 };
 
 }  // namespace treadmark::measured

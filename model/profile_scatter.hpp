@@ -16,11 +16,11 @@ struct ProfileScatter {
 
   /// What follows is there if the points were smoothed.
   std::vector<double> s;  ///< arc length of each point along the curve [m]
-  /// Across the curve, from it to the one of the other assumption about where curvature changes: what the assumption
-  /// makes of the points [m].
-  std::vector<double> other;
+  /// Across the curve at each point, from it to the one of each other assumption about where curvature changes [m].
+  std::vector<std::vector<double>> others;
   /// The curve's error across itself is a spline of equal knots; the inverse of its coefficients' covariance is L D L'.
   double first_knot = 0.0, knot_step = 0.0;   ///< [m]
+  std::vector<std::vector<double>> errors;    ///< that it may have: coefficients [m]
   std::vector<std::array<double, 4>> factor;  ///< rows of D [1/m^2] and of L left of its diagonal, nearest first
 };
 

@@ -22,12 +22,11 @@ const Profile* noisy_profile(const NaturalSurface& natural) {
 }
 
 NoiseOfResults::Known NoiseOfResults::known_of(const NaturalSurface& natural) {
-  constexpr int kDraws = 16;
   Known side;
   const Profile* profile = noisy_profile(natural);
   if (profile == nullptr) return side;
   side.scatter = profile->scatter;
-  side.draws.emplace(*profile, kDraws);
+  side.draws.emplace(*profile);
   side.y = profile->y;
   side.z = profile->z;
   return side;
@@ -77,7 +76,7 @@ io::PatchResult::Noise NoiseOfResults::of_patch(const io::WheelRailCase& input, 
 }
 
 void NoiseOfResults::add(const io::WheelRailCase& input, io::CaseResult& result) const {
-  constexpr double kLarge = 0.03;  // so that hardly any error of 5 % is not doubted
+  constexpr double kLarge = 0.025;  // so that hardly any error of 5 % is not doubted
   if (!any()) return;
   for (std::size_t k = 0; k < result.patches.size(); ++k) {
     io::PatchResult& patch = result.patches[k];

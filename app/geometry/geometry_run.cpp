@@ -70,7 +70,7 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
 NaturalSurface with_errors(const NaturalSurface& natural, int draw) {
   SurfaceSpec spec = natural.spec;
   auto& profile = std::get<Profile>(spec.shape);
-  profile = measured::ErrorDraws(profile, draw + 1).moved(profile, static_cast<std::size_t>(draw));
+  profile = measured::ErrorDraws(profile).moved(profile, static_cast<std::size_t>(draw));
   return create_natural(std::move(spec));
 }
 
