@@ -539,6 +539,7 @@ double lowest(double from, double to, double step, Badness badness) {
 
 /// The curve of the points, and what is known of it.
 struct Laid {
+  Restless where;
   Straightened line;
   Curve curve;
   Fit fit;
@@ -585,7 +586,7 @@ constexpr double kNarrow = 3.0, kFine = 1.0;  ///< of the logarithm of the penal
 
 /// Errors that the curve may have, as coefficients: of curves laid anew, penalties and all, through points that other
 /// probable curves would have given (Efron 1979). The curve's own covariance alone takes the penalties for known.
-std::vector<Values> errors_of(const Laid& laid, Restless where, double across, bool rounded, std::uint64_t seed) {
+std::vector<Values> errors_of(const Laid& laid, double across, bool rounded, std::uint64_t seed) {
   constexpr int kTurns = 3;
   Random random(seed);
   const auto normal = [&] {  // Box and Muller (1958)
@@ -608,7 +609,7 @@ std::vector<Values> errors_of(const Laid& laid, Restless where, double across, b
         line.height[i] = knots.value(curve, line.s[i]) + deviation / std::sqrt(line.weight[i]) * normal();
       Values heights;
       for (int turn = 0; turn < kTurns; ++turn) {
-        const Problem problem(line, restless_cells(turn > 0 ? where : Restless::anywhere, knots, knots, heights),
+        const Problem problem(line, restless_cells(turn > 0 ? laid.where : Restless::anywhere, knots, knots, heights),
                               laid.third_differences);
         const double middle = turn > 0 ? std::log(laid.fit.penalty) : laid.first_factor;
         const double found = lowest(middle - kNarrow, middle + kNarrow, kFine,
@@ -635,7 +636,7 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
   const double knot_step = std::clamp(points.step, kFinestKnots, kCoarsestKnots);
   const Knots knots = Knots::over(points.s.front(), points.s.back(), knot_step);
   const double cutoff = kFirstCutoff * std::max(1.0, points.step) / (2.0 * kPi);
-  Laid laid;
+  Laid laid{.where = assumed.where};
   laid.curve =
       even_curve(knots, points.s, points.y, points.z, std::pow(cutoff, 6) / (points.step * std::pow(knots.step, 5)));
   if (laid.curve.y.empty()) return std::nullopt;
@@ -697,6 +698,27 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
   return laid;
 }
 
+std::optional<Laid> usual_curve(const Points& points, const PointNoise& noise, Body body) {
+  constexpr double kCorner = 4.5;
+  constexpr double kFails = 0.25;  ///< in badness of a point: as if the noise were an eighth larger
+  if (body == Body::wheel) return lay_curve(points, noise, {Restless::in_bends, kCorner});
+  std::optional<Laid> changing = lay_curve(points, noise, {Restless::at_changes, kCorner}),
+                      even = lay_curve(points, noise, {Restless::anywhere, kCorner});
+  const double more = kFails * static_cast<double>(points.size());
+  return changing && (!even || changing->fit.badness < even->fit.badness + more) ? changing : even;
+}
+
+/// Of assumptions that may be right as well.
+std::vector<Laid> other_curves(const Points& points, const PointNoise& noise, Body body) {
+  constexpr double kPerhapsCorner = 3.0;
+  std::vector<Laid> out;
+  for (const Restless where : {Restless::anywhere, Restless::in_bends})
+    if (body == Body::rail || where != Restless::in_bends)  // which is the usual one of wheels
+      if (std::optional<Laid> other = lay_curve(points, noise, {where, kPerhapsCorner}))
+        out.push_back(std::move(*other));
+  return out;
+}
+
 }  // namespace
 
 Profile smoothed_by_noise(Profile profile) {
@@ -731,24 +753,9 @@ Profile smoothed_by_noise(Profile profile) {
     points.variance_z = over_usual(noise.flat);
     points.variance_y = over_usual(noise.steep);
   }
-  constexpr double kCorner = 4.5, kPerhapsCorner = 3.0;
-  const bool rail = profile.body == Body::rail;
-  Restless usual = rail ? Restless::at_changes : Restless::in_bends;
-  std::optional<Laid> laid = lay_curve(points, noise, {usual, kCorner});
-  if (rail) {
-    constexpr double kFails = 0.25;  ///< in badness of a point: as if the noise were an eighth larger
-    std::optional<Laid> even = lay_curve(points, noise, {Restless::anywhere, kCorner});
-    if (even && (!laid || even->fit.badness < laid->fit.badness - kFails * static_cast<double>(n)))
-      laid = std::move(even), usual = Restless::anywhere;
-  }
+  const std::optional<Laid> laid = usual_curve(points, noise, profile.body);
   if (!laid) return profile;
-  std::vector<Laid> others;
-  const auto add_other = [&](Restless where) {
-    if (std::optional<Laid> other = lay_curve(points, noise, {where, kPerhapsCorner}))
-      others.push_back(std::move(*other));
-  };
-  add_other(Restless::anywhere);
-  if (rail) add_other(Restless::in_bends);
+  const std::vector<Laid> others = other_curves(points, noise, profile.body);
   scatter->others.resize(others.size());
   double squares = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -766,7 +773,7 @@ Profile smoothed_by_noise(Profile profile) {
   scatter->removed = std::sqrt(squares / static_cast<double>(n)) / kMm;
   scatter->first_knot = laid->line.knots.first / kMm;
   scatter->knot_step = laid->line.knots.step / kMm;
-  scatter->errors = errors_of(*laid, usual, kMm * noise.across, is_rounded(noise), rail ? 2 : 1);
+  scatter->errors = errors_of(*laid, kMm * noise.across, is_rounded(noise), profile.body == Body::rail ? 2 : 1);
   for (Values& error : scatter->errors)
     for (double& e : error) e /= kMm;
   scatter->factor = laid->fit.precision.rows();

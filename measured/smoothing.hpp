@@ -16,9 +16,9 @@ namespace treadmark::measured {
 inline constexpr double kExactPoints = 0.1e-6;
 
 /// The profile with its points moved onto the curve that they stand for, and its scatter. The curve is the most
-/// probable one whose curvature is a random walk, the more restless the more the curve is bent around (so chains of
-/// arcs keep both their crown and their gauge corner); restlessness and noise by restricted maximum likelihood (Wahba
-/// 1985), and rounded numbers are known within half a step only. Exact points stay where they are. The profile's
+/// probable one whose curvature is a random walk, the more restless the more a wheel is bent around, or the more the
+/// curvature of a rail changes around; restlessness and noise by restricted maximum likelihood (Wahba 1985), and
+/// rounded numbers are known within half a step only. Exact points stay where they are. The profile's
 /// smoothing is then that of an interpolation. Errors: none; points that no curve fits stay, too.
 Profile smoothed_by_noise(Profile profile);
 

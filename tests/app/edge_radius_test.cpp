@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -41,10 +42,10 @@ discretisation.max_elements = 200000
 {}
 )",
                                                             wheelset, across, 1e-3 * size_um, along, defect));
-    const auto radius = fmt::format(
+    const std::vector<std::string> set{fmt::format(
         "{}.edge_radius_mm={}", std::string(defect).starts_with("[[wheel") ? "wheel.flats.0" : "rail.flattened_heads.0",
-        edge_radius_mm);
-    const io::RunResult run = run_cases(io::read_any_case(file, {radius}));
+        edge_radius_mm)};
+    const io::RunResult run = run_cases(io::read_any_case(file, set));
     Contact c;
     for (const io::PatchResult& patch : run.cases.at(0).patches) {
       const double element = patch.fields.grid.cell_area();

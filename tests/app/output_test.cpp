@@ -142,11 +142,11 @@ TEST_F(OutputPlaces, OutputsAreNotWrittenOverInputsOrEachOther) {
 }
 
 TEST_F(OutputPlaces, AFileBeyondTheLimitOfItsSizeIsAnError) {
-  for (const std::string& words :
+  for (const char* words :
        {"run \"$1\" -o \"$2\"", "run \"$1\" --json \"$2\"", "convert S1002 \"$2.ply\" --body wheel"}) {
     const std::string out = path("limited");
-    const ProgramResult r = RunningProgram({"sh", "-c", "ulimit -f 1; exec \"$0\" --quiet " + words, TREADMARK_PROGRAM,
-                                            input_.inp().string(), out})
+    const ProgramResult r = RunningProgram({"sh", "-c", "ulimit -f 1; exec \"$0\" --quiet " + std::string(words),
+                                            TREADMARK_PROGRAM, input_.inp().string(), out})
                                 .wait();
     EXPECT_EQ(r.status, 2) << words << r.err;
     EXPECT_THAT(r.err, HasSubstr("File too large")) << words;
