@@ -537,9 +537,16 @@ double lowest(double from, double to, double step, Badness badness) {
   return golden_section(best - step, best + step, kNear, badness).middle();
 }
 
+/// Where the curvature may change most.
+enum class Restless : std::uint8_t {
+  anywhere,
+  in_bends,    ///< as in a wheel: the tread hardly bends, flange and throat do
+  at_changes,  ///< as in the head of a rail, whose arcs of 300 and 80 mm meet in a jump
+};
+
 /// The curve of the points, and what is known of it.
 struct Laid {
-  Restless where;
+  Restless where = Restless::anywhere;
   Straightened line;
   Curve curve;
   Fit fit;
@@ -556,13 +563,6 @@ void free_break(const Knots& knots, const Break& found, Values& third_difference
     if (std::fabs(knots.node(k) + 0.5 * knots.step - found.s) < (corner ? kCells : kCellsOfBend) * knots.step)
       third_differences[at(k)] = std::max(third_differences[at(k)], kTimes * size);
 }
-
-/// Where the curvature may change most.
-enum class Restless : std::uint8_t {
-  anywhere,
-  in_bends,    ///< as in a wheel: the tread hardly bends, flange and throat do
-  at_changes,  ///< as in the head of a rail, whose arcs of 300 and 80 mm meet in a jump
-};
 
 /// What is assumed of a curve before its points are seen.
 struct Assumptions {
@@ -636,7 +636,8 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
   const double knot_step = std::clamp(points.step, kFinestKnots, kCoarsestKnots);
   const Knots knots = Knots::over(points.s.front(), points.s.back(), knot_step);
   const double cutoff = kFirstCutoff * std::max(1.0, points.step) / (2.0 * kPi);
-  Laid laid{.where = assumed.where};
+  Laid laid;
+  laid.where = assumed.where;
   laid.curve =
       even_curve(knots, points.s, points.y, points.z, std::pow(cutoff, 6) / (points.step * std::pow(knots.step, 5)));
   if (laid.curve.y.empty()) return std::nullopt;
