@@ -18,8 +18,8 @@ class MissingFile : public Error {
 };
 
 /// Errors, placed at `where`, or at the file where that is unknown: MissingFile, which names the file of that folder
-/// that was probably meant; Error for a folder or a device. what: its role, "case file". kind: of both. Error(configuration) for an
-/// output of the command (core/output_claim.hpp). Thread-safe.
+/// that was probably meant; Error for a folder or a device. what: its role, "case file". kind: of both.
+/// Error(configuration) for an output of the command (core/output_claim.hpp). Thread-safe.
 void require_file(const std::filesystem::path& file, std::string_view what, ErrorKind kind,
                   const SourcePosition& where = {});
 

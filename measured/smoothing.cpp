@@ -338,7 +338,7 @@ Values restlessness(const Knots& knots, const Knots& before, const Values& heigh
 /// Where the curvature of a rail's head changed in the fit before it may change more: arcs that meet in jumps.
 Values changes(const Knots& knots, const Knots& before, const Values& heights) {
   constexpr double kWindow = 3.0, kLeast = 0.05;
-  const int reach = static_cast<int>(std::lround(3.0 * kWindow / knots.step));
+  const int reach = to_whole<int>(std::round(3.0 * kWindow / knots.step));
   Values squares, out;
   double mean = 0.0;
   for (int k = 0; k < knots.cells; ++k) {
@@ -556,7 +556,7 @@ struct Laid {
 
 /// Lets slope or curvature change by about as much as a break does, across two cells to each side of a corner.
 void free_break(const Knots& knots, const Break& found, Values& third_differences) {
-  constexpr double kCells = 2.0, kCellsOfBend = 1.25, kTimes = 3.0;
+  constexpr double kCells = 2.0, kCellsOfBend = 1.25, kTimes = 2.0;
   const bool corner = found.turn > 0.0;
   const double size = corner ? found.turn * knots.step : found.bend * knots.step * knots.step;
   for (int k = 0; k < knots.cells; ++k)

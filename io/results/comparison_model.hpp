@@ -35,7 +35,7 @@ struct ComparisonRow {
   double approach = 0.0, area = 0.0;                ///< [m], [m^2]
   int ncon = 0;                                     ///< elements in contact
   double search_s = 0.0, distance_s = 0.0;          ///< [s]
-  bool comparable = false;                          ///< the reference has contact in this case too: the errors below hold
+  bool comparable = false;  ///< the reference has contact in this case too: the errors below hold
   /// Relative, (p - p_ref)/p_ref; NaN where the reference's has no limit (RemarkKind::edge_pressure).
   double pmax_error = 0.0;
   double mean_pressure_error = 0.0;               ///< relative, of fn / area
@@ -88,9 +88,9 @@ CandidateDigest digest(const ComparisonCandidate& candidate);
 
 /// The pressure by which candidates are judged.
 struct JudgedPressure {
-  const char* name;   ///< "pmax"
-  const char* words;  ///< "largest pressure"
-  double CandidateDigest::*error;
+  const char* name;                ///< "pmax"
+  const char* words;               ///< "largest pressure"
+  double CandidateDigest::*error;  ///< its error
 };
 
 /// The largest, or the mean where the largest has no limit in any case.

@@ -155,14 +155,14 @@ std::vector<Variation> read_variations(const TableOf<StudyFile>& study) {
     const TableOf table(*one, study.path_of(&StudyFile::variations), vary_keys());
     variations.push_back(read_variation(table));
     const Variation& added = variations.back();
-    if (const std::string& name = added.key.empty() ? added.label : added.key;
-        !name.empty() && !names.insert(name).second)
-      table.fail(fmt::format("two variations are called {}", name), "give each a label of its own");
     std::set<std::string> keys;
-    for (const VariedValue& value : variations.back().values)
+    for (const VariedValue& value : added.values)
       for (const std::string& assignment : value.overrides) keys.insert(parse_override(assignment).path);
     for (const std::string& key : keys)
       if (!seen.insert(key).second) table.fail(fmt::format("{} is varied twice", key));
+    if (const std::string& name = added.key.empty() ? added.label : added.key;
+        !name.empty() && !names.insert(name).second)
+      table.fail(fmt::format("two variations are called {}", name), "give each a label of its own");
   }
   double count = 1.0;
   for (const Variation& variation : variations) count *= static_cast<double>(variation.values.size());

@@ -62,10 +62,9 @@ discretisation.max_elements = 200000
 
 void expect_limit_of_round_edges(OnEdge edge, const char* round_name, double radius_mm) {
   constexpr int kCoarse = 200, kMiddle = 100, kFine = 50;  // [um]
-  const Contact coarse = edge.contact(kCoarse), middle = edge.contact(kMiddle), fine = edge.contact(kFine);
-  EXPECT_GT(middle.pmax, 1.03 * coarse.pmax) << "grows as elements become smaller";
-  EXPECT_GT(fine.pmax, 1.03 * middle.pmax);
-  EXPECT_GT(fine.pmax, 1.1 * coarse.pmax);
+  const Contact coarse = edge.contact(kCoarse), fine = edge.contact(kFine);
+  // where elements lie beside the edge counts as well
+  EXPECT_GT(fine.pmax, 1.3 * coarse.pmax) << "grows as elements become smaller";
   edge.name = round_name;
   edge.edge_radius_mm = radius_mm;
   const Contact round_coarse = edge.contact(kCoarse), round_middle = edge.contact(kMiddle),
@@ -88,7 +87,7 @@ TEST(EdgeRadius, OfAFlattenedHeadMakesTheLargestPressureAPropertyOfTheContact) {
       {"head,sharp", "ds_mm", "dx_mm", "",
        "[[rail.flattened_heads]]\nx_start_mm = -250\nx_end_mm = 250\nramp_mm = 100\ndepth_mm = 0.15\nroll_deg = 1",
        0.0},
-      "head,round", 50.0);
+      "head,round", 25.0);
 }
 
 }  // namespace

@@ -142,8 +142,8 @@ TEST_F(OutputPlaces, OutputsAreNotWrittenOverInputsOrEachOther) {
 }
 
 TEST_F(OutputPlaces, AFileBeyondTheLimitOfItsSizeIsAnError) {
-  for (const char* words :
-       {"run \"$1\" -o \"$2\"", "run \"$1\" --json \"$2\"", "convert S1002 \"$2.ply\" --body wheel"}) {
+  for (const char* words : {"run \"$1\" -o \"$2\"", "run \"$1\" --json \"$2\"",
+                            "convert S1002 \"$2.ply\" --body wheel --nominal-radius 460"}) {
     const std::string out = path("limited");
     const ProgramResult r = RunningProgram({"sh", "-c", "ulimit -f 1; exec \"$0\" --quiet " + std::string(words),
                                             TREADMARK_PROGRAM, input_.inp().string(), out})

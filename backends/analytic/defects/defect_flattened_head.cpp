@@ -160,8 +160,9 @@ double least_height(const Surface& base, const FlattenedHead& head, double tan_r
   return least;
 }
 
-/// Half the width of edges that are nowhere sharper than a radius, in depth, over the depth of the plane. On a round
-/// crown the squared slope against the plane is proportional to the depth, also on the ramps.
+/// Half the width of edges that are nowhere sharper than a radius, in depth, over the depth of the plane. They are
+/// sharpest at their outer ends. On a round crown the squared slope against the plane is proportional to the depth
+/// below the crown, so to the depth of the plane on the ramps, and greater at the outer ends by this share.
 double edge_share(const Surface& base, const FlattenedHead& head, double touching, double tan_roll) {
   Grid2 g = stretch_grid(base, head);
   g.x0 = 0.5 * (head.x_start + head.x_end), g.nx = 1;
@@ -179,10 +180,10 @@ double edge_share(const Surface& base, const FlattenedHead& head, double touchin
                   "take a smaller edge_radius_mm");
     widest = std::max(widest, 0.5 * slope * slope / sharper);
   }
-  if (widest > head.depth)
+  if (widest > 0.5 * head.depth)
     throw Error(ErrorKind::configuration, "the round edges of a flattened head meet in its middle", {},
                 "take a smaller edge_radius_mm");
-  return widest / head.depth;
+  return widest / (head.depth - widest);
 }
 
 }  // namespace

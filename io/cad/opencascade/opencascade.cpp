@@ -23,6 +23,7 @@
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IntCurvesFace_Intersector.hxx>
+#include <Interface_Check.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
@@ -35,6 +36,7 @@
 #include <Standard_Failure.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_GeometricRepresentationItem.hxx>
 #include <StepShape_Face.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -592,10 +594,13 @@ std::unique_ptr<Shape> finished(XSControl_Reader& reader, std::string unit, CadF
   return std::make_unique<Shape>(whole, std::move(unit), reader.WS());
 }
 
-/// Translating does not end where they are not.
+/// Translating does not end where they are not. What is no number was read as 0.
 bool points_are_finite(const Interface_InterfaceModel& model) {
   constexpr double kFarthest = 1e12;  // in any unit
   for (int i = 1; i <= model.NbEntities(); ++i) {
+    if (model.Value(i)->IsKind(STANDARD_TYPE(StepGeom_GeometricRepresentationItem)) &&
+        model.Check(i, true)->HasFailed())
+      return false;
     const Handle(StepGeom_CartesianPoint) point = Handle(StepGeom_CartesianPoint)::DownCast(model.Value(i));
     if (point.IsNull()) continue;
     for (int k = 1; k <= point->NbCoordinates(); ++k)

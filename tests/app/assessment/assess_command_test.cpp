@@ -191,7 +191,7 @@ TEST_F(AssessCommand, BadRequestsAreRefusedOrNamed) {
   EXPECT_THAT(refused({"--section", "s:0.2:x"}), HasSubstr("'x' is no number"));
   EXPECT_THAT(refused({"--section", "s:0.2:0.8:bend"}), HasSubstr("kinds: straight, curve, transition"));
   EXPECT_THAT(refused({"--channels", "ws1_left.q_N"}), HasSubstr("did you mean 'ws1_left.Q_N'?"));
-  EXPECT_THAT(refused({"--json", path("a")}), HasSubstr("would overwrite"));
+  EXPECT_THAT(refused({"--json", path("a")}), HasSubstr("it is a folder"));
   refused({"--vehicle", "tram"});
   EXPECT_NE(run_program({"assess", input_.folder().string()}).status, 0);
   EXPECT_NE(run_program({"assess", path("vehicle.toml")}).status, 0);

@@ -230,7 +230,7 @@ TEST(DefectField, FlattenedHeadHasRoundEdges) {
     ASSERT_EQ(d_u[0], jet.d_u);
     ASSERT_EQ(d_y[0], jet.d_y);
   }
-  EXPECT_GT(round, 200);
+  EXPECT_GT(round, 150);
   for (const double radius : {0.3, 0.2})
     EXPECT_THROW(analytic::make_defect_field({.flattened_heads = {{-0.1, 0.2, 0.05, kDepth, kRoll, radius}}},
                                              Body::rail, 0.0, base),

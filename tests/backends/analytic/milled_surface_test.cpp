@@ -181,20 +181,24 @@ TEST(FlattenedHeads, AreCutAsTheFieldSays) {
 
 TEST(FlattenedHeads, WithRoundEdgesAreTheSameInEveryView) {
   const auto base = analytic::make_standard_surface({"60E1"}, Body::rail, 0.0);
-  const Defects defects{.flattened_heads = {{-0.1, 0.2, 0.05, 0.3e-3, 0.015, 0.03}, {0.1, 0.3, 0.05, 0.5e-3}}};
+  const Defects defects{.flattened_heads = {{-0.1, 0.2, 0.05, 0.3e-3, 0.015, 0.02}, {0.1, 0.3, 0.05, 0.5e-3}}};
   const auto surface = analytic::add_defects(base, defects, Body::rail, 0.0);
   const auto round =
       analytic::make_defect_field({.flattened_heads = {defects.flattened_heads[0]}}, Body::rail, 0.0, base);
+  int compared = 0;
   for (const double tilt : {0.0, 0.3, -0.5}) {
     const Pose X{{0.0, 0.0, -0.01}, rotation_x(tilt)};
     for (double x = -0.12; x < 0.09; x += 0.0037)  // beyond the second head begins
       for (double y = -0.03; y < 0.03; y += 0.0019) {
+        if (std::isnan(height_at(*base, X, {x, y}))) continue;
+        ++compared;
         const Vec3 p = X.apply({x, y, height_at(*surface, X, {x, y})});
         const Vec2 foot(p.x(), p.y());
         EXPECT_NEAR(p.z(), height_at(*base, Pose{}, foot) + round->jet(foot.x(), foot.y()).value, 1e-13)
             << x << ' ' << y;
       }
   }
+  EXPECT_GT(compared, 3000);
   // Where both are, the deeper one remains.
   const auto deep = analytic::add_defects(base, {.flattened_heads = {defects.flattened_heads[1]}}, Body::rail, 0.0);
   EXPECT_EQ(height_at(*surface, Pose{}, {0.17, 0.0}), height_at(*deep, Pose{}, {0.17, 0.0}));

@@ -119,7 +119,7 @@ TEST_F(Cad, RefusesWhatIsNoFileOfItsKind) {
   EXPECT_THAT(refusal("hello"), HasSubstr("no STEP file"));
   EXPECT_THAT(refusal("hello", "a.iges"), HasSubstr("the CAD file"));
   EXPECT_THAT(refusal(sample("rail.step").substr(0, 2500)), HasSubstr("no STEP file"));
-  EXPECT_THAT(error_of([&] { read_cad(folder_.path() / "none.step", Body::rail, 0.0); }), HasSubstr("cannot open"));
+  EXPECT_THAT(error_of([&] { read_cad(folder_.path() / "none.step", Body::rail, 0.0); }), HasSubstr("does not exist"));
   // as a wheel the cylinder's axis lies across
   EXPECT_THAT(refusal(sample("rail.step"), "rail.step", Body::wheel),
               HasSubstr("its greatest radius about the y axis is 6.31512 mm, the nominal radius 460 mm"));
@@ -454,7 +454,7 @@ void expect_sound(const CadSurface& s, const std::string& which) {
 }
 
 TEST_F(Cad, RefusesPointsThatLieNowhere) {
-  for (const char* nowhere : {"-inf", "1e999", "1e300"}) {
+  for (const char* nowhere : {"1e300", "1.E999", "1.E300", "three", "$"}) {
     std::string text = sample("rail.step");
     const std::size_t point = text.find("CARTESIAN_POINT"), from = text.rfind(',', text.find("))", point)) + 1;
     text.replace(from, text.find(')', from) - from, nowhere);
