@@ -343,7 +343,7 @@ namespace {
 /// next: the section beside it.
 std::optional<io::ProfileRemark> doubt_of_section(const Profile& section, const Profile& next,
                                                   measured::Understanding seen, const io::ExpectedProfile& expected) {
-  constexpr double kFelt = 0.5e-6;  // [m] neighbouring sections take some away
+  constexpr double kFelt = 0.25e-6;  // [m] neighbouring sections take some away
   constexpr double kSamePlace = 2e-3;
   constexpr double kDense = 1e-3;  // [m] points farther apart scatter by the curve between them
   io::SourcedProfile sourced;

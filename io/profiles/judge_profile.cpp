@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/measured/lumps.hpp"
@@ -135,6 +136,15 @@ class Judge {
                                       kMm * *marks.back_y, kMm * *expected_.flange_back, kMm * *marks.back_y));
   }
 
+  /// Whether points of these, beside a head, are as high as it.
+  bool has_keeper(std::size_t first, std::size_t end, double depth) const {
+    constexpr double kWide = 5e-3;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = first; i < end; ++i)
+      if (p_.z[i] < depth) low = std::min(low, p_.y[i]), high = std::max(high, p_.y[i]);
+    return high - low > kWide;
+  }
+
   /// 14 mm below the top on the side of small y, where the gauge is measured.
   void gauge_point() {
     constexpr double kDepth = 14e-3, kNear = 1e-3;
@@ -142,6 +152,10 @@ class Judge {
     const std::size_t top = head.top;
     const double depth = p_.z[top] + kDepth;
     const bool reaches_left = head.first > 0, reaches_right = head.last + 1 < p_.z.size();
+    if (has_keeper(head.last + 1, p_.z.size(), depth) && !has_keeper(0, head.first, depth))
+      remark("gauge_side", fmt::format("there is a groove on the side of great y only: is the gauge side there? set "
+                                       "mirror_y = {}",
+                                       source_.mirrored_y ? "false" : "true"));
     if (!reaches_left) {
       fact("gauge point", "not in the profile: it ends less than 14 mm below the top");
       if (expected_.by_gauge)
