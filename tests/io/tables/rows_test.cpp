@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 
 #include "treadmark/core/constants.hpp"
@@ -9,6 +10,7 @@
 #include "treadmark/io/tables/csv_of.hpp"
 #include "treadmark/io/tables/hdf5_rows.hpp"
 #include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/read_json.hpp"
 #include "treadmark/io/tables/text_of.hpp"
 #include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -94,6 +96,20 @@ void expect_equal(const Wheel& a, const Wheel& b) {
   EXPECT_EQ(a.round, b.round);
   EXPECT_EQ(a.radius, b.radius);
   EXPECT_EQ(a.hollow, b.hollow);
+}
+
+TEST(ReadJson, HasWhatWasWritten) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& text) {
+    Wheel wheel;
+    io::read_json(io::read_json_file(folder.write("wheel.json", text)), wheel);
+    return wheel;
+  };
+  for (const Wheel& wheel : {Wheel{"left", 2, true, 0.5, 1e-3}, Wheel{"right", 1, true, 0.25, {}}})
+    expect_equal(read(io::dumped(io::json_of(wheel))), wheel);
+  EXPECT_TRUE(std::isnan(read(R"({"name": "left", "number": 2, "radius_mm": null})").radius));
+  EXPECT_THROW(read(R"({"name": "left", "number": 2})"), Error);
+  EXPECT_THROW(read(R"({"name": "left", "number": 2.5, "radius_mm": 460})"), Error);
 }
 
 TEST(CsvOf, HasAHeadAndALineARow) {
