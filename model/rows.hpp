@@ -32,11 +32,14 @@ inline constexpr FileUnit kOne, kN{"N"}, kJ{"J"}, kM{"m"}, kK{"K"}, kCelsius{"de
 template <class Row>
 struct Access {
   double (*get)(const Row&) = nullptr;
-  void (*put)(Row&, double) = nullptr;               ///< nullptr: follows from others
-  bool (*has)(const Row&) = nullptr;                 ///< nullptr: always known
-  bool whole = false;                                ///< a whole number
-  const std::string& (*word)(const Row&) = nullptr;  ///< a text in place of a number
+  void (*put)(Row&, double) = nullptr;        ///< nullptr: follows from others
+  bool (*has)(const Row&) = nullptr;          ///< nullptr: always known; NaN is null in JSON
+  bool whole = false;                         ///< a whole number
+  std::string (*word)(const Row&) = nullptr;  ///< a text in place of a number
   void (*put_word)(Row&, const std::string&) = nullptr;
+  double (*uncertainty)(const Row&) = nullptr;  ///< of the number, in its unit; NaN, nullptr: not known
+  std::string (*reason)(const Row&) = nullptr;  ///< why the number is not known
+  bool flag = false;  ///< 0 or 1, in JSON false or true; of a text: null in JSON where it is empty
 };
 
 namespace access {
@@ -63,7 +66,7 @@ constexpr Access<WholeOf<Member>> of() {
             nullptr,
             nullptr,
             false,
-            [](const R& r) -> const std::string& { return r.*Member; },
+            [](const R& r) { return r.*Member; },
             [](R& r, const std::string& word) { r.*Member = word; }};
   else if constexpr (std::is_same_v<V, std::optional<double>>)
     return {[](const R& r) { return *(r.*Member); }, [](R& r, double v) { r.*Member = v; },
@@ -71,6 +74,30 @@ constexpr Access<WholeOf<Member>> of() {
   else
     return {[](const R& r) { return static_cast<double>(r.*Member); },
             [](R& r, double v) { r.*Member = static_cast<V>(v); }, nullptr, std::is_integral_v<V>};
+}
+
+/// True or false in JSON.
+template <auto Member>
+constexpr Access<WholeOf<Member>> flag() {
+  Access<WholeOf<Member>> access = of<Member>();
+  access.whole = false, access.flag = true;
+  return access;
+}
+
+/// A text that follows from others.
+template <class Row>
+constexpr Access<Row> word(std::string (*text)(const Row&)) {
+  Access<Row> access;
+  access.word = text;
+  return access;
+}
+
+/// A text that is null in JSON where it is empty.
+template <class Row>
+constexpr Access<Row> word_or_null(std::string (*text)(const Row&)) {
+  Access<Row> access = word(text);
+  access.flag = true;
+  return access;
 }
 
 /// A component of a vector.
@@ -110,12 +137,15 @@ enum Shown : unsigned {
 
 template <class Row>
 struct Column {
-  std::string_view key;     ///< in JSON, CSV and tables, with its unit at its end; empty: not there
+  std::string_view key;     ///< in JSON, CSV and tables, with its unit at its end; empty: not there. "a.b": b of a
   FileUnit unit;            ///< of the key
   std::string_view stored;  ///< in HDF5, in SI; empty: not there
   Access<Row> access;
   std::string_view meaning = {};
   unsigned shown = kOnlyInFiles;  ///< of Shown
+  std::string_view label = {};    ///< where people read it; empty: they do not
+  int decimals = -1;              ///< there; negative: five digits
+  std::string_view listed = {};   ///< its name in lists of many results (app/lists/); empty: not there
 
   bool known(const Row& row) const { return access.has == nullptr || access.has(row); }
   double in_file(const Row& row) const { return unit.per_si * access.get(row); }

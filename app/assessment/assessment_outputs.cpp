@@ -12,28 +12,53 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/json/json_tree.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/pictures/chart.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
 
-namespace treadmark::app {
+namespace treadmark {
+namespace {
+
+using A = measures::Assessed;
+using access::of;
+using access::word;
+using unit::kOne;
+
+constexpr FileUnit kOwn{""};  // that of the quantity
+
+constexpr Column<A> kAssessed[] = {
+    {"section", kOne, "", of<&A::section>(), "", kInTable, "section"},
+    {"place", kOne, "", of<&A::place>(), "", kInTable, "place"},
+    {"quantity", kOne, "", of<&A::quantity>(), "", kInTable, "quantity"},
+    {"status", kOne, "", word(+[](const A& a) { return std::string(name_of(a.status)); }), "", kInTable, "status"},
+    {"samples", kOne, "", of<&A::samples>(), "", kInTable, "samples"},
+    {"min", kOwn, "", of<&A::least>(), "", kInTable, "min"},
+    {"p0_15", kOwn, "", of<&A::low>(), "", kInTable, "0.15 %"},
+    {"p50", kOwn, "", of<&A::middle>(), "", kInTable, "50 %"},
+    {"p99_85", kOwn, "", of<&A::high>(), "", kInTable, "99.85 %"},
+    {"max", kOwn, "", of<&A::most>(), "", kInTable, "max"},
+    {"mean", kOwn, "", of<&A::mean>(), "", kInTable, "mean"},
+    {"rms", kOwn, "", of<&A::rms>(), "", kInTable, "rms"},
+    {"value", kOwn, "", of<&A::value>(), "that is compared with the limit", kInTable, "value"},
+    {"limit", kOwn, "", of<&A::limit>(), "", kInTable, "limit"},
+    {"share", kOne, "", {[](const A& a) { return a.share(); }}, "of the limit", kInTable, "share"}};
+
+/// Those that stand behind unit and status in CSV.
+bool is_number(const Column<A>& column) { return column.access.word == nullptr && !column.access.whole; }
+
+}  // namespace
+
+template <>
+std::span<const Column<measures::Assessed>> columns() {
+  return kAssessed;
+}
+
+namespace app {
 namespace {
 
 using io::Json;
 using measures::Assessed;
 using measures::AssessedStatus;
-
-/// The numbers of a quantity and what they are called.
-struct NumberOf {
-  const char* name;
-  double (*value)(const Assessed&);
-};
-const NumberOf kNumbers[] = {
-    {"min", [](const Assessed& a) { return a.least; }},   {"p0_15", [](const Assessed& a) { return a.low; }},
-    {"p50", [](const Assessed& a) { return a.middle; }},  {"p99_85", [](const Assessed& a) { return a.high; }},
-    {"max", [](const Assessed& a) { return a.most; }},    {"mean", [](const Assessed& a) { return a.mean; }},
-    {"rms", [](const Assessed& a) { return a.rms; }},     {"value", [](const Assessed& a) { return a.value; }},
-    {"limit", [](const Assessed& a) { return a.limit; }}, {"share", [](const Assessed& a) { return a.share(); }}};
 
 /// Forces in kN.
 std::pair<double, std::string> shown_value(double value, const std::string& unit) {
@@ -80,7 +105,8 @@ std::string assessment_text(std::span<const AssessedRun> runs) {
 
 std::string assessment_csv(std::span<const AssessedRun> runs) {
   std::string text = "run,section,from_m,to_m,kind,place,quantity,unit,status,samples";
-  for (const NumberOf& number : kNumbers) text += fmt::format(",{}", number.name);
+  for (const Column<Assessed>& column : kAssessed)
+    if (is_number(column)) text += fmt::format(",{}", column.key);
   text += '\n';
   for (const AssessedRun& run : runs)
     for (const Assessed& one : run.quantities) {
@@ -89,7 +115,8 @@ std::string assessment_csv(std::span<const AssessedRun> runs) {
                           io::csv_number(section->from), io::csv_number(section->to),
                           kSectionKinds[static_cast<std::size_t>(section->kind)], io::csv_cell(one.place), one.quantity,
                           measures::quantity_info(one.quantity).unit, measures::name_of(one.status), one.samples);
-      for (const NumberOf& number : kNumbers) text += ',' + io::csv_cell(number.value(one), Digits::all);
+      for (const Column<Assessed>& column : kAssessed)
+        if (is_number(column)) text += ',' + io::csv_cell(column.access.get(one), Digits::all);
       text += '\n';
     }
   return text;
@@ -140,16 +167,7 @@ std::string assessment_json(std::span<const AssessedRun> runs) {
                                  {"from_m", io::number(section.from)},
                                  {"to_m", io::number(section.to)},
                                  {"kind", kSectionKinds[static_cast<std::size_t>(section.kind)]}});
-    one["assessed"] = Json::array();
-    for (const Assessed& a : run.quantities) {
-      Json row{{"section", a.section},
-               {"place", a.place},
-               {"quantity", a.quantity},
-               {"status", measures::name_of(a.status)},
-               {"samples", a.samples}};
-      for (const NumberOf& number : kNumbers) row[number.name] = io::number(number.value(a));
-      one["assessed"].push_back(std::move(row));
-    }
+    one["assessed"] = io::json_of(run.quantities);
     one["spectra"] = Json::array();
     for (const ChannelSpectrum& s : run.spectra) {
       Json bands = Json::array();
@@ -278,4 +296,5 @@ void write_assessment_folder(const std::filesystem::path& folder, std::span<cons
   output.move_into("assessment.json");
 }
 
-}  // namespace treadmark::app
+}  // namespace app
+}  // namespace treadmark

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/app/assessment/assess_result.hpp"
+#include "treadmark/model/rows.hpp"
 
 namespace treadmark::app {
 
@@ -40,3 +41,11 @@ void write_assessment_folder(const std::filesystem::path& folder, std::span<cons
                              std::span<const std::string> channels);
 
 }  // namespace treadmark::app
+
+namespace treadmark {
+
+/// Columns whose unit has no name have that of the quantity.
+template <>
+std::span<const Column<measures::Assessed>> columns();
+
+}  // namespace treadmark

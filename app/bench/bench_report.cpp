@@ -9,9 +9,51 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/tables/csv_of.hpp"
 
-namespace treadmark::app {
+namespace treadmark {
+namespace {
+
+using B = app::BenchRow;
+using access::of;
+using unit::kMm;
+using unit::kOne;
+
+constexpr FileUnit kNs{"ns", 1e9, "s"}, kS{"s"}, kUm{"um", 1e6, "m"}, kBytes{"bytes"};
+
+// A row of a table stays a row: clang-format would give each column a line.
+// clang-format off
+constexpr Column<B> kRows[] = {
+    {"backend", kOne, "", of<&B::backend>()},
+    {"resolution_mm", kMm, "",
+     {[](const B& b) { return b.resolution > 0.0 ? b.resolution : B::kNone; },
+      [](B& b, double v) { b.resolution = std::isnan(v) ? 0.0 : v; }}},
+    {"body", kOne, "", access::word(+[](const B& b) { return std::string(b.body == Body::rail ? "rail" : "wheel"); })},
+    {"agrees", kOne, "", access::flag<&B::agrees>()},
+    {"reason", kOne, "", of<&B::reason>()},
+    {"difference_um", kUm, "", of<&B::difference>(), "", kInTable, "differs"},
+    {"build_s", kS, "", of<&B::build>(), "", kInTable, "build"},
+    {"memory_bytes", kBytes, "", of<&B::memory_bytes>(), "", kInTable, "memory"},
+    {"points", kOne, "", of<&B::points>(), "", kInTable, "points"},
+    {"ns_per_height", kNs, "", of<&B::height>(), "", kInTable, "height, level"},
+    {"ns_per_height_tilted", kNs, "", of<&B::height_tilted>(), "", kInTable, "height, tilted"},
+    {"ns_per_normal", kNs, "", of<&B::normal>(), "", kInTable, "with slopes"},
+    {"base_ns_per_height", kNs, "", of<&B::base_height>(), "", kInTable, "base of offsets"},
+    {"search_cold_s", kS, "", of<&B::search_cold>(), "", kInTable, "first search"},
+    {"search_warm_s", kS, "", of<&B::search_warm>(), "", kInTable, "after a small move"},
+    {"distance_s", kS, "", of<&B::distance>(), "", kInTable, "distance"},
+    {"patches", kOne, "", {[](const B& b) { return b.patches >= 0 ? b.patches : B::kNone; }, nullptr, nullptr, true},
+     "", kInTable, "patches"}};
+// clang-format on
+
+}  // namespace
+
+template <>
+std::span<const Column<app::BenchRow>> columns() {
+  return kRows;
+}
+
+namespace app {
 
 void write_bench_folder(const std::filesystem::path& folder, const BenchReport& report) {
   OutputFolder output(folder, OutputFolder::Old::kept);
@@ -21,54 +63,7 @@ void write_bench_folder(const std::filesystem::path& folder, const BenchReport& 
   output.move_into("bench.json");
 }
 
-namespace {
+std::string bench_csv(const BenchReport& report) { return io::csv_of(report.rows, Digits::six); }
 
-struct Cell {
-  std::string operator()(std::monostate) const { return {}; }
-  std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
-  std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& value) const { return io::csv_cell(value); }
-};
-
-template <class Text>
-std::string line(const std::vector<io::NamedField>& fields, Text text) {
-  std::string out;
-  for (const io::NamedField& field : fields) {
-    if (!out.empty()) out += ',';
-    out += text(field);
-  }
-  return out + '\n';
-}
-
-}  // namespace
-
-std::vector<io::NamedField> bench_fields(const BenchRow& row) {
-  const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  return {
-      {"backend", row.backend},
-      {"resolution_mm", row.resolution > 0.0 ? io::FieldValue(1e3 * row.resolution) : io::FieldValue(BenchRow::kNone)},
-      {"body", std::string(row.body == Body::rail ? "rail" : "wheel")},
-      {"agrees", std::string(row.agrees ? "true" : "false")},
-      {"reason", row.reason},
-      {"difference_um", 1e6 * row.difference},
-      {"build_s", row.build},
-      {"memory_bytes", count(row.memory_bytes)},
-      {"points", count(row.points)},
-      {"ns_per_height", 1e9 * row.height},
-      {"ns_per_height_tilted", 1e9 * row.height_tilted},
-      {"ns_per_normal", 1e9 * row.normal},
-      {"base_ns_per_height", 1e9 * row.base_height},
-      {"search_cold_s", row.search_cold},
-      {"search_warm_s", row.search_warm},
-      {"distance_s", row.distance},
-      {"patches", row.patches >= 0 ? io::FieldValue(std::int64_t{row.patches}) : io::FieldValue(BenchRow::kNone)}};
-}
-
-std::string bench_csv(const BenchReport& report) {
-  std::string out = line(bench_fields({}), [](const io::NamedField& f) { return std::string(f.name); });
-  for (const BenchRow& row : report.rows)
-    out += line(bench_fields(row), [](const io::NamedField& f) { return std::visit(Cell{}, f.value); });
-  return out;
-}
-
-}  // namespace treadmark::app
+}  // namespace app
+}  // namespace treadmark

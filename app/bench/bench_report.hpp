@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/model/profile.hpp"
+#include "treadmark/model/rows.hpp"
 
 namespace treadmark::app {
 
@@ -57,10 +57,6 @@ struct BenchReport {
   }
 };
 
-/// A row as the JSON and the CSV file have it: always the same names in the same order, values in the units of their
-/// names, a number that is not finite where nothing was measured.
-std::vector<io::NamedField> bench_fields(const BenchRow& row);
-
 /// A report as JSON text (docs/bench.schema.json); what was not measured is null.
 std::string bench_json(const BenchReport& report);
 
@@ -85,3 +81,11 @@ std::string bench_svg(const BenchReport& report);
 void write_bench_folder(const std::filesystem::path& folder, const BenchReport& report);
 
 }  // namespace treadmark::app
+
+namespace treadmark {
+
+/// A row as JSON and CSV have it; NaN where nothing was measured.
+template <>
+std::span<const Column<app::BenchRow>> columns();
+
+}  // namespace treadmark

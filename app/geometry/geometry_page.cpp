@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "treadmark/app/report/row_blocks.hpp"
 #include "treadmark/core/constants.hpp"
 
 namespace treadmark::app {
@@ -142,26 +143,6 @@ ChartView sweep_view(const GaugeSweep& sweep) {
   return view;
 }
 
-report::Table jump_table(const geometry::Analysis& a) {
-  report::Table table{
-      "jumps",
-      "Jumps of contact points",
-      {{"y", "mm"}, {"side"}, {"rail from", "mm"}, {"to", "mm"}, {"difference of radii from", "mm"}, {"to", "mm"}}};
-  for (const geometry::Jump& jump : a.functions.jumps) {
-    const geometry::Touch &before = jump.right ? jump.before.right : jump.before.left,
-                          &after = jump.right ? jump.after.right : jump.after.left;
-    table.rows.push_back({{report::Number{kMilli * jump.before.y}, std::string(jump.right ? "right" : "left"),
-                           report::Number{kMilli * before.rail_y}, report::Number{kMilli * after.rail_y},
-                           report::Number{kMilli * jump.before.radius_difference()},
-                           report::Number{kMilli * jump.after.radius_difference()}}});
-  }
-  return table;
-}
-
-std::string number_or_dash(double value, const char* form) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : std::string("–");
-}
-
 }  // namespace
 
 report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep) {
@@ -186,27 +167,15 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
   report::Section overview{"overview", "Overview"};
   for (const std::string& note : result.notes)
     overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Note:", note});
-  report::Cards cards{
-      {{"Equivalent conicity", number_or_dash(a.single.tan_gamma, "{:.3f}"),
-        fmt::format("at {:.3g} mm{}", kMilli * a.single.amplitude,
-                    result.noise ? fmt::format(", noise leaves +-{:.2g}", result.noise->single) : "")},
-       {"Nonlinearity", number_or_dash(kMillimetre * a.nonlinearity, "{:.4f} 1/mm"), "between 2 and 4 mm"},
-       {"Gauge", number_or_dash(kMilli * a.gauge, "{:.2f} mm"),
-        fmt::format("clearance {} mm", number_or_dash(kMilli * (a.gauge - a.active_faces), "{:.2f}"))},
-       {"Equilibrium", number_or_dash(kMilli * a.equilibrium.value_or(kNaN), "{:.2f} mm"), a.no_equilibrium}}};
-  if (result.load)
-    cards.cards.push_back({"Largest pressure", number_or_dash(kMega * result.load->largest.pressure, "{:.0f} MPa"),
-                           fmt::format("within {:.3g} mm, by Hertz", kMilli * result.load->amplitude)});
-  overview.blocks.emplace_back(std::move(cards));
+  report::Cards cards;
   report::Facts facts;
-  facts.entries = {
-      {"wheel, right", r.wheel},
-      {"wheel, left", r.wheel_left.empty() ? r.wheel : r.wheel_left},
-      {"rail, right", r.rail},
-      {"rail, left", r.rail_left.empty() ? r.rail : r.rail_left},
-      {"diameters", fmt::format("{:.2f} mm right, {:.2f} mm left", 2e3 * a.radius_right, 2e3 * a.radius_left)},
-      {"amplitude", a.rule},
-      {"roll", r.settings.roll == geometry::Roll::none ? "each side by itself" : "free"}};
+  report::add_cards(cards, result);
+  report::add_facts(facts, result);
+  if (result.load) {
+    report::add_cards(cards, *result.load);
+    report::add_facts(facts, *result.load);
+  }
+  overview.blocks.emplace_back(std::move(cards));
   overview.blocks.emplace_back(std::move(facts));
   page.sections.push_back(std::move(overview));
   report::Section contact{"contact", "Contact"};
@@ -222,7 +191,8 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
         Figure{"conicity-chart", "Equivalent conicity over the amplitude", conicity_view(a, result.with_new)});
   if (sweep != nullptr)
     conicity.blocks.emplace_back(Figure{"gauges", "Equivalent conicity over the gauge", sweep_view(*sweep)});
-  if (!a.functions.jumps.empty()) conicity.blocks.emplace_back(jump_table(a));
+  if (!a.functions.jumps.empty())
+    conicity.blocks.emplace_back(report::table_of("jumps", "Jumps of contact points", a.functions.jumps));
   if (!conicity.blocks.empty()) page.sections.push_back(std::move(conicity));
   page.document = geometry_json(result, sweep);
   return page;

@@ -138,14 +138,39 @@ struct FunctionRow {
   const geometry::WheelsetOnTrack& wheelset;
 };
 
+/// The conicity at an amplitude, with what else is known there.
+struct ConicityRow {
+  const geometry::Conicity& conicity;
+  const geometry::Analysis& analysis;  ///< that it belongs to
+  std::optional<double> noise = {}, harmonic = {}, with_new = {};
+};
+/// beside: the result with all of that; nullptr: the conicity alone.
+std::vector<ConicityRow> conicity_rows(const geometry::Analysis& analysis, const GeometryResult* beside);
+
 }  // namespace treadmark::app
 
 namespace treadmark {
 
+/// What is one number of a result.
+template <>
+std::span<const Column<app::GeometryResult>> columns();
 template <>
 std::span<const Column<app::FunctionRow>> columns();
+template <>
+std::span<const Column<app::ConicityRow>> columns();
+template <>
+std::span<const Column<geometry::Jump>> columns();
+template <>
+std::span<const Column<geometry::FurtherTouch>> columns();
+template <>
+std::span<const Column<geometry::ShiftLimit>> columns();
 /// Of the contact functions that only a load makes, and why a side has no ellipse.
 template <>
 std::span<const Column<geometry::LoadedPosition>> columns();
+template <>
+std::span<const Column<geometry::LoadedSide>> columns();
+/// What is one number of a loaded wheelset.
+template <>
+std::span<const Column<geometry::LoadedFunctions>> columns();
 
 }  // namespace treadmark

@@ -128,26 +128,6 @@ std::vector<GeometryRequest> read_pair_list(const std::string& file, const Geome
 
 namespace {
 
-/// A number of a pair: its name, and its value.
-struct PairColumn {
-  const char* name;
-  bool shown;
-  double (*value)(const geometry::Analysis& a);
-};
-constexpr PairColumn kPairColumns[] = {
-    {"gauge_mm", true, [](const geometry::Analysis& a) { return kMilli * a.gauge; }},
-    {"active_faces_mm", false, [](const geometry::Analysis& a) { return kMilli * a.active_faces; }},
-    {"clearance_mm", true, [](const geometry::Analysis& a) { return kMilli * (a.gauge - a.active_faces); }},
-    {"equilibrium_y_mm", true, [](const geometry::Analysis& a) { return kMilli * a.equilibrium.value_or(kNaN); }},
-    {"amplitude_mm", false, [](const geometry::Analysis& a) { return kMilli * a.single.amplitude; }},
-    {"tan_gamma_e", true, [](const geometry::Analysis& a) { return a.single.tan_gamma; }},
-    {"tan_gamma_e_3mm", true, [](const geometry::Analysis& a) { return a.at_3mm.tan_gamma; }},
-    {"nonlinearity_per_mm", true, [](const geometry::Analysis& a) { return kMillimetre * a.nonlinearity; }},
-    {"greatest_amplitude_mm", false, [](const geometry::Analysis& a) { return kMilli * a.greatest_amplitude; }},
-    {"flange_thickness_mm", false, [](const geometry::Analysis& a) { return kMilli * a.flange_thickness_right; }},
-    {"flange_thickness_left_mm", false, [](const geometry::Analysis& a) { return kMilli * a.flange_thickness_left; }},
-};
-
 /// All numbers that a pair depends on.
 std::string numbers_of(const GeometryRequest& r) {
   const geometry::AnalysisSettings& s = r.settings;
@@ -169,7 +149,8 @@ ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::fi
   list.title = "Contact geometry of pairs";
   list.things = "pairs";
   list.words = {"wheel", "wheel_left", "rail", "rail_left"};
-  for (const PairColumn& column : kPairColumns) list.numbers.push_back({column.name, column.shown});
+  for (const Column<GeometryResult>& column : columns<GeometryResult>())
+    if (!column.listed.empty()) list.numbers.push_back({std::string(column.listed), (column.shown & kInTable) != 0});
   if (!requests.empty()) {
     const geometry::AnalysisSettings& s = requests.front().settings;
     list.settings =
@@ -191,10 +172,11 @@ ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::fi
     request.settings.harmonic = false;
     ListRow row{request.label, "ok", {}, {request.wheel, request.wheel_left, request.rail, request.rail_left}};
     try {
-      const geometry::Analysis a = run_geometry(request, store).analysis;
-      for (const PairColumn& column : kPairColumns) row.numbers.push_back(column.value(a));
-      for (const geometry::Conicity& c : a.conicity) row.numbers.push_back(c.tan_gamma);
-      row.badness = a.single.tan_gamma;
+      const GeometryResult result = run_geometry(request, store);
+      for (const Column<GeometryResult>& column : columns<GeometryResult>())
+        if (!column.listed.empty()) row.numbers.push_back(column.in_file(result));
+      for (const geometry::Conicity& c : result.analysis.conicity) row.numbers.push_back(c.tan_gamma);
+      row.badness = result.analysis.single.tan_gamma;
     } catch (const Error& error) {
       row.status = "failed";
       row.error = error.what();

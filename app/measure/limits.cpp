@@ -84,9 +84,8 @@ std::vector<LimitResult> against_limits(const Numbers& numbers, const std::vecto
   for (const Limit& limit : limits)
     for (const auto& row : number_rows(numbers)) {
       if (limit.key != row.key) continue;
-      const measures::Measure& m = numbers.*row.at;
-      LimitResult result{limit, m.value / row.unit, m.uncertainty / row.unit, Verdict::not_measured, false};
-      if (m.known()) {
+      LimitResult result{limit, row.in_file(numbers), row.uncertainty_in_file(numbers), Verdict::not_measured, false};
+      if (row.known(numbers)) {
         const double below = limit.min ? result.value - *limit.min : HUGE_VAL,
                      above = limit.max ? *limit.max - result.value : HUGE_VAL, room = std::min(below, above);
         // what a computer makes of two decimals is no wear

@@ -580,7 +580,7 @@ std::vector<ListColumn> columns_of(const std::vector<Limit>& limits) {
   constexpr std::size_t kShown = 6;
   std::vector<ListColumn> out;
   for (const auto& row : number_rows(Numbers{})) {
-    ListColumn column{row.key};
+    ListColumn column{std::string(row.key)};
     for (const Limit& limit : limits) {
       if (limit.key != row.key) continue;
       column.shown = true;
@@ -602,10 +602,8 @@ ListRow row_of(const MeasuredFile& file) {
     row.badness = file.badness();
     std::visit(
         [&](const auto& numbers) {
-          for (const auto& r : number_rows(numbers)) {
-            const Measure& m = numbers.*r.at;
-            row.numbers.insert(row.numbers.end(), {m.value / r.unit, m.uncertainty / r.unit});
-          }
+          for (const auto& r : number_rows(numbers))
+            row.numbers.insert(row.numbers.end(), {r.in_file(numbers), r.uncertainty_in_file(numbers)});
         },
         file.numbers);
   }

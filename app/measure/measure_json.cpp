@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/version.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/json_of.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -15,41 +16,36 @@ using io::Json;
 
 using io::text_or_null;
 
-/// No measure has more.
-Json number(double value, Digits digits = Digits::ten) { return io::number(value, digits); }
+constexpr auto kDigits = Digits::ten;  // no measure has more
+
+Json number(double value) { return io::number(value, kDigits); }
 
 template <class Numbers>
 Json numbers_json(const Numbers& numbers) {
   Json out, uncertainty = Json::object(), reasons = Json::object();
   for (const auto& row : number_rows(numbers)) {
-    const measures::Measure& m = numbers.*row.at;
-    out[row.key] = number(m.value / row.unit);
-    if (m.known())
-      uncertainty[row.key] = number(m.uncertainty / row.unit);
+    const std::string key(row.key);
+    out[key] = io::value_of(numbers, row, kDigits);
+    if (row.known(numbers))
+      uncertainty[key] = number(row.uncertainty_in_file(numbers));
     else
-      reasons[row.key] = m.reason;
+      reasons[key] = row.access.reason(numbers);
   }
   out["uncertainty"] = std::move(uncertainty);
   out["reasons"] = std::move(reasons);
   return out;
 }
 
-/// Functions of the position: a list a number.
+/// Functions of the position: a list a number that is known somewhere.
 template <class Numbers>
 Json stations_json(const std::vector<MeasuredStation<Numbers>>& stations, const char* u) {
   Json out;
   out[u] = Json::array();
   for (const auto& station : stations) out[u].push_back(number(station.u));
-  for (const auto& row : number_rows(Numbers{})) {
-    Json list = Json::array();
-    bool any = false;
-    for (const auto& station : stations) {
-      const measures::Measure& m = station.numbers.*row.at;
-      any = any || m.known();
-      list.push_back(number(m.value / row.unit));
-    }
-    if (any) out[row.key] = std::move(list);
-  }
+  for (const auto& row : number_rows(Numbers{}))
+    if (std::ranges::any_of(stations, [&](const auto& station) { return row.known(station.numbers); }))
+      for (const auto& station : stations)
+        out[std::string(row.key)].push_back(io::value_of(station.numbers, row, kDigits));
   return out;
 }
 
@@ -155,10 +151,6 @@ Json file_json(const MeasuredFile& file) {
                              {"sure", l.sure}});
   return out;
 }
-
-}  // namespace
-
-namespace {
 
 Json head(const MeasureRequest& request) {
   Json out;

@@ -128,9 +128,9 @@ ChartView stations_view(const std::vector<MeasuredStation<Numbers>>& stations, A
   for (const auto& station : stations) x.values.push_back(station.u / unit);
   for (const auto& row : number_rows(Numbers{})) {
     Series series{"", {}};
-    for (const auto& station : stations) series.y.push_back((station.numbers.*row.at).value / row.unit);
+    for (const auto& station : stations) series.y.push_back(row.in_file(station.numbers));
     if (std::ranges::any_of(series.y, [](double v) { return v == v; }))
-      view.panels.push_back({row.label, "", false, {std::move(series)}});
+      view.panels.push_back({std::string(row.label), "", false, {std::move(series)}});
   }
   view.x = std::move(x);
   return view;
@@ -140,16 +140,16 @@ template <class Numbers>
 report::Table shown_numbers(const MeasuredFile& file, const Numbers& numbers) {
   report::Table table{"numbers", "Measures", {{"measure"}, {"key"}, {"value"}, {"uncertainty"}, {"limit"}, {"status"}}};
   for (const auto& row : number_rows(numbers)) {
-    const measures::Measure& m = numbers.*row.at;
+    const bool known = row.known(numbers);
     const auto limit = std::ranges::find(file.limits, row.key, [](const LimitResult& l) { return l.limit.key; });
-    std::string range, status = m.known() ? "" : m.reason;
+    std::string range, status = known ? "" : row.access.reason(numbers);
     if (limit != file.limits.end()) {
       if (limit->limit.min) range = fmt::format("from {:g}", *limit->limit.min);
       if (limit->limit.max) range += fmt::format("{}to {:g}", range.empty() ? "" : " ", *limit->limit.max);
-      if (m.known()) status = word_of(limit->verdict) + (limit->sure ? "" : ", nearer than its uncertainty");
+      if (known) status = word_of(limit->verdict) + (limit->sure ? "" : ", nearer than its uncertainty");
     }
-    table.rows.push_back({{std::string(row.label), std::string(row.key), Number{m.value / row.unit, 5},
-                           Number{m.uncertainty / row.unit, 2}, range, status}});
+    table.rows.push_back({{std::string(row.label), std::string(row.key), Number{row.in_file(numbers), 5},
+                           Number{row.uncertainty_in_file(numbers), 2}, range, status}});
   }
   return table;
 }

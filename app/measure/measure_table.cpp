@@ -6,19 +6,10 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/measure/measure_files.hpp"
+#include "treadmark/io/tables/text_of.hpp"
 
 namespace treadmark::app {
 namespace {
-
-std::string shown(double value) {
-  return std::isnan(value) ? "-" : fmt::format("{:.3f}", std::round(1e3 * value) / 1e3 + 0.0);  // no "-0.000"
-}
-
-/// What follows a key's last "_".
-std::string unit_shown(std::string_view key) {
-  const std::string_view unit = key.substr(key.rfind('_') + 1);
-  return unit == "mm2" ? "mm2" : unit == "percent" ? "%" : unit == "db" ? "dB" : std::string(unit);
-}
 
 std::string range_shown(const Limit& limit) {
   if (limit.min && limit.max) return fmt::format("{:g} ... {:g}", *limit.min, *limit.max);
@@ -30,16 +21,16 @@ std::string numbers_table(const MeasuredFile& file, const Numbers& numbers) {
   std::string text;
   std::vector<std::string> not_measured;
   for (const auto& row : number_rows(numbers)) {
-    const measures::Measure& m = numbers.*row.at;
     const auto limit = std::find_if(file.limits.begin(), file.limits.end(),
                                     [&](const LimitResult& l) { return l.limit.key == row.key; });
-    if (!m.known()) {
-      not_measured.push_back(
-          fmt::format("  {}: {}{}\n", row.label, m.reason, limit == file.limits.end() ? "" : " (a limit asks for it)"));
+    if (!row.known(numbers)) {
+      not_measured.push_back(fmt::format("  {}: {}{}\n", row.label, row.access.reason(numbers),
+                                         limit == file.limits.end() ? "" : " (a limit asks for it)"));
       continue;
     }
-    text += fmt::format("  {:<34}{:>10} {:<4}", row.label, shown(m.value / row.unit), unit_shown(row.key));
-    text += std::isnan(m.uncertainty) ? std::string(12, ' ') : fmt::format(" +- {:<8.2g}", m.uncertainty / row.unit);
+    text += fmt::format("  {:<34}{:>10} {:<4}", row.label, io::bare_text(numbers, row), row.unit.name);
+    const double uncertainty = row.uncertainty_in_file(numbers);
+    text += std::isnan(uncertainty) ? std::string(12, ' ') : fmt::format(" +- {:<8.2g}", uncertainty);
     if (limit != file.limits.end())
       text += fmt::format(" {:<14}{}{}", range_shown(limit->limit), word_of(limit->verdict),
                           limit->sure ? "" : ", nearer than its uncertainty");

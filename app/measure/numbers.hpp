@@ -10,6 +10,7 @@
 #include "treadmark/measures/roughness.hpp"
 #include "treadmark/measures/round.hpp"
 #include "treadmark/measures/wheel.hpp"
+#include "treadmark/model/rows.hpp"
 
 namespace treadmark::app {
 
@@ -25,13 +26,12 @@ struct RailNumbers : measures::RailMeasures {
   measures::Measure roughness_exceedance;  ///< largest of a band over its limit [dB]
 };
 
-/// A number of results: its key with the unit, what it is in words, and where it stands.
+/// A number of results: its row, and where it stands.
 template <class Numbers>
-struct NumberRow {
-  const char* key;
-  const char* label;
-  double unit;  ///< SI of one unit of the key
+struct NumberRow : Column<Numbers> {
   measures::Measure Numbers::*at;
+
+  double uncertainty_in_file(const Numbers& numbers) const { return this->unit.per_si * (numbers.*at).uncertainty; }
 };
 
 /// In the order in which they are shown.

@@ -9,10 +9,35 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/simulations/write_track.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/text_of.hpp"
 #include "treadmark/pictures/chart.hpp"
 
-namespace treadmark::app {
+namespace treadmark {
+namespace {
+
+using Bay = app::TrackResult::Bay;
+using access::of;
+
+constexpr FileUnit kHz{"Hz"};
+
+constexpr Column<Bay> kBay[] = {
+    {"seats", unit::kOne, "", of<&Bay::seats>()},
+    {"bay_m", unit::kM, "", of<&Bay::length>(), "", kInTable, "distance of sleepers"},
+    {"pinned_pinned_Hz", kHz, "", of<&Bay::pinned_pinned>(), "by formula", kInTable, "pinned-pinned frequency"},
+    {"lateral_pinned_pinned_Hz", kHz, "", of<&Bay::lateral_pinned_pinned>(), "by formula", kInTable,
+     "pinned-pinned frequency, lateral"},
+    {"peak_Hz", kHz, "", of<&Bay::peak>(), "", kInTable, "most between against over sleepers"},
+    {"peak_ratio", unit::kOne, "", of<&Bay::peak_ratio>(), "", kInTable, "  so many times"}};
+
+}  // namespace
+
+template <>
+std::span<const Column<Bay>> columns() {
+  return kBay;
+}
+
+namespace app {
 namespace {
 
 using io::Json;
@@ -75,21 +100,13 @@ pictures::Chart chart_over_frequency(const TrackResult& result, const char* titl
 }  // namespace
 
 std::string track_table(const TrackResult& r) {
-  const auto line = [](const char* what, double value, const char* unit, const std::string& remark) {
-    return fmt::format("  {:<34} {:>9.5g} {:<7} {}", what, value, unit, remark).append("\n");
-  };
+  constexpr std::size_t kLabels = 36;
   std::string text = fmt::format("{}: {}\n", r.name, r.flexible ? "flexible" : "lumped");
   for (const TrackCurve* curve : all_curves(r))
     if (curve->key != "cross")
-      text += line(fmt::format("stiffness at rest, {}", curve->name).c_str(), kMega / curve->at_rest, "MN/m", "");
-  if (r.bay) {
-    text += line("pinned-pinned frequency", r.bay->pinned_pinned, "Hz",
-                 fmt::format("by formula, sleepers {:.4g} m apart", r.bay->length));
-    if (r.bay->lateral_pinned_pinned)
-      text += line("pinned-pinned frequency, lateral", *r.bay->lateral_pinned_pinned, "Hz", "by formula");
-    text +=
-        line("most between against over sleepers", r.bay->peak, "Hz", fmt::format("{:.3g} times", r.bay->peak_ratio));
-  }
+      text += io::text_line("stiffness at rest, " + curve->name, kLabels,
+                            fmt::format("{:.5g} MN/m", kMega / curve->at_rest));
+  if (r.bay) text += io::lines_of(*r.bay, kLabels);
   if (r.fitted) {
     const vehicle::ReceptanceError& e = r.fitted->fit.error;
     text += fmt::format(
@@ -135,12 +152,7 @@ std::string track_json(const TrackResult& r) {
   out["name"] = r.name;
   out["kind"] = r.flexible ? "flexible" : "lumped";
   if (r.bay) {
-    out["seats"] = r.bay->seats;
-    out["bay_m"] = io::number(r.bay->length);
-    out["pinned_pinned_Hz"] = io::number(r.bay->pinned_pinned);
-    if (r.bay->lateral_pinned_pinned) out["lateral_pinned_pinned_Hz"] = io::number(*r.bay->lateral_pinned_pinned);
-    out["peak_Hz"] = io::number(r.bay->peak);
-    out["peak_ratio"] = io::number(r.bay->peak_ratio);
+    io::add_all(out, *r.bay);
     out["deflection"] = {{"x_m", io::numbers(r.bay->x)}, {"m_per_N", io::numbers(r.bay->deflection)}};
   }
   if (r.request.aside != 0.0) out["aside_m"] = io::number(r.request.aside);
@@ -218,4 +230,5 @@ void write_track_folder(const std::filesystem::path& folder, const TrackResult& 
   output.move_into("track.json");
 }
 
-}  // namespace treadmark::app
+}  // namespace app
+}  // namespace treadmark

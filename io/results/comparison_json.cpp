@@ -11,27 +11,10 @@
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/read_json.hpp"
 
 namespace treadmark::io {
-
-namespace {
-
-Json value_of(const FieldValue& value) {
-  if (const auto* real = std::get_if<double>(&value)) return number(*real);
-  if (const auto* count = std::get_if<std::int64_t>(&value)) return *count;
-  return std::get<std::string>(value);
-}
-
-/// What has a value.
-Json object_of(const std::vector<NamedField>& fields) {
-  Json out = Json::object();
-  for (const NamedField& field : fields)
-    if (!std::holds_alternative<std::monostate>(field.value)) out[std::string(field.name)] = value_of(field.value);
-  return out;
-}
-
-}  // namespace
 
 std::string to_json(const Comparison& comparison) {
   Json out;
@@ -50,10 +33,10 @@ std::string to_json(const Comparison& comparison) {
   Json& candidates = out["candidates"] = Json::array();
   Json rows = Json::array();
   for (const ComparisonCandidate& candidate : comparison.candidates) {
-    Json& one = candidates.emplace_back(object_of(candidate_fields(candidate)));
-    one["wheel"] = object_of(body_fields(candidate.wheel));
-    one["rail"] = object_of(body_fields(candidate.rail));
-    for (const ComparisonRow& row : candidate.rows) rows.push_back(object_of(row_fields(candidate, row)));
+    Json& one = candidates.emplace_back(json_of(candidate));
+    one["wheel"] = json_of(candidate.wheel);
+    one["rail"] = json_of(candidate.rail);
+    for (const ComparisonRow& row : candidate.rows) rows.push_back(json_of(compared_row(candidate, row)));
   }
   out["rows"] = std::move(rows);
   return dumped(out) + "\n";
@@ -65,60 +48,36 @@ void write_json(const std::filesystem::path& path, const Comparison& comparison)
 
 namespace {
 
-template <class Struct, std::size_t count>
-void read_numbers(const JsonTree& node, const NamedNumber<Struct> (&numbers)[count], Struct& out) {
-  for (const auto& [name, value, factor] : numbers) out.*value = node.number(name) / factor;
-}
-
-/// [m]; 0 for data as given, which has none.
-double resolution_in(const JsonTree& node) {
-  const double resolution = node.number("resolution_mm") / kMilli;
-  return std::isnan(resolution) ? 0.0 : resolution;
-}
-
-RepresentedBody body_in(const JsonTree& node) {
-  RepresentedBody out{node.text("backend"), resolution_in(node), node.number("build_s"), node.count("memory_bytes"), {},
-                      node.text("note")};
-  read_numbers(node, kDifferenceNumbers, out.difference);
-  out.difference.points = node.count("points");
-  out.difference.missing = node.count("missing");
-  return out;
-}
-
 ComparisonCandidate candidate_in(const JsonTree& node) {
   ComparisonCandidate out;
-  out.name = node.text("backend");
-  out.resolution = resolution_in(node);
-  out.wheel = body_in(node.at("wheel"));
-  out.rail = body_in(node.at("rail"));
-  if (const auto failure = node.find("failure")) out.failure = failure->text();
+  read_json(node, out);
+  read_json(node.at("wheel"), out.wheel);
+  read_json(node.at("rail"), out.rail);
   return out;
 }
 
-ComparisonRow row_in(const JsonTree& node) {
-  ComparisonRow out;
+ComparedRow row_in(const JsonTree& node) {
+  ComparedRow out;
   out.case_number = node.at("case").integer();
   out.status = static_cast<Status>(node.at("status").one_of({"ok", "no_contact", "not_converged", "failed"}));
   out.ncon = node.at("ncon").integer();
   out.patches = node.at("patches").integer();
-  read_numbers(node, kRowPatchNumbers, out);
-  read_numbers(node, kRowTimes, out);
-  out.comparable = node.has(kRowErrors[0].name);
-  if (!out.comparable) return out;
-  read_numbers(node, kRowErrors, out);
-  const auto& [name, value, factor] = kMeanPressureError;
-  out.*value = node.has(name) ? node.number(name) / factor : kNaN;
+  out.comparable = node.has("pmax_error_percent");
+  if (out.comparable)
+    for (const Column<ComparedRow>& column : columns<ComparedRow>())
+      if (column.access.has != nullptr) column.access.put(out, kNaN);  // what older files lack
+  read_json(node, out);
   return out;
 }
 
-ComparisonCandidate& owner_of(const JsonTree& row, std::vector<ComparisonCandidate>& candidates) {
-  const double resolution = resolution_in(row);
+void add_row(const JsonTree& node, std::vector<ComparisonCandidate>& candidates) {
+  const ComparedRow row = row_in(node);
   const auto owner = std::ranges::find_if(candidates, [&](const ComparisonCandidate& c) {
-    return row.text("backend") == c.name && resolution == c.resolution &&
-           row.text("wheel_backend") == c.wheel.backend && row.text("rail_backend") == c.rail.backend;
+    return row.backend == c.name && row.resolution == c.resolution && row.wheel_backend == c.wheel.backend &&
+           row.rail_backend == c.rail.backend;
   });
-  if (owner == candidates.end()) row.refuse("belongs to none of the candidates");
-  return *owner;
+  if (owner == candidates.end()) node.refuse("belongs to none of the candidates");
+  owner->rows.push_back(row);
 }
 
 Comparison comparison_in(const JsonTree& root) {
@@ -137,7 +96,7 @@ Comparison comparison_in(const JsonTree& root) {
   out.truth = root.text("truth");
   out.complete = root.flag("complete");
   for (const JsonTree& node : root.at("candidates").items()) out.candidates.push_back(candidate_in(node));
-  for (const JsonTree& node : root.at("rows").items()) owner_of(node, out.candidates).rows.push_back(row_in(node));
+  for (const JsonTree& node : root.at("rows").items()) add_row(node, out.candidates);
   return out;
 }
 

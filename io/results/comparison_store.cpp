@@ -3,8 +3,11 @@
 
 #include "treadmark/io/results/comparison_store.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
@@ -72,59 +75,145 @@ Comparison read_comparison_fields(const std::filesystem::path& path) {
   return out;
 }
 
-namespace {
-
-double resolution_mm(double resolution) { return resolution == 0.0 ? kNaN : resolution * kMilli; }
-
-std::int64_t count(std::size_t value) { return static_cast<std::int64_t>(value); }
-
-}  // namespace
-
-std::vector<NamedField> candidate_fields(const ComparisonCandidate& candidate) {
-  std::vector<NamedField> out{{"backend", candidate.name}, {"resolution_mm", resolution_mm(candidate.resolution)}};
-  if (!candidate.failure.empty()) out.push_back({"failure", candidate.failure});
-  return out;
-}
-
-std::vector<NamedField> body_fields(const RepresentedBody& body) {
-  const SurfaceDifference& difference = body.difference;
-  std::vector<NamedField> out{{"backend", body.backend},
-                              {"resolution_mm", resolution_mm(body.resolution)},
-                              {"build_s", body.build_seconds},
-                              {"memory_bytes", count(body.memory_bytes)}};
-  for (const auto& [name, value, factor] : kDifferenceNumbers)
-    out.push_back({name, difference.points > 0 ? difference.*value * factor : kNaN});
-  out.push_back({"points", count(difference.points)});
-  out.push_back({"missing", count(difference.missing)});
-  out.push_back({"note", body.note});
-  return out;
-}
-
-std::vector<NamedField> row_fields(const ComparisonCandidate& candidate, const ComparisonRow& row) {
-  const CandidateDigest all = digest(candidate);
-  std::vector<NamedField> out{{"backend", candidate.name},
-                              {"wheel_backend", candidate.wheel.backend},
-                              {"rail_backend", candidate.rail.backend},
-                              {"resolution_mm", resolution_mm(candidate.resolution)},
-                              {"case", std::int64_t{row.case_number}},
-                              {"status", std::string(to_string(row.status))},
-                              {"height_max_um", all.height_max * kMicro},
-                              {"height_rms_um", all.height_rms * kMicro},
-                              {"slope_max_mrad", all.slope_max * kMilli},
-                              {"curvature_max_per_m", all.curvature_max}};
-  for (const auto& [name, value, factor] : kRowPatchNumbers)
-    out.push_back({name, row.patches > 0 ? row.*value * factor : kNaN});
-  out.push_back({"ncon", std::int64_t{row.ncon}});
-  out.push_back({"patches", std::int64_t{row.patches}});
-  for (const auto& [name, value, factor] : kRowTimes) out.push_back({name, row.*value * factor});
-  out.push_back({"build_s", all.build_s});
-  out.push_back({"memory_bytes", count(all.memory_bytes)});
-  const auto add_error = [&](const NamedNumber<ComparisonRow>& error) {
-    out.push_back({error.name, row.comparable ? FieldValue(row.*error.value * error.factor) : FieldValue()});
-  };
-  add_error(kMeanPressureError);
-  for (const NamedNumber<ComparisonRow>& error : kRowErrors) add_error(error);
-  return out;
+ComparedRow compared_row(const ComparisonCandidate& candidate, const ComparisonRow& row) {
+  return {
+      row, candidate.name, candidate.wheel.backend, candidate.rail.backend, candidate.resolution, digest(candidate)};
 }
 
 }  // namespace treadmark::io
+
+namespace treadmark {
+namespace {
+
+using io::ComparedRow;
+using C = io::ComparisonCandidate;
+using B = io::RepresentedBody;
+using R = io::ComparisonRow;
+using D = io::CandidateDigest;
+using S = SurfaceDifference;
+using access::of;
+using access::word;
+using unit::kMm;
+using unit::kN;
+using unit::kOne;
+
+constexpr FileUnit kUm{"um", 1e6, "m"}, kMrad{"mrad", 1e3, "rad"}, kPerM{"1/m"}, kS{"s"}, kBytes{"bytes"},
+    kPerCent{"%", 1e2, "1"}, kMm2{"mm2", 1e6, "m2"};
+
+/// Null for surfaces as given.
+template <class Row>
+constexpr Access<Row> resolution() {
+  return {[](const Row& r) { return r.resolution == 0.0 ? kNaN : r.resolution; },
+          [](Row& r, double v) { r.resolution = std::isnan(v) ? 0.0 : v; }};
+}
+/// How far a body is off, where that was measured.
+template <double S::*number>
+constexpr Access<B> off() {
+  return {[](const B& b) { return b.difference.points > 0 ? b.difference.*number : kNaN; },
+          [](B& b, double v) { b.difference.*number = v; }};
+}
+template <std::size_t S::*number>
+constexpr Access<B> points() {
+  return {[](const B& b) { return static_cast<double>(b.difference.*number); },
+          [](B& b, double v) { b.difference.*number = static_cast<std::size_t>(v); }, nullptr, true};
+}
+template <auto number>
+constexpr Access<ComparedRow> of_all() {
+  return {[](const ComparedRow& r) { return static_cast<double>(r.all.*number); }};
+}
+/// Of the patch that carries most of the load.
+template <double R::*number>
+constexpr Access<ComparedRow> of_patch() {
+  return {[](const ComparedRow& r) { return r.patches > 0 ? r.*number : kNaN; },
+          [](ComparedRow& r, double v) { r.*number = v; }};
+}
+template <double R::*number>
+constexpr Access<ComparedRow> time() {
+  return {[](const ComparedRow& r) { return r.*number; }, [](ComparedRow& r, double v) { r.*number = v; }};
+}
+template <int R::*number>
+constexpr Access<ComparedRow> count() {
+  return {[](const ComparedRow& r) { return static_cast<double>(r.*number); }, nullptr, nullptr, true};
+}
+template <double R::*number>
+constexpr Access<ComparedRow> error() {
+  return {[](const ComparedRow& r) { return r.*number; }, [](ComparedRow& r, double v) { r.*number = v; },
+          [](const ComparedRow& r) { return r.comparable; }};
+}
+constexpr Access<C> failure() {
+  Access<C> access = of<&C::failure>();
+  access.has = [](const C& c) { return !c.failure.empty(); };
+  return access;
+}
+
+// A row of a table stays a row: clang-format would give each column a line.
+// clang-format off
+constexpr Column<C> kCandidates[] = {
+    {"backend", kOne, "", of<&C::name>()},
+    {"resolution_mm", kMm, "", resolution<C>()},
+    {"failure", kOne, "", failure()}};
+
+constexpr Column<B> kBodies[] = {
+    {"backend", kOne, "", of<&B::backend>()},
+    {"resolution_mm", kMm, "", resolution<B>()},
+    {"build_s", kS, "", of<&B::build_seconds>()},
+    {"memory_bytes", kBytes, "", of<&B::memory_bytes>()},
+    {"height_max_um", kUm, "", off<&S::height_max>()},
+    {"height_rms_um", kUm, "", off<&S::height_rms>()},
+    {"slope_max_mrad", kMrad, "", off<&S::slope_max>()},
+    {"slope_rms_mrad", kMrad, "", off<&S::slope_rms>()},
+    {"curvature_max_per_m", kPerM, "", off<&S::curvature_max>()},
+    {"curvature_rms_per_m", kPerM, "", off<&S::curvature_rms>()},
+    {"points", kOne, "", points<&S::points>()},
+    {"missing", kOne, "", points<&S::missing>()},
+    {"note", kOne, "", of<&B::note>()}};
+
+constexpr Column<ComparedRow> kRows[] = {
+    {"backend", kOne, "", of<&ComparedRow::backend>()},
+    {"wheel_backend", kOne, "", of<&ComparedRow::wheel_backend>()},
+    {"rail_backend", kOne, "", of<&ComparedRow::rail_backend>()},
+    {"resolution_mm", kMm, "", resolution<ComparedRow>()},
+    {"case", kOne, "", count<&R::case_number>()},
+    {"status", kOne, "", word(+[](const ComparedRow& r) { return std::string(to_string(r.status)); })},
+    {"height_max_um", kUm, "", of_all<&D::height_max>()},
+    {"height_rms_um", kUm, "", of_all<&D::height_rms>()},
+    {"slope_max_mrad", kMrad, "", of_all<&D::slope_max>()},
+    {"curvature_max_per_m", kPerM, "", of_all<&D::curvature_max>()},
+    {"pmax_MPa", unit::kMPa, "", of_patch<&R::pmax>()},
+    {"fn_N", kN, "", of_patch<&R::fn>()},
+    {"fx_N", kN, "", of_patch<&R::fx>()},
+    {"fs_N", kN, "", of_patch<&R::fs>()},
+    {"x_tr_mm", kMm, "", of_patch<&R::x_tr>()},
+    {"y_tr_mm", kMm, "", of_patch<&R::y_tr>()},
+    {"approach_mm", kMm, "", of_patch<&R::approach>()},
+    {"area_mm2", kMm2, "", of_patch<&R::area>()},
+    {"ncon", kOne, "", count<&R::ncon>()},
+    {"patches", kOne, "", count<&R::patches>()},
+    {"search_s", kS, "", time<&R::search_s>()},
+    {"distance_s", kS, "", time<&R::distance_s>()},
+    {"build_s", kS, "", of_all<&D::build_s>()},
+    {"memory_bytes", kBytes, "", {[](const ComparedRow& r) { return static_cast<double>(r.all.memory_bytes); }, nullptr, nullptr, true}},
+    {"mean_pressure_error_percent", kPerCent, "", error<&R::mean_pressure_error>(), "older files lack it"},
+    {"pmax_error_percent", kPerCent, "", error<&R::pmax_error>()},
+    {"area_error_percent", kPerCent, "", error<&R::area_error>()},
+    {"approach_error_percent", kPerCent, "", error<&R::approach_error>()},
+    {"force_error_percent", kPerCent, "", error<&R::force_error>()},
+    {"position_error_mm", kMm, "", error<&R::position_error>()}};
+// clang-format on
+
+}  // namespace
+
+template <>
+std::span<const Column<io::ComparisonCandidate>> columns() {
+  return kCandidates;
+}
+template <>
+std::span<const Column<io::RepresentedBody>> columns() {
+  return kBodies;
+}
+template <>
+std::span<const Column<io::ComparedRow>> columns() {
+  return kRows;
+}
+
+}  // namespace treadmark

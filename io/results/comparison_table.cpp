@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
+#include "treadmark/io/tables/csv_of.hpp"
 
 namespace treadmark::io {
 
@@ -130,34 +130,11 @@ std::string comparison_table(const Comparison& comparison) {
   return out;
 }
 
-namespace {
-
-struct CellText {
-  std::string operator()(std::monostate) const { return {}; }
-  std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{:.12g}", value + 0.0) : ""; }
-  std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& value) const { return csv_cell(value); }
-};
-
-template <class Cell>
-std::string line(const std::vector<NamedField>& fields, Cell cell) {
-  std::string out;
-  for (const NamedField& field : fields) {
-    if (&field != fields.data()) out += ',';
-    out += cell(field);
-  }
-  return out + '\n';
-}
-
-}  // namespace
-
 std::string to_csv(const Comparison& comparison) {
-  std::string out = line(row_fields({}, {}), [](const NamedField& field) { return std::string(field.name); });
+  std::vector<ComparedRow> rows;
   for (const ComparisonCandidate& candidate : comparison.candidates)
-    for (const ComparisonRow& row : candidate.rows)
-      out +=
-          line(row_fields(candidate, row), [](const NamedField& field) { return std::visit(CellText{}, field.value); });
-  return out;
+    for (const ComparisonRow& row : candidate.rows) rows.push_back(compared_row(candidate, row));
+  return csv_of(rows);
 }
 
 void write_csv(const std::filesystem::path& path, const Comparison& comparison) {

@@ -57,34 +57,17 @@ Table side_by_side(std::span<const AssessedRun> runs) {
 }
 
 Table every_number(std::span<const AssessedRun> runs) {
-  Table table{"assessment-all",
-              "Every wheel, wheelset and point",
-              {{"run"},
-               {"section"},
-               {"place"},
-               {"quantity"},
-               {"unit"},
-               {"value"},
-               {"limit"},
-               {"share"},
-               {"min"},
-               {"0.15 %"},
-               {"50 %"},
-               {"99.85 %"},
-               {"max"},
-               {"mean"},
-               {"rms"},
-               {"samples"},
-               {"status"}}};
+  Table table{"assessment-all", "Every wheel, wheelset and point", {{"run"}, {"unit"}}};
+  for (const auto& column : columns<Assessed>()) table.columns.push_back({std::string(column.label)});
   for (const AssessedRun& run : runs)
     for (const Assessed& a : run.quantities) {
       const auto [factor, unit] = shown_quantity(measures::quantity_info(a.quantity));
-      Table::Row row{{run.name, a.section, a.place, a.quantity, unit}};
-      for (const double value : {factor * a.value, factor * a.limit, a.share(), factor * a.least, factor * a.low,
-                                 factor * a.middle, factor * a.high, factor * a.most, factor * a.mean, factor * a.rms})
-        row.cells.emplace_back(number_cell(value));
-      row.cells.emplace_back(number_cell(static_cast<double>(a.samples)));
-      row.cells.emplace_back(std::string(measures::name_of(a.status)));
+      Table::Row row{{run.name, unit}};
+      for (const auto& column : columns<Assessed>())
+        if (column.access.word != nullptr)
+          row.cells.emplace_back(column.access.word(a));
+        else
+          row.cells.emplace_back(number_cell((column.unit.name.empty() ? factor : 1.0) * column.access.get(a)));
       table.rows.push_back(std::move(row));
     }
   return table;

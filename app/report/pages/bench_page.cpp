@@ -21,14 +21,12 @@ constexpr double kMegabytes = 1e-6;  // bytes -> MB
 /// A row with its numbers as the files have them, and what names it.
 struct Row {
   const BenchRow* data;
-  std::vector<io::NamedField> fields;
   std::string label = {};  ///< "mesh 0.5 mm"
   bool wheel = false;
 
-  double number(std::string_view name) const {
-    const io::FieldValue& value = std::ranges::find(fields, name, &io::NamedField::name)->value;
-    const auto* count = std::get_if<std::int64_t>(&value);
-    return count ? static_cast<double>(*count) : io::rounded(std::get<double>(value), Digits::six);
+  double number(std::string_view key) const {
+    const auto& column = *std::ranges::find(columns<BenchRow>(), key, &treadmark::Column<BenchRow>::key);
+    return io::rounded(column.in_file(*data), column.access.whole ? Digits::all : Digits::six);
   }
   const char* body() const { return wheel ? "wheel" : "rail"; }
 };
@@ -36,7 +34,7 @@ struct Row {
 std::vector<Row> rows_of(const BenchReport& bench) {
   std::vector<Row> rows;
   for (const BenchRow& data : bench.rows) {
-    Row row{&data, bench_fields(data), data.backend, data.body == Body::wheel};
+    Row row{&data, data.backend, data.body == Body::wheel};
     if (const double resolution = row.number("resolution_mm"); resolution > 0.0)
       row.label += fmt::format(" {:.4g} mm", resolution);
     rows.push_back(std::move(row));
@@ -193,28 +191,26 @@ Section charts_of(const std::vector<Row>& rows) {
 }
 
 Table table_of(const std::vector<Row>& rows) {
-  const std::vector<std::pair<const char*, Column>> quantities{
-      {"difference_um", {"differs", "µm"}},       {"build_s", {"build", "s"}},
-      {"memory_bytes", {"memory", "MB"}},         {"points", {"points"}},
-      {"ns_per_height", {"height, level", "ns"}}, {"ns_per_height_tilted", {"height, tilted", "ns"}},
-      {"ns_per_normal", {"with slopes", "ns"}},   {"base_ns_per_height", {"base of offsets", "ns"}},
-      {"search_cold_s", {"first search", "s"}},   {"search_warm_s", {"after a small move", "s"}},
-      {"distance_s", {"distance", "s"}},          {"patches", {"patches"}}};
   Table table{"rows",
               "All figures. Times stand only where everything agrees.",
               {{"representation"}, {"resolution", "mm"}, {"body"}, {"agrees"}}};
-  for (const auto& [key, column] : quantities) table.columns.push_back(column);
-  table.columns.push_back({"reason"});
-  for (const Row& row : rows) {
-    Table::Row line;
-    line.cells = {row.data->backend, Number{row.number("resolution_mm")}, row.body(),
-                  std::string(row.data->agrees ? "yes" : "no")};
-    for (const auto& [key, column] : quantities)
-      line.cells.emplace_back(
-          Number{(column.unit == "MB" ? kMegabytes : 1.0) * row.number(key), column.unit.empty() ? 12 : 3});
-    line.cells.emplace_back(row.data->reason);
-    table.rows.push_back(std::move(line));
+  for (const Row& row : rows)
+    table.rows.push_back({{row.data->backend, Number{row.number("resolution_mm")}, row.body(),
+                           std::string(row.data->agrees ? "yes" : "no")}});
+  for (const auto& column : columns<BenchRow>()) {
+    if (column.label.empty()) continue;
+    const std::string_view unit = column.unit.name;
+    const bool memory = unit == "bytes";
+    table.columns.push_back({std::string(column.label), memory         ? "MB"
+                                                        : unit == "um" ? "µm"
+                                                        : unit == "1"  ? ""
+                                                                       : std::string(unit)});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      table.rows[i].cells.emplace_back(
+          Number{(memory ? kMegabytes : 1.0) * rows[i].number(column.key), unit == "1" ? 12 : 3});
   }
+  table.columns.push_back({"reason"});
+  for (std::size_t i = 0; i < rows.size(); ++i) table.rows[i].cells.emplace_back(rows[i].data->reason);
   return table;
 }
 

@@ -91,11 +91,9 @@ std::string error_of_pressure(const ComparedCandidates& all) {
 Axis resolution_axis() { return {"resolution", "mm", true}; }
 
 /// A number of the files, in the unit of its name; NaN where it does not exist.
-double number_in(const std::vector<io::NamedField>& fields, std::string_view name) {
-  const io::FieldValue& value = std::ranges::find(fields, name, &io::NamedField::name)->value;
-  if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
-  const auto* number = std::get_if<double>(&value);
-  return number ? in_file(*number) : Candidate::kNone;
+double number_in(const io::ComparedRow& row, std::string_view key) {
+  const auto& column = *std::ranges::find(columns<io::ComparedRow>(), key, &treadmark::Column<io::ComparedRow>::key);
+  return column.known(row) ? in_file(column.in_file(row)) : Candidate::kNone;
 }
 
 /// Of the numbers that the file has.
@@ -211,7 +209,7 @@ ChartView case_errors_chart(const ComparedCandidates& all) {
       if (truth && !with_truth) continue;
       Series series{c->label + (truth ? " (reference)" : ""), {}, {}, Series::Marks::both, truth};
       for (const auto* row : c->rows)
-        series.y.push_back(row ? factor * number_in(io::row_fields(*c->data, *row), key) : Candidate::kNone);
+        series.y.push_back(row ? factor * number_in(io::compared_row(*c->data, *row), key) : Candidate::kNone);
       out.series.push_back(std::move(series));
     }
     return out;
@@ -317,10 +315,10 @@ Table compared_row_table(const ComparedCandidates& all) {
       Table::Row row{{Number{static_cast<double>(all.cases[i])}, c.label, c.data->wheel.backend, c.data->rail.backend,
                       std::string(to_string(c.rows[i]->status))},
                      static_cast<int>(i)};
-      const std::vector<io::NamedField> fields = io::row_fields(*c.data, *c.rows[i]);
+      const io::ComparedRow compared = io::compared_row(*c.data, *c.rows[i]);
       for (const Quantity& q : quantities) {
         const bool build = std::string_view(q.key) == "build_s";  // a sum, which files round after their parts
-        row.cells.emplace_back(Number{build ? c.build_s : q.factor * number_in(fields, q.key), q.digits});
+        row.cells.emplace_back(Number{build ? c.build_s : q.factor * number_in(compared, q.key), q.digits});
       }
       table.rows.push_back(std::move(row));
     }

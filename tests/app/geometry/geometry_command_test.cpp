@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "treadmark/app/geometry/geometry_page.hpp"
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -58,10 +60,38 @@ TEST(GeometryCommand, WritesAFolder) {
   const treadmark::testing::TemporaryFolder folder;
   const auto result = run_program(with(kPair, {"-o", (folder.path() / "out").string(), "--gauges-mm", "1432:1437:1"}));
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("conicity at 3 mm      0.17"));
+  EXPECT_THAT(result.out, HasSubstr("conicity at 3 mm        0.17"));
   for (const char* name : {"geometry.json", "functions.csv", "conicity.csv", "charts.svg", "contact_points.svg",
                            "gauges.csv", "gauges.svg"})
     EXPECT_GT(std::filesystem::file_size(folder.path() / "out" / name), 200u) << name;
+}
+
+// JSON, text, lists and pages have the numbers by the same rows.
+TEST(GeometryCommand, ANumberIsTheSameEverywhere) {
+  GeometryRequest request;
+  request.wheel = "S1002", request.rail = "60E1", request.cant = parse_cant("1:40"), request.gauge = 1.435;
+  request.settings.amplitudes = {2e-3, 3e-3};
+  SectionStore store;
+  const GeometryResult result = run_geometry(request, store);
+  const json g = json::parse(geometry_json(result, nullptr)).at("geometry");
+  EXPECT_NEAR(g.at("track").at("clearance_mm").get<double>(),
+              1e3 * (result.analysis.gauge - result.analysis.active_faces), 1e-9);
+  EXPECT_EQ(g.at("equilibrium_reason"), nullptr);
+  EXPECT_FALSE(g.contains("conicity_3mm_noise")) << "the profiles are exact";
+  const std::string text = geometry_text(result);
+  EXPECT_THAT(text,
+              HasSubstr(fmt::format("clearance               {:.3f} mm\n", g["track"]["clearance_mm"].get<double>())));
+  EXPECT_THAT(
+      text, HasSubstr(fmt::format("equivalent conicity     {:.4f}\n", g["conicity_at"]["tan_gamma_e"].get<double>())));
+  EXPECT_EQ(geometry_page(result, nullptr).sections.front().blocks.size(), 2u);
+  const ResultList list = run_pairs({request});
+  const auto listed = [&](const char* name) {
+    const auto at = std::ranges::find(list.numbers, name, &ListColumn::name);
+    return list.rows[0].numbers.at(static_cast<std::size_t>(at - list.numbers.begin()));
+  };
+  EXPECT_NEAR(listed("clearance_mm"), g["track"]["clearance_mm"].get<double>(), 1e-9);
+  EXPECT_NEAR(listed("tan_gamma_e_3mm"), g["conicity_3mm"].get<double>(), 1e-12);
+  EXPECT_NEAR(listed("flange_thickness_left_mm"), g["wheelset"]["flange_thickness_left_mm"].get<double>(), 1e-9);
 }
 
 TEST(GeometryCommand, TakesCases) {

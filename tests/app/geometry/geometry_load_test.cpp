@@ -75,8 +75,10 @@ TEST(GeometryLoad, WritesTablesPicturesAndReport) {
   const auto result = run_program(
       loaded_with({"-o", (folder.path() / "out").string(), "--report", (folder.path() / "report.html").string()}));
   ASSERT_EQ(result.status, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("axle load             200 kN; at y = 0.000 mm, holding force 0.000 kN"));
-  EXPECT_THAT(result.out, HasSubstr("MPa within 3 mm of that displacement: "));
+  EXPECT_THAT(result.out, HasSubstr("axle load               200000 N\n"));
+  EXPECT_THAT(result.out, HasSubstr("holding force           0 N\n"));
+  EXPECT_THAT(result.out, HasSubstr("nearer to it than       3 mm\n"));
+  EXPECT_THAT(result.out, HasSubstr("  right                 normal force 100"));
   const auto text_of = [&](const char* name) {
     std::ifstream in(folder.path() / name);
     return std::string(std::istreambuf_iterator<char>(in), {});
