@@ -190,8 +190,7 @@ class Bench:
             return "does not compile"
         for path, link in programs(self.build, str(pathlib.PurePosixPath(mutant.file).parent)):
             program = self.work / "tests"
-            link = re.sub(r"^: && | && :$", "", link).replace(f"-o {path}", f"-Wl,--allow-multiple-definition {made} -o {program}")
-            # objects ahead of all archives
+            link = link.removeprefix(": && ").split(" && ")[0].replace(f"-o {path}", f"-Wl,--allow-multiple-definition {made} -o {program}")
             linked = run(link, shell=True, cwd=self.build)
             if linked.returncode:
                 return "does not link"
