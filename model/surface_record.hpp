@@ -44,13 +44,13 @@ class CellSheet {
 
   double at(int i, int j) const {
     const auto row = rows_.find(j);
-    return row == rows_.end() ? 0.0 : row->second[static_cast<std::size_t>(i)];
+    return row == rows_.end() ? 0.0 : row->second.at(static_cast<std::size_t>(i));
   }
   /// A value to be changed; makes the row. References to other rows stay.
   double& ref(int i, int j) {
     std::vector<double>& row = rows_[j];
     if (row.empty()) row.resize(static_cast<std::size_t>(nu_), 0.0);
-    return row[static_cast<std::size_t>(i)];
+    return row.at(static_cast<std::size_t>(i));
   }
   double sum() const;
   /// The largest value above 0, else 0.

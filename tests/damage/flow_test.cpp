@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <stdexcept>
 
 #include "treadmark/tests/damage/cells.hpp"
 #include "treadmark/tests/support/error_text.hpp"
@@ -159,6 +160,27 @@ TEST(MaterialFlow, VolumeGoesAlongTheStress) {
     for (int i = 0; i < cells.nu; ++i) (cells.u(i) < 0.1 ? behind : before) += row[static_cast<std::size_t>(i)];
   EXPECT_NEAR(behind, expected, 1e-9 * expected);
   EXPECT_NEAR(before, -expected, 1e-9 * expected);
+}
+
+/// Contact that reaches beyond the ends of a rail strains its cells alone, each as in the middle.
+TEST(MaterialFlow, NothingIsKeptBeyondTheEndsOfARail) {
+  const SurfaceCells cells = cells_of(Body::rail, kWheel, 21, 0.5e-3, 41);
+  const FlowLaw law = ratchetting(3, 1e-3);
+  const SurfaceRecord fresh = empty(cells, law);
+  SurfaceRecord record = fresh;
+  MaterialFlow flow(cells, law, fresh);
+  flow.meet(square(cells, law, 0.5e-3, 4, 0.01, [](double z, int) { return Vec2(z > 2.5e-3 ? 0.0 : 600e6, 0.0); }),
+            {0.5e-3, 0.5e-3}, {0.01, -0.01, 0.03});
+  flow.end_passage(record, 2.0);
+  flow.displace(record);
+  for (const auto& [j, row] : record.flow[0].strain.rows()) {
+    ASSERT_EQ(row.size(), 21u);
+    for (const double strain : row) EXPECT_NEAR(strain, 2.0 * kPerCycle, 1e-12) << j;
+  }
+  EXPECT_EQ(record.flow[0].strain.rows().size(), 8u);  // 4 mm
+  EXPECT_THROW(record.volume.ref(21, 0), std::out_of_range);
+  record.volume.ref(20, 0) = 1.0;
+  EXPECT_THROW(static_cast<void>(record.volume.at(21, 0)), std::out_of_range);
 }
 
 /// Hardened material yields at more, and at last not at all: k beta sqrt(1 - exp(-alpha g)) is the stress.

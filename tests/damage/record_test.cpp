@@ -97,6 +97,7 @@ TEST(AddPatch, StretchesOfATurnMakeEvenWear) {
               {middle, edges[k], edges[k + 1]}, seconds * (edges[k + 1] - edges[k]) / kTurn, 1.0);
   }
   add_patch(expected, round, archard(), pin(Body::wheel, 20, 11, 0.5e-3, 0.0, 0.1e-3), {}, seconds, 1.0);
+  ASSERT_EQ(record.volume.rows().size(), 12u);  // 5.5 mm, a fifth of a cell aside
   for (const auto& [j, row] : record.volume.rows())
     for (int i = 0; i < cells.nu; ++i) {
       EXPECT_NEAR(row[static_cast<std::size_t>(i)] * cells.nu, expected.volume.at(0, j),
@@ -148,6 +149,41 @@ TEST(DepthOf, IsThatOfARing) {
   const double volume = std::numbers::pi * (outer * outer - inner * inner) * cells.dy;
   EXPECT_NEAR(depth_of(cells, volume, 2), depth, 1e-15);
   EXPECT_THAT(testing::error_of([&] { depth_of(cells, 1.0, 2); }), HasSubstr("more is removed"));
+}
+
+/// A rail that is there in some rows only, level.
+class Strip final : public Surface {
+ public:
+  Strip(double low, double high) : low_(low), high_(high) {}
+  std::string_view backend() const override { return "strip"; }
+  Facing facing() const override { return Facing::up; }
+  Box3 bounds() const override { return {{-1.0, -5e-3, 0.0}, {1.0, 5e-3, 0.0}}; }
+  std::size_t memory_bytes() const override { return sizeof *this; }
+
+ private:
+  void do_heights(const PlaneGrid&, const HeightsOut&) const override {}
+  void do_heights_at(const Pose&, std::span<const Vec2> points, const HeightsOut& out) const override {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      out.z[i] = points[i].y() > low_ && points[i].y() < high_ ? 0.0 : std::nan("");
+  }
+  void do_locate(const Pose&, std::span<const Vec2>, std::span<SurfacePoint>) const override {}
+  HeightBounds do_height_bounds(const Pose&, const Rectangle&) const override { return {}; }
+
+  double low_, high_;
+};
+
+TEST(MakeCells, NeedTwoRowsWithASurface) {
+  CellSettings settings;
+  settings.dy = 1e-3;
+  const auto refused = [&](double low, double high) {
+    return testing::error_of([&] { make_cells(Strip(low, high), Body::rail, kRadius, settings); });
+  };
+  EXPECT_EQ(refused(-0.5e-3, 1.5e-3), "");
+  EXPECT_THAT(refused(-0.5e-3, 0.5e-3), HasSubstr("there is no surface to evolve"));
+  EXPECT_THAT(refused(0.1e-3, 0.9e-3), HasSubstr("there is no surface to evolve"));
+  const SurfaceCells cells = make_cells(Strip(-0.5e-3, 1.5e-3), Body::rail, kRadius, settings);
+  for (int j = 0; j < cells.ny; ++j)
+    EXPECT_EQ(cells.exists(j), cells.y(j) > -0.5e-3 && cells.y(j) < 1.5e-3) << cells.y(j);
 }
 
 /// Even depth all over a wheel keeps its profile: the section lies deeper by it.

@@ -79,6 +79,32 @@ TEST(WheelLocus, IsWhereAYawedWheelReachesLowest) {
   EXPECT_GT(std::abs(at.front().x() - at.back().x()), 2e-4);
 }
 
+/// A cliff of slope -5 beside a cylindrical tread, rolled by so much that the cliff hangs over: over the overhang the
+/// tread counts, on whose side the middle of the profile is, wherever the track's origin lies.
+TEST(WheelLocus, AFoldKeepsTheSideOfTheMiddle) {
+  constexpr double kSwing = 0.5e-3;  // of a spline where it goes on beyond the fold; cliffs are 20 times as high
+  for (const double side : {1.0, -1.0})
+    for (const double cliff : {20e-3, 10e-3}) {  // more steps back than are passed over, and fewer
+      const auto z = [=](double y) { return std::clamp(5.0 * (side * y - 20e-3), 0.0, cliff); };
+      const auto wheel = wheel_through(z);
+      for (const double origin : {25e-3, 0.0, -25e-3}) {
+        const double roll = 0.3 * side, c = std::cos(roll), s = std::sin(roll);
+        BodyPair bodies;
+        bodies.wheel = wheel.get();
+        bodies.X_TW = {{0.0, origin + kRadius * s, -kRadius * c}, rotation_x(roll) * rotation_y(0.3)};
+        const auto across = [&](double y) { return origin + c * y - s * z(y); };
+        const double corner = across(side * 20e-3), top = across(side * (20e-3 + cliff / 5.0));
+        ASSERT_GT(side * (corner - top), 0.7e-3);  // it hangs over
+        std::vector<double> y;
+        for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) y.push_back(corner + share * (top - corner));
+        if (side > 0.0) std::ranges::reverse(y);
+        const std::vector<Vec2> at = WheelLocus(bodies, kRadius).over(y);
+        for (std::size_t k = 0; k < y.size(); ++k)
+          EXPECT_NEAR(at[k].y(), (y[k] - origin) / c * s, kSwing) << side << ' ' << origin << ' ' << y[k];
+      }
+    }
+}
+
 TEST(WheelLocus, EndsWhereTheWheelDoes) {
   const auto wheel = wheel_through([](double) { return 0.0; });
   const std::vector<Vec2> at = WheelLocus(over_nothing(*wheel, 0.0), kRadius).over({-31e-3, 0.0, 31e-3});

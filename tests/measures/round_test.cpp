@@ -157,6 +157,70 @@ TEST(Roughness, SinesAreLevelsOfTheirBands) {
     }  // the end of the band halves it
 }
 
+const WaveBand& wave_up_to(const RoughnessMeasures& m, double longest) {
+  return *std::ranges::find_if(m.waves, [&](const WaveBand& w) { return std::fabs(w.longest - longest) < 1e-9; });
+}
+
+/// A sine within a band keeps its size; a band is silent where the record is shorter than the filter and one wave more,
+/// or has fewer than four samples a wave.
+TEST(Roughness, WavesAreMeasuredOrLeftOut) {
+  const auto record = [](double length, double step, double wavelength) {
+    RoughnessGauge gauge;
+    gauge.wheel_radius = 0.0, gauge.remove_spikes = false;
+    return measure_roughness(
+        heights_of(length, step, [=](double x) { return 20e-6 * std::sin(kTau * x / wavelength); }), step, gauge);
+  };
+  const WaveBand& band = wave_up_to(record(6.0, 1e-3, 0.18), 0.3);
+  EXPECT_NEAR(band.rms, 20e-6 / std::numbers::sqrt2, 0.02 * band.rms);
+  EXPECT_NEAR(band.peak_to_peak, 40e-6, 0.02 * 40e-6);
+  // four times 300 mm are needed
+  EXPECT_TRUE(std::isfinite(wave_up_to(record(1.21, 1e-3, 0.18), 0.3).rms));
+  for (const double length : {1.19, 1.0, 0.85}) {
+    EXPECT_TRUE(std::isnan(wave_up_to(record(length, 1e-3, 0.18), 0.3).rms)) << length;
+    EXPECT_TRUE(std::isnan(wave_up_to(record(length, 1e-3, 0.18), 0.3).peak_to_peak)) << length;
+  }
+  EXPECT_TRUE(std::isfinite(wave_up_to(record(6.0, 2.49e-3, 0.02), 0.03).rms));
+  EXPECT_TRUE(std::isnan(wave_up_to(record(6.0, 2.51e-3, 0.02), 0.03).rms));
+}
+
+/// White noise of a standard deviation spreads its power evenly up to half the sampling frequency: the floor is the
+/// level that a record of nothing else has.
+TEST(Roughness, FloorIsTheLevelOfNoiseAlone) {
+  constexpr double kStep = 1e-3, kNoise = 2e-6;
+  std::mt19937 draw(7);
+  std::normal_distribution<double> noise(0.0, kNoise);
+  RoughnessGauge gauge;
+  gauge.wheel_radius = 0.0, gauge.remove_spikes = false, gauge.noise = kNoise;
+  const RoughnessMeasures m =
+      measure_roughness(heights_of(60.0, kStep, [&](double) { return noise(draw); }), kStep, gauge);
+  int compared = 0;
+  for (const RoughnessBand& band : m.bands) {
+    if (std::isnan(band.floor) || band.wavelength > 0.051) continue;  // wider waves have fewer than 18 lines of 4 m
+    ++compared;
+    constexpr double kLine = 0.3, kChance = 0.4;  // a line more or less in 18 [dB]; 29 segments that overlap by half
+    EXPECT_NEAR(band.level, band.floor, kLine + kChance) << band.wavelength;
+    // of 18 lines of which the window binds each to its neighbours: 4.34 sqrt(1.9 / 18), and less of more lines
+    EXPECT_GT(band.spread, 0.0);
+    EXPECT_LT(band.spread, 2.2) << band.wavelength;
+  }
+  EXPECT_GE(compared, 12);
+}
+
+/// A sine that doubles in the middle of the record. Three segments overlap by half; the power of the middle one is the
+/// mean of both by the symmetry of its window, so powers are as 1, 2.5 and 4.
+TEST(Roughness, SpreadIsThatOfTheSegments) {
+  RoughnessGauge gauge;
+  gauge.wheel_radius = 0.0, gauge.remove_spikes = false;
+  const RoughnessMeasures m = measure_roughness(
+      heights_of(7.9999, 1e-3, [](double x) { return (x < 4.0 ? 10e-6 : 20e-6) * std::sin(kTau * x / 0.1); }), 1e-3,
+      gauge);
+  ASSERT_EQ(m.segments, 3);
+  const auto band = std::ranges::find_if(m.bands, [](const auto& b) { return std::fabs(b.wavelength - 0.1) < 1e-9; });
+  EXPECT_NEAR(band->level, 20.0 * std::log10(10.0 / std::numbers::sqrt2) + 10.0 * std::log10(2.5), 0.05);
+  const double low = 10.0 * std::log10(0.4), high = 10.0 * std::log10(1.6);
+  EXPECT_NEAR(band->spread, std::sqrt(0.5 * (low * low + high * high)), 0.05);
+}
+
 TEST(Roughness, PitsAreClosedAndSpikesGo) {
   constexpr double kStep = 0.5e-3;
   // a wheel of 375 mm spans a pit of 5 mm, however deep

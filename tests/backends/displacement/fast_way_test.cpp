@@ -106,6 +106,23 @@ TEST(FastWay, IsTheCarefulWayAtHolesOfTheBase) {
   EXPECT_GT(expect_as_searched(holed, dent, 0.4e-3, Body::rail, pose({0.0, 0.002, 0.0}, 0.05, 0.03, 0.02), g), 80);
 }
 
+/// Planes so fine and so inclined that a point is moved back over many of their nodes: what the base is like counts
+/// where it is moved to, on both sides of a hole.
+TEST(FastWay, IsTheCarefulWayWhereItMovesOverManyNodes) {
+  const auto rail = analytic::make_standard_surface({"60E1"}, Body::rail, 0.0);
+  const auto holed = std::make_shared<Gap>(rail, 0.4e-3, 1.1e-3);
+  const BumpField dent(0.4e-3, 0.001, 0.0, 0.02, 0.02, false), bead(-0.4e-3, 0.001, 0.0, 0.02, 0.02, false);
+  int hits = 0;
+  for (const double step : {8e-6, 2e-5, 5e-5})
+    for (const auto& [roll, yaw, pitch] : {std::array{0.0, 0.0, 0.3}, {0.2, 0.1, -0.3}, {-0.3, 0.0, 0.1}})
+      for (const auto* field : {&dent, &bead})
+        for (const double edge : {0.4e-3, 1.1e-3}) {
+          const Grid2 g{-20.3 * step, -12.1 * step, step, 1.05 * step, 41, 25};
+          hits += expect_as_searched(holed, *field, 0.4e-3, Body::rail, pose({edge, 0.0, 0.0}, roll, yaw, pitch), g);
+        }
+  EXPECT_GT(hits, 1000);
+}
+
 TEST(FastWay, InterpolatesTheBaseOnlyWhereItIsAsGoodAsAsking) {
   const auto rail = analytic::make_standard_surface({"60E1"}, Body::rail, 0.0);
   const auto wheel = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);

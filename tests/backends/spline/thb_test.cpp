@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <random>
@@ -455,6 +457,17 @@ TEST(ThbFit, RefusesScatteredPointsThatDoNotSuffice) {
   std::erase_if(half, [](const Vec3& p) { return p.x() < 0.0; });
   EXPECT_NE(refusal(half, Body::wheel).find("there are no points from u"), std::string::npos)
       << refusal(half, Body::wheel);
+  // it names a part that is empty, and how many points an even spread over the turn would have put there
+  double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0, count = 0.0;
+  const std::string gap = refusal(half, Body::wheel);
+  ASSERT_EQ(std::sscanf(gap.c_str() + gap.find("from u"), "from u = %lf to %lf and v = %lf to %lf m, where %lf", &u0,
+                        &u1, &v0, &v1, &count),
+            5)
+      << gap;
+  double least = 1.0, most = -1.0;
+  for (const Vec3& p : half) least = std::min(least, p.y()), most = std::max(most, p.y());
+  const double even = static_cast<double>(half.size()) * (u1 - u0) * (v1 - v0) / (2.0 * kPi * (most - least));
+  EXPECT_NEAR(count, even, 0.05 * even) << gap;
   EXPECT_EQ(refusal(half, Body::wheel, {0.0, kPi, -0.05, 0.05}), "");
   points[7].z() = std::nan("");
   EXPECT_NE(refusal(points, Body::wheel).find("point 8"), std::string::npos);

@@ -59,7 +59,14 @@ def test_its_numbers_are_in_si(pair):
     assert pair.gauge == pair.numbers["track.gauge"] == pytest.approx(1.435, abs=1e-12)
     assert pair.nonlinearity == pytest.approx(1e3 * g["nonlinearity_per_mm"], rel=1e-12)
     assert pair.numbers["gravitational_stiffness_per_weight"] == g["gravitational_stiffness_per_weight_per_m"]
-    assert pair.smallest_steered_radius == g["steering"]["smallest_steered_radius_m"]
+    # the largest difference of radii before a flange of 30 degrees touches, of both sides the less, makes the wheels roll in a circle
+    y, dr = pair.functions["y"], pair.functions["delta_r"]
+    right = np.cumprod(pair.functions["angle_right"][y >= -1e-9] < math.radians(30)).astype(bool)
+    left = np.cumprod(pair.functions["angle_left"][y <= 1e-9][::-1] < math.radians(30)).astype(bool)
+    least = min(dr[y >= -1e-9][right].max(), (-dr[y <= 1e-9][::-1][left]).max())
+    assert least > 1e-3 and pair.numbers["steering.delta_r_max"] == pytest.approx(least, rel=1e-9)
+    radius = 0.25 * (pair.numbers["wheelset.diameter_right"] + pair.numbers["wheelset.diameter_left"])
+    assert pair.smallest_steered_radius == pytest.approx(pair.numbers["wheelset.wheel_origins"] * radius / least, rel=1e-9)
     assert pair.numbers["load.right.pressure"] == pytest.approx(1e6 * g["load"]["right"]["pressure_MPa"], rel=1e-12)
     assert pair.axle_load == pytest.approx(160e3)
     assert pair.conicity.amplitude[:2] == pytest.approx([1e-3, 1.1e-3]) and pair.conicity.tan_gamma_e.tolist() == g["conicity"]["tan_gamma_e"]

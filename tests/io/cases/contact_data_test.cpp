@@ -339,6 +339,7 @@ std::vector<fs::path> all_inputs(const fs::path& shared) {
   for (const auto& entry : fs::recursive_directory_iterator(shared / "data"))
     if (entry.path().extension() == ".inp") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  EXPECT_GE(files.size(), 25u) << "there is less to read than there was";
   return files;
 }
 
