@@ -35,8 +35,8 @@ treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields an
 treadmark_part(tbb TREADMARK_WITH_TBB "oneTBB" "libtbb-dev" "Threads for loops within loops too, with oneTBB")
 treadmark_part(fftw TREADMARK_WITH_FFTW "FFTW 3" "libfftw3-dev" "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)")
 treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, sweep, stability, track)")
-treadmark_part(scans TREADMARK_SCANS "scans" "" "Import of raw scans, virtual scans (import, scan)")
-treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Use CGAL (GPL) for stray points, triangulations and free meshes of scans"
+treadmark_part(scans TREADMARK_SCANS "scans" "libnanoflann-dev" "Import of raw scans, virtual scans (import, scan), with nanoflann")
+treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Triangles of scans with holes or fewer nodes, and free meshes, with CGAL (GPL)"
   NEEDS scans)
 treadmark_part(expat TREADMARK_WITH_EXPAT "Expat" "libexpat1-dev" "Read scans in E57 files and spline surfaces in XML files, with Expat")
 treadmark_part(report TREADMARK_REPORT "reports" "" "HTML reports and pictures of result folders (report, plot, --report)")

@@ -49,6 +49,7 @@ HEAVY = {
     r"embree[34]/.*": "all",
     r"openvdb/.*": "folder",
     r"CGAL/.*": "scans/cgal/",
+    r"nanoflann\.hpp": "all",
     r"(oneapi/)?tbb(/.*|\.h)": "all",
     r"nlohmann/.*": "io/tables/number.hpp",  # io::Json is its only name
     r"treadmark/io/tables/(number|json_of)\.hpp": "source",
