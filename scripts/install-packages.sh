@@ -13,9 +13,9 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )
 
-[[ ${1:-} != --tests ]] || packages+=(chromium clang-format clang-tidy doxygen gfortran libkissfft-dev python3-h5py python3-pytest python3-mypy python3-pandas python3-xarray python3-distributed libxml2-utils libsimbody-dev slurmctld slurmd slurm-client munge valgrind
+[[ ${1:-} != --tests ]] || packages+=(chromium clang-format clang-tidy doxygen gfortran python3-h5py python3-pytest python3-mypy python3-pandas python3-xarray python3-distributed libxml2-utils libsimbody-dev slurmctld slurmd slurm-client munge valgrind
   python3-sphinx python3-myst-parser furo)
-[[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev libkissfft-dev)
+[[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

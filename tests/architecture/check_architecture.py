@@ -45,7 +45,6 @@ HEAVY = {
     r"hdf5(_hl)?\.h": "all",
     r"expat\.h": "folder",
     r"fftw3\.h": "all",
-    r"kissfft/.*": "all",
     r"embree[34]/.*": "all",
     r"openvdb/.*": "folder",
     r"CGAL/.*": "scans/cgal/",
