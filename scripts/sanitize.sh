@@ -44,7 +44,7 @@ case "$kind" in
 esac
 
 # Targets of readers whose tests are built here anyway, and of what reads TOML.
-cmake --preset $preset -DTREADMARK_WITH_CGAL=OFF -DTREADMARK_REPORT=OFF -DTREADMARK_BUILD_BENCH=OFF \
+cmake --preset $preset -DTREADMARK_REPORT=OFF -DTREADMARK_BUILD_BENCH=OFF \
   "-DTREADMARK_REPLAYED=cases;json;meshes;profiles;scans;simulations"
 export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp"
 targets=("${programs[@]##*/}")

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Builds everything with warnings as errors and runs all tests; counts the instructions of the main paths; then the smallest build and some of
-# its tests, clang-tidy over what changed, and the readers, splines and solvers under the address sanitizer.
+# Builds everything, the parts under the GPL too, with warnings as errors and runs all tests; counts the instructions of the main paths; then
+# the smallest build and some of its tests, clang-tidy over what changed, and the readers, splines and solvers under the address sanitizer.
 # Exit status 0 when all passed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -10,8 +10,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bash scripts/install-packages.sh --tests
 # What two of the builds below have in common is compiled once, precompiled headers too.
 export CCACHE_BASEDIR=$PWD CCACHE_SLOPPINESS=pch_defines,time_macros
-# The folder and the options of scripts/main-job.sh: what that has compiled is not compiled again.
-cmake --preset release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON
+# The folder of scripts/main-job.sh: what that has compiled is not compiled again.
+cmake --preset release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON \
+  -DTREADMARK_WITH_FFTW=ON -DTREADMARK_WITH_CGAL=ON
 cmake --build --preset release
 # A browser or a cluster that does not answer on a busy machine is asked once more.
 ctest --preset release -j2 --repeat after-timeout:2
