@@ -1,18 +1,30 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Packages for Debian: `cpack -G DEB` in the folder of a build. What is installed belongs to one of the components below.
+# Packages for Debian: `cpack -G DEB` in the folder of a build. What is installed belongs to one of the components below. Those of a
+# build under the GPL have names of their own and stand in for the others.
+set(TREADMARK_PACKAGE_SUFFIX "")
+set(TREADMARK_PACKAGE_NOTE "")
+if(TREADMARK_GPL)
+  set(TREADMARK_PACKAGE_SUFFIX "-gpl")
+  set(TREADMARK_PACKAGE_NOTE " (GPL-3.0-or-later, with FFTW or CGAL)")
+endif()
 
 # treadmark_package(<component> <name> <section> <summary>): one package; more of it in variables CPACK_DEBIAN_<COMPONENT>_...
 set(CPACK_COMPONENTS_ALL "")
 macro(treadmark_package component name section summary)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   string(TOUPPER ${component} upper)
-  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name}${TREADMARK_PACKAGE_SUFFIX})
+  if(TREADMARK_GPL)
+    foreach(relation IN ITEMS PROVIDES CONFLICTS REPLACES)
+      set(CPACK_DEBIAN_${upper}_PACKAGE_${relation} ${name})
+    endforeach()
+  endif()
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
-  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}")
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}" RENAME copyright
-    COMPONENT ${component})
-  install(FILES "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}" COMPONENT ${component})
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}${TREADMARK_PACKAGE_NOTE}")
+  set(documents "${CMAKE_INSTALL_DATADIR}/doc/${name}${TREADMARK_PACKAGE_SUFFIX}")
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${documents}" RENAME copyright COMPONENT ${component})
+  install(FILES "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION "${documents}" COMPONENT ${component})
 endmacro()
 
 treadmark_package(program treadmark science "Wheel-rail contact on any 3D surface: the program")
@@ -33,7 +45,8 @@ set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, zlib1g-dev")
 foreach(part IN LISTS TREADMARK_PARTS)
   string(TOUPPER "${part}" upper)
-  if(TREADMARK_HAVE_${upper} AND TREADMARK_${upper}_PACKAGES MATCHES "-dev" AND NOT part STREQUAL "python")
+  # Headers of nanoflann are seen by ours alone.
+  if(TREADMARK_HAVE_${upper} AND TREADMARK_${upper}_PACKAGES MATCHES "-dev" AND NOT part MATCHES "^(python|scans)$")
     string(REPLACE " and " ", " packages "${TREADMARK_${upper}_PACKAGES}")
     string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS ", ${packages}")
   endif()

@@ -3,11 +3,17 @@
 # The parts that a build may leave out, each said once: options, messages about missing packages, what the program says of itself
 # and the package that is installed are made from this table. TREADMARK_HAVE_<PART> says whether a build has it.
 set(TREADMARK_PARTS "")
+set(TREADMARK_GPL OFF)  # whether this build is
 
-# treadmark_part(<part> <option> <name> <its Debian packages, or ""> <what the option does> [NEEDS <other part>])
+# treadmark_part(<part> <option> <name> <its Debian packages, or ""> <what the option does> [NEEDS <other part>] [GPL])
+# GPL: puts what is built with it under the GPL, so that only who asks for it gets it.
 macro(treadmark_part part option name packages meaning)
-  cmake_parse_arguments(PART "" "NEEDS" "" ${ARGN})
-  option(${option} "${meaning}" ON)
+  cmake_parse_arguments(PART "GPL" "NEEDS" "" ${ARGN})
+  set(PART_DEFAULT ON)
+  if(PART_GPL)
+    set(PART_DEFAULT OFF)
+  endif()
+  option(${option} "${meaning}" ${PART_DEFAULT})
   string(TOUPPER "${part}" upper)
   list(APPEND TREADMARK_PARTS ${part})
   set(TREADMARK_${upper}_OPTION ${option})
@@ -23,6 +29,9 @@ macro(treadmark_part part option name packages meaning)
       set(TREADMARK_HAVE_${upper} OFF)
     endif()
   endif()
+  if(PART_GPL AND TREADMARK_HAVE_${upper})
+    set(TREADMARK_GPL ON)
+  endif()
 endmacro()
 
 treadmark_part(embree TREADMARK_WITH_EMBREE "Embree" "libembree-dev"
@@ -33,11 +42,11 @@ treadmark_part(cad TREADMARK_WITH_OPENCASCADE "OpenCASCADE" "libocct-data-exchan
   "Surfaces of CAD (.step and .iges files), with OpenCASCADE")
 treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields and histories (.h5), with HDF5")
 treadmark_part(tbb TREADMARK_WITH_TBB "oneTBB" "libtbb-dev" "Threads for loops within loops too, with oneTBB")
-treadmark_part(fftw TREADMARK_WITH_FFTW "FFTW 3" "libfftw3-dev" "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)")
+treadmark_part(fftw TREADMARK_WITH_FFTW "FFTW 3" "libfftw3-dev" "Fourier transforms by FFTW 3 (GPL) instead of our own" GPL)
 treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, sweep, stability, track)")
-treadmark_part(scans TREADMARK_SCANS "scans" "" "Import of raw scans, virtual scans (import, scan)")
-treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Use CGAL (GPL) for stray points, triangulations and free meshes of scans"
-  NEEDS scans)
+treadmark_part(scans TREADMARK_SCANS "scans" "libnanoflann-dev" "Import of raw scans, virtual scans (import, scan), with nanoflann")
+treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Triangles of scans with holes or fewer nodes, and free meshes, with CGAL (GPL)"
+  NEEDS scans GPL)
 treadmark_part(expat TREADMARK_WITH_EXPAT "Expat" "libexpat1-dev" "Read scans in E57 files and spline surfaces in XML files, with Expat")
 treadmark_part(report TREADMARK_REPORT "reports" "" "HTML reports and pictures of result folders (report, plot, --report)")
 treadmark_part(report_scripts TREADMARK_REPORT_SCRIPTS "report scripts" "nodejs and npm"

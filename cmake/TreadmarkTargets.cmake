@@ -122,6 +122,9 @@ endfunction()
 set(TREADMARK_STRINGS_JOINED $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
+# Programs under test share tables of contacts and creep forces, which depend on what is asked and on the program's own code alone.
+set(TREADMARK_TEST_ENVIRONMENT "TREADMARK_CACHE=${PROJECT_BINARY_DIR}/tests/tables")
+
 # treadmark_test(<name> [ALONE] LIBS targets...): a GoogleTest program from the .cpp files of the current folder, one ctest entry a test.
 # ALONE: names of the files' anonymous namespaces are not unique, each file is compiled by itself.
 function(treadmark_test name)
@@ -144,5 +147,5 @@ function(treadmark_test name)
   endif()
   treadmark_share_parsing(${name} ${at_once} tests)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name}
-    ENVIRONMENT TREADMARK_CACHE=off)
+    ENVIRONMENT "${TREADMARK_TEST_ENVIRONMENT}")
 endfunction()

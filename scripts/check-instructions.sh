@@ -70,7 +70,8 @@ else
 fi
 
 if [[ ! -f $build/CMakeCache.txt ]]; then
-  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTREADMARK_BUILD_TESTS=OFF -DTREADMARK_BUILD_BENCH=ON >&2
+  cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DTREADMARK_BUILD_TESTS=OFF -DTREADMARK_BUILD_BENCH=ON \
+    -DTREADMARK_WITH_FFTW=ON >&2  # as the baseline
 fi
 ((no_build)) || cmake --build "$build" --target bench_instructions >&2
 program=$build/bench/instructions/bench_instructions

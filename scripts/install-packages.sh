@@ -2,20 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 # usage: install-packages.sh [--tests|--fuzz]
-# Installs what building needs on Debian 12, with --tests also what only tests need, with --fuzz also what libFuzzer needs. Does nothing where all of it is installed already.
+# Installs what building needs on Debian 12, with --tests also what only tests and the parts under the GPL need, with --fuzz also what libFuzzer needs. Does nothing where all of it is installed already.
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates python3
-  libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libhdf5-dev libfftw3-dev zlib1g-dev libexpat1-dev libzip-dev
-  libembree-dev libocct-data-exchange-dev libopenvdb-dev libboost-iostreams-dev libcgal-dev libgmp-dev libmpfr-dev
+  libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libhdf5-dev zlib1g-dev libexpat1-dev libzip-dev libnanoflann-dev
+  libembree-dev libocct-data-exchange-dev libopenvdb-dev libboost-iostreams-dev
   pybind11-dev python3-dev python3-numpy
   libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )
 
-[[ ${1:-} != --tests ]] || packages+=(chromium clang-format clang-tidy doxygen gfortran libkissfft-dev python3-h5py python3-pytest python3-mypy python3-pandas python3-xarray python3-distributed libxml2-utils libsimbody-dev slurmctld slurmd slurm-client munge valgrind
+[[ ${1:-} != --tests ]] || packages+=(libfftw3-dev libcgal-dev libgmp-dev libmpfr-dev chromium clang-format clang-tidy doxygen gfortran python3-h5py python3-pytest python3-mypy python3-pandas python3-xarray python3-distributed libxml2-utils libsimbody-dev slurmctld slurmd slurm-client munge valgrind
   python3-sphinx python3-myst-parser furo)
-[[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev libkissfft-dev)
+[[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

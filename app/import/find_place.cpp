@@ -11,14 +11,13 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/model/natural_view.hpp"
-#include "treadmark/scans/cgal/stray_points.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/cleaning/pass_steps.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
+#include "treadmark/scans/strays/stray_points.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -257,12 +256,8 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   scan.passes = std::move(clouds.cloud.passes);
 
   clock.begin("stray points");
-  if (settings.clean.strays) {
-    if (!scans::have_cgal())
-      throw Error(ErrorKind::configuration, left_out_message("cgal", "the search for stray points"), {},
-                  left_out_advice("cgal") + "; or say --set clean.strays=false for a clean scan");
+  if (settings.clean.strays)
     scan.keep = keep_without_strays(scan.points, scans::look_for_elements(scan.points), settings, report);
-  }
 
   clock.begin("placement");
   scans::RoughPlace rough = scans::find_roughly(scan.points, scan.keep, scan.body);

@@ -27,7 +27,6 @@
 #include "treadmark/model/natural_view.hpp"
 #include "treadmark/scans/cgal/free_mesh.hpp"
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
-#include "treadmark/scans/cgal/stray_points.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::app {
@@ -132,7 +131,7 @@ TriangleMesh free_triangles(const FittedScan& fit, const io::ImportSettings& set
 
 TriangleMesh triangles_of(const FittedScan& fit, const io::ImportSettings& settings) {
   if (settings.fit.mesh == "free") return free_triangles(fit, settings);
-  if (fit.sections == nullptr && scans::have_cgal()) return band_triangles(fit, settings);
+  if (fit.sections == nullptr && has_part("cgal")) return band_triangles(fit, settings);
   // measured sections, or no Delaunay triangulation: a regular grid of the splines
   if (fit.sections != nullptr && settings.fit.decimate_um > 0.0)
     throw Error(ErrorKind::configuration, "nodes of triangles of measured sections cannot be left out", {},

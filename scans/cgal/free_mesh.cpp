@@ -10,10 +10,10 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/scans/cgal/advancing_front.hpp"
 #include "treadmark/scans/cgal/mesh_holes.hpp"
-#include "treadmark/scans/cgal/point_checks.hpp"
 #include "treadmark/scans/cgal/point_smoothing.hpp"
-#include "treadmark/scans/cgal/point_spacing.hpp"
 #include "treadmark/scans/cgal/point_thinning.hpp"
+#include "treadmark/scans/strays/point_checks.hpp"
+#include "treadmark/scans/strays/point_spacing.hpp"
 
 namespace treadmark::scans {
 

@@ -8,7 +8,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel_sort.hpp"
-#include "treadmark/scans/cgal/point_checks.hpp"
+#include "treadmark/scans/strays/point_checks.hpp"
 
 namespace treadmark::scans {
 

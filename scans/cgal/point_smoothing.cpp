@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "treadmark/scans/cgal/neighbours.hpp"
+#include "treadmark/scans/strays/neighbours.hpp"
 
 namespace treadmark::scans {
 

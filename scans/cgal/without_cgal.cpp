@@ -3,15 +3,8 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/scans/cgal/free_mesh.hpp"
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
-#include "treadmark/scans/cgal/stray_points.hpp"
 
 namespace treadmark::scans {
-
-bool have_cgal() { return false; }
-
-StrayResult find_strays(std::span<const Vec3>, const StraySettings&) {
-  left_out("cgal", "the search for stray points");
-}
 
 std::vector<Triangle> triangulate_plane(std::span<const Vec2>, double, double) {
   left_out("cgal", "the triangulation of points");

@@ -77,7 +77,6 @@ void write_head(const fs::path& file, double depth, double spacing, double lengt
 }
 
 TEST_F(ImportFiles, ASparseHeadIsARailHoweverDeepItWasCut) {
-  TREADMARK_NEEDS("cgal");
   for (const double depth : {36.0, 41.0}) {
     write_head(path("head.xyz"), depth, 2.9, 500.0);
     const auto r = import({path("head.xyz"), "-o", path("head.slcs")});
@@ -86,7 +85,6 @@ TEST_F(ImportFiles, ASparseHeadIsARailHoweverDeepItWasCut) {
 }
 
 TEST_F(ImportFiles, PointsThatStandForNoDataAreCounted) {
-  TREADMARK_NEEDS("cgal");
   write_head(path("head.xyz"), 30.0, 1.5, 200.0);
   std::ifstream in(path("head.xyz"));
   std::ofstream out(path("lost.xyz"));
@@ -105,7 +103,6 @@ TEST_F(ImportFiles, PointsThatStandForNoDataAreCounted) {
 }
 
 TEST_F(ImportFiles, CoordinatesOfAMapAreNoRailUnlessTheUnitIsSaid) {
-  TREADMARK_NEEDS("cgal");
   write_head(path("head.xyz"), 30.0, 1.5, 200.0);
   std::ifstream in(path("head.xyz"));
   std::ofstream out(path("far.xyz"));
@@ -170,7 +167,6 @@ TEST_F(ImportFiles, OutputsGetTheirNamesTogether) {
 /// Scans of others that are no wheel or rail, or no part of one that can be placed: what `import` says of them.
 TEST_F(ImportFiles, ScansOfOthersAreRefusedForWhatTheyAre) {
   TREADMARK_REQUIRE_SHARED();
-  TREADMARK_NEEDS("cgal");
   struct Real {
     const char *file, *body, *words;
   };
@@ -200,7 +196,6 @@ TEST_F(ImportFiles, ScansOfOthersAreRefusedForWhatTheyAre) {
 
 /// Failures of whatever comes after reading: few points, which get past one step after the other.
 TEST_F(ImportFiles, FailuresNameTheScan) {
-  TREADMARK_NEEDS("cgal");
   input.write("rail.toml",
               "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n");
   for (const char* points : {"50", "100", "400", "700", "1000"}) {

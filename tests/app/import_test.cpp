@@ -22,6 +22,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::app {
@@ -284,6 +285,7 @@ TEST_F(ImportCommand, RefusesWhatIsNoWheelOrRail) {
 }
 
 TEST_F(ImportCommand, HolesBeyondTheLimitStayOpenInTrianglesAndAreRefusedElsewhere) {
+  TREADMARK_NEEDS("cgal");
   scan("rail.ply", {"--body", "rail", "--range-mm", "-50,50", "--points", "40000", "--holes", "0.1", "--hole-size-mm",
                     "24", "--seed", "3"});
   const auto refused = import({path("rail.ply"), "-o", path("found.slcs")});

@@ -23,6 +23,7 @@ class RunningProgram {
   RunningProgram& operator=(const RunningProgram&) = delete;
 
   bool running();
+  pid_t process() const { return process_; }
   void send(int signal);
   /// Waits for its end. status: -1 where a signal ended it.
   ProgramResult wait();

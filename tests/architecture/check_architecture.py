@@ -45,10 +45,10 @@ HEAVY = {
     r"hdf5(_hl)?\.h": "all",
     r"expat\.h": "folder",
     r"fftw3\.h": "all",
-    r"kissfft/.*": "all",
     r"embree[34]/.*": "all",
     r"openvdb/.*": "folder",
     r"CGAL/.*": "scans/cgal/",
+    r"nanoflann\.hpp": "all",
     r"(oneapi/)?tbb(/.*|\.h)": "all",
     r"nlohmann/.*": "io/tables/number.hpp",  # io::Json is its only name
     r"treadmark/io/tables/(number|json_of)\.hpp": "source",

@@ -90,7 +90,7 @@ const std::vector<OutputRow> kRows{
      "scan $rail.prr -o @scan.xyz --range-mm -20 20 --points 200 --truth @truth.json", 0},
     {"scan_las", "scans", "", "scan $rail.prr -o @scan.las --range-mm -20 20 --points 300",
      "scan $rail.prr -o @scan.las --range-mm -20 20 --points 200", 0},
-    {"import", "scans cgal", SCANS,
+    {"import", "scans", SCANS,
      "import $scan.ply -o @rail.slcs --body rail --resolution 4 --set fit.written_um=500 --json @audit.json",
      "import $scan.ply -o @rail.slcs --body rail --resolution 5 --set fit.written_um=500 --json @audit.json", 0},
     {"import_report", "scans cgal report hdf5", SCANS,

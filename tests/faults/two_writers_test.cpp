@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -25,6 +27,18 @@ bool in_time(std::chrono::seconds time, Done done) {
     if (done()) return true;
     std::this_thread::sleep_for(1ms);
   }
+  return false;
+}
+
+/// For a lock that another process holds: a line "1: -> FLOCK ADVISORY WRITE <process> ..." of the system says so.
+bool waits_for_lock(pid_t process) {
+  std::ifstream locks("/proc/locks");
+  std::string number, state, kind, how, what;
+  pid_t whose = 0;
+  for (std::string line; std::getline(locks, line);)
+    if (std::istringstream(line) >> number >> state >> kind >> how >> what >> whose && state == "->" &&
+        whose == process)
+      return true;
   return false;
 }
 
@@ -52,7 +66,7 @@ TEST_P(TwoWriters, OneOfThemHasWritten) {
     ASSERT_TRUE(in_time(20s, [&] { return slow.fired() > 0; })) << n;
     FaultedProgram fast(scene.out(), scene.words(row.older));
     // where the stopped one holds a folder to rename its files, the other one waits for it
-    in_time(2s, [&] { return !fast.program().running(); });
+    in_time(2s, [&] { return !fast.program().running() || waits_for_lock(fast.program().process()); });
     slow.program().send(SIGCONT);
     const ProgramResult fast_end = fast.wait(), slow_end = slow.wait();
     EXPECT_EQ(fast_end.status, 0) << n << ": " << fast_end.err;

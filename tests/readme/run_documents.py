@@ -34,6 +34,7 @@ OTHER_TESTS = {"gallery.md": "Docs.GalleryHasTheNumbersOfTheExamples"}
 SHORTER = [
     (r"^simulate (examples/(flat|cross)|ride)", ["--set", "simulation.distance_m=0.02"]),
     (r"^compare(?!.*--detectors)", ["--backends", "spline,mesh-flat", "--resolutions", "1"]),
+    (r"^scan (?!.*--points)", ["--points", "60000"]),
     (r"^bench(?!.*--resolutions)", ["--resolutions", "1"]),
     (r"^bench(?!.*--backends)", ["--backends", "spline,mesh"]),
     (r"^bench", ["--seconds-per-measure", "0.001"]),

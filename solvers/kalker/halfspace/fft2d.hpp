@@ -97,7 +97,4 @@ int fast_columns(int ny);
 int roomy_columns(int n);
 int roomy_rows(int n);
 
-/// "FFTW" or "KISS FFT": the library that was compiled in.
-const char* fft_library();
-
 }  // namespace treadmark::kalker

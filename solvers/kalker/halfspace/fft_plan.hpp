@@ -49,8 +49,10 @@ inline bool has_parts(int active_rows, int nx, int ny) {
   return ny > 1 && rows_of_part(active_rows, nx, ny) < active_rows;
 }
 
-/// Defined by the library that is compiled in. Calls are serialised by the caller.
+/// By FFTW where it is compiled in, else by our own transforms. Calls are serialised by the caller.
 std::shared_ptr<const FftPlan> make_fft_plan(int nx, int ny, int active_rows);
+/// Our own, in every build.
+std::shared_ptr<const FftPlan> make_lanes_fft_plan(int nx, int ny, int active_rows);
 
 /// Allocates at cache-line boundaries, so that vectorised transforms always take the same code path.
 template <class T>

@@ -134,6 +134,4 @@ std::shared_ptr<const FftPlan> make_fft_plan(int nx, int ny, int active_rows) {
   return std::make_shared<FftwPlan>(nx, ny, active_rows);
 }
 
-const char* fft_library() { return "FFTW"; }
-
 }  // namespace treadmark::kalker

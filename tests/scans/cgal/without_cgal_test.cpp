@@ -7,15 +7,12 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/scans/cgal/free_mesh.hpp"
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
-#include "treadmark/scans/cgal/stray_points.hpp"
 
 namespace treadmark::scans {
 namespace {
 
 TEST(WithoutCgal, EveryRequestNamesTheOptionAndThePackage) {
-  EXPECT_FALSE(have_cgal());
   const std::function<void()> requests[] = {
-      [] { find_strays({}, {}); },
       [] { triangulate_plane({}, 1.0); },
       [] { decimate_plane({}, {}, 1.0); },
       [] { mesh_points({}, {}, {}); },

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 // Opens reports of all kinds, made by the program from real results, in a browser and uses them as a reader would.
-// usage: node --test test/reports.browser.mjs, with TREADMARK (program), TREADMARK_EXAMPLES and OUT (folders) and CHROMIUM in the environment
+// usage: node --test test/reports.browser.mjs, with TREADMARK (program), TREADMARK_EXAMPLES and OUT (folders) and CHROMIUM in the environment;
+// PICTURES=1 also takes screenshots of all pages, which no test looks at
 import assert from "node:assert/strict";
 import { mkdirSync, readdirSync, readFileSync, rmSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -118,7 +119,14 @@ async function barriers(page) {
     .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(" ")).slice(0, 3).join("; ")}`);
 }
 
-/** Pictures of the page at both widths in both themes; nothing sticks out at the side. */
+/** For people to look at, if they asked for it. */
+async function screenshot(page, name, options = {}) {
+  if (!process.env.PICTURES) return;
+  await page.waitForTimeout(500);  // colours change gradually
+  await page.screenshot({ path: join(pictures, `${name}.png`), ...options });
+}
+
+/** The page at both widths in both themes; nothing sticks out at the side. */
 async function photograph(file, name, selector) {
   for (const size of Object.keys(sizes)) {
     const tab = await Tab.open(file, { size });
@@ -137,8 +145,7 @@ async function photograph(file, name, selector) {
         (wanted) => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) < 380 === wanted,
         theme === "dark",
       );
-      await tab.page.waitForTimeout(500);  // colours change gradually
-      await tab.page.screenshot({ path: join(pictures, `${name}-${size}-${theme}.png`) });
+      await screenshot(tab.page, `${name}-${size}-${theme}`);
     }
     await tab.close();
   }
@@ -176,7 +183,7 @@ async function readWhole(file, name, steps = "") {
       assert.deepEqual(high, [], `higher than a page in ${name}`);
     }
     assert.deepEqual(await page.evaluate(clipped, paper), [], `cut off in ${name}, ${size}`);
-    await page.screenshot({ path: join(pictures, `${name}-${size}-whole.png`), fullPage: true });
+    await screenshot(page, `${name}-${size}-whole`, { fullPage: true });
     await tab.close();
   }
 }

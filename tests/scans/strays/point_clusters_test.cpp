@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/scans/cgal/point_clusters.hpp"
+#include "treadmark/scans/strays/point_clusters.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/scans/cgal/point_spacing.hpp"
+#include "treadmark/scans/strays/point_spacing.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "treadmark/core/median.hpp"
-#include "treadmark/scans/cgal/neighbours.hpp"
+#include "treadmark/scans/strays/neighbours.hpp"
 
 namespace treadmark::scans {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/scans/cgal/stray_points.hpp"
+#include "treadmark/scans/strays/stray_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/scans/cgal/neighbours.hpp"
-#include "treadmark/scans/cgal/point_checks.hpp"
-#include "treadmark/scans/cgal/point_clusters.hpp"
-#include "treadmark/scans/cgal/point_spacing.hpp"
+#include "treadmark/scans/strays/neighbours.hpp"
+#include "treadmark/scans/strays/point_checks.hpp"
+#include "treadmark/scans/strays/point_clusters.hpp"
+#include "treadmark/scans/strays/point_spacing.hpp"
 
 namespace treadmark::scans {
 
@@ -53,8 +53,6 @@ void mark_clusters(std::span<const Vec3> points, double gap, double least_cluste
 }
 
 }  // namespace
-
-bool have_cgal() { return true; }
 
 StrayResult find_strays(std::span<const Vec3> points, const StraySettings& settings) {
   check(settings);

@@ -35,11 +35,7 @@ struct StrayResult {
 /// Points that belong to no large connected surface, among points thinned to an even spacing (about 10^5 to 10^6 of
 /// them). Outliers are found first and bridge no gaps between clusters; a surface in several large parts is kept.
 /// Deterministic, and independent of the order of the points. Errors: Error(input_data) for fewer than 100 points, ones
-/// that are not finite, or most of them equal; Error(configuration) for settings that mean nothing, and in a build
-/// without CGAL, naming the option that turns it on.
+/// that are not finite, or most of them equal; Error(configuration) for settings that mean nothing.
 StrayResult find_strays(std::span<const Vec3> points, const StraySettings& settings);
-
-/// Whether this build has the functions of this folder.
-bool have_cgal();
 
 }  // namespace treadmark::scans

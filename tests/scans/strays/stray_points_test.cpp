@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/scans/cgal/stray_points.hpp"
+#include "treadmark/scans/strays/stray_points.hpp"
 
 #include <gtest/gtest.h>
 
