@@ -181,13 +181,14 @@ std::vector<Vec2> head_beside_groove(const std::vector<Vec2>& points) {
   return rims > 1 ? head : std::vector<Vec2>{};
 }
 
-std::optional<Lean> lean_of_points(const std::vector<Vec2>& points, Body body,
-                                   std::span<const NominalOutline> nominals) {
+std::optional<Lean> lean_of_points(std::vector<Vec2> points, Body body, std::span<const NominalOutline> nominals) {
   constexpr std::size_t kFewest = 20;
   constexpr std::array<double, 5> kStarts{0.0, 0.1, -0.1, 0.2, -0.2};
   constexpr double kMostRoll = 0.5;
   if (points.size() < kFewest) return std::nullopt;
-  const Vec2 mark = mark_of(body, points);
+  // about the mark: a roll about a far origin would shift the points out of reach of the fit
+  const Vec2 middle = mark_of(body, points), mark = Vec2::Zero();
+  for (Vec2& p : points) p -= middle;
   Lean out;
   out.residual = out.upright = kInfinity;
   for (const NominalOutline& n : nominals) {
@@ -198,7 +199,8 @@ std::optional<Lean> lean_of_points(const std::vector<Vec2>& points, Body body,
     for (const double roll : kStarts)
       if (const RollFit fit = fitted_to(points, n, start_at(mark, nominal_mark, roll), kMostRoll);
           fit.rms < out.residual) {
-        out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll, out.shift_y = fit.place.dy;
+        out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll,
+        out.shift_y = fit.place.dy - (std::cos(fit.place.roll) * middle.x() - std::sin(fit.place.roll) * middle.y());
         out.flange = flange_rms(points, n, fit.place);
         out.lost_low = lost_on(points, n, fit.place, -1.0), out.lost_high = lost_on(points, n, fit.place, 1.0);
       }

@@ -87,7 +87,7 @@ void filter(RawPoints& points, double near_distance, const ProfileOptions& optio
                 {points.file, 0, 0}, "check the points and the unit of length, or allow a larger share");
 }
 
-double range_of(const std::vector<double>& values) {
+double extent_of(const std::vector<double>& values) {
   const auto [least, most] = std::ranges::minmax(values);
   return most - least;
 }
@@ -96,7 +96,7 @@ void check_length(const RawPoints& points, Body body, double asked_scale) {
   const double length = profiles::total_length(points);
   if (length >= kShortest_mm && length <= kLongest_mm) return;
   const auto plausible = [](double l) { return l >= kShortest_mm && l <= kLongest_mm; };
-  const double across = std::hypot(range_of(points.y), range_of(points.z));
+  const double across = std::hypot(extent_of(points.y), extent_of(points.z));
   if (length > kLongest_mm && plausible(across))
     throw Error(
         ErrorKind::input_data,
@@ -119,7 +119,7 @@ void check_length(const RawPoints& points, Body body, double asked_scale) {
 void check_direction(const RawPoints& points, Body body) {
   const double change = points.y.back() - points.y.front();
   if (body == Body::rail ? change > 0.0 : change < 0.0) return;
-  if (range_of(points.y) == 0.0)
+  if (extent_of(points.y) == 0.0)
     throw Error(ErrorKind::input_data, "y is the same in all points", {points.file, 0, 0},
                 "which columns are y and z? name them in a line before");
   throw Error(ErrorKind::input_data,
