@@ -200,7 +200,8 @@ RailOnSeats::Place RailOnSeats::place(double x) const {
   found.value = RailShape::Zero(static_cast<Eigen::Index>(nodes) * node, top_motions(plane_));
   for (std::size_t i = 0; i < nodes; ++i)
     for (int j = 0; j < node; ++j)
-      found.coordinate[i * static_cast<std::size_t>(node) + static_cast<std::size_t>(j)] = nodes_[first + i].first + j;
+      found.coordinate.at(i * static_cast<std::size_t>(node) + static_cast<std::size_t>(j)) =
+          nodes_[first + i].first + j;
   const auto row = [&](std::size_t at, int j) { return static_cast<Eigen::Index>(at - first) * node + j; };
   const BeamVector bending = elements_[e].beam().deflection(part_of(e, x));
   for (int end = 0; end < 2; ++end)

@@ -183,6 +183,31 @@ TEST(Measure, AnInstrumentsOwnNumbers) {
   EXPECT_THAT(measured({"wheel", other})["notes"].dump(), HasSubstr("not those of its points"));
 }
 
+/// A wheel that wobbles by 0.3 mm to both sides. Its eight sections lie in the middle of eighths of the turn.
+TEST(Measure, AxialRunoutIsTheWayOfTheFlangeBack) {
+  const TemporaryFolder folder;
+  const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 0.3e-3);
+  constexpr int kSections = 24;
+  constexpr double kPi = 3.14159265358979323846;
+  std::string slices = "0 1\n" + std::to_string(kSections) + "\n0 0 0\n2\n";
+  for (int k = 0; k < kSections; ++k) {
+    const double theta = -kPi + 2.0 * kPi * k / kSections;
+    std::string text;
+    for (std::size_t i = points.y.size(); i-- > 0;)
+      text +=
+          std::to_string(1e3 * points.y[i] + 0.3 * std::cos(theta)) + " " + std::to_string(1e3 * points.z[i]) + "\n";
+    const std::string name = "section" + std::to_string(k) + ".txt";
+    written(folder.path() / name, text);
+    slices += std::to_string(theta) + " '" + name + "'\n";
+  }
+  const std::string wheel = written(folder.path() / "wobble.slcw", slices);
+  const json m = measured({"wheel", wheel, "--nominal-radius", "460", "--stations", "8"});
+  constexpr double kBackOfASection = 5e-3;  // [mm] between points of a section
+  EXPECT_NEAR(m["wheel"]["axial_runout_mm"], 0.6 * std::cos(kPi / 8.0), 2.0 * kBackOfASection);
+  for (const auto& thickness : m["wheel"]["round"]["flange_thickness_mm"])
+    EXPECT_NEAR(thickness, 32.5, kBackOfASection);
+}
+
 TEST(Measure, TwoWheelsOfAnAxle) {
   const TemporaryFolder folder;
   // tape lines 1500 mm apart: backs 1360, active faces 1425

@@ -85,8 +85,9 @@ struct Kick {
 const std::vector<Kick> kKicks{
     {"car.z", 0.02, 0.0}, {"bogie1.y", 0.0, 0.05}, {"wheelset1.z", 0.0, 0.02}, {"wheelset3.yaw", 1e-4, 0.0}};
 
-/// Nothing excites it but its own displacement from equilibrium.
-void check_energy_of_a_free_run(std::vector<std::string> overrides, double tolerance,
+/// Nothing excites it but its own displacement from equilibrium. contact_share: of the turnover that contacts may lose
+/// or gain.
+void check_energy_of_a_free_run(std::vector<std::string> overrides, double tolerance, double contact_share,
                                 const std::vector<Kick>& kicks = kKicks) {
   SurfaceStore store;
   const auto file = example(overrides);
@@ -108,7 +109,7 @@ void check_energy_of_a_free_run(std::vector<std::string> overrides, double toler
   EXPECT_GT(e.dampers, 1.0);
   EXPECT_GT(e.friction, 1.0);
   EXPECT_LT(std::abs(e.integration_error(s.energy_at_start())), 1e-4 * e.turnover);
-  EXPECT_LT(std::abs(e.contact_error(s.energy_at_start())), 1e-4 * e.turnover);
+  EXPECT_LT(std::abs(e.contact_error(s.energy_at_start())), contact_share * e.turnover);
 }
 
 /// 50 m of straight, a transition of 50 m and a curve without irregularities.
@@ -155,14 +156,14 @@ TEST(Manchester, StartsInTightCurvesWhereARunIntoThemEnds) {
 }
 
 TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
-  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=20"}, 2e-10);
+  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=20"}, 2e-10, 1e-6);
 }
 
 const std::string kFlexible =
     "simulation.vehicle=" + std::string(TREADMARK_SOURCE_DIR) + "/examples/vehicles/manchester-flexible.toml";
 
 TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFlexibleWheelsets) {
-  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=5", kFlexible}, 2e-10,
+  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=5", kFlexible}, 2e-10, 1e-7,
                              {{"wheelset1.z", 0.0, 0.1},
                               {"bogie1.y", 0.0, 0.1},
                               {"wheelset1.bending1_vertical", 0.0, 0.5},
@@ -172,7 +173,7 @@ TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFlexibleWheelsets) {
 
 TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFullContact) {
   check_energy_of_a_free_run({"simulation.wheels.0.defects=false", "simulation.distance_m=1", "case.regime=steady"},
-                             1e-9);
+                             1e-9, 1e-4);
 }
 
 /// The shipped numbers are those of the beam that the file describes, and the rest of the vehicle is manchester.toml.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,6 +8,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/tests/backends/offset/wheel_with_flat.hpp"
+#include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -188,6 +190,18 @@ TEST(OffsetSurface, RefusesSettingsThatMakeNoSense) {
   EXPECT_EQ(kind(Body::wheel, kOffsetR, {.region_uy = {1.0, 0.0, -1.0, 1.0}}), wrong);
   EXPECT_EQ(kind(Body::rail, 0.0, {}), wrong);
   EXPECT_EQ(kind(Body::rail, 0.0, {.region_uy = {0.0, 0.1, 5.0, 6.0}}), wrong);
+  // few nodes, but their numbers are beyond 5e8: at both ends of both directions
+  const auto refusal = [&](const treadmark::Rectangle& region, double du, double dy) {
+    return treadmark::testing::error_of(
+        [&] { offset::sample_offsets(*rail, *rail, Body::rail, 0.0, {.du = du, .dy = dy, .region_uy = region}); });
+  };
+  constexpr double kFine = 1e-11;
+  for (const double x : {600.0, -600.0})
+    EXPECT_THAT(refusal({x, x + 1e-5, 0.0, 1e-2}, 1e-6, 1e-3), ::testing::HasSubstr("too far from the origin")) << x;
+  for (const double y : {0.01, -0.01})
+    EXPECT_THAT(refusal({0.0, 1e-3, y, y + 10.0 * kFine}, 1e-4, kFine), ::testing::HasSubstr("too far from the origin"))
+        << y;
+  EXPECT_EQ(refusal({-400.0, -400.0 + 1e-5, 0.0, 1e-2}, 1e-6, 1e-3), "");
   EXPECT_THROW(offset::sample_offsets(*wheel, *rail, Body::wheel, kOffsetR, {}), Error);
   const auto sample = offset::sample_offsets(*wheel, *wheel, Body::wheel, kOffsetR, {.du = 0.01, .dy = 0.01});
   EXPECT_EQ(sample.active, 0u);

@@ -41,6 +41,7 @@ double residual_of(const Window& window, int i) {
 
 TEST(WindowKernel, SumsAreThoseOfEachPointByItself) {
   constexpr double kScale = 30e-6;
+  ASSERT_FALSE(all_kernels<WindowKernel>().empty());
   for (const WindowKernel* kernel : all_kernels<WindowKernel>())
     for (const int count : {12, 13, 14, 15, 61, 220})
       for (const WindowWeights weights : {WindowWeights::even, WindowWeights::absolute, WindowWeights::biweight}) {

@@ -108,7 +108,9 @@ TEST(FitLumped, AgreesWithFitsOfAnotherProgram) {
 TEST(FitLumped, NoMassVanishes) {
   std::vector<double> f;
   for (int i = 0; i < 60; ++i) f.push_back(10.0 + 1490.0 * i / 59.0);
-  for (const LumpedLayer& layer : fit_lumped(f, on_bed(f), 3).layers) {
+  const std::vector<LumpedLayer> layers = fit_lumped(f, on_bed(f), 3).layers;
+  ASSERT_EQ(layers.size(), 3u);
+  for (const LumpedLayer& layer : layers) {
     EXPECT_GT(layer.mass, 0.01);
     EXPECT_GT(layer.stiffness, 1e6);
     EXPECT_GT(layer.damping, 1e3);

@@ -97,6 +97,28 @@ Dense2 uncoupled_on_bed(const FlexibleTrack& track, double spacing, double w) {
   return at_top(axis, track.sideways->height);
 }
 
+/// Coordinates of a place are those of its elements' ends, and nothing is written beyond them.
+TEST(RailSideways, PlacesNameAsManyCoordinatesAsTheyHaveRows) {
+  const FlexibleTrack track = side_track(0.6, 12, 2);
+  std::vector<Eigen::Index> sizes;
+  for (const RailPlane plane : {RailPlane::vertical, RailPlane::sideways}) {
+    const RailOnSeats rail(track, plane, 0.1);
+    for (double x = rail.begin() + 0.011; x < rail.end(); x += 0.0173) {
+      const RailOnSeats::Place place = rail.place(x);
+      sizes.push_back(place.value.rows());
+      for (std::size_t i = 0; i < place.coordinate.size(); ++i) {
+        if (i < static_cast<std::size_t>(place.value.rows())) {
+          ASSERT_GE(place.coordinate[i], i > 0 ? place.coordinate[i - 1] + 1 : 0) << x;
+          ASSERT_LT(place.coordinate[i], rail.size()) << x;
+        } else {
+          ASSERT_EQ(place.coordinate[i], 0) << x;
+        }
+      }
+    }
+  }
+  for (const Eigen::Index rows : {4, 6, 9}) EXPECT_NE(std::ranges::find(sizes, rows), sizes.end()) << rows;
+}
+
 /// Bending by Timoshenko's beam on a bed, torsion by a bar on an elastic bed.
 TEST(RailSideways, ReceptancesAreThoseOfBeamAndBarOnABed) {
   constexpr double kSpacing = 0.02;

@@ -386,6 +386,7 @@ TEST(Stability, MotionsKeepTheirNumberFromSpeedToSpeed) {
   StabilitySettings settings;
   for (double speed = 10.0; speed < 100.0; speed += 2.5) settings.speeds.push_back(speed);
   const StabilityResult r = stability(on_edges(w), settings);
+  ASSERT_EQ(r.at.size(), settings.speeds.size());
   int number = -1;
   for (const ModesAtSpeed& at : r.at) {
     const std::complex<double> swaying = hunting(at).value;
