@@ -15,6 +15,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app {
@@ -77,10 +78,7 @@ TEST(GeometryLoad, WritesTablesPicturesAndReport) {
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("axle load             200 kN; at y = 0.000 mm, holding force 0.000 kN"));
   EXPECT_THAT(result.out, HasSubstr("MPa within 3 mm of that displacement: "));
-  const auto text_of = [&](const char* name) {
-    std::ifstream in(folder.path() / name);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
+  const auto text_of = [&](const char* name) { return treadmark::testing::content_of(folder.path() / name); };
   const std::string table = text_of("out/functions.csv");
   EXPECT_THAT(table, HasSubstr(",normal_force_right_N,"));
   EXPECT_THAT(table, HasSubstr(",no_pressure_right,no_pressure_left\n"));
