@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "treadmark/damage/broken_line.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark::damage {
 
@@ -14,7 +14,7 @@ double shakedown_limit(double friction) {
   static const std::vector<double> frictions{0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35};
   static const std::vector<double> limits{4.0, 3.772, 3.565, 3.376, 3.203, 3.045, 2.9, 2.767};
   constexpr double kSurface = 0.367;  // from here on the surface itself
-  return friction < kSurface ? on_line(frictions, limits, friction) : 1.0 / friction;
+  return friction < kSurface ? BrokenLine(frictions, limits).at(friction) : 1.0 / friction;
 }
 
 ContactFatigue contact_fatigue(const FatigueSettings& settings, const PassedPatch& patch) {
@@ -32,7 +32,8 @@ ContactFatigue contact_fatigue(const FatigueSettings& settings, const PassedPatc
     out[M::fi_surf] = out.friction - 2.0 * patch.area() * settings.shear_yield / (3.0 * patch.normal_force);
   if (settings.has(M::shakedown)) out[M::shakedown] = out.pressure_ratio / shakedown_limit(out.friction);
   if (settings.has(M::whole_life))
-    out[M::whole_life] = on_line(settings.t_gamma, settings.passage_damage, patch.t_gamma());
+    out[M::whole_life] =
+        BrokenLine(settings.t_gamma, settings.passage_damage).at(std::max(settings.t_gamma.front(), patch.t_gamma()));
   return out;
 }
 

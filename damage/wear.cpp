@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "treadmark/damage/broken_line.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark::damage {
 namespace {
@@ -27,8 +27,9 @@ double depth_rate(const WearLaw& law, const PassedPatch& patch, const PassedElem
     }
     case WearTheory::t_gamma:
       if (element.dissipation <= 0.0) return 0.0;
-      return on_line(law.t_gamma_area, law.wear_rate, element.dissipation / patch.velocity) * patch.velocity /
-             law.density;
+      return BrokenLine(law.t_gamma_area, law.wear_rate)
+                 .at(std::max(law.t_gamma_area.front(), element.dissipation / patch.velocity)) *
+             patch.velocity / law.density;
     case WearTheory::energy:
       return in_regime(law.volume_per_work, law.power_limits, patch.power / patch.area()) * element.dissipation;
   }

@@ -79,39 +79,28 @@ KinematicMotion::KinematicMotion(RadiusDifference difference) : d_(std::move(dif
   for (double& s : s_) s -= zero;
   lowest_energy_ = potential(reference_);
   crest_.resize(s_.size());
-  const std::size_t k = interval(reference_);
+  const std::size_t k = line().piece(reference_);
   for (std::size_t i = k + 1; i < s_.size(); ++i)
     crest_[i] = std::max(s_[i], i == k + 1 ? lowest_energy_ : crest_[i - 1]);
   for (std::size_t i = k + 1; i-- > 0;) crest_[i] = std::max(s_[i], i == k ? lowest_energy_ : crest_[i + 1]);
   highest_energy_ = std::min(crest_.front(), crest_.back());
 }
 
-std::size_t KinematicMotion::interval(double y) const {
-  const auto next = std::ranges::upper_bound(d_.y, y);
-  const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - d_.y.begin() - 1, 0));
-  return std::min(i, d_.y.size() - 2);
-}
-
-double KinematicMotion::at(double y) const {
-  if (!(y >= d_.y.front() && y <= d_.y.back())) return kNaN;
-  const std::size_t i = interval(y);
-  return d_.dr[i] + (d_.dr[i + 1] - d_.dr[i]) * (y - d_.y[i]) / (d_.y[i + 1] - d_.y[i]);
-}
+double KinematicMotion::at(double y) const { return y >= d_.y.front() && y <= d_.y.back() ? line().at(y) : kNaN; }
 
 double KinematicMotion::potential(double y) const {
-  const std::size_t i = interval(y);
-  const double t = y - d_.y[i], slope = (d_.dr[i + 1] - d_.dr[i]) / (d_.y[i + 1] - d_.y[i]);
-  return s_[i] + t * (d_.dr[i] + 0.5 * slope * t);
+  const std::size_t i = line().piece(y);
+  return s_[i] + line().integral(i, y);
 }
 
 /// Where motion with this energy turns: the first shift from the reference beyond which S is greater.
 double KinematicMotion::turning_point(double energy, bool right) const {
-  const std::size_t k = interval(reference_);
+  const std::size_t k = line().piece(reference_);
   // S is a parabola in the interval, and passes the energy there once, seen from the reference.
   const auto root_in = [&](std::size_t i, double from) {
-    const double curve = (d_.dr[i + 1] - d_.dr[i]) / (d_.y[i + 1] - d_.y[i]), t = from - d_.y[i];
+    const double curve = line().slope(i), t = from - d_.y[i];
     const double rise = (right ? 1.0 : -1.0) * (d_.dr[i] + curve * t),
-                 left_over = std::max(0.0, energy - s_[i] - t * (d_.dr[i] + 0.5 * curve * t));
+                 left_over = std::max(0.0, energy - s_[i] - line().integral(i, from));
     const double root = std::sqrt(std::max(0.0, rise * rise + 2.0 * curve * left_over));
     const double length = right ? d_.y[i + 1] - from : from - d_.y[i];
     double way = rise >= 0.0 ? 2.0 * left_over / (rise + root) : (root - rise) / curve;
@@ -136,7 +125,7 @@ double KinematicMotion::turning_point(double energy, bool right) const {
 /// difference at both ends: in closed form, well conditioned for straight, bent up and bent down ones.
 double KinematicMotion::passage(std::size_t i, double h, double root_from, double root_to) const {
   if (!(h > 0.0)) return 0.0;
-  const double slope = (d_.dr[i + 1] - d_.dr[i]) / (d_.y[i + 1] - d_.y[i]), root_sum = root_from + root_to;
+  const double slope = line().slope(i), root_sum = root_from + root_to;
   const double bend = std::sqrt(0.5 * std::fabs(slope));
   if (!(root_sum > 0.0)) return slope > 0.0 ? kPi / bend : kInfinity;
   const double x = h * bend / root_sum;
@@ -199,7 +188,7 @@ Conicity KinematicMotion::conicity(double amplitude) const {
   if (reached > amplitude * (1.0 + kSame) + 1e-9)
     return refuse("no motion of that amplitude: it would pass a crest between two equilibria");
   // The difference energy - S is 0 at the turning points; beside them it is summed up from there, without cancellation.
-  std::size_t first = interval(out.low), last = interval(out.high);
+  std::size_t first = line().piece(out.low), last = line().piece(out.high);
   if (last > first && d_.y[last] >= out.high) --last;
   const auto root = [](double value) { return std::sqrt(std::max(0.0, value)); };
   const auto beside = [&](double from, double to) { return root(0.5 * std::fabs((to - from) * (at(from) + at(to)))); };

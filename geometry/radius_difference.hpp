@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/core/line.hpp"
+
 namespace treadmark::geometry {
 
 /// Difference of the rolling radii (right minus left) over the shift of the wheelset to the right, linear between its
@@ -59,7 +61,7 @@ class KinematicMotion {
   double potential(double y) const;
   double turning_point(double energy, bool right) const;
   double passage(std::size_t i, double h, double root_from, double root_to) const;
-  std::size_t interval(double y) const;
+  BrokenLine line() const { return {d_.y, d_.dr}; }
 
   RadiusDifference d_;
   std::vector<double> s_;      ///< S at the points, 0 at the first

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/line.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/core/roots.hpp"
 #include "treadmark/core/to_whole.hpp"
@@ -793,7 +794,7 @@ double ErrorDraws::at(std::size_t draw, double s) const {
   const Knots knots{scatter_->first_knot, scatter_->knot_step, static_cast<int>(coefficients.size()) - 3};
   double sum = knots.value(coefficients, std::clamp(s, knots.first, knots.last()));
   for (std::size_t k = 0; k < scatter_->others.size(); ++k)
-    sum += ((draw >> (k + shift_)) % 2 == 0 ? 1.0 : -1.0) * other_at(scatter_->others[k], s);
+    sum += ((draw >> (k + shift_)) % 2 == 0 ? 1.0 : -1.0) * BrokenLine(scatter_->s, scatter_->others[k]).held_at(s);
   return sum;
 }
 
@@ -806,15 +807,6 @@ Profile ErrorDraws::moved(Profile profile, std::size_t draw) const {
     profile.z[i] += error * (y[b] - y[a]) / length;
   }
   return profile;
-}
-
-double ErrorDraws::other_at(const std::vector<double>& other, double s) const {
-  const Values& known = scatter_->s;
-  const auto after = std::clamp(std::ranges::lower_bound(known, s), known.begin() + 1, known.end() - 1);
-  const auto k = static_cast<std::size_t>(after - known.begin());
-  const double length = known[k] - known[k - 1];
-  const double t = length > 0.0 ? std::clamp((s - known[k - 1]) / length, 0.0, 1.0) : 0.0;
-  return std::lerp(other[k - 1], other[k], t);
 }
 
 double deviation_of_sum(const ProfileScatter& scatter, std::span<const double> s, std::span<const double> weights) {

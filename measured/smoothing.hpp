@@ -47,8 +47,6 @@ class ErrorDraws {
   Profile moved(Profile profile, std::size_t draw) const;
 
  private:
-  double other_at(const std::vector<double>& other, double s) const;
-
   std::shared_ptr<const ProfileScatter> scatter_;
   std::size_t shift_;  ///< of the bit of a draw that says which way round another assumption's difference is
 };

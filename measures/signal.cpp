@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/line.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measures {
@@ -22,7 +23,7 @@ constexpr double kButterworth = std::numbers::sqrt2 / 2.0;  // quality of second
 /// The integral of a polyline from its first point, at any place.
 class RunningIntegral {
  public:
-  RunningIntegral(std::span<const double> at, std::span<const double> values) : at_(at), values_(values) {
+  RunningIntegral(std::span<const double> at, std::span<const double> values) : at_(at), line_(at, values) {
     if (at.size() < 2 || at.size() != values.size() || !(at.back() > at.front()))
       throw Error(ErrorKind::input_data, "a signal needs two points at least");
     sum_.resize(at.size());
@@ -40,15 +41,12 @@ class RunningIntegral {
 
  private:
   double upto(double place) const {
-    auto i = static_cast<std::size_t>(std::upper_bound(at_.begin(), at_.end(), place) - at_.begin());
-    i = std::clamp<std::size_t>(i, 1, at_.size() - 1);
-    const double width = at_[i] - at_[i - 1], part = place - at_[i - 1];
-    if (!(width > 0.0)) return sum_[i];
-    const double slope = (values_[i] - values_[i - 1]) / width;
-    return sum_[i - 1] + part * (values_[i - 1] + 0.5 * slope * part);
+    const std::size_t piece = line_.piece(place);
+    return sum_[piece] + line_.integral(piece, place);
   }
 
-  std::span<const double> at_, values_;
+  std::span<const double> at_;
+  BrokenLine line_;
   std::vector<double> sum_;
 };
 

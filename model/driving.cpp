@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/line.hpp"
+
 namespace treadmark {
 namespace {
 
@@ -46,13 +48,6 @@ double time_at(const SpeedProfile& p, double distance) {
 
 double highest_speed(const SpeedProfile& p) { return *std::max_element(p.speed.begin(), p.speed.end()); }
 
-double torque_at(const AxleTorque& t, double time) {
-  const auto behind = std::upper_bound(t.time.begin(), t.time.end(), time);
-  if (behind == t.time.begin()) return t.torque.front();
-  if (behind == t.time.end()) return t.torque.back();
-  const auto i = static_cast<std::size_t>(behind - t.time.begin());
-  const double share = (time - t.time[i - 1]) / (t.time[i] - t.time[i - 1]);
-  return t.torque[i - 1] + share * (t.torque[i] - t.torque[i - 1]);
-}
+double torque_at(const AxleTorque& t, double time) { return BrokenLine(t.time, t.torque).held_at(time); }
 
 }  // namespace treadmark

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/line.hpp"
+
 namespace treadmark {
 namespace {
 
@@ -98,9 +100,7 @@ void check_axle(const FlexibleAxle& axle) {
 
 AxleDeflection deflection_at(const FlexibleAxle& axle, const BendingMode& mode, double y) {
   const std::vector<double>& at = axle.places;
-  const auto next = std::ranges::upper_bound(at, y);
-  const auto i = static_cast<std::size_t>(
-      std::clamp<std::ptrdiff_t>(next - at.begin() - 1, 0, static_cast<std::ptrdiff_t>(at.size()) - 2));
+  const std::size_t i = piece_at(at, y);
   const double l = at[i + 1] - at[i], p = (y - at[i]) / l, p2 = p * p, p3 = p2 * p;
   const double w0 = mode.shape[i], w1 = mode.shape[i + 1], s0 = mode.slope[i], s1 = mode.slope[i + 1];
   return {w0 + (w1 - w0) * (3.0 * p2 - 2.0 * p3) + l * (s0 * (p - 2.0 * p2 + p3) + s1 * (p3 - p2)),

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/line.hpp"
+
 namespace treadmark {
 
 double FrictionLaw::at(double w) const {
@@ -46,11 +48,10 @@ FrictionLaw between(const FrictionLaw& a, const FrictionLaw& b, double share) {
 FrictionLaw friction_at(std::span<const double> positions, std::span<const FrictionLaw> laws, double position,
                         const FrictionLaw& otherwise) {
   if (positions.empty()) return otherwise;
-  const auto next = std::upper_bound(positions.begin(), positions.end(), position);
-  if (next == positions.begin()) return laws.front();
-  if (next == positions.end()) return laws.back();
-  const auto k = static_cast<std::size_t>(next - positions.begin());
-  return between(laws[k - 1], laws[k], (position - positions[k - 1]) / (positions[k] - positions[k - 1]));
+  if (position <= positions.front()) return laws.front();
+  if (position >= positions.back()) return laws.back();
+  const std::size_t k = piece_at(positions, position);
+  return between(laws[k], laws[k + 1], (position - positions[k]) / (positions[k + 1] - positions[k]));
 }
 
 }  // namespace treadmark

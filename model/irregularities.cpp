@@ -9,6 +9,7 @@
 #include <string>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark {
 
@@ -21,8 +22,7 @@ double given_density(const IrregularitySpectrum& s, double k) {
                whole = s.amplitude * square(s.omega_c) / poles;
   if (s.form == IrregularitySpectrum::Form::two_poles) return whole;
   if (s.form == IrregularitySpectrum::Form::three_poles) return whole * square(k) / (square(k) + square(s.omega_s));
-  const auto next = std::upper_bound(s.wavenumber.begin() + 1, s.wavenumber.end() - 1, k);
-  const auto i = static_cast<std::size_t>(next - s.wavenumber.begin());
+  const std::size_t i = piece_at(s.wavenumber, k) + 1;
   const double slope = std::log(s.density[i] / s.density[i - 1]) / std::log(s.wavenumber[i] / s.wavenumber[i - 1]);
   return s.density[i] * std::pow(k / s.wavenumber[i], slope);
 }

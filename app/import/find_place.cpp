@@ -11,6 +11,7 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/model/natural_view.hpp"
@@ -121,7 +122,7 @@ scans::PlaceSettings place_settings(const PlacedScan& scan, const io::ImportSett
 Body body_of(const ImportRequest& request) {
   if (request.settings.scan.body != "auto") return request.settings.scan.body == "wheel" ? Body::wheel : Body::rail;
   for (const auto& output : request.outputs) {
-    const std::string extension = io::profiles::lower(output.extension().string());
+    const std::string extension = io::extension_of(output);
     if (extension == ".slcw") return Body::wheel;
     if (extension == ".slcs") return Body::rail;
   }

@@ -16,6 +16,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
@@ -27,7 +28,7 @@ namespace {
 
 void require_cloud_file(const std::filesystem::path& cloud) {
   constexpr std::array<std::string_view, 6> kWritten{".ply", ".xyz", ".asc", ".txt", ".csv", ".las"};
-  const std::string extension = io::profiles::lower(cloud.extension().string());
+  const std::string extension = io::extension_of(cloud);
   if (std::find(kWritten.begin(), kWritten.end(), extension) == kWritten.end())
     throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension),
                 {cloud.string()}, "use .ply, .las, .xyz, .asc, .txt or .csv");

@@ -19,7 +19,7 @@
 #include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -280,7 +280,7 @@ void check_outputs(const ImportRequest& request) {
                 "say -o with a file *.slcs, *.slcw, *.ply, *.stl, *.obj, *.off or *.vdb");
   const Body body = body_of(request);
   for (const auto& file : request.outputs) {
-    const std::string extension = io::profiles::lower(file.extension().string());
+    const std::string extension = io::extension_of(file);
     if (!io::is_mesh_file(file) && !io::is_slices_file(file) && !is_offset_file(file))
       throw Error(
           ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {file.string()},

@@ -14,7 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/tables/number.hpp"
@@ -92,7 +92,7 @@ class KeptRows {
 std::string key_of(const ResultList& list, const ListWork& work, std::size_t i) try {
   std::string all = fmt::format("{} {}\n{}\n{}\n", version(), git_revision(), list.title, list.settings);
   for (const std::string& source : work.sources(i)) {
-    const std::string extension = io::profiles::lower(fs::path(source).extension().string());
+    const std::string extension = io::extension_of(source);
     for (const char* names_others : {".toml", ".inp", ".slcs", ".slcw"})
       if (extension == names_others) return {};
     std::error_code ignored;

@@ -16,7 +16,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/measures/bands.hpp"
 #include "treadmark/model/natural_view.hpp"
@@ -483,7 +483,7 @@ MeasuredFile measure_with(const std::string& name, const MeasureRequest& request
 }
 
 bool known_extension(const fs::path& file, Body body) {
-  const std::string extension = io::profiles::lower(file.extension().string());
+  const std::string extension = io::extension_of(file);
   constexpr const char* kBoth[] = {".csv", ".txt", ".dat", ".mpt", ".ply", ".stl", ".obj",
                                    ".off", ".vdb", ".xyz", ".las", ".pcd", ".e57"};
   constexpr const char* kWheels[] = {".whl", ".prw", ".slcw", ".wheel"};

@@ -13,7 +13,7 @@
 #include "treadmark/backends/builtin.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -103,7 +103,7 @@ ReadMeasured read_measured(const std::string& name, const MeasureRequest& reques
   }
   if (is_only_scan(name)) return read_scanned(name, request);
   const fs::path file = name;
-  const std::string extension = io::profiles::lower(file.extension().string());
+  const std::string extension = io::extension_of(file);
   if (extension == ".toml" || extension == ".inp" || is_offset_file(file) || io::is_slices_file(file))
     return read_any_surface(name, request);
   if (io::is_mesh_file(file)) {

@@ -13,7 +13,7 @@
 #include "treadmark/app/measure/read_measured.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::app {
@@ -42,7 +42,7 @@ class ScratchFolder {
 }  // namespace
 
 bool is_only_scan(const std::string& name) {
-  const std::string extension = io::profiles::lower(std::filesystem::path(name).extension().string());
+  const std::string extension = io::extension_of(name);
   for (const char* known : {".xyz", ".las", ".laz", ".pcd", ".e57", ".pts", ".ptx"})
     if (extension == known) return true;
   return false;

@@ -22,7 +22,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
@@ -77,7 +77,7 @@ struct AddedTable {
 
 Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& added,
                         const std::filesystem::path& output, const ConvertSettings& settings) {
-  const std::string extension = io::profiles::lower(output.extension().string());
+  const std::string extension = io::extension_of(output);
   const bool view = extension == ".vtp";  // only to be looked at
   const bool triangles = view || io::is_mesh_file(output), slices = io::is_slices_file(output),
              offsets = is_offset_file(output), cad = io::is_step_file(output), splines = io::is_spline_file(output);

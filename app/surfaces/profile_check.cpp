@@ -14,7 +14,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
@@ -284,7 +284,7 @@ ProfilesOfRun checked_uses(const io::CaseFile& file, Nearest nearest) {
 
 bool is_profile_file(const std::filesystem::path& file) {
   if (io::profile_body(file) || io::profile_format(file) != io::ProfileFormat::two_column) return true;
-  const std::string extension = io::profiles::lower(file.extension().string());
+  const std::string extension = io::extension_of(file);
   for (const char* known : {".csv", ".txt", ".dat", ".asc", ".rail"})
     if (extension == known) return true;
   return false;

@@ -23,8 +23,8 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/cases/shape_keys.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -33,9 +33,7 @@
 
 namespace treadmark::app {
 
-bool is_offset_file(const std::filesystem::path& file) {
-  return io::profiles::lower(file.extension().string()) == ".vdb";
-}
+bool is_offset_file(const std::filesystem::path& file) { return io::extension_of(file) == ".vdb"; }
 
 namespace {
 

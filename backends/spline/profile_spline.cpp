@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark::spline {
 
@@ -18,10 +19,7 @@ ProfileSpline::ProfileSpline(std::vector<double> breaks, std::vector<CubicSegmen
       throw Error(ErrorKind::configuration, "the breaks of a profile spline must increase strictly");
 }
 
-int ProfileSpline::find_segment(double s) const {
-  const auto first = breaks_.begin() + 1, last = breaks_.end() - 1;
-  return static_cast<int>(std::upper_bound(first, last, s) - first);
-}
+int ProfileSpline::find_segment(double s) const { return static_cast<int>(piece_at(breaks_, s)); }
 
 Vec2 ProfileSpline::position(double s) const {
   s = std::clamp(s, begin(), end());

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cad/read_cad.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 
 namespace treadmark::io {
 
 bool is_step_file(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   return extension == ".step" || extension == ".stp";
 }
 
 bool is_cad_file(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   return is_step_file(file) || extension == ".iges" || extension == ".igs";
 }
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -84,7 +84,7 @@ constexpr ForeignKind kForeign[] = {
 }  // namespace
 
 void refuse_foreign_file(const std::filesystem::path& file, const SourcePosition& asked_by) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   const auto* kind = std::ranges::find(kForeign, extension, &ForeignKind::extension);
   if (kind == std::end(kForeign)) return;
   throw Error(ErrorKind::configuration,

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/meshes/parse_mesh.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 using Parser = TriangleMesh (*)(std::string_view, const std::string&, double);
 
 Parser parser_of(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   if (extension == ".ply") return meshes::parse_ply;
   if (extension == ".stl") return meshes::parse_stl;
   if (extension == ".obj") return meshes::parse_obj;

@@ -6,7 +6,7 @@
 
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/points/binary_values.hpp"
 
@@ -95,7 +95,7 @@ void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh, std
   for (const auto& c : mesh.triangles)
     for (const std::uint32_t v : c)
       if (v >= mesh.vertices.size()) refuse("it names vertices that it lacks", "");
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   std::string content;
   if (extension == ".ply")
     content = ply(mesh, comments);

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
@@ -278,7 +278,7 @@ std::optional<Body> body_of(const std::string& extension) {
 }
 
 void check_file(const std::filesystem::path& file, Body body, const SourcePosition& referenced_from) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
   if (extension == ".slcs" || extension == ".slcw")
     throw Error(ErrorKind::configuration,
@@ -345,7 +345,7 @@ SourcedProfile parse_text(std::string_view text, const std::string& file, Profil
 }  // namespace
 
 ProfileFormat profile_format(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(section_of(file).file.extension().string());
+  const std::string extension = extension_of(section_of(file).file);
   if (extension == ".prr" || extension == ".prw") return ProfileFormat::simpack;
   if (extension == ".ban" || extension == ".whl" || extension == ".mpt") return ProfileFormat::miniprof;
   if (extension == ".wheel") return ProfileFormat::gensys;
@@ -355,7 +355,7 @@ ProfileFormat profile_format(const std::filesystem::path& file) {
 std::filesystem::path profile_file(const std::filesystem::path& name) { return section_of(name).file; }
 
 std::optional<Body> profile_body(const std::filesystem::path& file) {
-  return body_of(profiles::lower(section_of(file).file.extension().string()));
+  return body_of(extension_of(section_of(file).file));
 }
 
 Profile parse_profile(std::string_view text, const std::string& file, ProfileFormat format, Body body,

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
@@ -238,7 +239,7 @@ SliceSet load_profiles(SliceList&& list, Body body, const SliceLoader& load) {
 }  // namespace
 
 bool is_slices_file(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   return extension == ".slcs" || extension == ".slcw";
 }
 
@@ -248,7 +249,7 @@ SliceSet parse_slices(std::string_view text, const std::string& file, Body body,
 
 SliceSet read_slices(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                      const SourcePosition& referenced_from) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   if (is_slices_file(file) && (extension == ".slcs") != (body == Body::rail))
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for {} slices, a {} is expected", file.string(),

@@ -14,7 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/slice_sum.hpp"
@@ -29,7 +29,7 @@ constexpr std::size_t kDigitsOfFolder = 12;  // of the sum of the slices, in the
 std::string slice_name(std::size_t i) { return fmt::format("slice_{:05}.txt", i + 1); }
 
 void check(const std::filesystem::path& file, const SliceSet& slices) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   const char* expected = slices.body == Body::rail ? ".slcs" : ".slcw";
   if (extension != expected)
     throw Error(

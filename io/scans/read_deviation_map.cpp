@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
 
@@ -12,7 +13,7 @@ namespace treadmark::io {
 namespace {
 
 bool may_be_map(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   return extension == ".csv" || extension == ".txt" || extension == ".asc";
 }
 

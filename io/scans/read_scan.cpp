@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
 
@@ -26,7 +27,7 @@ constexpr Kind kKinds[] = {
     {".asc", scans::parse_columns}, {".txt", scans::parse_columns},    {".csv", scans::parse_columns}};
 
 Parser parser_of(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   for (const Kind& kind : kKinds)
     if (kind.extension == extension) return kind.parser;
   return nullptr;
@@ -34,7 +35,7 @@ Parser parser_of(const std::filesystem::path& file) {
 
 /// What makes a file readable that is not.
 std::string way_out(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   const std::string name = file.filename().string(), stem = file.stem().string();
   if (extension == ".laz")
     return fmt::format("decompress it first: 'laszip -i {} -o {}.las', or 'pdal translate {} {}.las'", name, stem, name,

@@ -5,7 +5,7 @@
 
 #include <iterator>
 
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/io/scans/write_scan.hpp"
@@ -82,7 +82,7 @@ void write_scan(const std::filesystem::path& file, const PointCloud& cloud, Leng
   for (const Vec3& p : cloud.points)
     if (!p.allFinite()) refuse("a point is not finite", "leave it out");
 
-  const std::string extension = profiles::lower(file.extension().string());
+  const std::string extension = extension_of(file);
   if (extension == ".ply") return scans::write_ply(file, cloud, unit);
   if (extension == ".las") return scans::write_las(file, cloud, unit);
   if (extension == ".csv") return scans::write_columns(file, cloud, unit, ',');

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/points/fields.hpp"
@@ -501,7 +502,7 @@ class Reader {
 
 }  // namespace
 
-bool is_spline_file(const std::filesystem::path& file) { return profiles::lower(file.extension().string()) == ".xml"; }
+bool is_spline_file(const std::filesystem::path& file) { return extension_of(file) == ".xml"; }
 
 SplineFile parse_splines(std::string_view text, const std::string& file, double scale_to_mm) {
   if (!(scale_to_mm > 0.0 && std::isfinite(scale_to_mm)))

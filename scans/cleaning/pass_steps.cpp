@@ -26,43 +26,47 @@ struct Level {
   std::size_t pass;  // number in the list of passes
   double d;
   Vec6 change;  // of d by shift and turn about the middle of the pass
+
+  Eigen::Index row() const { return static_cast<Eigen::Index>(6 * pass); }
 };
+using Cell = std::vector<Level>;
 
-}  // namespace
+Vec3 place_on(const Band& band, double u, const Section::Point& at) {
+  return from_natural(band.body, {u, at.position.x(), at.position.y()});
+}
 
-PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<const std::uint16_t> passes) {
-  PassSteps out;
-  if (passes.empty()) return out;
-  const auto place_of = [&](std::size_t i) {
-    const double u = (band.a_min + points.a[i]) / band.radius;
-    const Section::Point at = band.section.at(points.s[i]);
-    return from_natural(band.body, {u, at.position.x(), at.position.y()});
-  };
+/// Lists the passes with their middles; returns of each point the number in the list.
+std::vector<std::size_t> list_passes(const BandPoints& points, const Band& band, std::span<const std::uint16_t> passes,
+                                     std::vector<PassStep>& list) {
   std::map<std::uint16_t, std::size_t> number;
   for (std::size_t i = 0; i < points.size(); ++i) number.emplace(passes[points.index[i]], 0);
-  if (number.size() < 2) return out;
+  if (number.size() < 2) return {};
   for (auto& [pass, k] : number) {
-    k = out.passes.size();
-    out.passes.push_back({});
-    out.passes.back().pass = pass;
+    k = list.size();
+    list.push_back({});
+    list.back().pass = pass;
   }
   std::vector<std::size_t> pass_of(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     pass_of[i] = number[passes[points.index[i]]];
-    PassStep& pass = out.passes[pass_of[i]];
+    PassStep& pass = list[pass_of[i]];
     ++pass.points;
-    pass.middle_S += place_of(i);
+    pass.middle_S += place_on(band, (band.a_min + points.a[i]) / band.radius, band.section.at(points.s[i]));
   }
-  for (PassStep& pass : out.passes) pass.middle_S /= static_cast<double>(pass.points);
+  for (PassStep& pass : list) pass.middle_S /= static_cast<double>(pass.points);
+  return pass_of;
+}
 
-  // cells of a few of the points' cells
+/// Levels in the cells that two passes or more have seen; a cell is a few of the points' cells wide.
+std::vector<Cell> find_levels(const BandPoints& points, const Band& band, std::span<const std::size_t> pass_of,
+                              std::span<const PassStep> passes) {
   const auto stride_a = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(kCell / points.cell_a)));
   const auto stride_s = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(kCell / points.cell_s)));
   const std::size_t rows = (points.rows + stride_a - 1) / stride_a,
                     columns = (points.columns + stride_s - 1) / stride_s;
-  std::vector<std::vector<Level>> levels(rows * columns);
+  std::vector<Cell> cells(rows * columns);
   parallel_for(rows, [&](std::size_t row) {
-    std::vector<std::vector<float>> d(out.passes.size());
+    std::vector<std::vector<float>> d(passes.size());
     for (std::size_t column = 0; column < columns; ++column) {
       for (auto& list : d) list.clear();
       for (std::size_t r = row * stride_a; r < std::min(points.rows, (row + 1) * stride_a); ++r) {
@@ -77,55 +81,75 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
       const double s = points.cell_s * static_cast<double>(stride_s) * (static_cast<double>(column) + 0.5);
       const Section::Point at = band.section.at(s);
       const double u = (band.a_min + a) / band.radius;
-      const Vec3 p = from_natural(band.body, {u, at.position.x(), at.position.y()}),
-                 n = direction(band.body, u, at.normal);
+      const Vec3 p = place_on(band, u, at), n = direction(band.body, u, at.normal);
       for (std::size_t k = 0; k < d.size(); ++k) {
         if (d[k].size() < kFewestInCell) continue;
         Level level{k, median_of(d[k]), {}};
-        level.change << n, (p - out.passes[k].middle_S).cross(n);
-        levels[row * columns + column].push_back(level);
+        level.change << n, (p - passes[k].middle_S).cross(n);
+        cells[row * columns + column].push_back(level);
       }
     }
   });
+  std::erase_if(cells, [](const Cell& cell) { return cell.empty(); });
+  return cells;
+}
 
-  const auto size = static_cast<Eigen::Index>(6 * out.passes.size());
-  Eigen::VectorXd motion = Eigen::VectorXd::Zero(size);
-  const auto residuals = [&](const std::vector<Level>& cell, std::vector<double>& r) {
-    double mean = 0.0;
-    r.clear();
-    for (const Level& level : cell) {
-      r.push_back(level.d + level.change.dot(motion.segment<6>(static_cast<Eigen::Index>(6 * level.pass))));
-      mean += r.back();
-    }
-    for (double& value : r) value -= mean / static_cast<double>(cell.size());
-  };
-  const auto rms = [&] {
+/// Motions of the passes under which their levels agree.
+class MotionFit {
+ public:
+  MotionFit(std::span<const Cell> cells, std::size_t passes)
+      : cells_(cells), motion_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(6 * passes))) {}
+
+  const Eigen::VectorXd& motion() const { return motion_; }
+
+  double rms() const {
     double square = 0.0, count = 0.0;
-    std::vector<double> r;
-    for (const auto& cell : levels) {
-      if (cell.empty()) continue;
-      residuals(cell, r);
+    for (const Cell& cell : cells_) {
+      const std::vector<double> r = residuals(cell);
       for (const double value : r) square += value * value;
       count += static_cast<double>(r.size() - 1);
     }
     return count > 0.0 ? std::sqrt(square / count) : 0.0;
-  };
-  out.before = rms();
-  for (int round = 0; round < 8; ++round) {
-    std::vector<float> sizes;
-    std::vector<double> r;
-    for (const auto& cell : levels) {
-      if (cell.empty()) continue;
-      residuals(cell, r);
-      for (const double value : r) sizes.push_back(static_cast<float>(std::fabs(value)));
+  }
+
+  void solve() {
+    for (int round = 0; round < 8 && !cells_.empty(); ++round) {
+      const Eigen::VectorXd step = determined_step();
+      motion_ += step;
+      if (step.norm() < 1e-9) break;
     }
-    if (sizes.empty()) break;
-    const double scale = std::max(kMad * median_of(sizes), 1e-8);
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size);
-    for (const auto& cell : levels) {
-      if (cell.empty()) continue;
-      residuals(cell, r);
+  }
+
+ private:
+  /// Of a cell's levels, from their mean.
+  std::vector<double> residuals(const Cell& cell) const {
+    double mean = 0.0;
+    std::vector<double> r;
+    for (const Level& level : cell) {
+      r.push_back(level.d + level.change.dot(motion_.segment<6>(level.row())));
+      mean += r.back();
+    }
+    for (double& value : r) value -= mean / static_cast<double>(cell.size());
+    return r;
+  }
+
+  double robust_scale() const {
+    std::vector<float> sizes;
+    for (const Cell& cell : cells_)
+      for (const double value : residuals(cell)) sizes.push_back(static_cast<float>(std::fabs(value)));
+    return std::max(kMad * median_of(sizes), 1e-8);
+  }
+
+  struct Equations {
+    Eigen::MatrixXd matrix;
+    Eigen::VectorXd rhs;
+  };
+  Equations equations() const {
+    const double scale = robust_scale();
+    const Eigen::Index size = motion_.size();
+    Equations out{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+    for (const Cell& cell : cells_) {
+      const std::vector<double> r = residuals(cell);
       const double share = 1.0 / static_cast<double>(cell.size());
       double w = 1.0;
       for (const double value : r) {
@@ -134,14 +158,19 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
       }
       // the cell's own level is eliminated: deviations from the mean of its passes
       for (std::size_t k = 0; k < cell.size(); ++k) {
-        const auto at_k = static_cast<Eigen::Index>(6 * cell[k].pass);
-        rhs.segment<6>(at_k) -= w * r[k] * cell[k].change;
+        out.rhs.segment<6>(cell[k].row()) -= w * r[k] * cell[k].change;
         for (std::size_t m = 0; m < cell.size(); ++m)
-          matrix.block<6, 6>(at_k, static_cast<Eigen::Index>(6 * cell[m].pass)) +=
+          out.matrix.block<6, 6>(cell[k].row(), cell[m].row()) +=
               w * ((k == m ? 1.0 : 0.0) - share) * cell[k].change * cell[m].change.transpose();
       }
     }
-    // 1 mm of shift and 1 mm at 0.1 m of turn weigh alike; what no overlap determines stays
+    return out;
+  }
+
+  /// What no overlap determines stays; 1 mm of shift and 1 mm at 0.1 m of turn weigh alike.
+  Eigen::VectorXd determined_step() const {
+    const auto [matrix, rhs] = equations();
+    const Eigen::Index size = motion_.size();
     Eigen::VectorXd unit(size);
     for (Eigen::Index k = 0; k < size; ++k) unit[k] = k % 6 < 3 ? 1.0 : 10.0;
     const Eigen::MatrixXd scaled = unit.asDiagonal() * matrix * unit.asDiagonal();
@@ -152,16 +181,30 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
     for (Eigen::Index k = 0; k < size; ++k)
       if (eigen.eigenvalues()[k] > kDetermined * eigen.eigenvalues()[size - 1])
         step += eigen.eigenvectors().col(k) * (turned[k] / eigen.eigenvalues()[k]);
-    step = unit.asDiagonal() * step;
-    motion += step;
-    if (step.norm() < 1e-9) break;
+    return unit.asDiagonal() * step;
   }
-  out.after = rms();
+
+  std::span<const Cell> cells_;
+  Eigen::VectorXd motion_;
+};
+
+}  // namespace
+
+PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<const std::uint16_t> passes) {
+  PassSteps out;
+  if (passes.empty()) return out;
+  const std::vector<std::size_t> pass_of = list_passes(points, band, passes, out.passes);
+  if (out.passes.empty()) return out;
+  const std::vector<Cell> cells = find_levels(points, band, pass_of, out.passes);
+  MotionFit fit(cells, out.passes.size());
+  out.before = fit.rms();
+  fit.solve();
+  out.after = fit.rms();
   for (std::size_t k = 0; k < out.passes.size(); ++k) {
-    out.passes[k].shift_S = motion.segment<3>(static_cast<Eigen::Index>(6 * k));
-    out.passes[k].turn_S = motion.segment<3>(static_cast<Eigen::Index>(6 * k + 3));
+    out.passes[k].shift_S = fit.motion().segment<3>(static_cast<Eigen::Index>(6 * k));
+    out.passes[k].turn_S = fit.motion().segment<3>(static_cast<Eigen::Index>(6 * k + 3));
   }
-  for (const auto& cell : levels)
+  for (const Cell& cell : cells)
     for (const Level& level : cell) ++out.passes[level.pass].shared;
   return out;
 }

@@ -50,65 +50,87 @@ double neighbour_correlation(const BandPoints& points, const std::vector<float>&
   return b > 0.0 ? a / b : 0.0;
 }
 
-}  // namespace
-
-FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& noise, const FitSettings& settings,
-                    const Progress& progress) {
-  FitResult out{SplineField(band.length(), band.section.length(), band.closed), {}, {}, 0, 0, 0.0, 0.0, 0.0};
-  std::vector<float> weight(points.size(), 0.0f);
-  out.residual = points.d;
-  constexpr std::size_t kRows = 16;                                                           // of a task
-  std::vector<std::array<std::size_t, 2>> counts((points.rows + kRows - 1) / kRows, {0, 0});  // used, held out
-  parallel_blocks(points.rows, kRows, [&](std::size_t from, std::size_t to) {
-    auto& [used, held_out] = counts[from / kRows];
-    for (std::size_t row = from; row < to; ++row)
-      for (std::size_t column = 0; column < points.columns; ++column) {
-        const double sigma = noise.at(row, column);
-        for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
-          if (points.state[i] == PointState::held_out) points.state[i] = PointState::used;
-          if (points.state[i] != PointState::used) continue;
-          constexpr std::uint64_t kSeed = 0x74726561u;
-          if (Random(kSeed + points.index[i]).uniform() < settings.held_out) {
-            points.state[i] = PointState::held_out;
-            ++held_out;
-            continue;
-          }
-          weight[i] = static_cast<float>(1.0 / (sigma * sigma));
-          ++used;
-        }
-      }
-  });
-  for (const auto& [used, held_out] : counts) out.used += used, out.held_out += held_out;
-
-  // coarse to fine by the area of a function; along and across independently
+/// Sizes of functions, coarse to fine by their area; along and across independently.
+std::vector<Size> sizes_of(const BandPoints& points, double finest) {
   const std::size_t most_a = points.halvings_a, most_s = points.halvings_s;
-  const double finest = settings.finest;
-  std::vector<Size> sizes;
+  std::vector<Size> out;
   for (std::size_t a = 0; a <= most_a; ++a)
     for (std::size_t s = 0; s <= most_s; ++s) {
       const double knot_a = points.cell_a * static_cast<double>(std::size_t{1} << (most_a - a)),
                    knot_s = points.cell_s * static_cast<double>(std::size_t{1} << (most_s - s));
       if ((a > 0 || s > 0) && (knot_a < 0.7 * finest || knot_s < 0.7 * finest)) continue;
-      sizes.push_back({a, s});
+      out.push_back({a, s});
     }
-  std::stable_sort(sizes.begin(), sizes.end(), [](const Size& x, const Size& y) {
+  std::stable_sort(out.begin(), out.end(), [](const Size& x, const Size& y) {
     const std::size_t sx = x.halvings_a + x.halvings_s, sy = y.halvings_a + y.halvings_s;
     const auto skew = [](const Size& z) {
       return z.halvings_a > z.halvings_s ? z.halvings_a - z.halvings_s : z.halvings_s - z.halvings_a;
     };
     return sx < sy || (sx == sy && skew(x) > skew(y));
   });
-  const auto sweep = [&](double factor, bool first) {
-    for (std::size_t k = 0; k < sizes.size(); ++k) {
-      if (progress.stop_requested()) throw Error(ErrorKind::numerical, "stopped while the surface was fitted");
-      if (progress.report) progress.report(k, sizes.size(), "fitting");
+  return out;
+}
+
+class FieldFit {
+ public:
+  FieldFit(BandPoints& points, const Band& band, const LocalNoise& noise, const FitSettings& settings,
+           const Progress& progress)
+      : points_(points),
+        band_(band),
+        noise_(noise),
+        settings_(settings),
+        progress_(progress),
+        sizes_(sizes_of(points, settings.finest)),
+        weight_(points.size(), 0.0f),
+        out_{SplineField(band.length(), band.section.length(), band.closed), {}, points.d, 0, 0, 0.0, 0.0, 0.0} {}
+
+  FitResult fitted() {
+    hold_out();
+    sweep(settings_.significance, true);
+    if (settings_.follow && out_.held_out >= kFewestHeldOut) follow();
+    sum_up();
+    return std::move(out_);
+  }
+
+ private:
+  /// Draws the points that the fit does not see, and weighs the others.
+  void hold_out() {
+    constexpr std::size_t kRows = 16;                                                            // of a task
+    std::vector<std::array<std::size_t, 2>> counts((points_.rows + kRows - 1) / kRows, {0, 0});  // used, held out
+    parallel_blocks(points_.rows, kRows, [&](std::size_t from, std::size_t to) {
+      auto& [used, held_out] = counts[from / kRows];
+      for (std::size_t row = from; row < to; ++row)
+        for (std::size_t column = 0; column < points_.columns; ++column) {
+          const double sigma = noise_.at(row, column);
+          for (std::size_t i = points_.first(row, column); i < points_.begin[row * points_.columns + column + 1]; ++i) {
+            if (points_.state[i] == PointState::held_out) points_.state[i] = PointState::used;
+            if (points_.state[i] != PointState::used) continue;
+            constexpr std::uint64_t kSeed = 0x74726561u;
+            if (Random(kSeed + points_.index[i]).uniform() < settings_.held_out) {
+              points_.state[i] = PointState::held_out;
+              ++held_out;
+              continue;
+            }
+            weight_[i] = static_cast<float>(1.0 / (sigma * sigma));
+            ++used;
+          }
+        }
+    });
+    for (const auto& [used, held_out] : counts) out_.used += used, out_.held_out += held_out;
+  }
+
+  /// Fits functions of all sizes to what is left; the first of a first sweep are all used.
+  void sweep(double factor, bool first) {
+    for (std::size_t k = 0; k < sizes_.size(); ++k) {
+      if (progress_.stop_requested()) throw Error(ErrorKind::numerical, "stopped while the surface was fitted");
+      if (progress_.report) progress_.report(k, sizes_.size(), "fitting");
       SplineLevel level;
-      level.closed = band.closed;
-      level.intervals_a = points.rows >> (most_a - sizes[k].halvings_a);
-      level.intervals_s = points.columns >> (most_s - sizes[k].halvings_s);
-      level.knot_a = band.length() / static_cast<double>(level.intervals_a);
-      level.knot_s = band.section.length() / static_cast<double>(level.intervals_s);
-      const FunctionSums sums = sum_functions(points, out.residual, weight, level);
+      level.closed = band_.closed;
+      level.intervals_a = points_.rows >> (points_.halvings_a - sizes_[k].halvings_a);
+      level.intervals_s = points_.columns >> (points_.halvings_s - sizes_[k].halvings_s);
+      level.knot_a = band_.length() / static_cast<double>(level.intervals_a);
+      level.knot_s = band_.section.length() / static_cast<double>(level.intervals_s);
+      const FunctionSums sums = sum_functions(points_, out_.residual, weight_, level);
       FitLevelReport report{level.knot_a, level.knot_s, factor, level.size(), 0, 0};
       std::vector<float> ridge;
       if (first && k == 0) {
@@ -118,59 +140,77 @@ FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& nois
         report.used = choose_functions(sums, factor, level, ridge);
       }
       if (report.used > 0) {
-        report.iterations = fit_level(points, out.residual, weight, ridge, level).iterations;
-        out.field.add(std::move(level));
+        report.iterations = fit_level(points_, out_.residual, weight_, ridge, level).iterations;
+        out_.field.add(std::move(level));
       }
-      out.levels.push_back(report);
+      out_.levels.push_back(report);
     }
-  };
-  const auto held_out_square = [&] {
+  }
+
+  double held_out_square() const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (points.state[i] == PointState::held_out) sum += static_cast<double>(out.residual[i]) * out.residual[i];
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (points_.state[i] == PointState::held_out) sum += static_cast<double>(out_.residual[i]) * out_.residual[i];
     return sum;
-  };
-  sweep(settings.significance, true);
-  // what looks like noise to small surroundings may be a rough surface: follow it as long as the points that were held
-  // out agree
-  double factor = settings.significance, best = held_out_square();
-  constexpr double kFiner = 1.0 / 3.0, kBetter = 0.98;
-  constexpr int kMostSweeps = 5;
-  constexpr double kUnrelated = 0.02;
-  for (int again = 0; settings.follow && out.held_out >= kFewestHeldOut && again < kMostSweeps &&
-                      neighbour_correlation(points, out.residual) > kUnrelated;
-       ++again) {
-    factor *= kFiner;
-    const std::size_t levels_before = out.field.levels().size(), reports_before = out.levels.size();
-    const std::vector<float> residual_before = out.residual;
-    sweep(factor, false);
-    const double square = held_out_square();
-    if (square < kBetter * best) {
-      best = square;
-      continue;
-    }
-    out.field.drop_from(levels_before);
-    out.levels.resize(reports_before);
-    out.residual = residual_before;
-    break;
   }
-  double used = 0.0, held = 0.0, variance = 0.0;
-  for (std::size_t row = 0; row < points.rows; ++row)
-    for (std::size_t column = 0; column < points.columns; ++column)
-      for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
-        const double square = static_cast<double>(out.residual[i]) * out.residual[i];
-        if (points.state[i] == PointState::used) used += square;
-        if (points.state[i] == PointState::held_out) {
-          held += square;
-          variance += noise.at(row, column) * noise.at(row, column);
-        }
+
+  /// What looks like noise to small surroundings may be a rough surface: follows it as long as the points that were
+  /// held out agree.
+  void follow() {
+    double factor = settings_.significance, best = held_out_square();
+    constexpr double kFiner = 1.0 / 3.0, kBetter = 0.98, kUnrelated = 0.02;
+    constexpr int kMostSweeps = 5;
+    for (int again = 0; again < kMostSweeps && neighbour_correlation(points_, out_.residual) > kUnrelated; ++again) {
+      factor *= kFiner;
+      const std::size_t levels_before = out_.field.levels().size(), reports_before = out_.levels.size();
+      const std::vector<float> residual_before = out_.residual;
+      sweep(factor, false);
+      const double square = held_out_square();
+      if (square < kBetter * best) {
+        best = square;
+        continue;
       }
-  if (out.used > 0) out.residual_rms = std::sqrt(used / static_cast<double>(out.used));
-  if (out.held_out > 0) {
-    out.held_out_rms = std::sqrt(held / static_cast<double>(out.held_out));
-    out.held_out_error = std::sqrt(std::max(0.0, (held - variance) / static_cast<double>(out.held_out)));
+      out_.field.drop_from(levels_before);
+      out_.levels.resize(reports_before);
+      out_.residual = residual_before;
+      break;
+    }
   }
-  return out;
+
+  void sum_up() {
+    double used = 0.0, held = 0.0, variance = 0.0;
+    for (std::size_t row = 0; row < points_.rows; ++row)
+      for (std::size_t column = 0; column < points_.columns; ++column)
+        for (std::size_t i = points_.first(row, column); i < points_.begin[row * points_.columns + column + 1]; ++i) {
+          const double square = static_cast<double>(out_.residual[i]) * out_.residual[i];
+          if (points_.state[i] == PointState::used) used += square;
+          if (points_.state[i] == PointState::held_out) {
+            held += square;
+            variance += noise_.at(row, column) * noise_.at(row, column);
+          }
+        }
+    if (out_.used > 0) out_.residual_rms = std::sqrt(used / static_cast<double>(out_.used));
+    if (out_.held_out > 0) {
+      out_.held_out_rms = std::sqrt(held / static_cast<double>(out_.held_out));
+      out_.held_out_error = std::sqrt(std::max(0.0, (held - variance) / static_cast<double>(out_.held_out)));
+    }
+  }
+
+  BandPoints& points_;
+  const Band& band_;
+  const LocalNoise& noise_;
+  const FitSettings& settings_;
+  const Progress& progress_;
+  std::vector<Size> sizes_;
+  std::vector<float> weight_;  ///< of the points that are used
+  FitResult out_;
+};
+
+}  // namespace
+
+FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& noise, const FitSettings& settings,
+                    const Progress& progress) {
+  return FieldFit(points, band, noise, settings, progress).fitted();
 }
 
 }  // namespace treadmark::scans

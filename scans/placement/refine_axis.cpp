@@ -190,98 +190,146 @@ std::vector<Vec2> across(std::span<const Vec3> points, Body body, const Pose& X_
   return out;
 }
 
-RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& start) {
-  RefinedAxis out;
-  out.X_CS = start;
-  const bool wheel = body == Body::wheel;
-  const Eigen::Index unknowns = wheel ? 4 : 2;
-  double reach = 20e-3;  // the rough axis smears the section
-  Section section = outline(across(points, body, out.X_CS));
-  constexpr double kKnots = 4e-3, kNearest = 1e-3;
-  Eigen::Matrix4d information = Eigen::Matrix4d::Identity();
-  Eigen::Vector4d moving = Eigen::Vector4d::Zero(), last = moving;  // mean of the last few steps, and the last one
-  Eigen::MatrixXd follows;                                          // coefficients along the section by motions
-  for (int round = 0; round < kMostRounds; ++round) {
-    out.iterations = round + 1;
-    if (round > 0 && round < 4) section = outline(across(points, body, out.X_CS));  // the first steps are large
-    out.fit = fit_section(section, across(points, body, out.X_CS), reach, kKnots, round < 4 ? 2 : 1);
-    section = out.fit.section;
-    std::vector<Residual> residuals(points.size());
-    parallel_blocks(points.size(), kBlock, [&](std::size_t from, std::size_t to) {
+namespace {
+
+constexpr double kKnots = 4e-3;
+
+/// Moves the axis and the section by turns until both stand still.
+class AxisFit {
+ public:
+  AxisFit(std::span<const Vec3> points, Body body, const Pose& start) : points_(points), body_(body) {
+    out_.X_CS = start;
+    section_ = outline(across(points, body, start));
+  }
+
+  RefinedAxis fitted() {
+    for (int round = 0; round < kMostRounds && !still_; ++round) {
+      out_.iterations = round + 1;
+      fit_section_of(round);
+      find_residuals();
+      if (!find_scale()) break;
+      move(sums(), round);
+      constexpr double kNearest = 1e-3;
+      reach_ = std::max(kNearest, std::min(reach_, std::max(8.0 * scale_, 5e-3)));
+    }
+    find_covariance();
+    if (wheel_) out_.section_moves = moves_of(section_, {section_.length(), kKnots}, follows_);
+    out_.fit = fit_section(section_, across(points_, body_, out_.X_CS), 5e-3, 2e-3);
+    return std::move(out_);
+  }
+
+ private:
+  void fit_section_of(int round) {
+    const bool large_steps = round < 4;
+    const std::vector<Vec2> heap = across(points_, body_, out_.X_CS);
+    if (round > 0 && large_steps) section_ = outline(heap);
+    out_.fit = fit_section(section_, heap, reach_, kKnots, large_steps ? 2 : 1);
+    section_ = out_.fit.section;
+  }
+
+  void find_residuals() {
+    residuals_.assign(points_.size(), {});
+    parallel_blocks(points_.size(), kBlock, [&](std::size_t from, std::size_t to) {
       for (std::size_t i = from; i < to; ++i) {
-        const Vec3 p = out.X_CS.apply_inverse(points[i]);
-        const Natural n = natural(body, p);
-        const auto foot = section.foot({n.y, n.v}, reach);
+        const Vec3 p = out_.X_CS.apply_inverse(points_[i]);
+        const Natural n = natural(body_, p);
+        const auto foot = section_.foot({n.y, n.v}, reach_);
         if (!foot) continue;
-        const Section::Point at = section.at(foot->s);
-        const Vec3 normal = direction(body, n.u, at.normal);
+        const Section::Point at = section_.at(foot->s);
+        const Vec3 normal = direction(body_, n.u, at.normal);
         const Vec3 turn = p.cross(normal);
-        const double lever = wheel ? at.position.x() * at.normal.y() - at.position.y() * at.normal.x() : at.normal.x();
-        residuals[i] = {foot->distance,
-                        wheel ? std::array{normal.x(), normal.z(), turn.x(), turn.z(), at.normal.y(), lever}
-                              : std::array{turn.y(), turn.z(), 0.0, 0.0, at.normal.y(), lever},
-                        foot->s};
+        const double lever = wheel_ ? at.position.x() * at.normal.y() - at.position.y() * at.normal.x() : at.normal.x();
+        residuals_[i] = {foot->distance,
+                         wheel_ ? std::array{normal.x(), normal.z(), turn.x(), turn.z(), at.normal.y(), lever}
+                                : std::array{turn.y(), turn.z(), 0.0, 0.0, at.normal.y(), lever},
+                         foot->s};
       }
     });
-    // weights
+  }
+
+  bool find_scale() {
     std::vector<double> sizes;
-    sizes.reserve(residuals.size());
-    for (const Residual& r : residuals)
+    sizes.reserve(residuals_.size());
+    for (const Residual& r : residuals_)
       if (r.s >= 0.0) sizes.push_back(std::fabs(r.d));
-    if (sizes.empty()) break;
-    const double scale = std::max(kMad * median_of(sizes), 1e-7);
-    // what is the same all along the wheel or rail is the section's matter: a spline along the section is fitted to
-    // distances and their changes alike, and what the section's normal makes of these besides. Else how the normal
-    // turns between two knots, with what the spline misses of the section there, would pass for what a short arc says
-    // of the axis.
-    const Knots knots(section.length(), kKnots);
-    const std::size_t blocks = (residuals.size() + kBlock - 1) / kBlock;  // summed one by one, then in their order
+    if (sizes.empty()) return false;
+    scale_ = std::max(kMad * median_of(sizes), 1e-7);
+    return true;
+  }
+
+  /// What is the same all along the wheel or rail is the section's matter: a spline along the section is fitted to
+  /// distances and their changes alike, and what the section's normal makes of these besides. Else how the normal turns
+  /// between two knots, with what the spline misses of the section there, would pass for what a short arc says of the
+  /// axis.
+  NormalSums sums() const {
+    const Knots knots(section_.length(), kKnots);
+    const std::size_t blocks = (residuals_.size() + kBlock - 1) / kBlock;  // summed one by one, then in their order
     std::vector<NormalSums> block_sums(blocks, NormalSums(knots.intervals));
-    parallel_blocks(residuals.size(), kBlock, [&](std::size_t from, std::size_t to) {
+    parallel_blocks(residuals_.size(), kBlock, [&](std::size_t from, std::size_t to) {
       NormalSums& own = block_sums[from / kBlock];
       for (std::size_t i = from; i < to; ++i) {
-        if (residuals[i].s < 0.0) continue;
+        if (residuals_[i].s < 0.0) continue;
         own.near += 1.0;
-        const double x = residuals[i].d / (kTukey * scale);
-        if (std::fabs(x) < 1.0) own.add(residuals[i], x, knots);
+        const double x = residuals_[i].d / (kTukey * scale_);
+        if (std::fabs(x) < 1.0) own.add(residuals_[i], x, knots);
       }
     });
-    NormalSums sum(knots.intervals);
-    for (const NormalSums& own : block_sums) sum += own;
-    out.undamaged = sum.used / sum.near;
-    const Eigen::LDLT<Eigen::MatrixXd> section_of(sum.section_matrix());
-    follows = section_of.solve(sum.mixed);
-    const auto [matrix, rhs] = of_motions(sum, follows);
-    // covariance of an M-estimate (Huber 1981): n sum(psi^2) / sum(psi')^2 times the inverse of the plain normal matrix
-    information = matrix * (sum.used / sum.weight) * (sum.slope * sum.slope) / std::max(sum.used * sum.square, 1e-30);
-    // motions that the scan says nothing about stay as they are
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix.topLeftCorner(unknowns, unknowns));
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(4);
-    for (Eigen::Index k = 0; k < unknowns; ++k)
-      if (eigen.eigenvalues()[k] > 1e-12 * eigen.eigenvalues()[unknowns - 1])
-        step.head(unknowns) +=
-            eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(rhs.head(unknowns)) / eigen.eigenvalues()[k];
-    out.X_CS = moved(out.X_CS, body, step);
-    reach = std::max(kNearest, std::min(reach, std::max(8.0 * scale, 5e-3)));
-    constexpr double kMemory = 0.7;
-    last = step;
-    moving = kMemory * moving + (1.0 - kMemory) * last;
-    if (round > 4 && step.cwiseAbs().maxCoeff() < 1e-8) {
-      moving.setZero();
-      break;
-    }
+    NormalSums out(knots.intervals);
+    for (const NormalSums& own : block_sums) out += own;
+    return out;
   }
-  // what still moves one way may be as far from its end as it would get in some rounds more; what goes to and fro, as
-  // points at the ends of the section come and go, is there
-  constexpr double kRoundsMore = 10.0;
-  moving = kRoundsMore * moving.cwiseAbs() + last.cwiseAbs();
-  out.covariance.topLeftCorner(unknowns, unknowns) =
-      information.topLeftCorner(unknowns, unknowns).ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
-  out.covariance.diagonal() += moving.cwiseAbs2();
-  set_errors(out, body);
-  if (wheel) out.section_moves = moves_of(section, {section.length(), kKnots}, follows);
-  out.fit = fit_section(section, across(points, body, out.X_CS), 5e-3, 2e-3);
-  return out;
+
+  void move(const NormalSums& sum, int round) {
+    out_.undamaged = sum.used / sum.near;
+    const Eigen::LDLT<Eigen::MatrixXd> section_of(sum.section_matrix());
+    follows_ = section_of.solve(sum.mixed);
+    const auto [matrix, rhs] = of_motions(sum, follows_);
+    // covariance of an M-estimate (Huber 1981): n sum(psi^2) / sum(psi')^2 times the inverse of the plain normal matrix
+    information_ = matrix * (sum.used / sum.weight) * (sum.slope * sum.slope) / std::max(sum.used * sum.square, 1e-30);
+    // motions that the scan says nothing about stay as they are
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix.topLeftCorner(unknowns_, unknowns_));
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(4);
+    for (Eigen::Index k = 0; k < unknowns_; ++k)
+      if (eigen.eigenvalues()[k] > 1e-12 * eigen.eigenvalues()[unknowns_ - 1])
+        step.head(unknowns_) +=
+            eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(rhs.head(unknowns_)) / eigen.eigenvalues()[k];
+    out_.X_CS = moved(out_.X_CS, body_, step);
+    constexpr double kMemory = 0.7;
+    last_ = step;
+    moving_ = kMemory * moving_ + (1.0 - kMemory) * last_;
+    still_ = round > 4 && step.cwiseAbs().maxCoeff() < 1e-8;
+    if (still_) moving_.setZero();
+  }
+
+  /// What still moves one way may be as far from its end as it would get in some rounds more; what goes to and fro, as
+  /// points at the ends of the section come and go, is there.
+  void find_covariance() {
+    constexpr double kRoundsMore = 10.0;
+    const Eigen::Vector4d off = kRoundsMore * moving_.cwiseAbs() + last_.cwiseAbs();
+    out_.covariance.topLeftCorner(unknowns_, unknowns_) =
+        information_.topLeftCorner(unknowns_, unknowns_).ldlt().solve(Eigen::MatrixXd::Identity(unknowns_, unknowns_));
+    out_.covariance.diagonal() += off.cwiseAbs2();
+    set_errors(out_, body_);
+  }
+
+  std::span<const Vec3> points_;
+  Body body_;
+  bool wheel_ = body_ == Body::wheel, still_ = false;
+  Eigen::Index unknowns_ = wheel_ ? 4 : 2;
+  Section section_;
+  double reach_ = 20e-3;  ///< the rough axis smears the section
+  double scale_ = 0.0;
+  std::vector<Residual> residuals_;
+  Eigen::Matrix4d information_ = Eigen::Matrix4d::Identity();
+  Eigen::Vector4d moving_ = Eigen::Vector4d::Zero(), last_ = moving_;  ///< mean of the last few steps, and the last one
+  Eigen::MatrixXd follows_;                                            ///< coefficients along the section by motions
+  RefinedAxis out_;
+};
+
+}  // namespace
+
+RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& start) {
+  return AxisFit(points, body, start).fitted();
 }
 
 void use_known(RefinedAxis& refined, const KnownOfSection& known, std::span<const Vec3> points) {

@@ -92,6 +92,7 @@ class NearPoints {
       if (cell != kFar) sorted_[next[cell]++] = point;
   }
 
+  std::size_t intervals() const { return begin_.size() - 1; }
   std::size_t size() const { return sorted_.size(); }
   std::size_t first(std::size_t interval) const { return begin_[interval]; }
   std::span<const Near> operator[](std::size_t interval) const {
@@ -102,6 +103,133 @@ class NearPoints {
   std::vector<std::size_t> begin_;
   std::vector<Near> sorted_;
 };
+
+/// A uniform cubic spline of distances along a section, fitted robustly (Tukey's weights) to the points near it.
+class DistanceSpline {
+ public:
+  explicit DistanceSpline(const NearPoints& near) : near_(near), intervals_(near.intervals()) {
+    begin_with_medians();
+    constexpr int kReweights = 6;
+    for (int again = 0; again < kReweights; ++again) solve();
+  }
+
+  double at(std::size_t interval, double t) const { return sum(interval, cubic_basis(t)); }
+
+  /// Distances of the points from it, without signs; sum of their squares.
+  std::vector<double> sizes(double& square) const {
+    std::vector<double> out(near_.size()), squares(intervals_, 0.0);
+    parallel_for(intervals_, [&](std::size_t interval) {
+      double* next = out.data() + near_.first(interval);
+      for (const Near& n : near_[interval]) {
+        *next = std::fabs(n.d - at(interval, n.s));
+        squares[interval] += *next * *next;
+        ++next;
+      }
+    });
+    square = std::accumulate(squares.begin(), squares.end(), 0.0);
+    return out;
+  }
+
+ private:
+  struct Sums {
+    std::array<double, 16> matrix{};
+    std::array<double, 4> rhs{};
+  };
+
+  double sum(std::size_t interval, const std::array<double, 4>& b) const {
+    double out = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) out += b[k] * coefficients_[static_cast<Eigen::Index>(interval + k)];
+    return out;
+  }
+
+  /// So that damage and outliers do not draw the spline.
+  void begin_with_medians() {
+    level_.assign(intervals_, 0.0);
+    scale_.assign(intervals_, 0.0);
+    parallel_for(intervals_, [&](std::size_t k) {
+      std::vector<double> d;
+      d.reserve(near_[k].size());
+      for (const Near& n : near_[k]) d.push_back(n.d);
+      if (d.empty()) return;
+      const double middle = level_[k] = median_of(d);
+      for (double& value : d) value = std::fabs(value - middle);
+      scale_[k] = kMad * median_of(d);
+    });
+    std::vector<double> scales;
+    for (std::size_t k = 0; k < intervals_; ++k)
+      if (near_[k].size() > 8) scales.push_back(scale_[k]);
+    typical_ = scales.empty() ? 0.0 : median_of(scales);
+  }
+
+  Sums sums_of(std::size_t interval) const {
+    Sums out;
+    const bool begun = coefficients_.size() > 0;
+    const double width = kTukey * std::max({scale_[interval], 0.5 * typical_, 1e-7});
+    for (const Near& n : near_[interval]) {
+      const std::array<double, 4> b = cubic_basis(n.s);
+      const double r = (n.d - (begun ? sum(interval, b) : level_[interval])) / width;
+      if (!(std::fabs(r) < 1.0)) continue;
+      const double w = (1.0 - r * r) * (1.0 - r * r);
+      for (std::size_t i = 0; i < 4; ++i) {
+        out.rhs[i] += w * b[i] * n.d;
+        for (std::size_t k = 0; k < 4; ++k) out.matrix[4 * i + k] += w * b[i] * b[k];
+      }
+    }
+    return out;
+  }
+
+  void solve() {
+    std::vector<Sums> sums(intervals_);
+    parallel_for(intervals_, [&](std::size_t interval) { sums[interval] = sums_of(interval); });
+    const auto size = static_cast<Eigen::Index>(intervals_ + 3);
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size);
+    for (std::size_t interval = 0; interval < intervals_; ++interval) {
+      // not segment<4>: GCC 12 loses sums of segments that overlap (-O3)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const auto row = static_cast<Eigen::Index>(interval + i);
+        rhs[row] += sums[interval].rhs[i];
+        for (std::size_t k = 0; k < 4; ++k)
+          matrix(row, static_cast<Eigen::Index>(interval + k)) += sums[interval].matrix[4 * i + k];
+      }
+    }
+    // second differences bridge strips without points
+    const double stiffness = 1e-4 * matrix.trace() / static_cast<double>(size);
+    for (Eigen::Index k = 1; k + 1 < size; ++k)
+      for (const auto& [a, x] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}})
+        for (const auto& [c, y] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}})
+          matrix(a, c) += stiffness * x * y;
+    coefficients_ = matrix.ldlt().solve(rhs);
+  }
+
+  const NearPoints& near_;
+  std::size_t intervals_;
+  std::vector<double> level_, scale_;  ///< of the points of an interval
+  double typical_ = 0.0;
+  Eigen::VectorXd coefficients_;  ///< none before the first solution
+};
+
+/// The section moved along its normals; what would fold at badly known ends is left out, from the middle on.
+Section moved_along(const Section& section, const DistanceSpline& spline, std::size_t intervals, double farthest) {
+  const double knot = section.length() / static_cast<double>(intervals);
+  const std::size_t nodes = 2 * intervals;
+  std::vector<Vec2> all(nodes + 1);
+  for (std::size_t k = 0; k <= nodes; ++k) {
+    const double place = static_cast<double>(k) * static_cast<double>(intervals) / static_cast<double>(nodes);
+    const auto interval = std::min(intervals - 1, static_cast<std::size_t>(place));
+    const double d = spline.at(interval, place - static_cast<double>(interval));
+    const Section::Point at = section.at(place * knot);
+    all[k] = at.position + std::clamp(d, -farthest, farthest) * at.normal;
+  }
+  constexpr double kApart = 1e-7;
+  std::vector<Vec2> moved;
+  for (std::size_t k = nodes / 2 + 1; k-- > 0;)
+    if (moved.empty() || all[k].x() < moved.back().x() - kApart) moved.push_back(all[k]);
+  std::reverse(moved.begin(), moved.end());
+  for (std::size_t k = nodes / 2 + 1; k <= nodes; ++k)
+    if (all[k].x() > moved.back().x() + kApart) moved.push_back(all[k]);
+  return Section(moved);
+}
 
 }  // namespace
 
@@ -166,109 +294,18 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
   SectionFit out;
   out.section = start;
   for (int round = 0; round < rounds; ++round) {
-    const double length = out.section.length();
-    const auto intervals = to_whole<std::size_t>(std::max(2.0, std::round(length / knot_spacing)));
-    const double knot = length / static_cast<double>(intervals);
+    const auto intervals = to_whole<std::size_t>(std::max(2.0, std::round(out.section.length() / knot_spacing)));
     const NearPoints near(out.section, points, farthest, intervals);
     if (near.size() < 4 * intervals)
       throw Error(ErrorKind::input_data, "too few points follow the cross-section of the scan", {},
                   "is it a wheel or rail?");
-    // medians of the strips to begin with, so that damage and outliers do not draw the spline
-    std::vector<double> level(intervals, 0.0), scale(intervals, 0.0);
-    parallel_for(intervals, [&](std::size_t k) {
-      std::vector<double> d;
-      d.reserve(near[k].size());
-      for (const Near& n : near[k]) d.push_back(n.d);
-      if (d.empty()) return;
-      const double middle = level[k] = median_of(d);
-      for (double& value : d) value = std::fabs(value - middle);
-      scale[k] = kMad * median_of(d);
-    });
-    std::vector<double> scales;
-    scales.reserve(intervals);
-    for (std::size_t k = 0; k < intervals; ++k)
-      if (near[k].size() > 8) scales.push_back(scale[k]);
-    const double typical = scales.empty() ? 0.0 : median_of(scales);
-    const auto size = static_cast<Eigen::Index>(intervals + 3);
-    Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(size);
-    const auto value_at = [&](std::size_t cell, const std::array<double, 4>& b) {
-      double sum = 0.0;
-      for (std::size_t k = 0; k < 4; ++k) sum += b[k] * coefficients[static_cast<Eigen::Index>(cell + k)];
-      return sum;
-    };
-    struct Sums {
-      std::array<double, 16> matrix{};
-      std::array<double, 4> rhs{};
-    };
-    std::vector<Sums> sums(intervals);
-    constexpr int kReweights = 6;
-    for (int again = 0; again < kReweights; ++again) {
-      parallel_for(intervals, [&](std::size_t cell) {
-        Sums own;
-        const double width = kTukey * std::max({scale[cell], 0.5 * typical, 1e-7});
-        for (const Near& n : near[cell]) {
-          const std::array<double, 4> b = cubic_basis(n.s);
-          const double r = (n.d - (again == 0 ? level[cell] : value_at(cell, b))) / width;
-          if (!(std::fabs(r) < 1.0)) continue;
-          const double w = (1.0 - r * r) * (1.0 - r * r);
-          for (std::size_t i = 0; i < 4; ++i) {
-            own.rhs[i] += w * b[i] * n.d;
-            for (std::size_t k = 0; k < 4; ++k) own.matrix[4 * i + k] += w * b[i] * b[k];
-          }
-        }
-        sums[cell] = own;
-      });
-      Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
-      Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size);
-      for (std::size_t cell = 0; cell < intervals; ++cell) {
-        // not segment<4>: GCC 12 loses sums of segments that overlap (-O3)
-        for (std::size_t i = 0; i < 4; ++i) {
-          const auto row = static_cast<Eigen::Index>(cell + i);
-          rhs[row] += sums[cell].rhs[i];
-          for (std::size_t k = 0; k < 4; ++k)
-            matrix(row, static_cast<Eigen::Index>(cell + k)) += sums[cell].matrix[4 * i + k];
-        }
-      }
-      // second differences bridge strips without points
-      const double stiffness = 1e-4 * matrix.trace() / static_cast<double>(size);
-      for (Eigen::Index k = 1; k + 1 < size; ++k)
-        for (const auto& [a, x] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}})
-          for (const auto& [c, y] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}})
-            matrix(a, c) += stiffness * x * y;
-      coefficients = matrix.ldlt().solve(rhs);
-    }
-    std::vector<double> sizes(near.size()), squares(intervals, 0.0);
-    parallel_for(intervals, [&](std::size_t cell) {
-      double* at = sizes.data() + near.first(cell);
-      for (const Near& n : near[cell]) {
-        *at = std::fabs(n.d - value_at(cell, cubic_basis(n.s)));
-        squares[cell] += *at * *at;
-        ++at;
-      }
-    });
+    const DistanceSpline spline(near);
+    double square = 0.0;
+    std::vector<double> sizes = spline.sizes(square);
     out.used = near.size();
-    out.spread = std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0) / static_cast<double>(near.size()));
+    out.spread = std::sqrt(square / static_cast<double>(near.size()));
     out.scale = kMad * median_of(sizes);
-    // the curve moves along its normals; what would fold at badly known ends is left out, from the middle on
-    const auto nodes = to_whole<std::size_t>(std::ceil(2.0 * static_cast<double>(intervals)));
-    std::vector<Vec2> all(nodes + 1);
-    for (std::size_t k = 0; k <= nodes; ++k) {
-      const double place = static_cast<double>(k) * static_cast<double>(intervals) / static_cast<double>(nodes);
-      const auto cell = std::min(intervals - 1, static_cast<std::size_t>(place));
-      const std::array<double, 4> b = cubic_basis(place - static_cast<double>(cell));
-      double d = 0.0;
-      for (std::size_t a = 0; a < 4; ++a) d += b[a] * coefficients[static_cast<Eigen::Index>(cell + a)];
-      const Section::Point at = out.section.at(place * knot);
-      all[k] = at.position + std::clamp(d, -farthest, farthest) * at.normal;
-    }
-    constexpr double kApart = 1e-7;
-    std::vector<Vec2> moved;
-    for (std::size_t k = nodes / 2 + 1; k-- > 0;)
-      if (moved.empty() || all[k].x() < moved.back().x() - kApart) moved.push_back(all[k]);
-    std::reverse(moved.begin(), moved.end());
-    for (std::size_t k = nodes / 2 + 1; k <= nodes; ++k)
-      if (all[k].x() > moved.back().x() + kApart) moved.push_back(all[k]);
-    out.section = Section(moved);
+    out.section = moved_along(out.section, spline, intervals, farthest);
   }
   return out;
 }

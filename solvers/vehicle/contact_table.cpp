@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/line.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
@@ -380,7 +381,7 @@ ShapeCurve ShapeCurve::monotone(std::vector<double> x, std::vector<double> value
 ShapeCurve::Point ShapeCurve::at(double x) const {
   if (x <= x_.front()) return {value_.front() + slope_.front() * (x - x_.front()), slope_.front()};
   if (x >= x_.back()) return {value_.back() + slope_.back() * (x - x_.back()), slope_.back()};
-  const auto i = static_cast<std::size_t>(std::ranges::upper_bound(x_, x) - x_.begin()) - 1;
+  const std::size_t i = piece_at(x_, x);
   const double length = x_[i + 1] - x_[i], chord = (value_[i + 1] - value_[i]) / length, first = slope_[i],
                last = slope_[i + 1];
   // The slope runs straight from its first value to 'middle' at the share 'knot' of the way, and on to its last value;

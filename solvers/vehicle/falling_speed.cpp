@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -40,10 +41,9 @@ class Integrals {
   static double mean_square(double a, double b) { return (a * a + a * b + b * b) / 3.0; }
 
   std::pair<double, double> up_to(double place) const {
-    const auto i = static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(std::ranges::lower_bound(x_, place) - x_.begin(), 1, std::ssize(x_) - 1));
-    const double h = place - x_[i - 1], y = std::lerp(y_[i - 1], y_[i], h / (x_[i] - x_[i - 1]));
-    return {sum_[i - 1] + h * mean(y_[i - 1], y), squares_[i - 1] + h * mean_square(y_[i - 1], y)};
+    const std::size_t k = piece_at(x_, place);
+    const double h = place - x_[k], y = BrokenLine(x_, y_).at(place);
+    return {sum_[k] + h * mean(y_[k], y), squares_[k] + h * mean_square(y_[k], y)};
   }
 
   const std::vector<double>&x_, &y_;
@@ -83,9 +83,7 @@ std::vector<SwayAt> running_sway(const SwayHistory& history, double window) {
     if (!(to <= x.back())) return out;
     SwayAt at;
     at.distance = 0.5 * (from + to);
-    const auto next = static_cast<std::size_t>(std::ranges::upper_bound(x, at.distance) - x.begin());
-    at.speed =
-        std::lerp(history.speed[next - 1], history.speed[next], (at.distance - x[next - 1]) / (x[next] - x[next - 1]));
+    at.speed = BrokenLine(x, history.speed).at(at.distance);
     for (const Integrals& one : wheelsets) at.rms = std::max(at.rms, one.rms(from, to));
     out.push_back(at);
   }

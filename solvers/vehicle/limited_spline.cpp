@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark::vehicle {
 
@@ -85,8 +86,7 @@ LimitedSpline::LimitedSpline(Samples x, Samples y) : x_(std::move(x)), y_(std::m
 Along LimitedSpline::at(double x) const {
   if (x < first()) return {y_.front(), 0.0, 0.0};
   if (x > last()) return {y_.back(), 0.0, 0.0};
-  const auto next = std::upper_bound(x_.begin() + 1, x_.end() - 1, x);
-  const auto i = static_cast<std::size_t>(next - x_.begin()) - 1;
+  const std::size_t i = piece_at(x_, x);
   const double h = x_[i + 1] - x_[i], t = x - x_[i], rise = (y_[i + 1] - y_[i]) / h;
   const double second = (3.0 * rise - 2.0 * slope_[i] - slope_[i + 1]) / h,
                third = (slope_[i] + slope_[i + 1] - 2.0 * rise) / (h * h);

@@ -20,6 +20,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
@@ -196,8 +197,7 @@ TEST(Bench, StopsBetweenMeasures) {
 }
 
 TEST(Bench, ThePageOfFiguresHasTheColumnsOfTheTable) {
-  std::ifstream file(std::filesystem::path(TREADMARK_SOURCE_DIR) / "docs" / "bench.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string page = treadmark::testing::content_of(TREADMARK_SOURCE_DIR "/docs/bench.md");
   std::string table = bench_markdown({});
   table.erase(0, table.find("\n\n") + 2);  // the machine
   EXPECT_THAT(page, HasSubstr(table));

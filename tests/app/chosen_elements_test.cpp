@@ -3,8 +3,6 @@
 // Elements that nobody gives: chosen from each patch.
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "treadmark/app/cases/run_cases.hpp"
@@ -14,14 +12,14 @@
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark::app {
 namespace {
 
 /// README's own case, with a wheel that is there.
 io::CaseFile readme_case() {
-  std::ifstream readme(std::string(TREADMARK_SOURCE_DIR) + "/README.md");
-  const std::string text{std::istreambuf_iterator<char>(readme), {}};
+  const std::string text = treadmark::testing::content_of(TREADMARK_SOURCE_DIR "/README.md");
   const std::size_t from = text.find("```toml\n") + 8;
   std::string toml = text.substr(from, text.find("```", from) - from);
   const std::string file = "shape.file = \"wheel.csv\"";

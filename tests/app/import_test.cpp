@@ -22,6 +22,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
@@ -83,12 +84,7 @@ class ImportCommand : public ::testing::Test {
     std::ifstream file(path(name));
     return Json::parse(file);
   }
-  std::string bytes(const std::string& name) const {
-    std::ifstream file(path(name), std::ios::binary);
-    std::ostringstream out;
-    out << file.rdbuf();
-    return out.str();
-  }
+  std::string bytes(const std::string& name) const { return treadmark::testing::content_of(path(name)); }
   static Vec3 vector(const Json& list) {
     return Vec3(list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
   }
@@ -378,10 +374,7 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NEAR(json("flat.json")["frame"]["nominal_radius_mm"].get<double>(), 490.0, 0.03);
   const auto results = [&](const std::string& wheel_file, const std::string& name) {
-    std::ifstream in(folder / "wheelflat.inp");
-    std::ostringstream text;
-    text << in.rdbuf();
-    std::string all = text.str();
+    std::string all = treadmark::testing::content_of(folder / "wheelflat.inp");
     const auto replace = [&](const std::string& what, const std::string& by) {
       const std::size_t at = all.find(what);
       ASSERT_NE(at, std::string::npos);

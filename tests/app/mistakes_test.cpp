@@ -11,6 +11,7 @@
 
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -231,10 +232,7 @@ TEST_F(Mistakes, ListsOfValuesAreTakenFromTheCommandLineToo) {
   write("two.toml", std::string(kCase) + "[[cases]]\nwheelset.y_mm = [0, 2]\n");
   EXPECT_EQ(call({"convert", "@/my.toml", "@/a.toml", "--set", "wheelset.y_mm=[0, 2]"}).status, 0);
   EXPECT_EQ(call({"convert", "@/two.toml", "@/b.toml"}).status, 0);
-  const auto text = [&](const char* name) {
-    std::ifstream in(at(name));
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
+  const auto text = [&](const char* name) { return content_of(at(name)); };
   EXPECT_EQ(io::replaced(text("a.toml"), "my", "two"), text("b.toml"));
   EXPECT_THAT(call({"check", "@/four.toml", "--set", "wheelset.y_mm=[0, 2]"}).out, HasSubstr("2 cases, no errors"));
   expect({"check", "@/four.toml", "--set", "track.gauge_mm=[1435, 1437]"}, 2, {"has 4 values", "has 2"});

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -17,6 +15,7 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -27,11 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// Options of a verb that take the name of a file or folder, in the order of its help; required: those that must stand.
 std::vector<std::string> file_options(const std::string& verb, std::set<std::string>& required) {

@@ -10,14 +10,14 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/file_content.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
@@ -26,26 +26,13 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-/// What a user sees.
-template <class Action>
-std::string full_error(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
+using treadmark::testing::refusal_of;
 
 class OutputFiles : public ::testing::Test {
  protected:
   fs::path path(const std::string& name) const { return folder_.path() / name; }
   void put(const std::string& name, const std::string& text) const { folder_.write(name, text); }
-  static std::string read(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  static std::string read(const fs::path& file) { return treadmark::testing::content_of(file); }
   std::vector<std::string> names() const {
     std::vector<std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
@@ -99,7 +86,7 @@ TEST_F(OutputFiles, FollowLinks) {
   EXPECT_EQ(read(path("nowhere")), "made");
   fs::create_symlink("l2", path("l1"));
   fs::create_symlink("l1", path("l2"));
-  EXPECT_THAT(full_error([&] { write_file(path("l1"), "x"); }), HasSubstr("mend the symbolic link"));
+  EXPECT_THAT(refusal_of([&] { write_file(path("l1"), "x"); }), HasSubstr("mend the symbolic link"));
 }
 
 TEST_F(OutputFiles, GoStraightIntoDevicesPipesAndDescriptors) {
@@ -112,7 +99,7 @@ TEST_F(OutputFiles, GoStraightIntoDevicesPipesAndDescriptors) {
   EXPECT_TRUE(fs::is_fifo(path("pipe")));
   EXPECT_NO_THROW(write_file("/dev/null", "x"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  EXPECT_THAT(full_error([] { write_file("/dev/full", "x"); }), HasSubstr("make room on the disk"));
+  EXPECT_THAT(refusal_of([] { write_file("/dev/full", "x"); }), HasSubstr("make room on the disk"));
 
   const int descriptor = ::open(path("redirected").c_str(), O_WRONLY | O_CREAT, 0600);
   ASSERT_EQ(::write(descriptor, "first ", 6), 6);
@@ -126,7 +113,7 @@ TEST_F(OutputFiles, WhatCannotBeWrittenIsNamed) {
   put("file", "x");
   fs::create_directory(path("folder"));
   for (const fs::path& target : {path("file/below"), path("folder"), fs::path("/proc/nowhere/x"), path("")})
-    EXPECT_THAT(full_error([&] { write_file(target, "x"); }), HasSubstr("cannot write")) << target;
+    EXPECT_THAT(refusal_of([&] { write_file(target, "x"); }), HasSubstr("cannot write")) << target;
   EXPECT_EQ(names().size(), 2u);
 }
 
@@ -204,7 +191,7 @@ TEST_F(OutputFiles, FilesMoveIntoAFolderThatIsKept) {
   }
   EXPECT_FALSE(fs::exists(path("x"))) << "folders that were made for nothing go";
   put("file", "x");
-  EXPECT_THAT(full_error([&] { OutputFolder(path("file"), OutputFolder::Old::kept); }), HasSubstr("it is a file"));
+  EXPECT_THAT(refusal_of([&] { OutputFolder(path("file"), OutputFolder::Old::kept); }), HasSubstr("it is a file"));
 }
 
 TEST_F(OutputFiles, FilesMoveIntoWhatLinksAndPipesLeadTo) {
@@ -233,7 +220,7 @@ TEST_F(OutputFiles, RemovingIsDoneOrSaid) {
   EXPECT_FALSE(fs::exists(path("a")));
   remove_file(path("a"));
   put("full/b", "b");
-  EXPECT_THAT(full_error([&] { remove_file(path("full")); }), HasSubstr("cannot write " + path("full").string()));
+  EXPECT_THAT(refusal_of([&] { remove_file(path("full")); }), HasSubstr("cannot write " + path("full").string()));
 }
 
 TEST_F(OutputFiles, OfOnesOwnAreCopiedIntoWhatCannotBeRenamed) {
@@ -244,9 +231,9 @@ TEST_F(OutputFiles, OfOnesOwnAreCopiedIntoWhatCannotBeRenamed) {
   EXPECT_TRUE(fs::is_symlink(path("link")));
   EXPECT_EQ(read(path("target")), read(path("made")));
   put("target", "old");
-  EXPECT_THAT(full_error([&] { copy_bytes(path("none"), path("target")); }),
+  EXPECT_THAT(refusal_of([&] { copy_bytes(path("none"), path("target")); }),
               ::testing::AllOf(HasSubstr("cannot write " + path("target").string()), HasSubstr("cannot be read back")));
-  EXPECT_THAT(full_error([&] { copy_bytes(folder_.path(), path("target")); }), HasSubstr("cannot be read back"));
+  EXPECT_THAT(refusal_of([&] { copy_bytes(folder_.path(), path("target")); }), HasSubstr("cannot be read back"));
   EXPECT_EQ(read(path("target")), "old");
   EXPECT_THAT(names(), ElementsAre("link", "made", "target"));
 }

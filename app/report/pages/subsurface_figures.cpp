@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -96,8 +97,7 @@ Plane worst_plane(const io::CaseResult& result, const Body& body, const Directio
 /// The part of the way from a line to the next, and its number; nothing outside of all lines.
 std::optional<std::pair<std::size_t, double>> between(const std::vector<double>& lines, double at) {
   if (!(at >= lines.front() && at <= lines.back())) return std::nullopt;
-  const auto above = std::upper_bound(lines.begin() + 1, lines.end() - 1, at);
-  const auto k = static_cast<std::size_t>(above - lines.begin()) - 1;
+  const std::size_t k = piece_at(lines, at);
   const double step = lines[k + 1] - lines[k];
   return std::pair{k, step > 0.0 ? (at - lines[k]) / step : 0.0};
 }

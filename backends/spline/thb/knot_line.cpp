@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/line.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -87,10 +88,7 @@ KnotLine::KnotLine(int degree, std::vector<double> knots, bool closed)
     }
 }
 
-int KnotLine::find(double x) const {
-  const auto above = std::upper_bound(breaks_.begin(), breaks_.end(), x) - breaks_.begin();
-  return std::clamp(static_cast<int>(above) - 1, 0, intervals() - 1);
-}
+int KnotLine::find(double x) const { return static_cast<int>(piece_at(breaks_, x)); }
 
 int KnotLine::function(int interval, int k) const {
   const int unfolded = span_[static_cast<std::size_t>(interval)] - degree_ + k;

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/halfspace/row_inclination.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/line.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {
@@ -49,12 +49,7 @@ InclinationTable::InclinationTable(const InfluenceSettings& settings)
   }
 }
 
-double InclinationTable::at(double y) const {
-  const auto above = std::upper_bound(position_.begin() + 1, position_.end() - 1, y);
-  const auto i = static_cast<std::size_t>(above - position_.begin());
-  const double share = (y - position_[i - 1]) / (position_[i] - position_[i - 1]);
-  return inclination_[i - 1] + share * (inclination_[i] - inclination_[i - 1]);
-}
+double InclinationTable::at(double y) const { return BrokenLine(position_, inclination_).at(y); }
 
 RowInclination InclinationTable::rows(const Grid2& grid, int first, int count) const {
   std::vector<double> angle;

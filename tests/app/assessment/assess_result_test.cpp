@@ -14,6 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/histories/channels.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app {
@@ -21,6 +22,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using treadmark::testing::refusal_of;
 
 constexpr double kSpeedOfRun = 20.0;
 
@@ -53,16 +55,6 @@ const measures::Assessed& find(const AssessedRun& run, const std::string& place,
   return *at;
 }
 
-template <class Action>
-std::string error_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(Channels, HaveNamesAndPatterns) {
   const auto run = sample_run();
   EXPECT_EQ(io::channel_name(run->columns[2]), "ws1_right.Q_N");
@@ -78,7 +70,7 @@ TEST(Channels, HaveNamesAndPatterns) {
   const auto columns = [&](std::vector<std::string> patterns) { return io::fitting_columns(run->columns, patterns); };
   EXPECT_THAT(columns({"ws1_*.Q_N"}), ElementsAre(2, 4));
   EXPECT_THAT(columns({"Q_N", "t_s"}), ElementsAre(0, 2));
-  EXPECT_THAT(error_of([&] { columns({"ws1_rigth.Q_N"}); }),
+  EXPECT_THAT(refusal_of([&] { columns({"ws1_rigth.Q_N"}); }),
               HasSubstr("no channel of the history is called 'ws1_rigth.Q_N' (did you mean 'ws1_right.Q_N'?)"));
 }
 
@@ -115,7 +107,7 @@ TEST(AssessResult, LevelsOfAxleBoxesAreInTheirBand) {
 
 TEST(AssessResult, RefusesWhatIsNotThere) {
   const auto with = [](AssessmentRequest request) {
-    return error_of([&] { assess_result("one", sample_run(), request); });
+    return refusal_of([&] { assess_result("one", sample_run(), request); });
   };
   AssessmentRequest request;
   request.sections = {{"a", 10.0, 90.0}};
@@ -132,7 +124,7 @@ TEST(AssessResult, RefusesWhatIsNotThere) {
   EXPECT_THAT(with(request), HasSubstr("no channel of the history is called 'axlebox.*'"));
   const auto cases = std::make_shared<io::SimulationResult>();
   cases->columns = {{"case", "1", "number"}};
-  EXPECT_THAT(error_of([&] { assess_result("one", cases, {}); }), HasSubstr("the history has no column t_s"));
+  EXPECT_THAT(refusal_of([&] { assess_result("one", cases, {}); }), HasSubstr("the history has no column t_s"));
 }
 
 TEST(AssessResult, DoubtsAreNamed) {

@@ -11,7 +11,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 #include <thread>
 
 #include "treadmark/app/cases/run_cases.hpp"
@@ -31,6 +30,7 @@
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/io/results/vtk_values.hpp"
 #include "treadmark/tests/support/error_text.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
@@ -425,15 +425,12 @@ TEST_F(Evolution, WritesSurfacesForParaView) {
                                               io::replaced(kLaw, "1e-4", "1e-2") + kFatigue);
   const fs::path out = folder_.path() / "out";
   ASSERT_EQ(run_program({"evolve", study, "-o", out, "--vtk", "--quiet"}).status, 0);
-  std::ostringstream pvd, vts;
-  pvd << std::ifstream(out / "vtk" / "evolution.pvd").rdbuf();
-  const XmlElement collection = read_xml(pvd.str());
+  const XmlElement collection = read_xml(content_of(out / "vtk" / "evolution.pvd"));
   const auto entries = collection.find("DataSet");
   ASSERT_EQ(entries.size(), 2u);  // nothing has changed at first
   EXPECT_EQ(entries[1]->attributes.at("timestep"), "2000");
   ASSERT_EQ(entries[1]->attributes.at("file"), "wheel_0002.vts");
-  vts << std::ifstream(out / "vtk" / "wheel_0002.vts").rdbuf();
-  const XmlElement root = read_xml(vts.str());
+  const XmlElement root = read_xml(content_of(out / "vtk" / "wheel_0002.vts"));
   const io::Generation last = io::read_generation(out / io::generation_file(2));
   const io::EvolvedBody& wheel = last.bodies.front();
   const auto depth = vtk_values<float>(root, "depth_m");
@@ -556,11 +553,8 @@ TEST_F(Evolution, SplinesOfEveryGenerationEvolveAlike) {
 
 std::map<std::string, std::string> contents(const fs::path& folder) {
   std::map<std::string, std::string> out;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    std::ostringstream text;
-    text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
-    if (entry.path().filename() != "lock") out[entry.path().filename().string()] = text.str();
-  }
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != "lock") out[entry.path().filename().string()] = content_of(entry.path());
   return out;
 }
 
@@ -592,10 +586,8 @@ TEST_F(Evolution, GoesOnAfterAKillToTheSameBytes) {
   if (has_part("report")) {
     const std::string page = folder_.path() / "page.html";
     ASSERT_EQ(run_program({"report", two, "-o", page}).status, 0);
-    std::ostringstream text;
-    text << std::ifstream(page).rdbuf();
     for (const char* part : {"Over the generations", "Section at the chosen generation", "assumed", "generation 5"})
-      EXPECT_THAT(text.str(), HasSubstr(part));
+      EXPECT_THAT(content_of(page), HasSubstr(part));
   }
   const auto json = nlohmann::json::parse(a.at("evolution.json"));
   EXPECT_EQ(json["generations"].size(), 6u);
@@ -618,12 +610,7 @@ TEST_F(Evolution, StepsKeepTheLimits) {
   EXPECT_LT(result.generations.back().cases.front().pmax, result.generations.front().cases.front().pmax);
 }
 
-TEST(EvolveDocs, TableOfKeysIsUpToDate) {
-  std::ostringstream text;
-  text << std::ifstream(TREADMARK_SOURCE_DIR "/docs/evolve.md").rdbuf();
-  EXPECT_NE(text.str().find(io::evolve_key_table()), std::string::npos) << "docs/evolve.md must contain:\n"
-                                                                        << io::evolve_key_table();
-}
+TEST(EvolveDocs, TableOfKeysIsUpToDate) { expect_in_document("evolve.md", io::evolve_key_table()); }
 
 TEST(EvolveExamples, AreReadAndBuilt) {
   for (const char* name : {"hollow-wheel.toml", "spread-of-rails.toml", "rounding-flat.toml", "flat-in-motion.toml",

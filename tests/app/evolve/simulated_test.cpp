@@ -7,8 +7,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/parts.hpp"
@@ -22,6 +20,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/io/simulations/samples.hpp"
 #include "treadmark/tests/support/error_text.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
@@ -101,12 +100,6 @@ class SimulatedEvolution : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-std::string bytes_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 double number(const io::Generation& g, const std::string& name) {
   for (const io::EvolutionQuantity& q : io::quantities_of(g))
     if (q.name == name) return q.value;
@@ -118,14 +111,14 @@ TEST_F(SimulatedEvolution, FirstGenerationIsTheSimulation) {
   const std::string file = study(kPassage, io::replaced(kStudy, "updates = 4", "updates = 1"));
   run_program({"evolve", file, "-o", path("out"), "--quiet"});  // the status is that of doubts at the sharp edges
   run_program({"simulate", path("passage.toml"), "-o", path("simulated"), "--quiet"});
-  const std::string first = bytes_of(path("out") + "/simulation_0000.h5");
+  const std::string first = content_of(path("out") + "/simulation_0000.h5");
   ASSERT_FALSE(first.empty());
-  EXPECT_TRUE(first == bytes_of(path("simulated") + "/simulation.h5"));
+  EXPECT_TRUE(first == content_of(path("simulated") + "/simulation.h5"));
 
   if (has_part("report")) {
     const ProgramResult report = run_program({"report", path("out"), "-o", path("page.html")});
     EXPECT_EQ(report.status, 0) << report.err;
-    EXPECT_THAT(bytes_of(path("page.html")), HasSubstr("largest vertical force of a simulation"));
+    EXPECT_THAT(content_of(path("page.html")), HasSubstr("largest vertical force of a simulation"));
   }
 
   const io::EvolutionResult result = io::read_evolution_folder(path("out"));
@@ -228,7 +221,7 @@ TEST_F(SimulatedEvolution, GoesOnToTheSameBytes) {
   run_program({"evolve", file, "-o", path("two"), "--resume", "--quiet", "--threads", "1"});
   for (const auto& entry : fs::directory_iterator(path("one"))) {
     if (entry.path().filename() == "lock") continue;
-    EXPECT_TRUE(bytes_of(entry.path()) == bytes_of(fs::path(path("two")) / entry.path().filename()))
+    EXPECT_TRUE(content_of(entry.path()) == content_of(fs::path(path("two")) / entry.path().filename()))
         << entry.path().filename();
   }
 }

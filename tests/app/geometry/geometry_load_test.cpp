@@ -15,6 +15,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app {
@@ -79,10 +80,7 @@ TEST(GeometryLoad, WritesTablesPicturesAndReport) {
   EXPECT_THAT(result.out, HasSubstr("holding force           0 N\n"));
   EXPECT_THAT(result.out, HasSubstr("nearer to it than       3 mm\n"));
   EXPECT_THAT(result.out, HasSubstr("  right                 normal force 100"));
-  const auto text_of = [&](const char* name) {
-    std::ifstream in(folder.path() / name);
-    return std::string(std::istreambuf_iterator<char>(in), {});
-  };
+  const auto text_of = [&](const char* name) { return treadmark::testing::content_of(folder.path() / name); };
   const std::string table = text_of("out/functions.csv");
   EXPECT_THAT(table, HasSubstr(",normal_force_right_N,"));
   EXPECT_THAT(table, HasSubstr(",no_pressure_right,no_pressure_left\n"));

@@ -6,8 +6,6 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "treadmark/app/lists/result_list.hpp"
 #include "treadmark/app/measure/measure_files.hpp"
@@ -19,6 +17,7 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -28,14 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using treadmark::testing::content_of;
 using treadmark::testing::run_program;
 using treadmark::testing::TemporaryFolder;
-
-std::string content(const fs::path& file) {
-  std::ostringstream out;
-  out << std::ifstream(file).rdbuf();
-  return out.str();
-}
 
 /// Lengths of texts in files, and how often one was looked at.
 struct Lengths {
@@ -54,7 +48,7 @@ struct Lengths {
     work.sources = [&](std::size_t i) { return std::vector<std::string>{files[i]}; };
     work.make = [&](std::size_t i) {
       ++looked;
-      const auto size = static_cast<double>(content(files[i]).size());
+      const auto size = static_cast<double>(content_of(files[i]).size());
       if (size == 2.0) throw Error(ErrorKind::input_data, "two, \"or so\"", {files[i]});
       return ListRow{work.name(i), "ok", {}, {files[i]}, {size, size == 3.0 ? kNaN : 0.1 * size}, size, "{}"};
     };
@@ -129,7 +123,7 @@ TEST(ResultList, LeavesFilesOfOthersAlone) {
     const fs::path kept = folder.path() / "kept";
     write_file(kept, foreign);
     EXPECT_THROW(lengths.make(kept), Error);
-    EXPECT_EQ(content(kept), foreign);
+    EXPECT_EQ(content_of(kept), foreign);
   }
 }
 
@@ -220,7 +214,7 @@ TEST(ResultList, AFleetIsMeasuredFurtherAfterItsEnd) {
   ASSERT_TRUE(fs::exists(kept));
   const auto again = run_program(command("again.csv"));
   EXPECT_EQ(again.status, 3);
-  EXPECT_EQ(content(folder.path() / "again.csv"), content(folder.path() / "whole.csv"));
+  EXPECT_EQ(content_of(folder.path() / "again.csv"), content_of(folder.path() / "whole.csv"));
   EXPECT_FALSE(fs::exists(kept));
   // the highest flange first, after what failed
   EXPECT_LT(again.out.find("bad.csv"), again.out.find("wheel159.csv"));
@@ -234,9 +228,9 @@ TEST(ResultList, ReportsOfOneAndOfMany) {
   wheels(folder.path() / "fleet", 3);
   const std::string one = (folder.path() / "one.html").string(), many = (folder.path() / "many.html").string();
   ASSERT_EQ(run_program({"measure", "wheel", "S1002", "--nominal", "S1002", "--report", one}).status, 0);
-  EXPECT_THAT(content(one), HasSubstr("flange_height_mm"));
+  EXPECT_THAT(content_of(one), HasSubstr("flange_height_mm"));
   ASSERT_EQ(run_program({"measure", "wheel", (folder.path() / "fleet").string(), "--report", many}).status, 0);
-  const std::string page = content(many);
+  const std::string page = content_of(many);
   EXPECT_THAT(page, HasSubstr("the worst first"));
   EXPECT_THAT(page, HasSubstr("wheel102.csv"));
 }

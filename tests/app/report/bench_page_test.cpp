@@ -26,14 +26,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-using treadmark::testing::banners_of;
-using treadmark::testing::card_of;
-using treadmark::testing::error_of;
-using treadmark::testing::fact_of;
-using treadmark::testing::figure_of;
-using treadmark::testing::numbers_in;
-using treadmark::testing::table_of;
-using treadmark::testing::texts_in;
+using namespace treadmark::testing;
 using Json = nlohmann::json;
 
 class BenchPage : public ::testing::Test {
@@ -46,7 +39,7 @@ class BenchPage : public ::testing::Test {
     std::ifstream file(folder_.path() / "bench.json");
     return Json::parse(file);
   }
-  treadmark::testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 BenchRow made_up_row(const std::string& backend, Body body, double factor) {

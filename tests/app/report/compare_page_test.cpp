@@ -29,16 +29,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-using treadmark::testing::banners_of;
-using treadmark::testing::card_of;
-using treadmark::testing::error_of;
-using treadmark::testing::fact_of;
-using treadmark::testing::figure_of;
-using treadmark::testing::has_figure;
-using treadmark::testing::numbers_in;
-using treadmark::testing::section_ids;
-using treadmark::testing::table_of;
-using treadmark::testing::texts_in;
+using namespace treadmark::testing;
 using Json = nlohmann::json;
 
 io::ComparisonRow made_up_row(int number, double error) {
@@ -91,7 +82,7 @@ class ComparePage : public ::testing::Test {
     std::ifstream file(folder_.path() / "compare.json");
     return Json::parse(file);
   }
-  treadmark::testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {

@@ -28,16 +28,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
-using treadmark::testing::banners_of;
-using treadmark::testing::card_of;
-using treadmark::testing::error_of;
-using treadmark::testing::fact_of;
-using treadmark::testing::figure_of;
-using treadmark::testing::has_figure;
-using treadmark::testing::numbers_in;
-using treadmark::testing::section_ids;
-using treadmark::testing::table_of;
-using treadmark::testing::texts_in;
+using namespace treadmark::testing;
 using Json = nlohmann::json;
 
 class ImportPage : public ::testing::Test {
@@ -50,11 +41,11 @@ class ImportPage : public ::testing::Test {
     std::ifstream file(folder_.path() / "report.json");
     return Json::parse(file);
   }
-  treadmark::testing::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(ImportPage, HasTheNumbersOfTheFile) {
-  const Page page = page_of(treadmark::testing::sample_report());
+  const Page page = page_of(sample_report());
   const Json document = json();
   EXPECT_EQ(page.kind, "import");
   EXPECT_THAT(section_ids(page), ElementsAre("overview", "truth", "surface", "deviation", "points", "placement", "fit",
@@ -90,8 +81,7 @@ TEST_F(ImportPage, HasTheNumbersOfTheFile) {
 }
 
 TEST_F(ImportPage, OfAReportEqualsThatOfItsFiles) {
-  for (const io::ImportReport& report :
-       {treadmark::testing::sample_report(), treadmark::testing::sample_map_report()}) {
+  for (const io::ImportReport& report : {sample_report(), sample_map_report()}) {
     const Page later = page_of(report), at_once = import_page(report, io::import_json(report, false), folder_.path());
     EXPECT_EQ(to_html(at_once, {.live = false}), to_html(later, {.live = false}));
     EXPECT_EQ(page_data(at_once, 1 << 20), page_data(later, 1 << 20));
@@ -99,7 +89,7 @@ TEST_F(ImportPage, OfAReportEqualsThatOfItsFiles) {
 }
 
 TEST_F(ImportPage, WarningsComeFirstAndMarkupArrivesAsText) {
-  const Page page = page_of(treadmark::testing::sample_report());
+  const Page page = page_of(sample_report());
   EXPECT_THAT(banners_of(page), StartsWith("warning: Warning. 2.1 % of the band has no points"));
   EXPECT_THAT(banners_of(page),
               HasSubstr("warning: 1 hole stays open. There is no surface there; the widest is 18 mm across.\n"));
@@ -110,7 +100,7 @@ TEST_F(ImportPage, WarningsComeFirstAndMarkupArrivesAsText) {
 }
 
 TEST_F(ImportPage, MapsAreThoseOfTheImport) {
-  const io::ImportReport report = treadmark::testing::sample_report();
+  const io::ImportReport report = sample_report();
   const Page page = page_of(report);
   const auto& fitted = std::get<MapView>(figure_of(page, "fitted-map").view);
   EXPECT_TRUE(fitted.diverging);
@@ -135,7 +125,7 @@ TEST_F(ImportPage, MapsAreThoseOfTheImport) {
 }
 
 TEST_F(ImportPage, PointsInSpaceAreThoseOfTheSample) {
-  const io::ImportReport report = treadmark::testing::sample_report();
+  const io::ImportReport report = sample_report();
   const Page page = page_of(report);
   const Figure& figure = figure_of(page, "cloud-view");
   const auto& cloud = std::get<CloudView>(figure.view);
@@ -161,7 +151,7 @@ TEST_F(ImportPage, PointsInSpaceAreThoseOfTheSample) {
 }
 
 TEST_F(ImportPage, TheDistributionHasTheCountsAndNumbersOfTheReport) {
-  const io::ImportReport report = treadmark::testing::sample_report();
+  const io::ImportReport report = sample_report();
   const Page page = page_of(report);
   const Figure& figure = figure_of(page, "residuals");
   const auto& panel = std::get<ChartView>(figure.view).panels.front();
@@ -182,7 +172,7 @@ TEST_F(ImportPage, TheDistributionHasTheCountsAndNumbersOfTheReport) {
 }
 
 TEST_F(ImportPage, TheErrorAgainstTheTruthIsThatOfTheFile) {
-  const Page page = page_of(treadmark::testing::sample_report());
+  const Page page = page_of(sample_report());
   const Json truth = json()["truth"];
   const Table& table = table_of(page, "truth");
   EXPECT_THAT(numbers_in(table, "rms"), ElementsAre(truth["placed"]["rms_um"], truth["shape"]["rms_um"]));
@@ -193,7 +183,7 @@ TEST_F(ImportPage, TheErrorAgainstTheTruthIsThatOfTheFile) {
 }
 
 TEST_F(ImportPage, HolesAndDamageAreOutlinedAlsoAcrossTheSeam) {
-  const Page page = page_of(treadmark::testing::sample_report());
+  const Page page = page_of(sample_report());
   const auto& marks = std::get<MapView>(figure_of(page, "fitted-map").view).marks;
   std::vector<std::string> labels;
   for (const auto& mark : marks) labels.push_back(mark.label);
@@ -215,7 +205,7 @@ TEST_F(ImportPage, HolesAndDamageAreOutlinedAlsoAcrossTheSeam) {
 }
 
 TEST_F(ImportPage, WorksWithTheReportAlone) {
-  page_of(treadmark::testing::sample_report());
+  page_of(sample_report());
   for (const char* file : {"maps.h5", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg",
                            "fitted.svg", "residual.svg"})
     std::filesystem::remove(folder_.path() / file);
@@ -263,7 +253,7 @@ TEST_F(ImportPage, OfARealImportOfAMap) {
 TEST_F(ImportPage, RefusesBrokenFiles) {
   EXPECT_THAT(error_of([&] { import_page(folder_.path()); }),
               AllOf(StartsWith("input data: "), HasSubstr("report.json' does not exist")));
-  page_of(treadmark::testing::sample_report());
+  page_of(sample_report());
   const Json document = json();
   Json broken = document;
   broken["damage"][1].erase("depth_mm");

@@ -19,6 +19,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -79,11 +80,7 @@ TEST(KeptTables, ContentThatIsNoTableIsMadeAnew) {
   const io::ContentCache cache(input.folder() / "cache");
   const auto made = app::kept_creep_table(&cache, 0.28, kCoarse);
   const fs::path file = entries(cache.folder()).at(0);
-  std::string text;
-  {
-    std::ifstream in(file, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  }
+  std::string text = content_of(file);
   const std::size_t from = text.find("creep table "), till = text.find(app::computing_identity()) + 64;
   ASSERT_LT(from, till);
   const std::string key = text.substr(from, till - from);

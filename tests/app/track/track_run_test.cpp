@@ -17,6 +17,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/solvers/vehicle/track_receptance.hpp"
 #include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app {
@@ -39,12 +40,7 @@ TrackRequest request_of(const std::string& file, int layers) {
 }
 
 std::string error_of(const TrackRequest& request) {
-  try {
-    run_track(request);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { run_track(request); });
 }
 
 TEST(TrackRun, TheShippedFitIsWhatIsFittedNow) {

@@ -16,8 +16,6 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <random>
 #include <sstream>
@@ -31,6 +29,7 @@
 #include "treadmark/io/cad/cad_process.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/tests/support/error_text.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io {
@@ -38,14 +37,10 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using treadmark::testing::content_of;
 using treadmark::testing::error_of;
 
 constexpr double kRadius = 0.08;  ///< of the samples: a cylinder along x with its crown at z = 0, 0.4 rad to both sides
-
-std::string file_text(const std::filesystem::path& name) {
-  std::ifstream file(name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Made by OpenCASCADE itself, in mm:
 /// - rail.step, rail.igs; hole.step, with a hole of 6 mm at x = 5, y = 4;
@@ -54,7 +49,7 @@ std::string file_text(const std::filesystem::path& name) {
 /// - trimmed.step: z = 0.0375 y^2 + 2e-5 (x - 50)^2, cut off askew 55 deep; slanted.step: the same, cut askew in sight;
 /// - halves.step: z = 0.005 y^2 + 2e-5 (x - 50)^2, two faces that meet at y = 4.
 std::string sample(const std::string& name) {
-  return file_text(std::filesystem::path(TREADMARK_SOURCE_DIR) / "tests/io/cad/data" / name);
+  return content_of(std::filesystem::path(TREADMARK_SOURCE_DIR) / "tests/io/cad/data" / name);
 }
 
 class Cad : public ::testing::Test {
@@ -168,10 +163,10 @@ TEST_F(Cad, WritesSectionsThatItReads) {
   const auto& p = std::get<Profile>(s.shape);
   EXPECT_GT(p.y.front(), p.y.back());
   for (std::size_t i = 0; i < p.y.size(); ++i) EXPECT_NEAR(p.z[i], radius(p.y[i]) - 0.46, 1e-12) << i;
-  const std::string bytes = file_text(file);
+  const std::string bytes = content_of(file);
   EXPECT_THAT(bytes, HasSubstr("FILE_DESCRIPTION(('a smooth step')"));
   write_cad(file, wheel);
-  EXPECT_EQ(bytes, file_text(file)) << "the same surface, the same bytes";
+  EXPECT_EQ(bytes, content_of(file)) << "the same surface, the same bytes";
   EXPECT_THAT(error_of([&] { write_cad(folder_.path() / "wheel.igs", wheel); }), HasSubstr("written as STEP"));
 }
 
@@ -481,7 +476,7 @@ TEST_F(Cad, HearsThatItsWorkIsToEnd) {
 
 /// The state of a process as /proc has it: 'T' stopped, 'Z' dead but not yet waited for; ' ': gone.
 char state_of(pid_t process) {
-  const std::string stat = file_text(fmt::format("/proc/{}/stat", process));
+  const std::string stat = content_of(fmt::format("/proc/{}/stat", process));
   const std::size_t name_end = stat.rfind(')');
   return name_end == std::string::npos ? ' ' : stat.at(name_end + 2);
 }
@@ -498,8 +493,8 @@ TEST_F(Cad, DiesWithItsParent) {
   };
   pid_t child = 0;
   const auto has_begun = [&] {
-    std::istringstream(file_text(fmt::format("/proc/{0}/task/{0}/children", parent))) >> child;
-    return child > 0 && file_text(fmt::format("/proc/{}/comm", child)).starts_with("treadmark-openc");
+    std::istringstream(content_of(fmt::format("/proc/{0}/task/{0}/children", parent))) >> child;
+    return child > 0 && content_of(fmt::format("/proc/{}/comm", child)).starts_with("treadmark-openc");
   };
   ASSERT_TRUE(wait_for(has_begun));
   // Once it sleeps it has done what it does first. Stopped, it cannot see that its socket is closed.

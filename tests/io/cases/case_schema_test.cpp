@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -92,11 +93,7 @@ TEST(CaseKeys, DefaultsPassTheirOwnChecks) {
 }
 
 TEST(CaseDocumentation, TableOfKeysIsUpToDate) {
-  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/case-file.md");
-  std::stringstream text;
-  text << stream.rdbuf();
-  EXPECT_NE(text.str().find(case_key_table()), std::string::npos) << "docs/case-file.md must contain:\n"
-                                                                  << case_key_table();
+  treadmark::testing::expect_in_document("case-file.md", case_key_table());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -18,13 +19,8 @@ ContactWriter keeping() {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_contact_input(text + "0\n", "test.inp");
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::configuration);
-    return error.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { parse_contact_input(text + "0\n", "test.inp"); },
+                                        ErrorKind::configuration);
 }
 
 /// Settings of one basic case that do not go together; line and column are where they are refused.

@@ -3,17 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <numbers>
 #include <sstream>
 
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::io {
 namespace {
+
+using treadmark::testing::content_of;
 
 namespace fs = std::filesystem;
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -23,13 +25,6 @@ const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) {
 const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
 fs::path example(const fs::path& shared, const std::string& name) {
   return shared / "data" / "contact_examples" / name;
-}
-
-std::string content(const fs::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 TEST(ContactData, Wheelflat) {
@@ -62,7 +57,7 @@ TEST(ContactData, Wheelflat) {
     EXPECT_DOUBLE_EQ(std::get<GeometryFile>(c.rail.geometry).options.smoothing.strength, 0.0);
   }
   EXPECT_EQ(f.cases[0].where.line, 7);
-  EXPECT_EQ(f.sha256, sha256_hex(content(example(*shared, "wheelflat.inp"))));
+  EXPECT_EQ(f.sha256, sha256_hex(content_of(example(*shared, "wheelflat.inp"))));
 }
 
 TEST(ContactData, ManchesterBenchmark) {
@@ -371,7 +366,7 @@ TEST(ContactData, GrammarOfEveryFileIsReadToTheEnd) {
   TREADMARK_REQUIRE_SHARED();
   for (const fs::path& file : all_inputs(*shared)) {
     int count = 0;
-    const std::string text = with_skipped_cases(content(file), count);
+    const std::string text = with_skipped_cases(content_of(file), count);
     ASSERT_GT(count, 0) << file;
     CaseFile f;
     ASSERT_NO_THROW(f = parse_contact_input(text, file)) << file;

@@ -2,12 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "treadmark/io/cases/contact_digits.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
+#include "treadmark/tests/support/file_content.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -17,13 +18,7 @@ using testing::ContactWriter;
 CaseFile parse(const std::string& text) { return parse_contact_input(text, "test.inp"); }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::configuration);
-    return error.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { parse(text); }, ErrorKind::configuration);
 }
 
 ContactWriter first_case_with(int module, const DigitValue& d) {
@@ -239,11 +234,7 @@ TEST_P(Truncated, IsToldWhereItEnds) {
 INSTANTIATE_TEST_SUITE_P(Modules, Truncated, ::testing::Values(1, 3));
 
 TEST(ContactDocumentation, TableOfDigitsIsUpToDate) {
-  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/contact-input.md");
-  std::stringstream text;
-  text << stream.rdbuf();
-  EXPECT_NE(text.str().find(contact_digit_table()), std::string::npos) << "docs/contact-input.md must contain:\n"
-                                                                       << contact_digit_table();
+  treadmark::testing::expect_in_document("contact-input.md", contact_digit_table());
 }
 
 }  // namespace

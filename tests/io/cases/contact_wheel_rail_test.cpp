@@ -7,6 +7,7 @@
 
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -33,13 +34,7 @@ WheelRailCase at(const CaseFile& f, std::size_t i) { return std::get<WheelRailCa
 WheelRailCase only(const ContactWriter& w) { return at(parse(w.str()), 0); }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::configuration);
-    return error.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { parse(text); }, ErrorKind::configuration);
 }
 
 TEST(ContactRoller, HasItsRadiusAndPitchRate) {

@@ -12,6 +12,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_influence.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io {
@@ -43,12 +44,7 @@ std::string influence_file(const std::string& first = "1 1",
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    parse_influence(text, "a.cff");
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { parse_influence(text, "a.cff"); });
 }
 
 TEST(InfluenceFile, FillsAllOffsetsInMetres) {

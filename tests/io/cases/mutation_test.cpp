@@ -3,15 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 #include "treadmark/tests/io/cases/same_cases.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -153,9 +152,7 @@ TEST(Mutation, ContactInputOnlyThrowsError) {
 }
 
 TEST(Mutation, CaseFileOnlyThrowsError) {
-  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/examples/wheel-flat.toml");
-  std::stringstream example;
-  example << stream.rdbuf();
+  const std::string example = treadmark::testing::content_of(TREADMARK_SOURCE_DIR "/examples/wheel-flat.toml");
   const std::string patch =
       "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\ncreepage_x = -1e-3\nrolling_step_mm = 0.4\nvelocity_m_s = 30\n"
       "hertz.given = \"semi_axes\"\nhertz.semi_axis_x_mm = 4.0\nhertz.semi_axis_y_mm = 2.0\n[case]\nregime = "
@@ -179,7 +176,7 @@ TEST(Mutation, CaseFileOnlyThrowsError) {
       "pitch_rate_rad_s = 4\n[track.springs]\nforce_y_N = 3\n[damping]\nnormal_s = 1e-4\nmax_rate_normal_N_per_s = "
       "9\n[contact]\nreference_surface = \"curved\"\n"
       "[[cases]]\ncase.steps = 3\n[[cases]]\ncase.steps = 2\nwheelset.y_mm = [0, 1]\n";
-  for (const std::string& text : {example.str(), patch, everything, rolling}) {
+  for (const std::string& text : {example, patch, everything, rolling}) {
     const int good = accepted(text, 2, kMutants / 2,
                               [](const std::string& t) { expect_sound_sometimes(parse_case_text(t, "m.toml")); });
     EXPECT_GT(good, 0);

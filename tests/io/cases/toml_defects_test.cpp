@@ -8,6 +8,7 @@
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -212,13 +213,7 @@ TEST(TomlDefects, OverridesReachIntoNestedLists) {
 }
 
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    parse(text, overrides);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::configuration);
-    return error.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { parse(text, overrides); }, ErrorKind::configuration);
 }
 
 TEST(TomlDefects, OverrideErrorsNameTheOverride) {

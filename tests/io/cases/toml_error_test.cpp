@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -15,13 +16,7 @@ const std::string kHertz =
     kPatch + "hertz.given = \"curvatures\"\nhertz.curvature_x_per_m = 1\nhertz.curvature_y_per_m = 1\n";
 
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    parse_case_text(text, "a.toml", overrides);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::configuration);
-    return error.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { parse_case_text(text, "a.toml", overrides); }, ErrorKind::configuration);
 }
 
 struct Wrong {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -23,13 +24,7 @@ CaseFile parse(const std::string& text, const std::vector<std::string>& override
 const WheelRailCase& at(const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); }
 WheelRailCase one(const std::string& text) { return at(parse(kRail + text), 0); }
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    parse(text, overrides);
-  } catch (const Error& e) {
-    EXPECT_EQ(e.kind(), ErrorKind::configuration);
-    return e.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of([&] { parse(text, overrides); }, ErrorKind::configuration);
 }
 
 TEST(TomlElements, AreChosenUnlessTheyAreGiven) {

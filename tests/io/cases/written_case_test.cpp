@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 #include "treadmark/tests/io/cases/same_cases.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::io {
@@ -25,15 +25,7 @@ namespace fs = std::filesystem;
 using testing::ContactWriter;
 using testing::expect_same_cases;
 using ::testing::HasSubstr;
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
+using treadmark::testing::refusal_of;
 
 std::vector<fs::path> files_with(const fs::path& folder, const std::string& extension) {
   std::vector<fs::path> files;
@@ -97,7 +89,7 @@ TEST(WrittenCase, ExamplesReadAsTheSameOrAreRefusedByName) {
       expect_both_round_trips(f);
       continue;
     }
-    const std::string error = error_of([&] { contact_input_text(f, file.parent_path()); });
+    const std::string error = refusal_of([&] { contact_input_text(f, file.parent_path()); });
     EXPECT_THAT(error, HasSubstr("cannot be written as input of CONTACT (.inp)"));  // shapes by formula
     EXPECT_THAT(error, HasSubstr("treadmark convert"));
   }
@@ -212,7 +204,7 @@ rail_bulk_temperature_C = 30
 TEST(WrittenCase, OwnSettingsThatAreWrongAreNamedWithTheirPlace) {
   const std::string first = ContactWriter(1).str(), word = "%treadmark ";
   const auto error_with = [&](const std::string& setting) {
-    return error_of([&] { parse_contact_input(word + setting + "\n" + first + "0\n", "a.inp"); });
+    return refusal_of([&] { parse_contact_input(word + setting + "\n" + first + "0\n", "a.inp"); });
   };
   EXPECT_THAT(error_with("wheelset.y_nm = 3"), HasSubstr("a.inp:1:1: "));
   EXPECT_THAT(error_with("wheelset.y_mm = \"x\""), HasSubstr("a.inp:1:1: "));
@@ -225,7 +217,7 @@ struct Refused {
 class RefusedInput : public ::testing::TestWithParam<Refused> {};
 TEST_P(RefusedInput, IsNamed) {
   const std::vector<std::string> overrides{"wheelset.z_mm=0.1", GetParam().setting};
-  const std::string error = error_of([&] {
+  const std::string error = refusal_of([&] {
     contact_input_text(
         parse_case_text("rail.shape.file = \"a.prr\"\nwheel.shape.file = \"a.prw\"\n", "a.toml", overrides), "");
   });
@@ -242,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(Settings, RefusedInput,
 
 TEST(WrittenCase, FilesOfBothKindsAreNoCaseFile) {
   const CaseFile f = parse_contact_input(ContactWriter(1).str() + ContactWriter(3).str() + "0\n", "a.inp");
-  EXPECT_THAT(error_of([&] { case_file_text(f, ""); }), HasSubstr("case 2: a case file holds either"));
+  EXPECT_THAT(refusal_of([&] { case_file_text(f, ""); }), HasSubstr("case 2: a case file holds either"));
 }
 
 }  // namespace

@@ -11,9 +11,12 @@
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark {
 namespace {
+
+using treadmark::testing::content_of;
 
 template <class Action>
 ErrorKind kind_of_error(Action action) {
@@ -92,8 +95,7 @@ TEST_F(Hdf5File, CompressedValuesOfEveryShapeComeBackAndTheirBytesDoNotDependOnT
       group.write({"bytes", shapes[k], "1", "", true}, bytes[k]);
     }
     file.commit();
-    std::ifstream in(path_, std::ios::binary);
-    files.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    files.push_back(content_of(path_));
   }
   EXPECT_EQ(files[0], files[1]);
   EXPECT_LT(files[0].size(), 3'000'000u);  // a third of the values
@@ -146,11 +148,6 @@ TEST_F(Hdf5File, WrongNamesShapesAndKindsAreErrors) {
   EXPECT_EQ(kind_of_error([&] { io::Hdf5Writer(path_ / "a.h5").commit(); }), ErrorKind::configuration);
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 struct SmallFile {
   std::vector<double> compressed, plain;
   std::string text;
@@ -181,7 +178,7 @@ SmallFile small_content() {
 TEST_F(Hdf5File, NoFlippedBitIsSilent) {
   const SmallFile content = small_content();
   write_small(path_, content);
-  const std::string sound = bytes_of(path_);
+  const std::string sound = content_of(path_);
   int refused = 0;
   for (std::size_t k = 0; k < sound.size(); ++k) {
     std::string damaged = sound;
@@ -201,7 +198,7 @@ TEST_F(Hdf5File, NoFlippedBitIsSilent) {
 TEST_F(Hdf5File, AChunkThatIsLostIsNoZeros) {
   const SmallFile content = small_content();
   write_small(path_, content);
-  std::string sound = bytes_of(path_);
+  std::string sound = content_of(path_);
   sound.resize(sound.size() - 24);  // as earlier versions wrote it
   std::ofstream(path_, std::ios::binary) << sound;
   ASSERT_EQ(read_small(path_), content);

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -308,11 +309,7 @@ TEST(ImportSettings, TheSchemaHasEveryKeyWithItsDefault) {
 }
 
 TEST(ImportSettings, TableOfKeysIsUpToDate) {
-  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/scans.md");
-  std::stringstream text;
-  text << stream.rdbuf();
-  EXPECT_NE(text.str().find(import_settings_table()), std::string::npos) << "docs/scans.md must contain:\n"
-                                                                         << import_settings_table();
+  treadmark::testing::expect_in_document("scans.md", import_settings_table());
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/meshes/parse_mesh.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io::testing {
@@ -156,15 +157,10 @@ inline TriangleMesh parse(Parser parser, const std::string& text) { return parse
 
 /// The Error that parsing throws; a test failure when it throws none.
 inline Error error_of(Parser parser, const std::string& text) {
-  try {
-    parse(parser, text);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::input_data);
-    EXPECT_EQ(error.where().file, "sample");
-    return error;
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return Error(ErrorKind::numerical, "no Error was thrown");
+  Error error = treadmark::testing::error_thrown_by([&] { parse(parser, text); });
+  EXPECT_EQ(error.kind(), ErrorKind::input_data);
+  EXPECT_EQ(error.where().file, "sample");
+  return error;
 }
 
 inline void expect_error(Parser parser, const std::string& text, const std::string& part, int line = 0,

@@ -3,45 +3,19 @@
 #include <random>
 
 #include "mesh_files.hpp"
+#include "treadmark/tests/support/mutation.hpp"
 
 namespace treadmark::io {
 namespace {
 
 using namespace testing;
+using treadmark::testing::with_other_bytes;
 
 constexpr int kTrials = 3000;  // for each format
 
-/// A copy with up to six flipped, inserted, deleted or repeated pieces, or cut short.
-std::string mutated(const std::string& valid, std::mt19937& random) {
-  static const std::vector<std::string> kPieces = {
-      "\n", " ", "-", "1e308", "nan", "#", "99999999999", "\xff\xff\xff\xff", "element", "3"};
-  std::string text = valid;
-  const unsigned changes = 1 + random() % 6;
-  for (unsigned k = 0; k < changes && !text.empty(); ++k) {
-    const std::size_t at = random() % text.size();
-    switch (random() % 6) {
-      case 0:
-        text[at] = static_cast<char>(random() % 256);
-        break;
-      case 1:
-        text[at] = static_cast<char>(text[at] ^ (1u << (random() % 8)));
-        break;
-      case 2:
-        text.insert(at, kPieces[random() % kPieces.size()]);
-        break;
-      case 3:
-        text.erase(at, 1 + random() % 20);
-        break;
-      case 4:
-        text.insert(at, text.substr(random() % text.size(), random() % 60));
-        break;
-      default:
-        if (random() % 3 == 0) text.resize(at);
-        break;
-    }
-  }
-  return text;
-}
+/// What these formats stumble over.
+const std::vector<std::string> kPieces{"\n",      " ", "-", "1e308", "nan", "#", "99999999999", "\xff\xff\xff\xff",
+                                       "element", "3"};
 
 /// Every result is a sound mesh or an Error with a message that can be printed; anything else ends the test.
 void survive(Parser parser, const std::string& valid) {
@@ -49,7 +23,7 @@ void survive(Parser parser, const std::string& valid) {
   ASSERT_NO_THROW(parse(parser, valid));
   int accepted = 0, refused = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const std::string text = mutated(valid, random);
+    const std::string text = with_other_bytes(valid, random, kPieces);
     try {
       const TriangleMesh mesh = parse(parser, text);
       ++accepted;

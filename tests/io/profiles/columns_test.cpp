@@ -160,7 +160,7 @@ TEST(TwoColumns, RefusesBadOptions) {
   const auto with = [](auto change) {
     ProfileOptions options;
     change(options);
-    return testing::error_of([&] { parse(columns(rail_points()), Body::rail, options); });
+    return testing::error_thrown_by([&] { parse(columns(rail_points()), Body::rail, options); });
   };
   for (const Error& error :
        {with([](ProfileOptions& o) { o.scale = 0.0; }), with([](ProfileOptions& o) { o.scale = 9e-7; }),

@@ -8,11 +8,11 @@
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io {
@@ -24,11 +24,6 @@ using Bytes = std::vector<std::byte>;
 Bytes content_of(const std::string& text) {
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
-}
-
-std::string file_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void write_text(const fs::path& file, const std::string& text) {
@@ -58,7 +53,7 @@ TEST_F(ContentCacheTest, WhatIsCutOrChangedAnywhereIsNotThere) {
   const std::string key = "what decides it";
   cache.keep(key, content_of("some content"));
   const fs::path file = cache.file_of(key);
-  const std::string whole = file_text(file);
+  const std::string whole = testing::content_of(file);
   ASSERT_GT(whole.size(), 100u);
   for (std::size_t length = 0; length < whole.size(); ++length) {
     write_text(file, whole.substr(0, length));
@@ -74,7 +69,7 @@ TEST_F(ContentCacheTest, WhatIsCutOrChangedAnywhereIsNotThere) {
   EXPECT_FALSE(cache.find(key));
   // It is made anew over what lies there.
   cache.keep(key, content_of("some content"));
-  EXPECT_EQ(file_text(file), whole);
+  EXPECT_EQ(testing::content_of(file), whole);
 }
 
 TEST_F(ContentCacheTest, AnEntryUnderTheNameOfAnotherIsNotTakenForIt) {

@@ -294,7 +294,7 @@ TEST(RealFieldProfiles, AreReadOrRefusedAsStated) {
   for (const Outcome& o : outcomes) {
     SCOPED_TRACE(o.file);
     if (o.refusal != nullptr) {
-      const Error error = testing::error_of([&] { read_profile(folder / o.file, o.body, {}); });
+      const Error error = testing::error_thrown_by([&] { read_profile(folder / o.file, o.body, {}); });
       EXPECT_NE(std::string(error.what()).find(o.refusal), std::string::npos) << error.what();
       continue;
     }

@@ -219,7 +219,7 @@ TEST(Faults, SpikesAreRefusedWithTheirLine) {
     points[80].z += height;
     TREADMARK_EXPECT_ERROR(read(points, Body::wheel), "a spike of", 81, 0);
     points[81].z += height;
-    const Error error = testing::error_of([&] { read(points, Body::wheel); });
+    const Error error = testing::error_thrown_by([&] { read(points, Body::wheel); });
     EXPECT_NE(std::string(error.what()).find("a spike of"), std::string::npos) << error.what();
   }
   auto points = wheel();

@@ -8,6 +8,7 @@
 #include "samples.hpp"
 #include "treadmark/io/profiles/judge_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/tests/support/mutation.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -18,37 +19,8 @@ using testing::wheel_points;
 
 constexpr int kTrials = 1500;  // for each format
 
-/// A copy with up to eight flipped, inserted, deleted or repeated pieces, or cut short.
-std::string mutated(const std::string& valid, std::mt19937& random) {
-  static const std::vector<std::string> kPieces = {"\n", " ", "-",           "1e308",  "nan", "'",
-                                                   "=",  "%", "99999999999", ".begin", ","};
-  std::string text = valid;
-  const unsigned changes = 1 + random() % 8;
-  for (unsigned k = 0; k < changes && !text.empty(); ++k) {
-    const std::size_t at = random() % text.size();
-    switch (random() % 6) {
-      case 0:
-        text[at] = static_cast<char>(random() % 256);
-        break;
-      case 1:
-        text[at] = static_cast<char>(text[at] ^ (1u << (random() % 7)));
-        break;
-      case 2:
-        text.insert(at, kPieces[random() % kPieces.size()]);
-        break;
-      case 3:
-        text.erase(at, 1 + random() % 20);
-        break;
-      case 4:
-        text.insert(at, text.substr(random() % text.size(), random() % 60));
-        break;
-      default:
-        if (random() % 3 == 0) text.resize(at);
-        break;
-    }
-  }
-  return text;
-}
+/// What these formats stumble over.
+const std::vector<std::string> kPieces{"\n", " ", "-", "1e308", "nan", "'", "=", "%", "99999999999", ".begin", ","};
 
 /// Every result is a sound profile or an Error with a message; anything else ends the test.
 template <class Read>
@@ -57,7 +29,7 @@ void survive(const std::string& valid, Read read) {
   ASSERT_NO_THROW(read(valid));
   int accepted = 0, refused = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const std::string text = mutated(valid, random);
+    const std::string text = testing::with_other_bytes(valid, random, kPieces);
     try {
       read(text);
       ++accepted;

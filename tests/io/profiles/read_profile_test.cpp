@@ -43,7 +43,7 @@ TEST(ReadProfile, AcceptsBackslashesInNames) {
 
 TEST(ReadProfile, MissingFileNamesItselfAndItsReference) {
   const SourcePosition reference{"case.inp", 12, 3};
-  const Error error = testing::error_of([&] { (void)read_profile("no/such.prr", Body::rail, {}, reference); });
+  const Error error = testing::error_thrown_by([&] { (void)read_profile("no/such.prr", Body::rail, {}, reference); });
   EXPECT_EQ(error.kind(), ErrorKind::input_data);
   const std::string what = error.what();
   EXPECT_EQ(what.rfind("case.inp:12:3: the profile file 'no/such.prr' does not exist", 0), 0u) << what;
@@ -62,19 +62,19 @@ TEST(ReadProfile, RefusesTheExtensionOfTheOtherBodyAndSlices) {
   const SourcePosition reference{"case.inp", 5, 1};
   for (const auto& [name, body] : {std::pair{"a.prr", Body::wheel}, std::pair{"a.PRW", Body::rail},
                                    std::pair{"a.ban", Body::wheel}, std::pair{"a.whl", Body::rail}}) {
-    const Error error = testing::error_of([&, n = name, b = body] { (void)read_profile(n, b, {}, reference); });
+    const Error error = testing::error_thrown_by([&, n = name, b = body] { (void)read_profile(n, b, {}, reference); });
     EXPECT_EQ(error.kind(), ErrorKind::configuration);
     EXPECT_NE(error.message().find("the extension of"), std::string::npos);
     EXPECT_EQ(error.where().line, 5);
   }
-  const Error error = testing::error_of([&] { (void)read_profile("a.slcs", Body::rail, {}, reference); });
+  const Error error = testing::error_thrown_by([&] { (void)read_profile("a.slcs", Body::rail, {}, reference); });
   EXPECT_NE(error.message().find("is a set of slices"), std::string::npos);
 }
 
 TEST(ReadProfile, ErrorsInsideAFileNameThatFile) {
   const TemporaryFolder folder;
   const auto file = folder.write("bad.txt", "0 0\n5 x\n");
-  const Error error = testing::error_of([&] { (void)read_profile(file, Body::rail, {}, {"case.inp", 1, 1}); });
+  const Error error = testing::error_thrown_by([&] { (void)read_profile(file, Body::rail, {}, {"case.inp", 1, 1}); });
   EXPECT_EQ(error.where().to_string(), file.string() + ":2:3");
 }
 

@@ -234,7 +234,7 @@ TEST(ReadSlices, MissingSliceNamesTheLineAndTheFile) {
   folder.write("one.txt", columns(testing::rail_points()));
   const auto file =
       folder.write("set.slcs", "0 1\n4\n0 0 0\n1\n0 'one.txt'\n1 'one.txt'\n2   'two.txt'\n3 'one.txt'\n");
-  const Error error = testing::error_of([&] { (void)read_slices(file, Body::rail, {}); });
+  const Error error = testing::error_thrown_by([&] { (void)read_slices(file, Body::rail, {}); });
   EXPECT_EQ(error.where().to_string(), file.string() + ":7:5");
   EXPECT_NE(error.message().find((folder.path() / "two.txt").string() + "' does not exist"), std::string::npos);
 }
@@ -243,7 +243,7 @@ TEST(ReadSlices, StrangeNamesAreReportedHarmlessly) {
   const TemporaryFolder folder;
   for (const std::string& name : {std::string("\x1b[31m"), std::string(3000, 'a'), std::string("one.txt/b")}) {
     const auto file = folder.write("set.slcs", "0 1\n4\n0 0 0\n1\n0 '" + name + "'\n1 'a'\n2 'a'\n3 'a'\n");
-    const Error error = testing::error_of([&] { (void)read_slices(file, Body::rail, {}); });
+    const Error error = testing::error_thrown_by([&] { (void)read_slices(file, Body::rail, {}); });
     EXPECT_EQ(error.kind(), ErrorKind::input_data);
     EXPECT_EQ(error.message().find('\x1b'), std::string::npos);
     EXPECT_EQ(error.where().line, 5);
@@ -251,17 +251,21 @@ TEST(ReadSlices, StrangeNamesAreReportedHarmlessly) {
 }
 
 TEST(ReadSlices, MissingSetAndWrongBodyAreErrors) {
-  const Error missing = testing::error_of([] { (void)read_slices("none.slcs", Body::rail, {}, {"case.inp", 4, 2}); });
+  const Error missing = testing::error_thrown_by([] {
+    (void)read_slices("none.slcs", Body::rail, {}, {"case.inp", 4, 2});
+  });
   EXPECT_EQ(missing.kind(), ErrorKind::input_data);
   EXPECT_EQ(std::string(missing.what()).rfind("case.inp:4:2: the slices file 'none.slcs' does not exist", 0), 0u);
-  EXPECT_EQ(testing::error_of([] { (void)read_slices("a.slcs", Body::wheel, {}); }).kind(), ErrorKind::configuration);
-  EXPECT_EQ(testing::error_of([] { (void)read_slices("a.SLCW", Body::rail, {}); }).kind(), ErrorKind::configuration);
+  EXPECT_EQ(testing::error_thrown_by([] { (void)read_slices("a.slcs", Body::wheel, {}); }).kind(),
+            ErrorKind::configuration);
+  EXPECT_EQ(testing::error_thrown_by([] { (void)read_slices("a.SLCW", Body::rail, {}); }).kind(),
+            ErrorKind::configuration);
 }
 
 TEST(ReadSlices, ASetWithinASetIsAnError) {
   const TemporaryFolder folder;
   const auto file = folder.write("set.slcs", "0 1\n4\n0 0 0\n1\n0 'set.slcs'\n1 'a'\n2 'a'\n3 'a'\n");
-  const Error error = testing::error_of([&] { (void)read_slices(file, Body::rail, {}); });
+  const Error error = testing::error_thrown_by([&] { (void)read_slices(file, Body::rail, {}); });
   EXPECT_NE(error.message().find("is a set of slices"), std::string::npos);
   EXPECT_EQ(error.where().line, 5);
 }

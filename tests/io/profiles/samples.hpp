@@ -13,6 +13,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
@@ -56,26 +57,14 @@ inline Profile parse(const std::string& text, Body body, const io::ProfileOption
   return io::parse_profile(text, "sample", format, body, options);
 }
 
-/// The Error that the call throws; a test failure when it throws none.
-template <class Call>
-Error error_of(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return Error(ErrorKind::numerical, "no Error was thrown");
-}
-
 /// Checks the place and a part of the message of an error.
-#define TREADMARK_EXPECT_ERROR(call, part, line_, column_)                                \
-  do {                                                                                    \
-    const treadmark::Error caught = treadmark::testing::error_of([&] { (void)(call); });  \
-    EXPECT_NE(std::string(caught.what()).find(part), std::string::npos) << caught.what(); \
-    EXPECT_EQ(caught.where().line, line_) << caught.what();                               \
-    EXPECT_EQ(caught.where().column, column_) << caught.what();                           \
-    EXPECT_EQ(caught.kind(), treadmark::ErrorKind::input_data) << caught.what();          \
+#define TREADMARK_EXPECT_ERROR(call, part, line_, column_)                                      \
+  do {                                                                                          \
+    const treadmark::Error caught = treadmark::testing::error_thrown_by([&] { (void)(call); }); \
+    EXPECT_NE(std::string(caught.what()).find(part), std::string::npos) << caught.what();       \
+    EXPECT_EQ(caught.where().line, line_) << caught.what();                                     \
+    EXPECT_EQ(caught.where().column, column_) << caught.what();                                 \
+    EXPECT_EQ(caught.kind(), treadmark::ErrorKind::input_data) << caught.what();                \
   } while (false)
 
 }  // namespace treadmark::testing

@@ -113,7 +113,7 @@ TEST(ScanErrors, FilesThatCannotBeRead) {
   const TemporaryFolder folder;
   const ScanReadOptions asked{{"case.toml", 3, 5}, 10};
   const auto expect = [&](const std::filesystem::path& file, const std::string& part) {
-    const Error error = error_of([&] { read_scan(file, asked); });
+    const Error error = error_thrown_by([&] { read_scan(file, asked); });
     EXPECT_EQ(error.kind(), ErrorKind::input_data);
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     EXPECT_EQ(error.where().to_string(), "case.toml:3:5");
@@ -125,7 +125,7 @@ TEST(ScanErrors, FilesThatCannotBeRead) {
   expect(folder.write("empty.xyz", ""), "is empty");
   expect(folder.write("a.laz", "LASF"), "decompress it first: 'laszip -i a.laz -o a.las'");
   expect(folder.write("a.docx", "x"), "of no known kind");
-  EXPECT_EQ(error_of([&] { read_scan(folder.path() / "none.ply"); }).where().file,
+  EXPECT_EQ(error_thrown_by([&] { read_scan(folder.path() / "none.ply"); }).where().file,
             (folder.path() / "none.ply").string());
 }
 
@@ -149,7 +149,7 @@ TEST(ScanErrors, ReadingToldAndStopped) {
   EXPECT_EQ(done.back(), text.size());
 
   progress.report = [&](std::size_t now, std::size_t, const std::string&) { stop = now > 0; };
-  const Error error = error_of([&] { read_scan(file, {}, progress); });
+  const Error error = error_thrown_by([&] { read_scan(file, {}, progress); });
   EXPECT_EQ(error.kind(), ErrorKind::input_data);
   EXPECT_NE(std::string(error.what()).find("stopped"), std::string::npos) << error.what();
 }

@@ -34,10 +34,10 @@ OffsetMap esri(const std::string& text, const MapReadOptions& options = {}) {
 
 void expect_matrix_error(const std::string& text, const std::string& part, int line = 0, int column = 0,
                          const MapReadOptions& options = {}) {
-  expect_at(error_of([&] { matrix(text, options); }), part, line, column);
+  expect_at(error_thrown_by([&] { matrix(text, options); }), part, line, column);
 }
 void expect_esri_error(const std::string& text, const std::string& part, int line = 0, int column = 0) {
-  expect_at(error_of([&] { esri(text); }), part, line, column);
+  expect_at(error_thrown_by([&] { esri(text); }), part, line, column);
 }
 
 /// x = 100, 102 along the track, y = -10, -5, 0; values 10 ix + iy [um] but one without data.
@@ -227,7 +227,7 @@ TEST(DeviationMaps, Files) {
 
   options.asked_by = {"case.toml", 2, 1};
   const auto expect = [&](const std::string& name, ErrorKind kind, const std::string& part) {
-    const Error error = error_of([&] { read_deviation_map(folder.path() / name, options); });
+    const Error error = error_thrown_by([&] { read_deviation_map(folder.path() / name, options); });
     EXPECT_EQ(error.kind(), kind);
     EXPECT_EQ(error.where().to_string(), "case.toml:2:1");
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();

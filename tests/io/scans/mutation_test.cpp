@@ -3,66 +3,40 @@
 #include <random>
 
 #include "sample_files.hpp"
+#include "treadmark/tests/support/mutation.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::io {
 namespace {
 
 using namespace testing;
+using treadmark::testing::with_other_bytes;
 
 constexpr int kTrials = 4000;  // for each format
 
-/// A copy with up to six changed, inserted, deleted or repeated pieces, or cut short.
-std::string mutated(const std::string& valid, std::mt19937& random) {
-  static const std::vector<std::string> kPieces = {"\n",
-                                                   " ",
-                                                   "-",
-                                                   "1e308",
-                                                   "nan",
-                                                   "#",
-                                                   "99999999999",
-                                                   "\xff\xff\xff\xff",
-                                                   "element",
-                                                   "3",
-                                                   ",",
-                                                   ";",
-                                                   "\t",
-                                                   "x",
-                                                   std::string(1, '\0'),
-                                                   "\r",
-                                                   "\\\n",
-                                                   "1e9",
-                                                   "\x7f\xff\xff\xff",
-                                                   "65536",
-                                                   "[mm]",
-                                                   "vertex 1"};
-  std::string text = valid;
-  const unsigned changes = 1 + random() % 6;
-  for (unsigned k = 0; k < changes && !text.empty(); ++k) {
-    const std::size_t at = random() % text.size();
-    switch (random() % 6) {
-      case 0:
-        text[at] = static_cast<char>(random() % 256);
-        break;
-      case 1:
-        text[at] = static_cast<char>(text[at] ^ (1u << (random() % 8)));
-        break;
-      case 2:
-        text.insert(at, kPieces[random() % kPieces.size()]);
-        break;
-      case 3:
-        text.erase(at, 1 + random() % 20);
-        break;
-      case 4:
-        text.insert(at, text.substr(random() % text.size(), random() % 60));
-        break;
-      default:
-        if (random() % 3 == 0) text.resize(at);
-        break;
-    }
-  }
-  return text;
-}
+/// What these formats stumble over.
+const std::vector<std::string> kPieces{"\n",
+                                       " ",
+                                       "-",
+                                       "1e308",
+                                       "nan",
+                                       "#",
+                                       "99999999999",
+                                       "\xff\xff\xff\xff",
+                                       "element",
+                                       "3",
+                                       ",",
+                                       ";",
+                                       "\t",
+                                       "x",
+                                       std::string(1, '\0'),
+                                       "\r",
+                                       "\\\n",
+                                       "1e9",
+                                       "\x7f\xff\xff\xff",
+                                       "65536",
+                                       "[mm]",
+                                       "vertex 1"};
 
 void expect_printable(const Error& error) {
   EXPECT_EQ(error.kind(), ErrorKind::input_data);
@@ -88,7 +62,7 @@ void survive(Parser parser, const std::string& valid, unsigned seed = 20250311) 
   ASSERT_NO_THROW(parse(parser, valid));
   int accepted = 0, refused = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const std::string text = mutated(valid, random);
+    const std::string text = with_other_bytes(valid, random, kPieces);
     if (text.empty()) continue;
     const std::size_t block = 1 + random() % 100;
     std::optional<Scan> scan;
@@ -202,7 +176,7 @@ TEST(MutatedMaps, MatrixAndGrid) {
   for (const bool is_grid : {false, true}) {
     int accepted = 0, refused = 0, same_kind = 0;
     for (int trial = 0; trial < 4 * kTrials; ++trial) {
-      const std::string text = mutated(is_grid ? grid : matrix, random);
+      const std::string text = with_other_bytes(is_grid ? grid : matrix, random, kPieces);
       if (text.empty()) continue;
       try {
         ByteBlocks bytes(text, "sample", 1 + random() % 100);

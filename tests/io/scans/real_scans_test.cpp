@@ -87,7 +87,7 @@ TEST(RealScans, AreReadRightlyOrRefusedWithAWayOut) {
   for (const RealFile& real : kRefused) {
     all.insert(real.file);
     if (!has_part("expat") && std::string(real.file).ends_with(".e57")) continue;
-    const Error error = error_of([&] { read_scan(*shared / "data/real" / real.file); });
+    const Error error = error_thrown_by([&] { read_scan(*shared / "data/real" / real.file); });
     EXPECT_EQ(error.kind(), ErrorKind::input_data) << real.file;
     EXPECT_NE(std::string(error.what()).find(real.says), std::string::npos) << real.file << ": " << error.what();
     EXPECT_FALSE(error.advice().empty()) << real.file;

@@ -9,15 +9,19 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "treadmark/io/scans/parse_scan.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
+#include "treadmark/tests/support/file_content.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io::testing {
+
+using treadmark::testing::content_of;
+using treadmark::testing::error_thrown_by;
 
 using scans::ByteBlocks;
 using Parser = Scan (*)(ByteBlocks&, const ScanReadOptions&);
@@ -68,17 +72,6 @@ inline Scan parse_in_all_blocks(Parser parser, const std::string& bytes) {
   return whole;
 }
 
-template <class Call>
-Error error_of(Call&& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no Error was thrown";
-  return Error(ErrorKind::numerical, "no Error was thrown");
-}
-
 inline void expect_at(const Error& error, const std::string& part, int line, int column) {
   EXPECT_EQ(error.kind(), ErrorKind::input_data) << error.what();
   EXPECT_EQ(error.where().file, "sample") << error.what();
@@ -89,8 +82,8 @@ inline void expect_at(const Error& error, const std::string& part, int line, int
 
 inline void expect_error(Parser parser, const std::string& bytes, const std::string& part, int line = 0, int column = 0,
                          const ScanReadOptions& options = {}) {
-  expect_at(error_of([&] { parse(parser, bytes, ByteBlocks::kBlock, options); }), part, line, column);
-  expect_at(error_of([&] { parse(parser, bytes, 5, options); }), part, line, column);
+  expect_at(error_thrown_by([&] { parse(parser, bytes, ByteBlocks::kBlock, options); }), part, line, column);
+  expect_at(error_thrown_by([&] { parse(parser, bytes, 5, options); }), part, line, column);
 }
 
 inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -100,10 +93,5 @@ inline std::string replaced(std::string text, const std::string& what, const std
 }
 
 using treadmark::testing::TemporaryFolder;
-
-inline std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace treadmark::io::testing

@@ -104,7 +104,7 @@ TEST(WriteScan, LasStepsFollowTheSize) {
   write_scan(folder.path() / "a.las", cloud, LengthUnit::metre);
   EXPECT_NEAR(read_scan(folder.path() / "a.las").cloud.points[2][0], 0.123456789, 0.5e-7);
   cloud.points[0][0] = -300;
-  const Error error = error_of([&] { write_scan(folder.path() / "a.las", cloud, LengthUnit::metre); });
+  const Error error = error_thrown_by([&] { write_scan(folder.path() / "a.las", cloud, LengthUnit::metre); });
   EXPECT_EQ(error.kind(), ErrorKind::configuration);
   EXPECT_NE(std::string(error.what()).find("500 m of points are too long"), std::string::npos) << error.what();
   EXPECT_EQ(read_scan(folder.path() / "a.las").cloud.points[0][0], -200.0);  // the old file is still there
@@ -114,7 +114,7 @@ TEST(WriteScan, Errors) {
   const TemporaryFolder folder;
   PointCloud cloud = sample_cloud(3);
   const auto expect = [&](const std::filesystem::path& file, const std::string& part) {
-    const Error error = error_of([&] { write_scan(file, cloud, LengthUnit::millimetre); });
+    const Error error = error_thrown_by([&] { write_scan(file, cloud, LengthUnit::millimetre); });
     EXPECT_EQ(error.kind(), ErrorKind::configuration);
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   };

@@ -17,6 +17,7 @@
 #include "treadmark/io/simulations/study_keys.hpp"
 #include "treadmark/io/simulations/vehicle_keys.hpp"
 #include "treadmark/tests/io/simulations/samples.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io {
@@ -81,11 +82,7 @@ TEST(Magnitudes, AreThoseOfTheLongestEnding) {
   EXPECT_EQ(magnitudes_of("scale_mass").greatest, 1e15);
 }
 
-TEST(Magnitudes, AreDocumented) {
-  const std::string text = read_text(std::string(TREADMARK_SOURCE_DIR) + "/docs/case-file.md");
-  EXPECT_NE(text.find(magnitude_table()), std::string::npos) << "docs/case-file.md must contain:\n"
-                                                             << magnitude_table();
-}
+TEST(Magnitudes, AreDocumented) { treadmark::testing::expect_in_document("case-file.md", magnitude_table()); }
 
 class HugeSimulations : public ::testing::Test {
  protected:

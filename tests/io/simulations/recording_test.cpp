@@ -15,6 +15,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/read_irregularities.hpp"
 #include "treadmark/io/simulations/recording_names.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::io {
@@ -433,11 +434,7 @@ TEST(Recording, TheCantOfCurvesIsSaid) {
               Contains(HasSubstr("it seems to hold the cant of curves")));
 }
 
-TEST(Recording, WordsAreDocumented) {
-  const std::string text = read_text(std::string(TREADMARK_SOURCE_DIR) + "/docs/layout.md");
-  EXPECT_NE(text.find(recording_names_table()), std::string::npos) << "docs/layout.md must contain:\n"
-                                                                   << recording_names_table();
-}
+TEST(Recording, WordsAreDocumented) { treadmark::testing::expect_in_document("layout.md", recording_names_table()); }
 
 }  // namespace
 }  // namespace treadmark::io

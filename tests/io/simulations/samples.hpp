@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io::samples {
 
@@ -134,13 +134,7 @@ inline std::string with(std::string text, const std::string& part, const std::st
 /// What an action says is wrong.
 template <class Action>
 std::string error_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::configuration);
-    return error.what();
-  }
-  return "no error";
+  return treadmark::testing::refusal_of(action, ErrorKind::configuration);
 }
 
 }  // namespace treadmark::io::samples

@@ -15,9 +15,12 @@
 #include "treadmark/tests/io/imports/sample_report.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
 #include "treadmark/tests/pictures/png_reader.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark {
 namespace {
+
+using treadmark::testing::content_of;
 
 constexpr std::size_t kLargestFile = 500000;  // bytes
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -186,11 +189,6 @@ TEST(ImportPictures, BarsOfReasonsAreLogarithmic) {
   EXPECT_TRUE(says(root, "1.00 %"));
 }
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(ImportFiles, TheSameReportGivesTheSameFiles) {
   const auto place = std::filesystem::path(TREADMARK_BINARY_DIR) / "import_files_test";
   std::filesystem::remove_all(place);
@@ -201,14 +199,14 @@ TEST(ImportFiles, TheSameReportGivesTheSameFiles) {
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(place / "one")) {
     ++files;
-    const std::string one = content(entry.path()), two = content(place / "two" / entry.path().filename());
+    const std::string one = content_of(entry.path()), two = content_of(place / "two" / entry.path().filename());
     EXPECT_FALSE(one.empty());
     EXPECT_EQ(one == two, entry.path().filename() != "times.json") << entry.path();
   }
   EXPECT_EQ(files, 9u);
-  EXPECT_EQ(content(place / "one" / "settings.toml"), report.settings_toml);
-  EXPECT_EQ(content(place / "one" / "summary.txt"), io::import_summary(report));
-  EXPECT_EQ(content(place / "one" / "report.json"), io::import_json(report, false));
+  EXPECT_EQ(content_of(place / "one" / "settings.toml"), report.settings_toml);
+  EXPECT_EQ(content_of(place / "one" / "summary.txt"), io::import_summary(report));
+  EXPECT_EQ(content_of(place / "one" / "report.json"), io::import_json(report, false));
   std::filesystem::remove_all(place);
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <fstream>
-#include <sstream>
 #include <string>
 
 #include "tangential_cases.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::kalker::testing {
@@ -30,10 +29,7 @@ double next_number(const std::string& text, const std::string& key, std::size_t&
 
 /// The values of the traction curve in the reference results, in the order of the cases.
 std::vector<ReferencePoint> reference_points(const std::filesystem::path& shared) {
-  std::ifstream file(shared / "reference" / "tractcurv.json");
-  std::stringstream buffer;
-  buffer << file.rdbuf();
-  const std::string text = buffer.str();
+  const std::string text = treadmark::testing::content_of(shared / "reference" / "tractcurv.json");
   std::vector<ReferencePoint> points;
   for (std::size_t at = 0; at != std::string::npos;) {
     ReferencePoint p;

@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +16,7 @@
 #include "treadmark/solvers/wheelrail/usual_values.hpp"
 #include "treadmark/tests/solvers/wheelrail/round_groove.hpp"
 #include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -217,11 +216,7 @@ TEST(UsualValues, NumbersOfRailwaysAreWithoutDoubtOthersAreNamed) {
 }
 
 TEST(UsualValues, DocumentationHasTheirLimits) {
-  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/case-file.md");
-  std::stringstream text;
-  text << stream.rdbuf();
-  EXPECT_NE(text.str().find(usual_value_table()), std::string::npos) << "docs/case-file.md must contain:\n"
-                                                                     << usual_value_table();
+  treadmark::testing::expect_in_document("case-file.md", usual_value_table());
 }
 
 }  // namespace
