@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/model/origin.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/rows.hpp"
 
@@ -37,16 +38,14 @@ struct BenchRow {
 };
 
 /// All that one run of the benchmark found out, with what is needed to read it.
-struct BenchReport {
-  std::string version, git, date, machine, compiler;
+struct BenchReport : Origin {
+  std::string date, machine, compiler;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
   int threads = 1;                                             ///< that were allowed
   double seconds = 0.0;                                        ///< of the whole run
   double seconds_per_measure = 0.0;                            ///< as BenchSettings has it [s]
-  std::string input_file, input_sha256;                        ///< empty for the built-in case
-  std::vector<std::string> settings;
-  std::string truth;     ///< representation of the surfaces as given
-  bool complete = true;  ///< false when interrupted
+  std::string truth;                                           ///< representation of the surfaces as given
+  bool complete = true;                                        ///< false when interrupted
   std::vector<BenchRow> rows;
 
   /// Whether all rows do.

@@ -2,26 +2,65 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 #include <cmath>
+#include <complex>
 #include <map>
+#include <optional>
 
 #include "treadmark/app/stability/stability_run.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/io/files/text.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/csv_of.hpp"
+#include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/text_of.hpp"
 #include "treadmark/pictures/chart.hpp"
 
-namespace treadmark::app {
+namespace treadmark {
+namespace {
+
+/// A motion at a speed.
+struct ModeRow {
+  double speed = 0.0;                             ///< [m/s]
+  std::optional<int> branch = {};                 ///< where it is followed through the speeds
+  std::complex<double> value = {kNaN, kNaN};      ///< eigenvalue [1/s]
+  double frequency = kNaN, damping_ratio = kNaN;  ///< [Hz], [-]
+  std::string motion;                             ///< in words, or why there is none
+};
+using M = const ModeRow&;
+using access::of;
+
+constexpr FileUnit kPerSecond{"1/s"};
+
+constexpr Column<ModeRow> kModes[] = {
+    {"speed_m_s", {"m/s"}, "", of<&ModeRow::speed>(), "", kInTable, "V"},
+    {"branch",
+     unit::kOne,
+     "",
+     {[](M m) { return 1.0 * *m.branch; }, nullptr, [](M m) { return m.branch.has_value(); }, true}},
+    {"real_1_per_s", kPerSecond, "", {[](M m) { return m.value.real(); }}, "", kInTable, "growth"},
+    {"imaginary_1_per_s", kPerSecond, "", {[](M m) { return m.value.imag(); }}},
+    {"frequency_Hz", {"Hz"}, "", of<&ModeRow::frequency>(), "", kInTable, "f"},
+    {"damping_ratio", unit::kOne, "", of<&ModeRow::damping_ratio>(), "", kInTable, "damping", 4},
+    {"motion", unit::kOne, "", of<&ModeRow::motion>(), "", kInTable, "least damped vibration, kinetic energy"}};
+
+ModeRow mode_row(const vehicle::ModesAtSpeed& at, std::size_t i, const vehicle::Multibody& system) {
+  const vehicle::Eigenmode& m = at.modes[i];
+  ModeRow row{at.speed, {}, m.value, m.frequency, m.damping_ratio, vehicle::describe(m, system)};
+  if (i < at.branch.size()) row.branch = at.branch[i];
+  return row;
+}
+
+}  // namespace
+
+template <>
+std::span<const Column<ModeRow>> columns() {
+  return kModes;
+}
+
+namespace app {
 namespace {
 
 using io::Json;
-
-Json json_mode(const vehicle::Eigenmode& mode, const vehicle::Multibody& system) {
-  return {{"real_1_per_s", io::number(mode.value.real())},
-          {"frequency_Hz", io::number(mode.frequency)},
-          {"damping_ratio", io::number(mode.damping_ratio)},
-          {"motion", vehicle::describe(mode, system)}};
-}
 
 const char* word(vehicle::StabilityVerdict verdict) {
   switch (verdict) {
@@ -105,33 +144,23 @@ pictures::Chart falling_chart(const StabilityRun& run) {
 }  // namespace
 
 std::string stability_table(const StabilityRun& run) {
-  std::string text = fmt::format("{}\n{:>9} {:>9} {:>9} {:>11}  {}\n", run.title, "V [m/s]", "damping", "f [Hz]",
-                                 "growth [1/s]", "least damped vibration, kinetic energy");
-  for (const vehicle::ModesAtSpeed& at : run.result.at) {
-    if (at.report.status != Status::ok || !at.least_damped) {
-      text +=
-          fmt::format("{:>9.4g}  {}\n", at.speed, at.report.status != Status::ok ? at.report.message : "no vibrations");
-      continue;
-    }
-    const vehicle::Eigenmode& m = at.modes[*at.least_damped];
-    text += fmt::format("{:>9.4g} {:>9.4f} {:>9.4g} {:>11.4g}  {}\n", at.speed, m.damping_ratio, m.frequency,
-                        m.value.real(), vehicle::describe(m, run.system));
-  }
-  text += stability_verdict(run) + '\n';
+  std::vector<ModeRow> rows;
+  for (const vehicle::ModesAtSpeed& at : run.result.at)
+    if (at.report.status == Status::ok && at.least_damped)
+      rows.push_back(mode_row(at, *at.least_damped, run.system));
+    else
+      rows.push_back(
+          {.speed = at.speed, .motion = at.report.status != Status::ok ? at.report.message : "no vibrations"});
+  std::string text = run.title + '\n' + io::table_of(rows) + stability_verdict(run) + '\n';
   if (run.falling) text += falling_verdict(*run.falling) + '\n';
   return text;
 }
 
 std::string stability_csv(const StabilityRun& run) {
-  std::string text = "speed_m_s,branch,real_1_per_s,imaginary_1_per_s,frequency_Hz,damping_ratio,motion\n";
+  std::vector<ModeRow> rows;
   for (const vehicle::ModesAtSpeed& at : run.result.at)
-    for (std::size_t i = 0; i < at.modes.size(); ++i) {
-      const vehicle::Eigenmode& m = at.modes[i];
-      text += fmt::format("{},{},{},{},{},{},{}\n", io::csv_number(at.speed), at.branch[i],
-                          io::csv_number(m.value.real()), io::csv_number(m.value.imag()), io::csv_number(m.frequency),
-                          io::csv_number(m.damping_ratio), io::csv_cell(vehicle::describe(m, run.system)));
-    }
-  return text;
+    for (std::size_t i = 0; i < at.modes.size(); ++i) rows.push_back(mode_row(at, i, run.system));
+  return io::csv_of(rows, Digits::all);
 }
 
 std::string stability_json(const StabilityRun& run) {
@@ -144,7 +173,7 @@ std::string stability_json(const StabilityRun& run) {
   if (const auto& critical = run.result.critical) {
     out["critical_speed_m_s"] = io::number(critical->speed);
     out["critical_speed_error_m_s"] = io::number(critical->error);
-    out["critical_mode"] = json_mode(critical->beyond.modes[*critical->beyond.fastest_growth], run.system);
+    out["critical_mode"] = io::json_of(mode_row(critical->beyond, *critical->beyond.fastest_growth, run.system));
   }
   out["speeds"] = Json::array();
   for (const vehicle::ModesAtSpeed& at : run.result.at) {
@@ -153,8 +182,8 @@ std::string stability_json(const StabilityRun& run) {
                 {"message", at.report.message},
                 {"residual", io::number(at.residual)},
                 {"eigenvalues", at.modes.size()}};
-    if (at.least_damped) one["least_damped"] = json_mode(at.modes[*at.least_damped], run.system);
-    if (at.fastest_growth) one["fastest_growth"] = json_mode(at.modes[*at.fastest_growth], run.system);
+    if (at.least_damped) one["least_damped"] = io::json_of(mode_row(at, *at.least_damped, run.system));
+    if (at.fastest_growth) one["fastest_growth"] = io::json_of(mode_row(at, *at.fastest_growth, run.system));
     out["speeds"].push_back(std::move(one));
   }
   if (run.falling) out["falling_speed"] = json_falling(*run.falling);
@@ -222,4 +251,5 @@ void write_stability_folder(const std::filesystem::path& folder, const Stability
   output.move_into("stability.json");
 }
 
-}  // namespace treadmark::app
+}  // namespace app
+}  // namespace treadmark

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/origin.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/rows.hpp"
 #include "treadmark/model/surface_record.hpp"
@@ -79,9 +80,7 @@ struct Generation {
   std::vector<EvolutionQuantity> quantities;  ///< kept once records are forgotten; empty before
 };
 
-struct EvolutionResult {
-  std::string version, git, input_file, input_sha256, title;
-  std::vector<std::string> settings;
+struct EvolutionResult : Origin {
   std::string status = "complete", message;  ///< "interrupted", "failed"
   std::vector<Generation> generations;       ///< the last one with its records, others may have forgotten them
 };

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/grid.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/model/origin.hpp"
 
 namespace treadmark::io {
 
@@ -53,12 +54,7 @@ struct SnapshotScene {
 
 /// A simulation, complete or not. It holds no wall-clock times, so that the results of an interrupted and resumed
 /// simulation equal those of an undisturbed one.
-struct SimulationResult {
-  std::string version, git;
-  std::string input_file, input_sha256;
-  std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
-  std::vector<std::string> settings;                                 ///< echo of overrides
-  std::string title;
+struct SimulationResult : Origin {
   std::string status = "complete";  ///< "complete", "interrupted" or "failed"
   std::string message;
   std::vector<HistoryColumn> columns;

@@ -6,6 +6,7 @@
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
+#include "treadmark/io/tables/hdf5_origin.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -104,15 +105,9 @@ std::vector<std::byte> read_bytes(const Store& store) {
 SimulationResult read_head(const Store& store) {
   const Hdf5GroupReader& root = store.root();
   SimulationResult result;
-  result.version = root.text("version");
-  result.git = root.text("git");
-  result.input_file = root.text("input");
-  result.input_sha256 = root.text("sha256");
-  result.settings = root.texts("settings");
-  result.title = root.text("title");
+  read_origin(root, result);
   result.status = root.text("status");
   result.message = root.text("message");
-  result.geometry_sha256 = pairs(store, "geometry_files", "geometry_sha256");
   result.swept = pairs(store, "swept_keys", "swept_values");
   result.columns = read_columns(store);
   result.events = read_events(store);

@@ -21,10 +21,7 @@ struct SimulationRun {
 };
 
 /// Simulations that differ in the values of some keys.
-struct StudyResult {
-  std::string version, git, input_file, input_sha256;
-  std::string title;
-  std::vector<std::string> settings;  ///< echo of overrides
+struct StudyResult : Origin {
   /// (key, label) of the keys that the study names otherwise.
   std::vector<std::pair<std::string, std::string>> labels;
   std::vector<SimulationRun> runs;  ///< in any order

@@ -12,8 +12,8 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
-#include "treadmark/io/histories/result_origin.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/tables/hdf5_origin.hpp"
 
 namespace treadmark::io {
 

@@ -5,6 +5,7 @@
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
+#include "treadmark/io/tables/hdf5_origin.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -21,17 +22,10 @@ void add_pairs(std::vector<Attribute>& list, const std::vector<std::pair<std::st
 }
 
 std::vector<Attribute> attributes_of(const SimulationResult& result) {
-  std::vector<Attribute> list{{"format", std::string(kSimulationFormat)},
-                              {"units", "SI"},
-                              {"axes", "x forward, y right, z down; forces and tractions act on the rail"},
-                              {"version", result.version},
-                              {"git", result.git},
-                              {"input", result.input_file},
-                              {"sha256", result.input_sha256},
-                              {"settings", result.settings},
-                              {"title", result.title},
-                              {"status", result.status},
-                              {"message", result.message}};
+  std::vector<Attribute> list = origin_attributes(kSimulationFormat, result);
+  list.push_back({"axes", "x forward, y right, z down; forces and tractions act on the rail"});
+  list.push_back({"status", result.status});
+  list.push_back({"message", result.message});
   add_pairs(list, result.geometry_sha256, "geometry_files", "geometry_sha256");
   add_pairs(list, result.swept, "swept_keys", "swept_values");
   return list;

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/model/origin.hpp"
+#include "treadmark/model/origin.hpp"
 #include "treadmark/model/surface_difference.hpp"
 
 namespace treadmark::io {
@@ -59,14 +61,9 @@ struct ComparisonCandidate {
 };
 
 /// The reference and all candidates, with where they come from.
-struct Comparison {
-  std::string version, git;
+struct Comparison : Origin {
   int threads = 1;       ///< that the comparison was allowed
   double seconds = 0.0;  ///< wall clock of it all [s]
-  std::string title;     ///< of the case file; empty: it has none
-  std::string input_file, input_sha256;
-  std::vector<std::pair<std::string, std::string>> geometry_sha256;
-  std::vector<std::string> settings;
   std::string truth;     ///< which candidate the others are measured against, in words: "analytic" ...
   bool complete = true;  ///< false when interrupted
   std::vector<ComparisonCandidate> candidates;  ///< the reference first

@@ -11,6 +11,7 @@
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
+#include "treadmark/io/tables/hdf5_origin.hpp"
 
 namespace treadmark::io {
 
@@ -35,17 +36,9 @@ ComparisonCandidate read_candidate(const Hdf5GroupReader& group) {
 
 void write_comparison_fields(const std::filesystem::path& path, const Comparison& comparison) {
   Hdf5Writer file(path);
-  file.root().add(std::vector<Attribute>{{"format", std::string(kFormat)},
-                                         {"units", "SI"},
-                                         {"axes", std::string(kAxes)},
-                                         {"version", comparison.version},
-                                         {"git", comparison.git},
-                                         {"title", comparison.title},
-                                         {"input", comparison.input_file},
-                                         {"sha256", comparison.input_sha256},
-                                         {"settings", comparison.settings},
-                                         {"truth", comparison.truth},
-                                         {"complete", comparison.complete ? 1 : 0}});
+  file.root().add(origin_attributes(kFormat, comparison));
+  file.root().add(std::vector<Attribute>{
+      {"axes", std::string(kAxes)}, {"truth", comparison.truth}, {"complete", comparison.complete ? 1 : 0}});
   for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {
     const ComparisonCandidate& c = comparison.candidates[i];
     const Hdf5GroupWriter group = file.root().make_group(group_name(i));
@@ -62,12 +55,7 @@ Comparison read_comparison_fields(const std::filesystem::path& path) {
   const Hdf5GroupReader& root = file.root();
   require_format(root, kFormat);
   Comparison out;
-  out.version = root.text("version");
-  out.git = root.text("git");
-  if (root.has_attribute("title")) out.title = root.text("title");
-  out.input_file = root.text("input");
-  out.input_sha256 = root.text("sha256");
-  out.settings = root.texts("settings");
+  read_origin(root, out);
   out.truth = root.text("truth");
   out.complete = root.integer("complete") != 0;
   for (std::string name = group_name(0); root.has(name); name = group_name(out.candidates.size()))

@@ -13,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
+#include "treadmark/io/tables/hdf5_origin.hpp"
 
 namespace treadmark::io {
 
@@ -143,18 +144,10 @@ RunResult read_hdf5(const std::filesystem::path& path) {
   const Hdf5GroupReader& root = file.root();
   require_format(root, kResultFormat);
   RunResult run;
-  run.version = root.text("version");
-  run.git = root.text("git");
+  read_origin(root, run);
   run.threads = root.integer("threads");
   run.seconds = root.number("seconds");
-  if (root.has_attribute("title")) run.title = root.text("title");
-  run.input_file = root.text("input");
-  run.input_sha256 = root.text("sha256");
-  const std::vector<std::string> files = root.texts("geometry_files"), hashes = root.texts("geometry_sha256");
-  if (files.size() != hashes.size()) refuse_result(root, "has another number of geometry files than of their hashes");
-  for (std::size_t i = 0; i < files.size(); ++i) run.geometry_sha256.emplace_back(files[i], hashes[i]);
   if (root.has_attribute("doubts")) run.doubts = root.texts("doubts");
-  run.settings = root.texts("settings");
   run.complete = root.integer("complete") != 0;
   run.cases_total = root.integer("cases_total");
   run.cases = read_cases(root);

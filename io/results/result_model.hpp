@@ -15,6 +15,7 @@
 #include "treadmark/core/report.hpp"
 #include "treadmark/model/friction.hpp"
 #include "treadmark/model/material.hpp"
+#include "treadmark/model/origin.hpp"
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/model/surface_difference.hpp"
 
@@ -229,18 +230,13 @@ struct SurfaceUse {
 };
 
 /// All cases of a run, with where they come from.
-struct RunResult {
-  std::string version, git;
-  int threads = 1;       ///< that the run was allowed
-  double seconds = 0.0;  ///< wall clock of the whole run [s]
-  std::string title;     ///< of the case file; empty: it has none
-  std::string input_file, input_sha256;
-  std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
-  std::vector<SurfaceUse> surfaces;                                  ///< in the order in which the cases ask for them
-  std::vector<std::string> doubts;    ///< about profiles: "wheel profile w.csv: flange_side: ..."; empty: none
-  std::vector<std::string> settings;  ///< echo of overrides (--set key=value, --backend)
-  bool complete = true;               ///< false when interrupted: then fewer cases than asked
-  int cases_total = 0;                ///< asked for
+struct RunResult : Origin {
+  int threads = 1;                   ///< that the run was allowed
+  double seconds = 0.0;              ///< wall clock of the whole run [s]
+  std::vector<SurfaceUse> surfaces;  ///< in the order in which the cases ask for them
+  std::vector<std::string> doubts;   ///< about profiles: "wheel profile w.csv: flange_side: ..."; empty: none
+  bool complete = true;              ///< false when interrupted: then fewer cases than asked
+  int cases_total = 0;               ///< asked for
   std::vector<CaseResult> cases;
   std::vector<SampledSurface> sampled;  ///< of what the cases used; empty where nobody asked for them
 };

@@ -108,8 +108,7 @@ Cards cards_of(const io::Comparison& comparison, const ComparedCandidates& all) 
 }
 
 Facts comparison_facts(const io::Comparison& comparison) {
-  Facts facts = origin_facts({comparison.version, comparison.git, comparison.input_file, comparison.input_sha256,
-                              comparison.geometry_sha256, comparison.settings});
+  Facts facts = origin_facts(comparison);
   facts.entries.insert(facts.entries.begin() + 1, {"Reference", comparison.truth});
   return facts;
 }

@@ -347,8 +347,7 @@ Page evolution_page(const fs::path& folder) {
   }
   add_contacts(page, result, folder);
   page.sections.push_back({"generations", "Generations", {generation_table(result)}});
-  page.sections.push_back(origin_section(
-      origin_facts({result.version, result.git, result.input_file, result.input_sha256, {}, result.settings})));
+  page.sections.push_back(origin_section(origin_facts(result)));
   return page;
 }
 

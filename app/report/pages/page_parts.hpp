@@ -8,15 +8,9 @@
 #include <vector>
 
 #include "treadmark/app/report/page.hpp"
+#include "treadmark/model/origin.hpp"
 
 namespace treadmark::app::report {
-
-/// What every result says about its origin.
-struct Origin {
-  std::string version, git, input_file, input_sha256;
-  std::vector<std::pair<std::string, std::string>> geometry_sha256;
-  std::vector<std::string> settings;
-};
 
 /// Version, input and settings as facts.
 Facts origin_facts(const Origin& origin);

@@ -460,7 +460,7 @@ Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
   for (auto& [name, run, input] : given) {
     inputs.push_back(std::move(input));
     take_surfaces(run, fmt::format("r{}_", runs.size() + 1), surfaces);
-    origins.push_back({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings});
+    origins.push_back(run);
     names.push_back(name);
     runs.push_back({name, std::make_shared<const Run>(std::move(run))});
   }

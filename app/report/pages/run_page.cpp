@@ -139,8 +139,7 @@ Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string docum
   if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
   if (std::optional<Section> below = subsurface_section(*run)) page.sections.push_back(std::move(*below));
   page.sections.push_back({"cases", "Cases", {case_table(*run), patch_table(*run)}});
-  page.sections.push_back(origin_section(
-      origin_facts({run->version, run->git, run->input_file, run->input_sha256, run->geometry_sha256, run->settings})));
+  page.sections.push_back(origin_section(origin_facts(*run)));
   return page;
 }
 

@@ -313,7 +313,7 @@ Page simulation_overlay_page(Simulations&& all) {
   for (const auto& [name, one, input] : all) {
     names.push_back(name);
     inputs.push_back(input);
-    origins.push_back({one.version, one.git, one.input_file, one.input_sha256, one.geometry_sha256, one.settings});
+    origins.push_back(one);
   }
   const Simulation& first = all.front().result;
   Page page{"overlay", joined(names), ""};

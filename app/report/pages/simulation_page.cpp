@@ -216,9 +216,7 @@ Page simulation_page(const std::shared_ptr<const Result>& result, std::string do
   if (assessed)
     for (Section& section : assessment_sections(std::span(assessed, 1))) page.sections.push_back(std::move(section));
   page.sections.push_back(tables(*result));
-  page.sections.push_back(
-      origin_section(origin_facts({result->version, result->git, result->input_file, result->input_sha256,
-                                   result->geometry_sha256, result->settings})));
+  page.sections.push_back(origin_section(origin_facts(*result)));
   return page;
 }
 

@@ -263,8 +263,7 @@ Page sweep_page(const StudyOnDisk& disk) {
   for (const auto& [name, svg] : disk.pictures)
     pictures.blocks.emplace_back(Figure{"picture-" + name, name, PictureView{svg}});
   if (!pictures.blocks.empty()) page.sections.push_back(std::move(pictures));
-  page.sections.push_back(origin_section(origin_facts(
-      {disk.study.version, disk.study.git, disk.study.input_file, disk.study.input_sha256, {}, disk.study.settings})));
+  page.sections.push_back(origin_section(origin_facts(disk.study)));
   return page;
 }
 
