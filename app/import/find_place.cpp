@@ -12,7 +12,6 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/extension.hpp"
-#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/model/natural_view.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
