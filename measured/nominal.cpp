@@ -3,7 +3,6 @@
 #include "treadmark/measured/nominal.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
@@ -122,10 +121,14 @@ RollFit fitted_to(const std::vector<Vec2>& points, const NominalOutline& n, Turn
   return out;
 }
 
-/// Rolled about the mark, so that this stays where it is.
-Turned start_at(const Vec2& mark, const Vec2& nominal_mark, double roll) {
-  const double c = std::cos(roll), s = std::sin(roll);
-  return {nominal_mark.x() - (c * mark.x() - s * mark.y()), nominal_mark.y() - (s * mark.x() + c * mark.y()), roll};
+/// Rolled by this, with its mark then upon that of the nominal section: the top of a rolled head is another point of
+/// it.
+Turned start_at(const std::vector<Vec2>& points, Body body, const Vec2& nominal_mark, double roll) {
+  const Eigen::Rotation2Dd by(roll);
+  std::vector<Vec2> rolled;
+  for (const Vec2& p : points) rolled.emplace_back(by * p);
+  const Vec2 shift = nominal_mark - mark_of(body, rolled);
+  return {shift.x(), shift.y(), roll};
 }
 
 /// Mean distance inside the nominal section on one flank (side -1: small y).
@@ -183,11 +186,11 @@ std::vector<Vec2> head_beside_groove(const std::vector<Vec2>& points) {
 
 std::optional<Lean> lean_of_points(std::vector<Vec2> points, Body body, std::span<const NominalOutline> nominals) {
   constexpr std::size_t kFewest = 20;
-  constexpr std::array<double, 5> kStarts{0.0, 0.1, -0.1, 0.2, -0.2};
-  constexpr double kMostRoll = 0.5;
+  constexpr int kStarts = 8;                         // to each side
+  constexpr double kApart = 0.025, kMostRoll = 0.5;  // [rad]: flat heads and worn sides hold the fit where it is
   if (points.size() < kFewest) return std::nullopt;
   // about the mark: a roll about a far origin would shift the points out of reach of the fit
-  const Vec2 middle = mark_of(body, points), mark = Vec2::Zero();
+  const Vec2 middle = mark_of(body, points);
   for (Vec2& p : points) p -= middle;
   Lean out;
   out.residual = out.upright = kInfinity;
@@ -195,9 +198,9 @@ std::optional<Lean> lean_of_points(std::vector<Vec2> points, Body body, std::spa
     const std::vector<Vec2> outline = points_of(n);
     if (outline.empty()) continue;
     const Vec2 nominal_mark = mark_of(body, outline);
-    out.upright = std::min(out.upright, fitted_to(points, n, start_at(mark, nominal_mark, 0.0), kLevel).rms);
-    for (const double roll : kStarts)
-      if (const RollFit fit = fitted_to(points, n, start_at(mark, nominal_mark, roll), kMostRoll);
+    out.upright = std::min(out.upright, fitted_to(points, n, start_at(points, body, nominal_mark, 0.0), kLevel).rms);
+    for (int k = -kStarts; k <= kStarts; ++k)
+      if (const RollFit fit = fitted_to(points, n, start_at(points, body, nominal_mark, k * kApart), kMostRoll);
           fit.rms < out.residual) {
         out.name = n.name, out.residual = fit.rms, out.roll = -fit.place.roll,
         out.shift_y = fit.place.dy - (std::cos(fit.place.roll) * middle.x() - std::sin(fit.place.roll) * middle.y());

@@ -538,12 +538,13 @@ bool Readings::sure() const {
 }
 
 std::vector<std::size_t> head_of_outline(const SectionPoints& p) {
-  constexpr double kHigh = 90e-3, kEnd = 15e-3, kShoulder = 30e-3, kDeep = 10e-3, kInwards = 1e-3, kClosed = 5e-3;
+  constexpr double kLow = 90e-3, kHigh = 300e-3;  // of rails; a file in um that is read as mm is no rail
+  constexpr double kEnd = 15e-3, kShoulder = 30e-3, kDeep = 10e-3, kInwards = 1e-3, kClosed = 5e-3;
   const std::size_t n = p.y.size();
   if (p.body != Body::rail || n < 20) return {};
   const auto ends = std::minmax_element(p.z.begin(), p.z.end());
   const double low = *ends.first, high = *ends.second;
-  if (high - low < kHigh) return {};
+  if (high - low < kLow || high - low > kHigh) return {};
   // the foot is wider than the head
   const auto width = [&](double sign, double within) {
     const double end = sign > 0.0 ? low : high;

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/core/recent.hpp"
 #include "treadmark/core/roots.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/measured/noise.hpp"
@@ -312,52 +315,50 @@ struct Fit {
   Band precision{1};                                         ///< of the coefficients times the variance, factorised
 };
 
-/// How restless the curvature is at each cell: its variance a length, but for one factor. Roughness grows with how much
-/// the curve is bent within a few millimetres.
-Values restlessness(const Knots& knots, const Knots& before, const Values& heights) {
-  constexpr double kWindow = 4.0, kReach = 3.0, kFlattest = 1.0 / 200.0;
-  const int reach = to_whole<int>(std::round(kReach * kWindow / knots.step));
-  Values squares, out;
-  for (int k = 0; k < knots.cells; ++k) {
-    const double s = std::clamp(knots.node(k) + 0.5 * knots.step, before.first, before.last());
-    const double curvature = before.value(heights, s, 2);
-    squares.push_back(curvature * curvature);
-  }
+/// Means of a number of each cell and its neighbours, weighted by a normal density of this deviation.
+Values means_around(const Knots& knots, const Values& numbers, double deviation) {
+  constexpr double kReach = 3.0;
+  const int reach = to_whole<int>(std::round(kReach * deviation / knots.step));
+  Values weight, out;
+  for (int d = 0; d <= reach; ++d) weight.push_back(std::exp(-0.5 * std::pow(d * knots.step / deviation, 2)));
   for (int k = 0; k < knots.cells; ++k) {
     double sum = 0.0, weights = 0.0;
     for (int j = std::max(0, k - reach); j <= std::min(knots.cells - 1, k + reach); ++j) {
-      const double x = (j - k) * knots.step / kWindow, weight = std::exp(-0.5 * x * x);
-      sum += weight * squares[at(j)];
-      weights += weight;
+      sum += weight[at(std::abs(j - k))] * numbers[at(j)];
+      weights += weight[at(std::abs(j - k))];
     }
-    const double bent = sum / weights + kFlattest * kFlattest;
-    out.push_back(bent * bent);
+    out.push_back(sum / weights);
   }
+  return out;
+}
+
+/// How restless the curvature is at each cell: its variance a length, but for one factor. Roughness grows with how much
+/// the curve is bent within a few millimetres.
+Values restlessness(const Knots& knots, const Knots& before, const Values& heights) {
+  constexpr double kWindow = 4.0, kFlattest = 1.0 / 200.0;
+  Values squares;
+  for (int k = 0; k < knots.cells; ++k) {
+    const double s = std::clamp(knots.node(k) + 0.5 * knots.step, before.first, before.last());
+    squares.push_back(std::pow(before.value(heights, s, 2), 2));
+  }
+  Values out = means_around(knots, squares, kWindow);
+  for (double& bent : out) bent = std::pow(bent + kFlattest * kFlattest, 2);
   return out;
 }
 
 /// Where the curvature of a rail's head changed in the fit before it may change more: arcs that meet in jumps.
 Values changes(const Knots& knots, const Knots& before, const Values& heights) {
   constexpr double kWindow = 3.0, kLeast = 0.05;
-  const int reach = to_whole<int>(std::round(3.0 * kWindow / knots.step));
-  Values squares, out;
+  Values squares;
   double mean = 0.0;
   for (int k = 0; k < knots.cells; ++k) {
     Row unused;
     const double s = std::clamp(knots.node(k) + 0.5 * knots.step, before.first, before.last());
-    const double change = third_difference(heights, before.basis(s, 0, unused));
-    squares.push_back(change * change);
-    mean += change * change / knots.cells;
+    squares.push_back(std::pow(third_difference(heights, before.basis(s, 0, unused)), 2));
+    mean += squares.back() / knots.cells;
   }
-  for (int k = 0; k < knots.cells; ++k) {
-    double sum = 0.0, weights = 0.0;
-    for (int j = std::max(0, k - reach); j <= std::min(knots.cells - 1, k + reach); ++j) {
-      const double x = (j - k) * knots.step / kWindow, weight = std::exp(-0.5 * x * x);
-      sum += weight * squares[at(j)];
-      weights += weight;
-    }
-    out.push_back(std::pow(sum / (weights * mean) + kLeast, 3));
-  }
+  Values out = means_around(knots, squares, kWindow);
+  for (double& change : out) change = std::pow(change / mean + kLeast, 3);
   return out;
 }
 
@@ -721,12 +722,8 @@ std::vector<Laid> other_curves(const Points& points, const PointNoise& noise, Bo
   return out;
 }
 
-}  // namespace
-
-Profile smoothed_by_noise(Profile profile) {
+Profile smoothed(Profile profile) {
   constexpr std::size_t kFewest = 16;
-  profile.smoothing.method = SmoothingOptions::Method::spline;
-  profile.smoothing.strength = 0.0;
   const std::size_t n = profile.y.size();
   if (n < kFewest) return profile;
   const PointNoise noise = profile_noise(profile);
@@ -780,6 +777,25 @@ Profile smoothed_by_noise(Profile profile) {
     for (double& e : error) e /= kMm;
   scatter->factor = laid->fit.precision.rows();
   for (Row& row : scatter->factor) row[0] *= kMm * kMm / laid->fit.variance;
+  return profile;
+}
+
+}  // namespace
+
+Profile smoothed_by_noise(Profile profile) {
+  profile.smoothing.method = SmoothingOptions::Method::spline;
+  profile.smoothing.strength = 0.0;
+  struct Read {
+    Body body = Body::rail;
+    Values y, z;
+    bool operator==(const Read&) const = default;
+  };
+  thread_local Recent<Read, Profile> recent;  // a case reads the same file more than once
+  const std::shared_ptr<const Profile> known = recent.of(
+      {profile.body, profile.y, profile.z}, [&] { return std::make_shared<const Profile>(smoothed(profile)); });
+  profile.y = known->y;
+  profile.z = known->z;
+  profile.scatter = known->scatter;
   return profile;
 }
 

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "treadmark/measured/lumps.hpp"
 #include "treadmark/measured/nominal.hpp"
@@ -136,6 +139,8 @@ TEST(MeasuredSection, KeepsTheHeadOfAWholeOutline) {
     EXPECT_NEAR(high, 0.040, 3e-3);
   }
   EXPECT_TRUE(head_of_outline(wheel(0.0)).empty());
+  for (std::size_t i = 0; i < p.y.size(); ++i) p.y[i] *= 1e3, p.z[i] *= 1e3;  // um that were read as mm
+  EXPECT_TRUE(head_of_outline(p).empty());
 }
 
 TEST(MeasuredSection, DirtStandsOutAndCornersDoNot) {
@@ -178,6 +183,52 @@ TEST(MeasuredSection, RollAgainstANominalSectionIsFound) {
     EXPECT_NEAR(lean->roll, degrees * kDegree, 2e-3) << degrees;
     EXPECT_EQ(std::fabs(degrees) > 3.5, lean->upright > 3.0 * lean->residual + 20e-6) << degrees;
   }
+}
+
+/// The head of 60E1 (EN 13674-1) 38 mm deep, points 0.1 mm apart.
+std::vector<Vec2> head_of_60E1() {
+  std::vector<Vec2> half;
+  const auto arc = [&](double y, double z, double radius, double from, double to) {
+    for (double a = std::asin((from - y) / radius); a < std::asin(std::min(1.0, (to - y) / radius)); a += 0.1 / radius)
+      half.emplace_back(y + radius * std::sin(a), z - radius * std::cos(a));
+  };
+  arc(0.0, 300.0, 300.0, 0.05, 10.228);
+  arc(7.500533, 80.127896, 80.0, 10.228, 26.0265);
+  arc(23.016030, 14.949147, 13.0, 26.0265, 35.999811);
+  for (double z = 14.299958; z < 37.8; z += 0.1) half.emplace_back(35.999811 + (z - 14.299958) / 20.0, z);
+  std::vector<Vec2> out;
+  for (auto p = half.rbegin(); p != half.rend(); ++p) out.emplace_back(-p->x(), p->y());
+  out.insert(out.end(), half.begin(), half.end());
+  for (Vec2& p : out) p *= 1e-3;
+  return out;
+}
+
+TEST(MeasuredSection, RollsOfAFlatHeadAWornSideAndALipAreFound) {
+  const std::vector<Vec2> head = head_of_60E1();
+  const std::vector<NominalOutline> nominals{nominal_outline("60E1", Body::rail, head)};
+  const auto worn = [](const Vec2& p, double wear) {
+    const double t = std::clamp((p.y() - 1e-3) / 11e-3, 0.0, 1.0);
+    return p.x() < 0.0 ? Vec2(p.x() + wear * t * t * (3.0 - 2.0 * t), p.y()) : p;
+  };
+  const std::pair<const char*, std::function<Vec2(const Vec2&)>> shapes[]{
+      {"flat", [](const Vec2& p) { return Vec2(p.x(), 0.5 * (p.y() + 1e-3 + std::hypot(p.y() - 1e-3, 1.2e-3))); }},
+      {"worn", [&](const Vec2& p) { return worn(p, 4e-3); }},
+      {"lip", [&](const Vec2& p) {
+         const double lip = p.x() < 0.0 ? 1.2e-3 * std::exp(-std::pow((p.y() - 9e-3) / 3e-3, 2)) : 0.0;
+         return Vec2(worn(p, 3e-3) - Vec2(lip, 0.0));
+       }}};
+  for (const auto& [name, shape] : shapes)
+    for (double degrees = -10.0; degrees <= 10.0; degrees += 0.25) {
+      const Eigen::Rotation2Dd by(degrees * kDegree);
+      Profile p;
+      for (const Vec2& q : head) {
+        const Vec2 rolled = by * shape(q);
+        p.y.push_back(rolled.x()), p.z.push_back(rolled.y());
+      }
+      const std::optional<Lean> lean = lean_of(p, nominals);
+      ASSERT_TRUE(lean);
+      EXPECT_NEAR(lean->roll, degrees * kDegree, 5e-3) << name << ' ' << degrees;
+    }
 }
 
 /// What lies between two places.
