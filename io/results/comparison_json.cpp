@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/json/json_tree.hpp"

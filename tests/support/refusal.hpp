@@ -29,7 +29,9 @@ std::string refusal_of(Call&& call, std::optional<ErrorKind> kind = {}) {
   try {
     call();
   } catch (const Error& error) {
-    if (kind) EXPECT_EQ(error.kind(), *kind);
+    if (kind) {
+      EXPECT_EQ(error.kind(), *kind);
+    }
     return error.what();
   }
   return "no error";

@@ -73,9 +73,9 @@ std::vector<Case> cases() {
 }
 
 std::filesystem::path written(const std::string& text) {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   const std::filesystem::path file =
-      std::filesystem::path(testing::TempDir()) / (std::string("import_settings_") + test->name() + ".toml");
+      std::filesystem::path(::testing::TempDir()) / (std::string("import_settings_") + test->name() + ".toml");
   std::ofstream(file, std::ios::binary) << text;
   return file;
 }
@@ -281,7 +281,7 @@ TEST(ImportSettings, BrokenFilesAreRefusedAtTheirPlace) {
     }
   }
   ImportSettings settings;
-  EXPECT_THROW(read_import_settings(std::filesystem::path(testing::TempDir()) / "no_such_settings.toml", settings),
+  EXPECT_THROW(read_import_settings(std::filesystem::path(::testing::TempDir()) / "no_such_settings.toml", settings),
                Error);
 }
 

@@ -24,10 +24,10 @@ struct Wheel {
   std::string name;
   int number = 0;
   bool round = true;
-  double radius = 0.0;           ///< [m]
-  std::optional<double> hollow;  ///< [m]
-  double error = 0.0;            ///< of the radius [m]
-  std::string why;               ///< there is no radius
+  double radius = 0.0;                ///< [m]
+  std::optional<double> hollow = {};  ///< [m]
+  double error = 0.0;                 ///< of the radius [m]
+  std::string why = {};               ///< there is no radius
 };
 
 Access<Wheel> radius_with_error() {
