@@ -14,7 +14,7 @@ namespace treadmark {
 /// by themselves.
 
 /// Significant digits of numbers in files: those of times, of measures of sections, of results, and all there are.
-enum class Digits { six = 6, ten = 10, twelve = 12, all = 17 };
+enum class Digits { six = 6, twelve = 12, all = 17 };
 
 /// A unit of JSON, CSV and tables, and of SI, in which HDF5 has the number; "1": dimensionless.
 struct FileUnit {

@@ -2,17 +2,19 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_report.hpp"
+#include "treadmark/io/tables/shown.hpp"
 
 namespace treadmark::app {
 namespace {
 
 constexpr std::size_t kColumns = 14;
-using Line = std::array<std::string, kColumns>;
+using Line = std::vector<std::string>;
 
 const std::array<Line, 3> kHead{{
     {"backend", "resolution", "body", "differs", "build", "memory", "height", "tilted", "normal", "base", "search",
@@ -21,28 +23,20 @@ const std::array<Line, 3> kHead{{
     {"", "[mm]", "", "[um]", "[ms]", "[MB]", "[ns]", "[ns]", "[ns]", "[ns]", "[ms]", "[ms]", "[ms]", ""},
 }};
 
-std::string digits(double value) {
-  if (!std::isfinite(value)) return "-";
-  return value >= 99.95 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-}
-
-/// Less than that is rounding.
-std::string micrometres(double value) { return value < 1e-9 ? "0" : digits(1e6 * value); }
-
 Line cells(const BenchRow& row) {
   Line line{row.backend,
-            row.resolution > 0.0 ? digits(1e3 * row.resolution) : "-",
+            row.resolution > 0.0 ? io::in_short(1e3 * row.resolution) : "-",
             row.body == Body::rail ? "rail" : "wheel",
-            std::isfinite(row.difference) ? micrometres(row.difference) : "-",
-            digits(1e3 * row.build),
-            row.memory_bytes > 0 ? digits(1e-6 * static_cast<double>(row.memory_bytes)) : "-",
-            digits(1e9 * row.height),
-            digits(1e9 * row.height_tilted),
-            digits(1e9 * row.normal),
-            digits(1e9 * row.base_height),
-            digits(1e3 * row.search_cold),
-            digits(1e3 * row.search_warm),
-            digits(1e3 * row.distance),
+            row.difference < 1e-9 ? "0" : io::in_short(1e6 * row.difference),  // less is rounding
+            io::in_short(1e3 * row.build),
+            row.memory_bytes > 0 ? io::in_short(1e-6 * static_cast<double>(row.memory_bytes)) : "-",
+            io::in_short(1e9 * row.height),
+            io::in_short(1e9 * row.height_tilted),
+            io::in_short(1e9 * row.normal),
+            io::in_short(1e9 * row.base_height),
+            io::in_short(1e3 * row.search_cold),
+            io::in_short(1e3 * row.search_warm),
+            io::in_short(1e3 * row.distance),
             row.patches >= 0 ? fmt::format("{}", row.patches) : "-"};
   if (!row.agrees) line[3] = "NO";
   return line;
@@ -72,16 +66,7 @@ std::string remarks(const BenchReport& report, const char* before) {
 std::string bench_table(const BenchReport& report) {
   std::vector<Line> lines(kHead.begin(), kHead.end());
   for (const BenchRow& row : report.rows) lines.push_back(cells(row));
-  std::array<std::size_t, kColumns> widths{};
-  for (const Line& line : lines)
-    for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], line[i].size());
-  std::string out = origin(report) + "\n\n";
-  for (const Line& line : lines) {
-    std::string text = fmt::format("{:<{}}", line[0], widths[0]);
-    for (std::size_t i = 1; i < kColumns; ++i) text += fmt::format("  {:>{}}", line[i], widths[i]);
-    out += text + "\n";
-  }
-  return out + remarks(report, "");
+  return origin(report) + "\n\n" + io::table_text(lines) + remarks(report, "");
 }
 
 std::string bench_markdown(const BenchReport& report) {

@@ -13,19 +13,15 @@ namespace treadmark::app {
 namespace {
 
 using io::Json;
-
+using io::number;
 using io::text_or_null;
-
-constexpr auto kDigits = Digits::ten;  // no measure has more
-
-Json number(double value) { return io::number(value, kDigits); }
 
 template <class Numbers>
 Json numbers_json(const Numbers& numbers) {
   Json out, uncertainty = Json::object(), reasons = Json::object();
   for (const auto& row : number_rows(numbers)) {
     const std::string key(row.key);
-    out[key] = io::value_of(numbers, row, kDigits);
+    out[key] = io::value_of(numbers, row);
     if (row.known(numbers))
       uncertainty[key] = number(row.uncertainty_in_file(numbers));
     else
@@ -44,8 +40,7 @@ Json stations_json(const std::vector<MeasuredStation<Numbers>>& stations, const 
   for (const auto& station : stations) out[u].push_back(number(station.u));
   for (const auto& row : number_rows(Numbers{}))
     if (std::ranges::any_of(stations, [&](const auto& station) { return row.known(station.numbers); }))
-      for (const auto& station : stations)
-        out[std::string(row.key)].push_back(io::value_of(station.numbers, row, kDigits));
+      for (const auto& station : stations) out[std::string(row.key)].push_back(io::value_of(station.numbers, row));
   return out;
 }
 

@@ -8,6 +8,7 @@
 
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/io/tables/shown.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -88,20 +89,21 @@ void add_points(Page& page, const ImportReport& report) {
 void add_placement(Page& page, const ImportReport& report) {
   page.heading("placed");
   const Vec3 origin = 1e3 * report.X_CS.origin;
-  page.row("origin in the cloud",
-           fmt::format("{}, {}, {} mm", decimals(origin.x(), 3), decimals(origin.y(), 3), decimals(origin.z(), 3)));
+  page.row("origin in the cloud", fmt::format("{}, {}, {} mm", shown_number(origin.x(), 3), shown_number(origin.y(), 3),
+                                              shown_number(origin.z(), 3)));
   if (report.body == Body::wheel) {
     page.row("nominal radius",
-             decimals(1e3 * report.nominal_radius, 3) + " mm" +
+             shown_number(1e3 * report.nominal_radius, 3) + " mm" +
                  (report.radius_error > 0.0 ? ", known to " + length_text(report.radius_error) + " (standard error)"
                                             : std::string()));
-    page.row("axis known to", fmt::format("{} and {} mrad (standard errors), from {} of the points",
-                                          length_text(report.axis_position_error),
-                                          decimals(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));
+    page.row(
+        "axis known to",
+        fmt::format("{} and {} mrad (standard errors), from {} of the points", length_text(report.axis_position_error),
+                    shown_number(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));
   } else {
     page.row("direction known to",
              fmt::format("{} mrad (standard error), from {} of the points",
-                         decimals(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));
+                         shown_number(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));
   }
   page.row("scatter about section", length_text(report.scatter));
   page.row("nominal profile", report.nominal.empty() || report.nominal == "none"
@@ -118,7 +120,8 @@ void add_placement(Page& page, const ImportReport& report) {
 std::string extent_text(const ImportReport& report) {
   std::string along = fmt::format("from {} to {}", place_text(report, report.u_min), place_text(report, report.u_max));
   if (report.closed) along = "the whole wheel";
-  return fmt::format("{}; y from {} to {} mm", along, decimals(1e3 * report.y_min, 2), decimals(1e3 * report.y_max, 2));
+  return fmt::format("{}; y from {} to {} mm", along, shown_number(1e3 * report.y_min, 2),
+                     shown_number(1e3 * report.y_max, 2));
 }
 
 void add_holes(Page& page, const ImportReport& report) {
@@ -129,12 +132,12 @@ void add_holes(Page& page, const ImportReport& report) {
                         : fmt::format("{}: {} filled, {} left open (limit {}); {} of {} cm2", report.holes.size(),
                                       filled, report.holes.size() - filled, length_text(report.hole_limit),
                                       percent(report.area > 0.0 ? report.hole_area / report.area : std::nan("")),
-                                      decimals(1e4 * report.area, 1)));
+                                      shown_number(1e4 * report.area, 1)));
   for (std::size_t i = 0; i < std::min(report.holes.size(), kMostHoleLines); ++i) {
     const ImportReport::Hole& hole = report.holes[i];
-    page.row("",
-             fmt::format("at {}, y {} mm: {} across, {} mm2, {}", place_text(report, hole.u), decimals(1e3 * hole.y, 1),
-                         length_text(hole.diameter), decimals(1e6 * hole.area, 1), hole.filled ? "filled" : "open"));
+    page.row("", fmt::format("at {}, y {} mm: {} across, {} mm2, {}", place_text(report, hole.u),
+                             shown_number(1e3 * hole.y, 1), length_text(hole.diameter),
+                             shown_number(1e6 * hole.area, 1), hole.filled ? "filled" : "open"));
   }
 }
 
@@ -181,9 +184,9 @@ void add_damage(Page& page, const ImportReport& report) {
   for (std::size_t i = 0; i < std::min(report.damage.size(), kMostDamageLines); ++i) {
     const ImportReport::Damage& part = report.damage[i];
     page.line(fmt::format("  {:>3}{:>14}{:>12}{:>12}{:>12}{:>14}{:>16}", i + 1, place_text(report, part.u),
-                          decimals(1e3 * part.y, 1) + " mm", decimals(1e3 * part.length, 1) + " mm",
-                          decimals(1e3 * part.width, 1) + " mm", length_text(part.depth),
-                          decimals(1e9 * part.volume, 1) + " mm3"));
+                          shown_number(1e3 * part.y, 1) + " mm", shown_number(1e3 * part.length, 1) + " mm",
+                          shown_number(1e3 * part.width, 1) + " mm", length_text(part.depth),
+                          shown_number(1e9 * part.volume, 1) + " mm3"));
   }
   if (report.damage.size() > kMostDamageLines)
     page.line(fmt::format("  and {} smaller ones", report.damage.size() - kMostDamageLines));
@@ -201,9 +204,9 @@ void add_truth(Page& page, const ImportReport& report) {
   row("frame on frame", truth.placed);
   row("best aligned", truth.shape);
   const Vec3 shift = 1e6 * truth.shift_S, turn = 1e6 * truth.turn_S;
-  page.row("", fmt::format("by a shift of {}, {}, {} um and turns of {}, {}, {} urad (x, y, z)", decimals(shift.x(), 2),
-                           decimals(shift.y(), 2), decimals(shift.z(), 2), decimals(turn.x(), 2), decimals(turn.y(), 2),
-                           decimals(turn.z(), 2)));
+  page.row("", fmt::format("by a shift of {}, {}, {} um and turns of {}, {}, {} urad (x, y, z)",
+                           shown_number(shift.x(), 2), shown_number(shift.y(), 2), shown_number(shift.z(), 2),
+                           shown_number(turn.x(), 2), shown_number(turn.y(), 2), shown_number(turn.z(), 2)));
   page.row("places",
            fmt::format("{}; the reference has none at {} more", grouped(truth.places), grouped(truth.beside)));
 }
@@ -214,7 +217,7 @@ void add_outputs(Page& page, const ImportReport& report) {
   for (const ImportReport::Output& output : report.outputs)
     page.row(output.file, fmt::format("{}{}; {} kB; within {} of the fitted surface ({} rms)", output.kind,
                                       output.details.empty() ? "" : ": " + output.details,
-                                      decimals(1e-3 * static_cast<double>(output.bytes), 1),
+                                      shown_number(1e-3 * static_cast<double>(output.bytes), 1),
                                       length_text(output.height_max), length_text(output.height_rms)));
 }
 

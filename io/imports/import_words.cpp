@@ -8,21 +8,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/tables/shown.hpp"
 
 namespace treadmark::io {
-namespace {
-
-/// Three significant digits with the zeros at their end, so that numbers under one another look alike.
-std::string three(double value) {
-  const double size = std::abs(value);
-  if (size == 0.0) return "0";
-  if (!(size >= 1e-4 && size < 1e9)) return fmt::format("{:.3g}", value);
-  return fmt::format("{:.{}f}", value, std::max(0, 2 - to_whole<int>(std::floor(std::log10(size)))));
-}
-
-}  // namespace
 
 std::string grouped(std::size_t count) {
   const std::string digits = std::to_string(count);
@@ -60,6 +49,7 @@ std::string length_text(double metres, std::string_view micro) {
   if (!std::isfinite(metres)) return "-";
   const double size = std::abs(metres);
   if (size == 0.0) return "0 mm";
+  const auto three = [](double value) { return significant(value, 3, 1e-4); };
   if (size < 1e-4) return fmt::format("{} {}m", three(metres * 1e6), micro);
   if (size < 10.0) return three(metres * 1e3) + " mm";
   return three(metres) + " m";
@@ -69,16 +59,9 @@ PictureUnit picture_unit(double metres) {
   return std::abs(metres) < 2e-4 ? PictureUnit{"\u00b5m", 1e6} : PictureUnit{"mm", 1e3};
 }
 
-std::string decimals(double value, int count) {
-  if (!std::isfinite(value)) return "-";
-  if (std::abs(value) >= 1e9) return fmt::format("{:.4g}", value);
-  std::string text = fmt::format("{:.{}f}", value, count);
-  return text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
-}
-
 std::string place_text(const ImportReport& report, double u, std::string_view degree) {
-  if (report.body == Body::wheel) return fmt::format("{}{}", decimals(u * 180.0 / std::numbers::pi, 2), degree);
-  return decimals(u * 1e3, 1) + " mm";
+  if (report.body == Body::wheel) return fmt::format("{}{}", shown_number(u * 180.0 / std::numbers::pi, 2), degree);
+  return shown_number(u * 1e3, 1) + " mm";
 }
 
 std::string shortened(std::string_view text, std::size_t letters) {

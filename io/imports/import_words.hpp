@@ -34,8 +34,6 @@ struct PictureUnit {
 };
 PictureUnit picture_unit(double metres);
 
-/// Fixed decimals without an exponent where the number is of ordinary size, "-" where it is not finite.
-std::string decimals(double value, int count);
 
 /// Place along a band: "123.45 deg" of a wheel, "1234.5 mm" of a rail.
 std::string place_text(const ImportReport& report, double u, std::string_view degree = " deg");

@@ -14,13 +14,14 @@
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/tables/csv_of.hpp"
+#include "treadmark/io/tables/shown.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
 constexpr std::size_t kColumns = 16;
-using Line = std::array<std::string, kColumns>;
+using Line = std::vector<std::string>;
 
 const std::array<Line, 3> kHead{{
     {"backend", "resolution", "height", "height", "slope", "curvature", "pmax", "pmean", "force", "position", "area",
@@ -30,13 +31,6 @@ const std::array<Line, 3> kHead{{
      ""},
 }};
 
-/// Three significant digits, without an exponent where the number is of ordinary size.
-std::string digits(double value) {
-  if (!std::isfinite(value)) return "-";
-  const double size = std::abs(value);
-  return size >= 99.95 && size < 1e9 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-}
-
 /// On one line.
 std::string flat(std::string text) {
   std::replace_if(
@@ -44,17 +38,11 @@ std::string flat(std::string text) {
   return text;
 }
 
-/// Characters, not bytes: UTF-8 continues a character with 10xxxxxx.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 Line candidate_line(const ComparisonCandidate& candidate, bool truth) {
   const CandidateDigest all = digest(candidate);
-  Line line;
+  Line line(kColumns);
   line[0] = flat(candidate.name) + (truth ? " (reference)" : "");
-  line[1] = candidate.resolution == 0.0 ? "-" : digits(candidate.resolution * 1e3);
+  line[1] = candidate.resolution == 0.0 ? "-" : in_short(candidate.resolution * 1e3);
   if (!candidate.failure.empty()) {
     std::fill(line.begin() + 2, line.end(), std::string(1, '-'));
     line.back() = "failed";
@@ -73,7 +61,7 @@ Line candidate_line(const ComparisonCandidate& candidate, bool truth) {
                            all.distance_s * 1e3,
                            all.build_s,
                            static_cast<double>(all.memory_bytes) * 1e-6};
-  std::transform(std::begin(values), std::end(values), line.begin() + 2, digits);
+  std::transform(std::begin(values), std::end(values), line.begin() + 2, in_short);
   line.back() = fmt::format("{}/{}", all.ok, all.total);
   return line;
 }
@@ -106,20 +94,7 @@ std::string comparison_table(const Comparison& comparison) {
   for (const ComparisonCandidate& candidate : comparison.candidates)
     lines.push_back(candidate_line(candidate, &candidate == comparison.candidates.data()));
 
-  std::array<std::size_t, kColumns> widths{};
-  for (const Line& line : lines)
-    for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], width(line[i]));
-
-  std::string out;
-  for (const Line& line : lines) {
-    out += line[0];
-    out.append(widths[0] - width(line[0]), ' ');
-    for (std::size_t i = 1; i < kColumns; ++i) {
-      out.append(2 + widths[i] - width(line[i]), ' ');
-      out += line[i];
-    }
-    out += '\n';
-  }
+  std::string out = table_text(lines);
   if (const std::vector<int> cases = cases_without_limit(comparison); !cases.empty())
     out += fmt::format(
         "case {}: the largest pressure has no limit (edge_pressure) and tells nothing of representations; force, mean "

@@ -9,8 +9,8 @@
 #include <numbers>
 #include <utility>
 
-#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
+#include "treadmark/io/tables/shown.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -37,60 +37,40 @@ class Table {
   std::string text_;
 };
 
-/// Four decimals; a rounded zero has no sign.
-std::string four_decimals(double value) {
-  std::string text = fmt::format("{:.4f}", value);
-  return text == "-0.0000" ? text.substr(1) : text;
-}
-
-/// 0 for what is nothing but rounding.
-double without_rounding(double value) { return std::abs(value) < kShownAsZero ? 0.0 : value; }
-
-/// Five significant digits, without an exponent where the number is of ordinary size.
-std::string five_digits(double value) {
-  value = without_rounding(value);
-  const double size = std::abs(value);
-  if (!(size >= 1e-3 && size < 1e9)) return fmt::format("{:.5g}", value);
-  return fmt::format("{:.{}f}", value, decimals_of(value, 5));
-}
-
 std::string in_digits(double value, Label::Digits digits) {
+  const double size = std::abs(value) < kShownAsZero ? 0.0 : value;  // less is rounding
   switch (digits) {
     case Label::Digits::four_decimals:
-      return four_decimals(value);
+      return shown_number(value, 4);
     case Label::Digits::five:
-      return five_digits(value);
+      return significant(size, 5, 1e-3);
     case Label::Digits::four:
-      return fmt::format("{:.4g}", without_rounding(value));
+      return fmt::format("{:.4g}", size);
     case Label::Digits::whole:
       return fmt::format("{}", static_cast<int>(value));
   }
   return {};
 }
 
-std::string three(double a, double b, double c) {
+std::string cells(const Vec3& values, Label::Digits digits) {
   std::string text;
-  for (const double value : {a, b, c}) text += fmt::format("{:>{}}", four_decimals(value), kColumn);
-  return text;
-}
-
-std::string three_forces(const Vec3& force) {
-  std::string text;
-  for (const double value : force) text += fmt::format("{:>{}}", five_digits(value), kColumn);
+  for (const double value : values) text += fmt::format("{:>{}}", in_digits(value, digits), kColumn);
   return text;
 }
 
 void add_wheelset(Table& table, const CaseResult& result) {
+  using enum Label::Digits;
   table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset s, y, z", kLabel, "[mm]",
-                         three(result.s * 1e3, result.y * 1e3, result.z * 1e3)));
+                         cells(1e3 * Vec3(result.s, result.y, result.z), four_decimals)));
   table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset roll, yaw, pitch", kLabel, "[deg]",
-                         three(result.roll * kDegrees, result.yaw * kDegrees, result.pitch * kDegrees)));
-  table.line(fmt::format("  {:<{}}{:<9}{:>{}}", "wheelset pitch rate", kLabel, "[rad/s]", five_digits(result.vpitch),
-                         kColumn));
+                         cells(kDegrees * Vec3(result.roll, result.yaw, result.pitch), four_decimals)));
+  table.line(fmt::format("  {:<{}}{:<9}{:>{}}", "wheelset pitch rate", kLabel, "[rad/s]",
+                         in_digits(result.vpitch, five), kColumn));
   if (const auto& d = result.rail_deflection)
     table.line(fmt::format("  {:<{}}{:<9}{:>{}}{:>{}}", "rail deflection y, z", kLabel, "[mm]",
-                           four_decimals(d->x() * 1e3), kColumn, four_decimals(d->y() * 1e3), kColumn));
-  table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]", three_forces(result.force_tr)));
+                           in_digits(d->x() * 1e3, four_decimals), kColumn, in_digits(d->y() * 1e3, four_decimals),
+                           kColumn));
+  table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]", cells(result.force_tr, five)));
 }
 
 void add_patches(Table& table, const std::vector<PatchResult>& patches) {

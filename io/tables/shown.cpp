@@ -7,13 +7,38 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/files/text.hpp"
+
 namespace treadmark::io {
+namespace {
+
+/// Characters, not bytes: UTF-8 continues a character with 10xxxxxx.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+}  // namespace
 
 std::string shown_number(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
-  std::string text = decimals < 0 ? fmt::format("{:.5g}", value) : fmt::format("{:.{}f}", value, decimals);
+  std::string text = decimals < 0              ? fmt::format("{:.5g}", value)
+                     : std::fabs(value) >= 1e9 ? fmt::format("{:.4g}", value)
+                                               : fmt::format("{:.{}f}", value, decimals);
   if (text.front() == '-' && text.find_first_not_of("-0.") == text.npos) text.erase(0, 1);
   return text;
+}
+
+std::string significant(double value, int digits, double least) {
+  const double size = std::abs(value);
+  if (!(size >= least && size < 1e9)) return fmt::format("{:.{}g}", value, digits);
+  return fmt::format("{:.{}f}", value, decimals_of(value, digits));
+}
+
+std::string in_short(double value) {
+  if (!std::isfinite(value)) return "-";
+  const double size = std::abs(value);
+  return size >= 99.95 && size < 1e9 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
 std::string with_unit(const std::string& value, double uncertainty, std::string_view unit) {
@@ -28,10 +53,19 @@ std::string text_line(std::string_view label, std::size_t width, const std::stri
 
 void add_column(std::vector<std::string>& lines, const std::vector<std::string>& cells, bool texts) {
   std::size_t width = 0;
-  for (const std::string& cell : cells) width = std::max(width, cell.size());
+  for (const std::string& cell : cells) width = std::max(width, width_of(cell));
   const std::string gap(lines.front().empty() ? 0 : 2, ' ');
   for (std::size_t i = 0; i < lines.size(); ++i)
     lines[i] += gap + (texts ? fmt::format("{:<{}}", cells[i], width) : fmt::format("{:>{}}", cells[i], width));
+}
+
+std::string table_text(const std::vector<std::vector<std::string>>& lines) {
+  std::vector<std::string> out(lines.size()), cells(lines.size());
+  for (std::size_t column = 0; column < lines.front().size(); ++column) {
+    for (std::size_t i = 0; i < lines.size(); ++i) cells[i] = lines[i][column];
+    add_column(out, cells, column == 0);
+  }
+  return joined_lines(out);
 }
 
 std::string joined_lines(const std::vector<std::string>& lines) {

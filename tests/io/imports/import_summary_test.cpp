@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/io/tables/shown.hpp"
 #include "treadmark/tests/io/imports/sample_report.hpp"
 
 namespace treadmark {
@@ -90,7 +91,7 @@ TEST(ImportWords, Numbers) {
   EXPECT_EQ(io::length_text(35e-6), "35.0 um");
   EXPECT_EQ(io::length_text(12.0), "12.0 m");
   EXPECT_EQ(io::length_text(std::nan("")), "-");
-  EXPECT_EQ(io::decimals(-0.001, 1), "0.0");
+  EXPECT_EQ(io::shown_number(-0.001, 1), "0.0");
   EXPECT_EQ(io::shortened("abcdef", 4), "abc\u2026");
   EXPECT_EQ(io::shortened("\u00e4\u00f6\u00fc", 3), "\u00e4\u00f6\u00fc");
 }
