@@ -18,7 +18,7 @@ struct SmoothingOptions {
     spline = 0,            ///< unweighted cubic smoothing spline, strength = lambda [m^3]
     weighted_spline = 1,   ///< weighted cubic smoothing spline, strength = cut-off wavelength [m]
     weighted_bspline = 2,  ///< weighted least-squares B-spline with f''' penalty, strength = cut-off wavelength [m]
-    by_noise = 3,          ///< of what is read: as much as the noise asks for (measured/smoothing.hpp), no strength
+    by_noise = 3,  ///< of what is read: as much as the noise asks for (analysis/measured/smoothing.hpp), no strength
   };
   Method method = Method::spline;
   double strength = 0.0;                  ///< 0 = interpolate; unit by method, see above

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/analysis/measures/running.hpp"
+#include "treadmark/analysis/measures/spectrum.hpp"
 #include "treadmark/io/histories/history_model.hpp"
-#include "treadmark/measures/running.hpp"
-#include "treadmark/measures/spectrum.hpp"
 
 namespace treadmark::app {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/analysis/measured/patch_spread.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/measured/patch_spread.hpp"
 #include "treadmark/model/profile_scatter.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
 

@@ -4,10 +4,10 @@
 
 #include <optional>
 
+#include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
-#include "treadmark/measured/smoothing.hpp"
 
 namespace treadmark::app {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/app/evolve/wheel_numbers.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/progress.hpp"
-#include "treadmark/damage/record.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/simulations/evolution_model.hpp"

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/damage/record.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
 namespace treadmark::app {

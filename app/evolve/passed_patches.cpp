@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/damage/fatigue.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/damage/fatigue.hpp"
 #include "treadmark/model/body_name.hpp"
 #include "treadmark/solvers/kalker/subsurface/subsurface_stress.hpp"
 

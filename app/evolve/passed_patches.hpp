@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "treadmark/damage/flow.hpp"
-#include "treadmark/damage/passed_patch.hpp"
-#include "treadmark/damage/record.hpp"
+#include "treadmark/analysis/damage/flow.hpp"
+#include "treadmark/analysis/damage/passed_patch.hpp"
+#include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
 #include "treadmark/model/fatigue.hpp"

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/app/evolve/contact_source.hpp"
 #include "treadmark/app/evolve/evolution_vtk.hpp"
 #include "treadmark/app/evolve/passed_patches.hpp"
@@ -22,7 +23,6 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/damage/record.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"

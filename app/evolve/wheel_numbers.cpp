@@ -5,9 +5,9 @@
 #include <limits>
 #include <optional>
 
+#include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/measures/wheel.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/analysis/geometry/analysis.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/geometry/analysis.hpp"
 #include "treadmark/io/histories/evolution_model.hpp"
 
 namespace treadmark::app {
@@ -23,8 +23,8 @@ struct RailMet {
 /// Whether there is a flange and a tread to be measured. Thread-safe.
 bool is_measurable(const Surface& wheel, double nominal_radius);
 
-/// What workshops ask of a wheel that is the same all round (measures/wheel.hpp), and the equivalent conicity at 3 mm
-/// of two such wheels on these rails, mean by weight. NaN: not known; the list is always the same. Thread-safe.
+/// What workshops ask of a wheel that is the same all round (analysis/measures/wheel.hpp), and the equivalent conicity
+/// at 3 mm of two such wheels on these rails, mean by weight. NaN: not known; the list is always the same. Thread-safe.
 std::vector<io::EvolutionQuantity> wheel_numbers(const Surface& wheel, double nominal_radius,
                                                  const std::vector<RailMet>& rails);
 

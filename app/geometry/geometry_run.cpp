@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
-#include "treadmark/measures/wheel.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/app/cases/noise_of_results.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
@@ -23,7 +24,6 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
-#include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/body_name.hpp"
 #include "treadmark/model/magnitudes.hpp"
 

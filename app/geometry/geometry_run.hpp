@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/analysis/geometry/analysis.hpp"
+#include "treadmark/analysis/geometry/loaded_wheelset.hpp"
 #include "treadmark/app/lists/result_list.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/geometry/analysis.hpp"
-#include "treadmark/geometry/loaded_wheelset.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/model/rows.hpp"
 

@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/measures/bands.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/settings/key_info.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
-#include "treadmark/measures/bands.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/measures/bands.hpp"
 #include "treadmark/app/measure/read_measured.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/profile_library.hpp"
@@ -18,7 +19,6 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
-#include "treadmark/measures/bands.hpp"
 #include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::app {

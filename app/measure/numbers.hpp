@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/measures/rail.hpp"
-#include "treadmark/measures/roughness.hpp"
-#include "treadmark/measures/round.hpp"
-#include "treadmark/measures/wheel.hpp"
+#include "treadmark/analysis/measures/rail.hpp"
+#include "treadmark/analysis/measures/roughness.hpp"
+#include "treadmark/analysis/measures/round.hpp"
+#include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/model/rows.hpp"
 
 namespace treadmark::app {

@@ -8,6 +8,11 @@
 #include <cmath>
 #include <utility>
 
+#include "treadmark/analysis/measured/lumps.hpp"
+#include "treadmark/analysis/measured/noise.hpp"
+#include "treadmark/analysis/measured/nominal.hpp"
+#include "treadmark/analysis/measures/rail.hpp"
+#include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/profile_library.hpp"
@@ -18,11 +23,6 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
-#include "treadmark/measured/lumps.hpp"
-#include "treadmark/measured/noise.hpp"
-#include "treadmark/measured/nominal.hpp"
-#include "treadmark/measures/rail.hpp"
-#include "treadmark/measures/wheel.hpp"
 #include "treadmark/model/body_name.hpp"
 
 namespace treadmark::app {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/analysis/measured/lumps.hpp"
+#include "treadmark/analysis/measured/noise.hpp"
+#include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/io/profiles/faults.hpp"
-#include "treadmark/measured/lumps.hpp"
-#include "treadmark/measured/noise.hpp"
-#include "treadmark/measured/smoothing.hpp"
 #include "treadmark/model/rail_head.hpp"
 
 namespace treadmark::io {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "treadmark/measured/lumps.hpp"
-#include "treadmark/measured/section.hpp"
+#include "treadmark/analysis/measured/lumps.hpp"
+#include "treadmark/analysis/measured/section.hpp"
 #include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::io {

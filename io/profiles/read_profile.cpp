@@ -9,14 +9,14 @@
 #include <optional>
 #include <system_error>
 
+#include "treadmark/analysis/measured/noise.hpp"
+#include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
-#include "treadmark/measured/noise.hpp"
-#include "treadmark/measured/smoothing.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -16,24 +16,24 @@ import sys
 ALLOWED = {
     "core": ["core"],
     "model": ["core", "model"],
-    "measures": ["core", "model", "measured", "measures"],
-    "measured": ["core", "model", "measured"],
-    "damage": ["core", "model", "damage"],
-    "geometry": ["core", "model", "measured", "geometry"],
-    "io": ["core", "model", "measured", "io"],
-    "pictures": ["core", "model", "measured", "io", "pictures"],
-    "backends": ["core", "model", "measured", "backends"],
-    "scans": ["core", "model", "measured", "scans"],
+    "analysis/measures": ["core", "model", "analysis/measured", "analysis/measures"],
+    "analysis/measured": ["core", "model", "analysis/measured"],
+    "analysis/damage": ["core", "model", "analysis/damage"],
+    "analysis/geometry": ["core", "model", "analysis/measured", "analysis/geometry"],
+    "io": ["core", "model", "analysis/measured", "io"],
+    "pictures": ["core", "model", "analysis/measured", "io", "pictures"],
+    "backends": ["core", "model", "analysis/measured", "backends"],
+    "scans": ["core", "model", "analysis/measured", "scans"],
     "detection": ["core", "model", "detection"],
     "solvers/kalker": ["core", "model", "solvers/kalker"],
     "solvers/wheelrail": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail"],
     "solvers/vehicle": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
-    "app": ["core", "model", "measured", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app"],
-    "app/cli": ["core", "model", "measured", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces/fmi"],
-    "interfaces": ["core", "model", "measured", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces"],
-    "examples": ["core", "model", "measured", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app"],
-    "bench": ["core", "model", "measured", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "bench"],
-    "tests": ["core", "model", "measured", "io", "pictures", "backends", "geometry", "measures", "damage", "scans", "detection", "solvers", "app", "interfaces", "bench", "tests"],
+    "app": ["core", "model", "io", "pictures", "backends", "analysis", "scans", "detection", "solvers", "app"],
+    "app/cli": ["core", "model", "io", "pictures", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces/fmi"],
+    "interfaces": ["core", "model", "io", "pictures", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces"],
+    "examples": ["core", "model", "io", "pictures", "backends", "analysis", "scans", "detection", "solvers", "app"],
+    "bench": ["core", "model", "io", "pictures", "backends", "analysis", "scans", "detection", "solvers", "app", "bench"],
+    "tests": ["core", "model", "io", "pictures", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces", "bench", "tests"],
 }
 
 # What programs that are linked with the shared library include.
@@ -58,7 +58,7 @@ HEAVY = {
 HEAVY_FREE = ("tests", "bench")
 
 # Know nothing of a surface but its contract (core/surface.hpp), so that surfaces made of others may stand in for them.
-CONTRACT_ONLY = ("damage/", "detection/", "geometry/", "measured/", "measures/", "solvers/")
+CONTRACT_ONLY = ("analysis/", "detection/", "solvers/")
 
 # What comes from files must never reach a shell, so the program and its libraries start no other programs; but for the one that
 # holds OpenCASCADE, by its path and without a shell.

@@ -13,11 +13,11 @@
 #include <numbers>
 #include <thread>
 
+#include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/evolve/passed_patches.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/damage/record.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"

@@ -14,8 +14,8 @@
 
 #include <Eigen/Dense>
 
+#include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
-#include "treadmark/damage/record.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/core/progress.hpp"
-#include "treadmark/damage/record.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"

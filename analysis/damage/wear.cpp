@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/analysis/damage/wear.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/core/line.hpp"
+
+namespace treadmark::damage {
+namespace {
+
+double in_regime(const std::vector<double>& values, const std::vector<double>& limits, double where) {
+  const auto above = std::ranges::lower_bound(limits, where);
+  return values[static_cast<std::size_t>(above - limits.begin())];
+}
+
+}  // namespace
+
+double depth_rate(const WearLaw& law, const PassedPatch& patch, const PassedElement& element) {
+  switch (law.theory) {
+    case WearTheory::archard: {
+      const double speed = element.slip * patch.velocity;
+      const bool seized = law.k_seizure > 0.0 && element.pressure > law.seizure_ratio * law.hardness;
+      const double k = seized ? law.k_seizure : in_regime(law.k, law.slip_limits, speed);
+      return k * element.pressure * speed / law.hardness;
+    }
+    case WearTheory::t_gamma:
+      if (element.dissipation <= 0.0) return 0.0;
+      return BrokenLine(law.t_gamma_area, law.wear_rate)
+                 .at(std::max(law.t_gamma_area.front(), element.dissipation / patch.velocity)) *
+             patch.velocity / law.density;
+    case WearTheory::energy:
+      return in_regime(law.volume_per_work, law.power_limits, patch.power / patch.area()) * element.dissipation;
+  }
+  return 0.0;
+}
+
+}  // namespace treadmark::damage
