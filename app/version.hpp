@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/core/version.hpp"
+
 namespace treadmark::app {
 
-std::string version();       ///< "0.2.0"
-std::string git_revision();  ///< short commit hash of the sources, "unknown" outside a repository
-std::string source_time();   ///< of that commit, else of the configuration of the build: "2026-01-31T12:00:00Z"
+using treadmark::git_revision;
+using treadmark::version;
+std::string source_time();  ///< of that commit, else of the configuration of the build: "2026-01-31T12:00:00Z"
 /// Parts that are in and those left out (core/parts.hpp), and the licence that the binary thereby has, for --version.
 std::string build_description();
 std::string licence();  ///< that the program has with what it is linked to, as SPDX expression

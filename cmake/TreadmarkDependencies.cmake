@@ -159,7 +159,7 @@ if(TREADMARK_HAVE_FMU)
 endif()
 if(TREADMARK_HAVE_REPORT_SCRIPTS)
   # What reports hold of packages of npm: those that the lock file does not mark as for building alone.
-  set(lock_file "${PROJECT_SOURCE_DIR}/app/report/web/package-lock.json")
+  set(lock_file "${PROJECT_SOURCE_DIR}/report/web/package-lock.json")
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${lock_file}")
   file(READ "${lock_file}" lock)
   string(JSON locked GET "${lock}" packages)

@@ -6,7 +6,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-folders='^(core|model|io|pictures|backends|analysis|scans|detection|solvers|app|interfaces)/.*\.cpp$'
+folders='^(core|model|io|report|backends|analysis|scans|detection|solvers|app|interfaces)/.*\.cpp$'
 if [[ "${1:-}" == --all ]]; then
   mapfile -t files < <(git ls-files | grep -E "$folders")
 elif (($# > 0)); then

@@ -13,8 +13,8 @@
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/tables/json_of.hpp"
-#include "treadmark/pictures/chart.hpp"
-#include "treadmark/pictures/histories/history_svg.hpp"
+#include "treadmark/report/pictures/chart.hpp"
+#include "treadmark/report/pictures/histories/history_svg.hpp"
 
 namespace treadmark {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_report.hpp"
-#include "treadmark/pictures/chart.hpp"
+#include "treadmark/report/pictures/chart.hpp"
 
 namespace treadmark::app {
 namespace {

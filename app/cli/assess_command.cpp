@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/assessment/assessment_outputs.hpp"
+#include "treadmark/app/assessment/pages/assessment_page.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/report/pages/assessment_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 
@@ -65,7 +65,7 @@ int assess_command(const AssessOptions& options, const CommonOptions&) {
   const std::vector<std::string> channels =
       options.channels.empty() ? app::usual_channels(*runs.front().result) : options.channels;
   if (!options.folder.empty()) app::write_assessment_folder(options.folder, runs, channels);
-  write_report_file(options.report_file, [&] { return app::report::assessment_page(runs, channels); });
+  write_report_file(options.report_file, [&] { return app::pages::assessment_page(runs, channels); });
   if (!options.csv_file.empty() && options.csv_file != "-") write_file(options.csv_file, app::assessment_csv(runs));
   const auto json = [&] { return app::assessment_json(runs); };
   write_json_file(options.json_file, json);

@@ -7,8 +7,8 @@
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
+#include "treadmark/app/bench/pages/bench_page.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -65,7 +65,7 @@ int bench_command(const BenchOptions& options, const CommonOptions& common) {
   report.settings = echo(options);
   print_notes(file.notes, common.quiet);
   if (!options.output_folder.empty()) app::write_bench_folder(options.output_folder, report);
-  write_report_file(options.report_file, [&] { return app::report::bench_page(report, app::bench_json(report)); });
+  write_report_file(options.report_file, [&] { return app::pages::bench_page(report, app::bench_json(report)); });
   const auto json = [&] { return app::bench_json(report); };
   write_json_file(options.json_file, json);
   print_results(options.json_file, json,

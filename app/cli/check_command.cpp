@@ -13,7 +13,7 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
-#include "treadmark/app/report/pages/check_page.hpp"
+#include "treadmark/app/surfaces/pages/check_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/surface_check.hpp"
 #include "treadmark/core/constants.hpp"
@@ -22,7 +22,7 @@
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
-#include "treadmark/pictures/section_picture.hpp"
+#include "treadmark/report/pictures/section_picture.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -64,7 +64,7 @@ void print_profile(const app::CheckedProfile& profile) {
   for (const io::ProfileRemark& remark : profile.judgement.remarks) line("warning", remark.name + ": " + remark.text);
 }
 
-using app::report::CheckedInput;
+using app::pages::CheckedInput;
 
 void add_profile(const app::CheckedProfile& profile, CheckedInput& to) {
   print_profile(profile);
@@ -160,7 +160,7 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
     else
       check_case_file(options, pictures[name], input);
   }
-  write_report_file(options.report_file, [&] { return app::report::check_page(inputs); });
+  write_report_file(options.report_file, [&] { return app::pages::check_page(inputs); });
   return std::ranges::any_of(inputs, [](const CheckedInput& input) { return doubts_of(input) > 0; }) ? kFailed : kOk;
 }
 

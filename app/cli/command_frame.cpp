@@ -12,13 +12,13 @@
 #include <cstdio>
 #include <iostream>
 
-#include "treadmark/app/report/write_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/model/body_name.hpp"
+#include "treadmark/report/write_page.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -100,8 +100,8 @@ void write_json_file(const std::string& json_file, const std::function<std::stri
   if (!json_file.empty() && json_file != "-") write_file(json_file, json());
 }
 
-void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page) {
-  if (!file.empty()) write_file(file, app::report::to_html(page()));
+void write_report_file(const std::filesystem::path& file, const std::function<report::Page()>& page) {
+  if (!file.empty()) write_file(file, report::to_html(page()));
 }
 
 namespace {

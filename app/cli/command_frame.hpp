@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "treadmark/app/cli/verbs.hpp"
-#include "treadmark/app/report/page.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/model/profile.hpp"
+#include "treadmark/report/page.hpp"
 
 namespace treadmark::cli {
 
@@ -109,6 +109,6 @@ void print_results(const std::string& json_file, const std::function<std::string
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json);
 
 /// Makes the page and writes it as a live report; an empty name: does nothing.
-void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page);
+void write_report_file(const std::filesystem::path& file, const std::function<report::Page()>& page);
 
 }  // namespace treadmark::cli

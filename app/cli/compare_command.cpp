@@ -8,7 +8,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
-#include "treadmark/app/report/pages/compare_page.hpp"
+#include "treadmark/app/compare/pages/compare_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -85,7 +85,7 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   result.settings = echo(options);
   print_notes(file.notes, common.quiet);
   if (!options.output_folder.empty()) print_notes(write_comparison_folder(options.output_folder, result), common.quiet);
-  write_report_file(options.report_file, [&] { return app::report::compare_page(compared, io::to_json(result)); });
+  write_report_file(options.report_file, [&] { return app::pages::compare_page(compared, io::to_json(result)); });
   const auto json = [&] { return io::to_json(result); };
   print_results(options.json_file, json, [&] { return io::comparison_table(result); });
   write_json_file(options.json_file, json);

@@ -6,7 +6,7 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
@@ -33,7 +33,7 @@ int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
   if (options.vtk) app::write_evolution_vtk(file, options.output_folder);
   const auto json = [&] { return app::evolution_json(result); };
   write_json_file(options.json_file, json);
-  write_report_file(options.report_file, [&] { return app::report::read_report(options.output_folder); });
+  write_report_file(options.report_file, [&] { return app::pages::read_report(options.output_folder); });
   print_results(options.json_file, json, [&] { return app::evolution_table(result); });
   if (result.status != "complete") {
     std::cerr << result.status << ": " << result.message << '\n';

@@ -9,8 +9,8 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/list_files.hpp"
-#include "treadmark/app/geometry/geometry_page.hpp"
 #include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/app/geometry/pages/geometry_page.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/cancellation.hpp"

@@ -4,13 +4,13 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/import/import_scan.hpp"
-#include "treadmark/app/report/pages/import_page.hpp"
+#include "treadmark/app/import/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
-#include "treadmark/pictures/imports/import_pictures.hpp"
+#include "treadmark/report/pictures/imports/import_pictures.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -53,7 +53,7 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
       if (!has_part(part)) print_notes({left_out_message(part, file) + ": " + left_out_advice(part)}, common.quiet);
     if (has_part("report"))
       write_report_file(std::filesystem::path(options.report_folder) / "report.html", [&] {
-        return app::report::import_page(report, io::import_json(report, false), options.report_folder);
+        return app::pages::import_page(report, io::import_json(report, false), options.report_folder);
       });
   }
   const auto json = [&] { return io::import_json(report, true); };

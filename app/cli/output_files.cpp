@@ -25,8 +25,8 @@
 #include "treadmark/io/results/write_mat.hpp"
 #include "treadmark/io/results/write_subs.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
-#include "treadmark/pictures/comparison_pictures.hpp"
-#include "treadmark/pictures/pressure_svg.hpp"
+#include "treadmark/report/pictures/comparison_pictures.hpp"
+#include "treadmark/report/pictures/pressure_svg.hpp"
 
 namespace treadmark::cli {
 

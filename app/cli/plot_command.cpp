@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
-#include "treadmark/app/report/plot.hpp"
+#include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/report/plot.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -21,10 +21,9 @@ struct PlotOptions {
 };
 
 int plot_command(const PlotOptions& options, const CommonOptions&) {
-  const app::report::Page page = app::report::read_report(options.folder);
+  const report::Page page = app::pages::read_report(options.folder);
   if (options.what.empty()) {
-    for (const auto& [name, meaning] : app::report::plots_of(page))
-      std::cout << fmt::format("{:<32} {}\n", name, meaning);
+    for (const auto& [name, meaning] : report::plots_of(page)) std::cout << fmt::format("{:<32} {}\n", name, meaning);
     return kOk;
   }
   if (options.output_file.empty())
@@ -33,7 +32,7 @@ int plot_command(const PlotOptions& options, const CommonOptions&) {
   if (options.output_file != "-" && std::filesystem::path(options.output_file).extension() != ".svg")
     throw Error(ErrorKind::configuration, "pictures are written as SVG only", {options.output_file, 0, 0},
                 "end the name with .svg; a report saves single views as PNG");
-  const std::string svg = app::report::plot(page, options.what, options.cases);
+  const std::string svg = report::plot(page, options.what, options.cases);
   if (options.output_file == "-")
     std::cout << svg;
   else

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
-#include "treadmark/app/report/write_page.hpp"
+#include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/report/write_page.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -23,16 +23,16 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
   namespace fs = std::filesystem;
   const fs::path first = options.folders.front();
   const bool several = options.folders.size() > 1;
-  const app::report::Page page = several ? app::report::read_overlay({options.folders.begin(), options.folders.end()})
-                                         : app::report::read_report(first);
+  const report::Page page = several ? app::pages::read_overlay({options.folders.begin(), options.folders.end()})
+                                    : app::pages::read_report(first);
   const fs::path folder = fs::is_directory(first) ? first : first.parent_path();
   const fs::path file =
       options.output_file.empty() ? folder / (several ? "overlay.html" : "report.html") : fs::path(options.output_file);
-  app::report::PageOptions how;
+  report::PageOptions how;
   how.live = !options.static_pictures;
-  const std::string html = app::report::to_html(page, how);
+  const std::string html = report::to_html(page, how);
   write_file(file, html);
-  if (how.live && app::report::page_script().empty() && !common.quiet)
+  if (how.live && report::page_script().empty() && !common.quiet)
     std::cerr << "note: this build has no Node.js: the report shows fixed pictures\n";
   std::cout << file.string() << '\n';
   return kOk;

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
-#include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/backends/registry.hpp"
@@ -111,7 +111,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (!folders.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
     if (!folders.empty()) print_notes(write_result_folder(folders[k], result, options.bodies), common.quiet);
     write_report_file(options.report_file, [&] {
-      return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));
+      return app::pages::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));
     });
     const auto json = [&] { return io::to_json(result); };
     print_results(options.json_file, json, [&] {

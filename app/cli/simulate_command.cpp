@@ -10,10 +10,10 @@
 
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
-#include "treadmark/app/report/pages/simulation_page.hpp"
+#include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
+#include "treadmark/app/simulation/pages/simulation_page.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -131,7 +131,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     run.resume = options.resume;
     if (options.resume && app::is_finished(folder / "simulation.h5", file, overrides)) {
       std::cerr << "the simulation in " << folder.string() << " is complete already\n";
-      write_report_file(options.report_file, [&] { return app::report::read_report(folder); });
+      write_report_file(options.report_file, [&] { return app::pages::read_report(folder); });
       return kOk;
     }
     if (!options.resume) {
@@ -155,7 +155,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     std::error_code ignored;
     if (result.status == "complete") std::filesystem::remove(run.checkpoint_file, ignored);
   }
-  write_report_file(options.report_file, [&] { return app::report::simulation_page(shared, {}, own); });
+  write_report_file(options.report_file, [&] { return app::pages::simulation_page(shared, {}, own); });
   print_summary(
       options.json_file, app::to_json(result, times, own),
       app::summary_text(result) + (own ? app::assessment_text(std::span(own, 1)) : "") + app::times_text(times));

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/slurm_jobs.hpp"
 #include "treadmark/core/error.hpp"
@@ -116,7 +116,7 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
     std::cerr << fmt::format("{} of {} runs were finished already\n", outcome.found_finished, outcome.runs_total);
   const auto write_report = [&] {
     if (place.rank == 0)
-      write_report_file(options.report_file, [&] { return app::report::read_report(options.output_folder); });
+      write_report_file(options.report_file, [&] { return app::pages::read_report(options.output_folder); });
   };
   if (!outcome.complete) {
     if (share.whole()) write_report();

@@ -7,7 +7,7 @@
 
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/pictures/chart.hpp"
+#include "treadmark/report/pictures/chart.hpp"
 
 namespace treadmark::app {
 namespace {

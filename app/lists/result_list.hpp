@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/app/report/page.hpp"
 #include "treadmark/core/progress.hpp"
+#include "treadmark/report/page.hpp"
 
 namespace treadmark::app {
 

@@ -15,8 +15,8 @@
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/tables/number.hpp"
-#include "treadmark/pictures/histories/history_svg.hpp"
-#include "treadmark/pictures/pressure_svg.hpp"
+#include "treadmark/report/pictures/histories/history_svg.hpp"
+#include "treadmark/report/pictures/pressure_svg.hpp"
 
 namespace treadmark::app {
 

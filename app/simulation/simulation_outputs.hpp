@@ -8,7 +8,7 @@
 
 #include "treadmark/app/assessment/assess_result.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
-#include "treadmark/pictures/histories/patches_svg.hpp"
+#include "treadmark/report/pictures/histories/patches_svg.hpp"
 
 namespace treadmark::app {
 

@@ -16,8 +16,8 @@
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/io/simulations/table_reader.hpp"
-#include "treadmark/pictures/histories/history_svg.hpp"
-#include "treadmark/pictures/histories/summary_svg.hpp"
+#include "treadmark/report/pictures/histories/history_svg.hpp"
+#include "treadmark/report/pictures/histories/summary_svg.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "treadmark/io/tables/csv_of.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/io/tables/text_of.hpp"
-#include "treadmark/pictures/chart.hpp"
+#include "treadmark/report/pictures/chart.hpp"
 
 namespace treadmark {
 namespace {

@@ -11,7 +11,7 @@
 #include "treadmark/io/simulations/write_track.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/io/tables/text_of.hpp"
-#include "treadmark/pictures/chart.hpp"
+#include "treadmark/report/pictures/chart.hpp"
 
 namespace treadmark {
 namespace {

@@ -15,7 +15,7 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/interfaces/fmi/instance.hpp"
 #include "treadmark/io/files/replaced.hpp"
-#include "treadmark/pictures/svg_text.hpp"
+#include "treadmark/report/pictures/svg_text.hpp"
 
 namespace treadmark::fmi {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/geometry/geometry_page.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
-#include "treadmark/app/report/pages/run_page.hpp"
-#include "treadmark/app/report/write_page.hpp"
+#include "treadmark/app/cases/pages/run_page.hpp"
+#include "treadmark/app/geometry/pages/geometry_page.hpp"
+#include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/interfaces/python/requests.hpp"
 #include "treadmark/io/results/write_json.hpp"
+#include "treadmark/report/write_page.hpp"
 
 namespace treadmark::python {
 
@@ -15,20 +15,20 @@ void add_pages(py::module_& module) {
   module.def("report_run", [](Run& run, const std::filesystem::path& file) {
     with_files([&] {
       run.whole();
-      write_file(file, app::report::to_html(app::report::run_page(run.result, io::to_json(*run.result))));
+      write_file(file, report::to_html(app::pages::run_page(run.result, io::to_json(*run.result))));
     });
   });
   module.def("report_geometry", [](const FoundGeometry& found, const std::filesystem::path& file) {
     const py::gil_scoped_release free;
     const auto& sweep = found.answer->sweep;
-    write_file(file, app::report::to_html(app::geometry_page(found.answer->result, sweep ? &*sweep : nullptr)));
+    write_file(file, report::to_html(app::geometry_page(found.answer->result, sweep ? &*sweep : nullptr)));
   });
   module.def("report_measures", [](const FoundMeasures& found, const std::filesystem::path& file) {
     const py::gil_scoped_release free;
-    write_file(file, app::report::to_html(app::measure_page(*found.file, found.request)));
+    write_file(file, report::to_html(app::measure_page(*found.file, found.request)));
   });
   module.def("report_folder", [](const std::filesystem::path& folder, const std::filesystem::path& file) {
-    with_files([&] { write_file(file, app::report::to_html(app::report::read_report(folder))); });
+    with_files([&] { write_file(file, report::to_html(app::pages::read_report(folder))); });
   });
 }
 

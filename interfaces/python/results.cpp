@@ -13,7 +13,7 @@
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
-#include "treadmark/pictures/pressure_svg.hpp"
+#include "treadmark/report/pictures/pressure_svg.hpp"
 
 namespace treadmark::python {
 namespace {

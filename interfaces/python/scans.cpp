@@ -4,7 +4,7 @@
 
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/interfaces/python/python.hpp"
-#include "treadmark/pictures/imports/import_pictures.hpp"
+#include "treadmark/report/pictures/imports/import_pictures.hpp"
 
 namespace treadmark::python {
 namespace {

@@ -30,7 +30,7 @@
 #include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
-#include "treadmark/pictures/histories/history_svg.hpp"
+#include "treadmark/report/pictures/histories/history_svg.hpp"
 
 namespace treadmark::python {
 namespace {

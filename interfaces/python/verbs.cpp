@@ -22,8 +22,8 @@
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/results/comparison_table.hpp"
-#include "treadmark/pictures/comparison_pictures.hpp"
-#include "treadmark/pictures/section_picture.hpp"
+#include "treadmark/report/pictures/comparison_pictures.hpp"
+#include "treadmark/report/pictures/section_picture.hpp"
 
 namespace treadmark::python {
 namespace {

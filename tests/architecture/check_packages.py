@@ -42,7 +42,7 @@ def check(package, lock, rules):
 
 
 def main():
-    web = pathlib.Path(sys.argv[1]) / "app" / "report" / "web"
+    web = pathlib.Path(sys.argv[1]) / "report" / "web"
     package, lock = (json.loads((web / name).read_text()) for name in ("package.json", "package-lock.json"))
     found = check(package, lock, (web.parent / "assets.cmake").read_text())
     print("\n".join(found) or f"{len(lock['packages']) - 1} packages, each with its digest")

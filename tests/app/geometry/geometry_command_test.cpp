@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "treadmark/app/geometry/geometry_page.hpp"
 #include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/app/geometry/pages/geometry_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"

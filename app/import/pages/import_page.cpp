@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/app/import/pages/import_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/app/import/pages/import_figures.hpp"
+#include "treadmark/app/pages/page_parts.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/report/html_text.hpp"
+
+namespace treadmark::app::pages {
+
+using namespace report;
+
+namespace {
+
+std::string in_unit(double value, const char* unit, int digits = 3) {
+  return std::isfinite(value) ? fmt::format("{} {}", shown({value, digits}), unit) : "–";
+}
+
+/// Lengths [m] with the digits of report.json.
+std::string in_mm(double length, int digits = 3) { return in_unit(in_file(kMilli * length), "mm", digits); }
+std::string in_um(double length) { return in_unit(1e3 * in_file(kMilli * length), "µm"); }
+
+std::string body_text(const io::ImportReport& report) { return report.body == Body::wheel ? "wheel" : "rail"; }
+
+std::size_t removed_count(const io::ImportReport& report) {
+  std::size_t sum = 0;
+  for (const auto& removed : report.removed) sum += removed.count;
+  return sum;
+}
+
+void add_banners(const io::ImportReport& report, Section& overview) {
+  for (const std::string& warning : report.warnings)
+    overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Warning.", warning});
+  std::size_t open = 0;
+  double widest = 0.0;
+  for (const auto& hole : report.holes) {
+    if (hole.filled) continue;
+    ++open;
+    widest = std::fmax(widest, hole.diameter);
+  }
+  if (open > 0)
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::warning, counted(open, "hole") + (open == 1 ? " stays open." : " stay open."),
+               fmt::format("There is no surface there; the widest is {} across.", in_mm(widest))});
+  if (report.from_map)
+    overview.blocks.emplace_back(Banner{Banner::Kind::note, "From a map of deviations.",
+                                        "It was not placed: it lies over the nominal profile as it is."});
+}
+
+Cards cards_of(const io::ImportReport& report) {
+  const double read = static_cast<double>(report.points_read), removed = static_cast<double>(removed_count(report));
+  const double largest = report.damage.empty() ? 0.0 : report.damage.front().depth;
+  Cards cards;
+  cards.cards = {{"Points used", fmt::format("{}", report.points_used), fmt::format("of {}", report.points_read)},
+                 {"Removed", read > 0.0 ? fmt::format("{} %", shown({100.0 * removed / read, 3})) : "–",
+                  fmt::format("{} points", removed_count(report))},
+                 {"Residual", in_um(report.residual_rms), fmt::format("rms; largest {}", in_um(report.residual_max))},
+                 {"Noise", in_um(report.noise), "standard deviation of the points"},
+                 // A fit whose heights show no error may still err in curvatures.
+                 {"Error of the surface", io::surface_error_text(report, "\u00b5"),
+                  "of heights, by points held out; curvatures and with them pressures err more"},
+                 {"Holes", fmt::format("{}", report.holes.size()),
+                  fmt::format("{} in all", in_unit(in_file(1e6 * report.hole_area), "mm²"))},
+                 {"Damage", fmt::format("{}", report.damage.size()),
+                  report.damage.empty()
+                      ? ""
+                      : fmt::format("the largest {} {}", in_mm(std::fabs(largest)), largest < 0.0 ? "high" : "deep")}};
+  if (report.truth)
+    cards.cards.push_back({"Error against the reference surface", in_um(report.truth->placed.rms),
+                           fmt::format("rms; of the shape alone {}", in_um(report.truth->shape.rms))});
+  return cards;
+}
+
+Facts import_facts(const io::ImportReport& report) {
+  const auto span = [](double from, double to, double factor, const char* unit) {
+    return fmt::format("{} … {} {}", shown({in_file(factor * from), 5}), shown({in_file(factor * to), 5}), unit);
+  };
+  const bool wheel = report.body == Body::wheel;
+  Facts facts;
+  facts.entries = {{"Version", report.version},
+                   {"Body", body_text(report) + (report.closed ? ", all round" : "")},
+                   {"Unit of the files", fmt::format("{} (from {})", report.unit, report.unit_from)},
+                   {wheel ? "Angles" : "Along the track",
+                    span(report.u_min, report.u_max, wheel ? 180.0 / kPi : kMilli, wheel ? "°" : "mm")},
+                   {"Across", span(report.y_min, report.y_max, kMilli, "mm")},
+                   {"Distance of points", in_mm(report.spacing)},
+                   {"Holes are filled up to", in_mm(report.hole_limit)},
+                   {"Damage begins at", in_um(report.damage_threshold)}};
+  return facts;
+}
+
+std::string vector_text(const Vec3& vector, double factor, int digits) {
+  std::string out;
+  for (const double value : vector)
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", shown({in_file(factor * value), digits}));
+  return fmt::format("({})", out);
+}
+
+/// How the surface lies in the scan; nothing for a map.
+std::vector<Block> placement_of(const io::ImportReport& report) {
+  if (report.from_map) return {};
+  const Pose& X = report.X_CS;
+  Facts facts;
+  facts.entries = {
+      {"Nominal profile", report.nominal + (report.turned ? ", turned" : "")},
+      {"Nominal radius", in_mm(report.nominal_radius, 6)},
+      {"Origin in the scan", vector_text(X.origin, kMilli, 7) + " mm"},
+      {"x axis in the scan", vector_text(X.rotation.col(0), 1.0, 6)},
+      {"y axis in the scan", vector_text(X.rotation.col(1), 1.0, 6)},
+      {"z axis in the scan", vector_text(X.rotation.col(2), 1.0, 6)},
+      {"Zero along the band", report.zero},
+      {"Standard error of the axis", fmt::format("{}, {}", in_um(report.axis_position_error),
+                                                 in_unit(in_file(kMilli * report.axis_direction_error), "mrad"))},
+      {"Scatter about the section", in_um(report.scatter)},
+      {"Undamaged points", in_unit(in_file(100.0 * report.undamaged), "%")},
+      {"Section from the nominal profile", fmt::format("{} where both agree, {} of it", in_um(report.match_residual),
+                                                       in_unit(in_file(100.0 * report.match_agreeing), "%"))}};
+  if (report.body != Body::wheel)
+    std::erase_if(facts.entries, [](const auto& entry) { return entry.first == "Nominal radius"; });
+  std::vector<Block> out{std::move(facts)};
+  if (Table passes = pass_table(report); passes.rows.size() > 1) {
+    out.emplace_back(
+        Paragraph{fmt::format("Passes lay {} apart where they overlap (rms), and {} after they were moved.",
+                              in_um(report.pass_before), in_um(report.pass_after))});
+    out.emplace_back(std::move(passes));
+  }
+  return out;
+}
+
+Section surface_section(const io::ImportReport& report, OptionalFiles& files) {
+  Section section{"surface", "Surface"};
+  const auto [unit, factor] = length_unit_of(report.fitted);
+  append(section.blocks,
+         map_figure(report.fitted, report.body,
+                    {"fitted-map", "Distance of the fitted surface from its section", "distance", unit, factor, true,
+                     "Above 0: out of the material. Rectangles: damage, by number and depth; circles: holes."},
+                    import_marks(report)));
+  section.blocks.emplace_back(damage_table(report));
+  section.blocks.emplace_back(hole_table(report));
+  append(section.blocks, files.picture("fitted.svg", "fitted", "Fitted surface"));
+  return section;
+}
+
+Section points_section(const io::ImportReport& report, OptionalFiles& files) {
+  Section section{"points", "Points"};
+  section.blocks.emplace_back(removed_table(report));
+  append(section.blocks,
+         map_figure(report.density, report.body, {"density-map", "Points before cleaning", "points", "1/mm²", 1e-6}));
+  append(section.blocks, map_figure(report.removed_map, report.body,
+                                    {"removed-map", "Points that were removed", "points", "1/mm²", 1e-6}));
+  append(section.blocks, files.picture("before.svg", "before", "Scan before cleaning"));
+  append(section.blocks, files.picture("removed.svg", "removed", "What was removed"));
+  return section;
+}
+
+/// How far the points lie from the surface: in space, unrolled, and how many.
+Section deviation_section(const io::ImportReport& report) {
+  Section section{"deviation", "Deviation"};
+  append(section.blocks, cloud_figure(report));
+  append(section.blocks, map_figure(report.residual, report.body,
+                                    {"residual-map", "Mean residual", "measured less fitted", "µm", 1e6, true}));
+  append(section.blocks, residual_figure(report));
+  return section;
+}
+
+Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
+  Section section{"fit", "Fit"};
+  if (const auto& kept = report.sections)
+    section.blocks.emplace_back(
+        Banner{Banner::Kind::note, "The scan's own sections are the surface.",
+               fmt::format("{} sections of {} to {} points; the fit below serves pictures, damage and zero alone.",
+                           kept->count, kept->fewest_points, kept->most_points)});
+  section.blocks.emplace_back(
+      Paragraph{fmt::format("{} points were fitted, {} held out; these lie {} (rms) from the surface.",
+                            report.fitted_points, report.held_out_points, in_um(report.held_out_rms))});
+  append(section.blocks,
+         map_figure(report.noise_map, report.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
+  section.blocks.emplace_back(level_table(report));
+  // its maps and counts are shown above
+  if (report.residual.value.empty()) append(section.blocks, files.picture("residual.svg", "residual", "Residuals"));
+  return section;
+}
+
+}  // namespace
+
+Page import_page(const io::ImportReport& report, std::string document, const std::filesystem::path& folder) {
+  OptionalFiles files(folder);
+  files.has("maps.h5", "maps over the band");
+  Page page{"import", fmt::format("Import of {}", report.inputs.empty() ? "" : report.inputs.front().file),
+            fmt::format("A {} from {}", body_text(report),
+                        report.from_map ? "a map of deviations" : counted(report.points_read, "point"))};
+  page.document = std::move(document);
+
+  Section overview{"overview", "Overview"};
+  add_banners(report, overview);
+  const std::size_t place_of_note = overview.blocks.size();
+  overview.blocks.emplace_back(cards_of(report));
+  overview.blocks.emplace_back(import_facts(report));
+  overview.blocks.emplace_back(input_table(report));
+  Section surface = surface_section(report, files), points = points_section(report, files),
+          deviation = deviation_section(report), fit = fit_section(report, files),
+          truth{"truth", "Error against the reference surface", truth_blocks(report)};
+  Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"},
+      settings{"settings", "Settings"}, summary{"summary", "Summary"};
+  if (files.has("times.json", "times of the steps")) steps.blocks.emplace_back(step_table(report));
+  settings.blocks.emplace_back(Listing{report.settings_toml});
+  if (std::string text = files.text("summary.txt", "the summary"); !text.empty())
+    summary.blocks.emplace_back(Listing{std::move(text)});
+  std::vector<Block> note = files.note();
+  overview.blocks.insert(overview.blocks.begin() + static_cast<std::ptrdiff_t>(place_of_note), note.begin(),
+                         note.end());
+
+  Section placement{"placement", "Placement", placement_of(report)};
+  for (Section* section :
+       {&overview, &truth, &surface, &deviation, &points, &placement, &fit, &output, &steps, &settings, &summary})
+    if (!section->blocks.empty()) page.sections.push_back(std::move(*section));
+  return page;
+}
+
+Page import_page(const std::filesystem::path& folder) {
+  return import_page(io::read_import_report(folder), io::profiles::read_text(folder / "report.json", "result", {}),
+                     folder);
+}
+
+namespace {
+
+constexpr double kSquare = 1e6, kCube = 1e9;  // m^2 to mm^2, m^3 to mm^3
+
+Number whole(std::size_t count) { return {static_cast<double>(count), 12}; }
+
+/// A number in the unit of its factor, with the digits of report.json.
+Number shown_in(double factor, double value, int digits = 4) { return {in_file(factor * value), digits}; }
+Number length_in(double value, int digits = 4) { return shown_in(kMilli, value, digits); }
+
+/// Place along the band: degrees of a wheel, mm of a rail.
+report::Column along_column(const io::ImportReport& report) {
+  return report.body == Body::wheel ? report::Column{"angle", "°"} : report::Column{"x", "mm"};
+}
+Number along(const io::ImportReport& report, double u) {
+  return shown_in(report.body == Body::wheel ? 180.0 / kPi : kMilli, u, 6);
+}
+
+}  // namespace
+
+Table input_table(const io::ImportReport& report) {
+  Table table{"inputs", "Files that were read.", {{"file"}, {"format"}, {"points"}, {"not finite"}, {"SHA-256"}}};
+  for (const auto& input : report.inputs)
+    table.rows.push_back({{input.file, input.format, whole(input.points), whole(input.not_finite), input.sha256}});
+  return table;
+}
+
+Table removed_table(const io::ImportReport& report) {
+  Table table{"removed",
+              "Points that are not in the surface, in the order of the steps.",
+              {{"reason"}, {"points"}, {"of all", "%"}, {"rule"}}};
+  const double all = static_cast<double>(report.points_read);
+  for (const auto& [reason, count, why] : io::removed_by_reason(report)) {
+    const double points = static_cast<double>(count);
+    table.rows.push_back({{reason, Number{points, 12}, Number{all > 0.0 ? 100.0 * points / all : 0.0, 3}, why}});
+  }
+  return table;
+}
+
+Table hole_table(const io::ImportReport& report) {
+  Table table{"holes",
+              "Places without points, largest first.",
+              {along_column(report), {"y", "mm"}, {"s", "mm"}, {"diameter", "mm"}, {"area", "mm²"}, {"filled"}}};
+  for (const auto& hole : report.holes)
+    table.rows.push_back({{along(report, hole.u), length_in(hole.y), length_in(hole.s), length_in(hole.diameter, 3),
+                           shown_in(kSquare, hole.area, 3), std::string(hole.filled ? "by the fit" : "stays open")}});
+  return table;
+}
+
+Table damage_table(const io::ImportReport& report) {
+  Table table{"damage",
+              "Damage, largest first. Negative depths and volumes stand out of the surface.",
+              {{"number"},
+               along_column(report),
+               {"y", "mm"},
+               {"s", "mm"},
+               {"length", "mm"},
+               {"width", "mm"},
+               {"depth", "mm"},
+               {"missing volume", "mm³"}}};
+  for (const auto& part : report.damage)
+    table.rows.push_back({{Number{static_cast<double>(table.rows.size() + 1)}, along(report, part.u), length_in(part.y),
+                           length_in(part.s), length_in(part.length), length_in(part.width), length_in(part.depth),
+                           shown_in(kCube, part.volume)}});
+  return table;
+}
+
+Table pass_table(const io::ImportReport& report) {
+  Table table{"passes",
+              "Passes and what they were moved by, in the axes of the surface.",
+              {{"pass"},
+               {"points"},
+               {"shift x", "mm"},
+               {"shift y", "mm"},
+               {"shift z", "mm"},
+               {"turn x", "mrad"},
+               {"turn y", "mrad"},
+               {"turn z", "mrad"}}};
+  for (const auto& pass : report.passes) {
+    Table::Row row{{Number{static_cast<double>(pass.pass), 12}, whole(pass.points)}};
+    for (const Vec3& vector : {pass.shift_S, pass.turn_S})
+      for (const double value : vector) row.cells.emplace_back(length_in(value, 3));  // or mrad
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table level_table(const io::ImportReport& report) {
+  Table table{"levels",
+              "The sum of splines, from coarse to fine along and across. Functions are used only where the points call "
+              "for them.",
+              {{"knots along", "mm"}, {"knots across", "mm"}, {"functions"}, {"used"}, {"iterations"}}};
+  for (const auto& level : report.levels)
+    table.rows.push_back({{length_in(level.knot_a), length_in(level.knot_s), whole(level.functions), whole(level.used),
+                           Number{static_cast<double>(level.iterations), 12}}});
+  return table;
+}
+
+Table output_table(const io::ImportReport& report) {
+  Table table{"outputs",
+              "Surfaces that were written, read back and compared with the fitted one.",
+              {{"file"},
+               {"kind"},
+               {"content"},
+               {"size", "bytes"},
+               {"largest distance", "µm"},
+               {"rms distance", "µm"},
+               {"SHA-256"}}};
+  for (const auto& output : report.outputs)
+    table.rows.push_back(
+        {{output.file, output.kind, output.details, whole(output.bytes), shown_in(kMicro, output.height_max, 3),
+          shown_in(kMicro, output.height_rms, 3), output.sha256}});
+  return table;
+}
+
+Table step_table(const io::ImportReport& report) {
+  Table table{"steps", "Steps and their wall-clock times.", {{"step"}, {"time", "s"}}};
+  for (const auto& step : report.steps) table.rows.push_back({{step.name, shown_in(1.0, step.seconds, 3)}});
+  return table;
+}
+
+}  // namespace treadmark::app::pages

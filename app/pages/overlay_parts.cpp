@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/pages/overlay_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/settings/toml_value.hpp"
+#include "treadmark/report/html_text.hpp"
+
+namespace treadmark::app::pages {
+
+using namespace report;
+
+namespace {
+
+/// Finds a line by its name, or begins it.
+SaidByAll& line_of(std::vector<SaidByAll>& lines, const std::string& what, std::size_t results, const char* otherwise) {
+  const auto found = std::ranges::find(lines, what, &SaidByAll::what);
+  if (found != lines.end()) return *found;
+  lines.push_back({what, std::vector<std::string>(results, otherwise)});
+  return lines.back();
+}
+
+std::string version_of(const Origin& origin) {
+  return origin.git.empty() ? origin.version : fmt::format("{} ({})", origin.version, origin.git);
+}
+
+/// Adds "a.b.0.c" and the value of each leaf.
+void flatten(const io::CaseValue& value, const std::string& path,
+             std::vector<std::pair<std::string, std::string>>& out) {
+  const auto text_of = [](const io::CaseValue& leaf) -> std::string {
+    if (const auto* flag = std::get_if<bool>(&leaf.data)) return *flag ? "true" : "false";
+    if (const auto* whole = std::get_if<std::int64_t>(&leaf.data)) return fmt::format("{}", *whole);
+    if (const auto* number = std::get_if<double>(&leaf.data)) return fmt::format("{}", *number);
+    if (const auto* text = std::get_if<std::string>(&leaf.data)) return *text;
+    return "";
+  };
+  const std::string below = path.empty() ? "" : path + ".";
+  if (value.is_table()) {
+    for (const io::CaseEntry& entry : value.table()) flatten(entry.value, below + entry.key, out);
+  } else if (value.is_list()) {
+    const auto& list = value.list();
+    const bool plain = std::ranges::none_of(list, [](const auto& one) { return one.is_table() || one.is_list(); });
+    std::string text;
+    for (std::size_t k = 0; k < list.size(); ++k)
+      if (plain)
+        text += (k == 0 ? "" : ", ") + text_of(list[k]);
+      else
+        flatten(list[k], fmt::format("{}{}", below, k), out);
+    if (plain) out.emplace_back(path, "[" + text + "]");
+  } else {
+    out.emplace_back(path, text_of(value));
+  }
+}
+
+/// As much of a text as a table has room for.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 60, kKept = 40;
+  if (text.size() <= kMost) return text;
+  std::size_t end = kKept;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // no half characters
+  return fmt::format("{}… ({} characters)", text.substr(0, end), text.size());
+}
+
+}  // namespace
+
+Change change(double first, double second, double scale) {
+  constexpr double kRounding = 1e-9, kLeastShare = 1e-3;
+  Change out{second - first, kNaN};
+  if (std::fabs(out.difference) <= kRounding * std::max(std::fabs(first), std::fabs(second))) out.difference = 0.0;
+  if (std::isfinite(out.difference) && first != 0.0 && std::fabs(first) >= kLeastShare * scale)
+    out.percent = 100.0 * out.difference / std::fabs(first);
+  return out;
+}
+
+Cards::Card change_card(const std::string& label, const Change& change, const std::string& unit,
+                        const std::string& where) {
+  const auto with_sign = [](double value, const std::string& of) {
+    return fmt::format("{}{}{}{}",
+                       value > 0.0   ? "+"
+                       : value < 0.0 ? "−"
+                                     : "",
+                       shown({std::fabs(value), 3}), of.empty() ? "" : " ", of);
+  };
+  if (!std::isfinite(change.difference)) return {label, "–", where};
+  std::string note = std::isfinite(change.percent) ? with_sign(change.percent, "%") : std::string();
+  if (!where.empty()) note += (note.empty() ? "" : ", ") + where;
+  return {label, with_sign(change.difference, unit), std::move(note)};
+}
+
+void add_columns(Table& table, const std::vector<std::string>& names, const std::string& quantity,
+                 const std::string& unit) {
+  const std::string of = quantity.empty() ? "" : quantity + ", ";
+  for (const std::string& name : names) table.columns.push_back({of + name, unit});
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    const std::string whose = names.size() > 2 ? " of " + names[k] : "";
+    table.columns.push_back({fmt::format("{}difference{}", of, whose), unit});
+    table.columns.push_back({fmt::format("{}change{}", of, whose), "%"});
+  }
+}
+
+void add_cells(Table::Row& row, std::span<const double> values, double scale) {
+  constexpr int kDigits = 5, kDigitsOfChange = 3;
+  for (const double value : values) row.cells.emplace_back(Number{value, kDigits});
+  for (const double value : values.subspan(1)) {
+    const Change step = change(values.front(), value, scale);
+    row.cells.emplace_back(Number{step.difference, kDigitsOfChange});
+    row.cells.emplace_back(Number{step.percent, kDigitsOfChange});
+  }
+}
+
+std::vector<SaidByAll> origins_of(std::span<const Origin> origins, bool whole) {
+  constexpr std::size_t kShort = 12;
+  const auto hash = [&](const std::string& text) {
+    return whole || text.size() <= kShort ? text : text.substr(0, kShort) + "…";
+  };
+  std::vector<SaidByAll> lines;
+  for (std::size_t k = 0; k < origins.size(); ++k) {
+    const Origin& origin = origins[k];
+    const auto say = [&](const std::string& what, const std::string& text, const char* otherwise = "–") {
+      if (!text.empty()) line_of(lines, what, origins.size(), otherwise).texts[k] = text;
+    };
+    say("version", version_of(origin));
+    say("input", origin.input_file);
+    say("SHA-256 of the input", hash(origin.input_sha256));
+    for (const auto& [file, sha256] : origin.geometry_sha256) say("SHA-256 of " + file, hash(sha256));
+    for (const std::string& setting : origin.settings) {
+      const std::size_t equals = setting.find('=');
+      const bool pair = equals != std::string::npos;
+      say("set: " + setting.substr(0, equals), pair ? setting.substr(equals + 1) : "yes", "as in the input");
+    }
+  }
+  return lines;
+}
+
+std::vector<SaidByAll> inputs_of(std::span<const std::string> texts) {
+  std::vector<SaidByAll> lines;
+  if (std::ranges::any_of(texts, [](const std::string& text) { return text.empty(); })) return lines;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    io::CaseValue root;
+    try {
+      root.data = io::parse_toml(texts[k], "input");
+    } catch (const Error&) {
+      return {};  // of another format
+    }
+    std::vector<std::pair<std::string, std::string>> leaves;
+    flatten(root, "", leaves);
+    for (const auto& [path, text] : leaves) line_of(lines, path, texts.size(), "not given").texts[k] = text;
+  }
+  return lines;
+}
+
+std::string inputs_note(std::span<const Origin> origins, std::span<const std::string> texts) {
+  const bool differ =
+      std::ranges::any_of(origins, [&](const Origin& one) { return one.input_sha256 != origins.front().input_sha256; });
+  if (!differ || !inputs_of(texts).empty()) return "";
+  return "The inputs differ but are not compared key by key: results keep their hashes only, and not all files are "
+         "there "
+         "as they were, or they are no TOML.";
+}
+
+Block difference_table(const std::vector<std::string>& names, const std::vector<SaidByAll>& lines) {
+  Table table{"differs", "What differs between the results besides their numbers.", {{"what"}}};
+  for (const std::string& name : names) table.columns.push_back({name});
+  for (const SaidByAll& line : lines) {
+    if (std::ranges::all_of(line.texts, [&](const std::string& text) { return text == line.texts.front(); })) continue;
+    Table::Row row{{line.what}};
+    for (const std::string& text : line.texts) row.cells.emplace_back(shortened(text));
+    table.rows.push_back(std::move(row));
+  }
+  if (table.rows.empty()) return Paragraph{"Version, inputs and settings are the same."};
+  return table;
+}
+
+Section origins_section(const std::vector<std::string>& names, std::span<const Origin> origins) {
+  Section section{"origin", "Origin"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    section.blocks.emplace_back(Paragraph{names[k] + ":"});
+    section.blocks.emplace_back(origin_facts(origins[k]));
+  }
+  return section;
+}
+
+void add_version_note(std::span<const Origin> origins, Section& overview) {
+  std::vector<std::string> versions;
+  for (const Origin& origin : origins)
+    if (std::ranges::find(versions, version_of(origin)) == versions.end()) versions.push_back(version_of(origin));
+  if (versions.size() > 1)
+    overview.blocks.emplace_back(Banner{
+        Banner::Kind::note, "Versions differ:", joined(versions) + ". What differs below may come from the program."});
+}
+
+std::string stretches(std::span<const int> numbers) {
+  constexpr int kMost = 12;
+  std::string out;
+  int written = 0;
+  for (std::size_t i = 0; i < numbers.size();) {
+    if (written++ == kMost) return out + " ...";
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    if (last == i + 1) last = i;  // two are said one by one
+    out += out.empty() ? "" : ", ";
+    out += last == i ? fmt::format("{}", numbers[i]) : fmt::format("{} to {}", numbers[i], numbers[last]);
+    i = last + 1;
+  }
+  return out;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string out;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    out += (k == 0 ? "" : k + 1 == names.size() ? " and " : ", ") + names[k];
+  return out;
+}
+
+}  // namespace treadmark::app::pages
