@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/position_picture.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/surfaces/pages/check_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/surface_check.hpp"
@@ -140,7 +140,7 @@ std::map<std::string, std::filesystem::path> picture_folders(const CheckOptions&
   std::ranges::copy_if(options.cases, std::back_inserter(names), [](const std::string& name) {
     return !is_geometry_file(name) && plain_kind_of(name) == nullptr;
   });
-  const std::vector<std::filesystem::path> folders = output_folders(options.output_folder, names);
+  const std::vector<std::filesystem::path> folders = app::output_folders(options.output_folder, names);
   std::map<std::string, std::filesystem::path> by_name;
   for (std::size_t k = 0; k < names.size(); ++k) by_name[names[k]] = folders[k];
   return by_name;

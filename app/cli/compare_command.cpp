@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/compare/pages/compare_page.hpp"
 #include "treadmark/core/error.hpp"
@@ -84,7 +84,8 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   io::Comparison& result = *compared;
   result.settings = echo(options);
   print_notes(file.notes, common.quiet);
-  if (!options.output_folder.empty()) print_notes(write_comparison_folder(options.output_folder, result), common.quiet);
+  if (!options.output_folder.empty())
+    print_notes(app::write_comparison_folder(options.output_folder, result), common.quiet);
   write_report_file(options.report_file, [&] { return app::pages::compare_page(compared, io::to_json(result)); });
   const auto json = [&] { return io::to_json(result); };
   print_results(options.json_file, json, [&] { return io::comparison_table(result); });

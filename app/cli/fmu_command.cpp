@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/fmu/fmu_file.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/interfaces/fmi/fmu_file.hpp"
 
 namespace treadmark::cli {
 namespace {

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/backends/registry.hpp"
@@ -86,7 +86,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
                 "use -o FOLDER, then treadmark report for each");
   const std::vector<std::filesystem::path> folders = options.output_folder.empty()
                                                          ? std::vector<std::filesystem::path>{}
-                                                         : output_folders(options.output_folder, options.cases);
+                                                         : app::output_folders(options.output_folder, options.cases);
   if (options.bodies && folders.empty())
     throw Error(ErrorKind::configuration, "--vtk needs a folder to write to", {}, "give it with -o FOLDER");
   const ThreadLimit limit(common.threads);
@@ -109,7 +109,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
       for (const io::SurfaceUse& use : result.surfaces)
         if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
     if (!folders.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
-    if (!folders.empty()) print_notes(write_result_folder(folders[k], result, options.bodies), common.quiet);
+    if (!folders.empty()) print_notes(app::write_result_folder(folders[k], result, options.bodies), common.quiet);
     write_report_file(options.report_file, [&] {
       return app::pages::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));
     });

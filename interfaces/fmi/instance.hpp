@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "treadmark/interfaces/fmi/model.hpp"
+#include "treadmark/app/fmu/model.hpp"
 
 namespace treadmark::fmi {
 
@@ -26,15 +26,6 @@ inline constexpr unsigned kComputed = kInitialization | kStep | kTerminated;
 
 /// Takes messages to the importer; category: of kCategories.
 using Logger = std::function<void(Outcome outcome, const char* category, const char* message)>;
-
-struct Category {
-  const char *name, *description;
-};
-inline constexpr Category kCategories[] = {
-    {"logStatusError", "calls that failed, with the reason; always told"},
-    {"logStatusDiscard", "steps that could not be computed, with the reason; always told"},
-    {"logAll", "what is to be known of the FMU; with logging on"},
-};
 
 /// Thrown for what an importer can do wrong.
 struct BadCall {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <utility>
 
-#include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
@@ -199,7 +199,7 @@ void add_results(py::module_& module) {
            [](Run& run, const std::filesystem::path& file) { with_files([&] { io::write_hdf5(file, run.whole()); }); })
       .def("write_vtk", [](Run& run, const std::filesystem::path& folder) { io::write_vtk(folder, run.whole()); })
       .def("write_folder", [](Run& run, const std::filesystem::path& folder) {
-        return with_files([&] { return cli::write_result_folder(folder, run.whole()); });
+        return with_files([&] { return app::write_result_folder(folder, run.whole()); });
       });
 }
 

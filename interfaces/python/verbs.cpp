@@ -8,9 +8,9 @@
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
+#include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/position_picture.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
-#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
@@ -205,7 +205,7 @@ void add_verbs(py::module_& module) {
            [](const Comparison& c, const std::filesystem::path& file) { io::write_json(file, *c.content); })
       .def("write_csv", [](const Comparison& c, const std::filesystem::path& file) { io::write_csv(file, *c.content); })
       .def("write_folder", [](const Comparison& c, const std::filesystem::path& folder) {
-        return with_files([&] { return cli::write_comparison_folder(folder, *c.content); });
+        return with_files([&] { return app::write_comparison_folder(folder, *c.content); });
       });
   using Bench = Held<app::BenchReport>;
   py::class_<Bench>(module, "Bench")

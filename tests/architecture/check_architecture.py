@@ -30,12 +30,14 @@ ALLOWED = {
     "solvers/wheelrail": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail"],
     "solvers/vehicle": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
     "app": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app"],
-    "app/cli": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces/fmi"],
     "interfaces": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces"],
     "examples": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app"],
     "bench": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app", "bench"],
     "tests": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces", "bench", "tests"],
 }
+
+# What nobody else includes: the command line is no library.
+ALONE = ("app/cli", "tests/")
 
 # What programs that are linked with the shared library include.
 FOR_C = "treadmark.h"
@@ -114,6 +116,8 @@ def check_includes(relative, text, heavy_users):
             target = (quoted or angled)[len("treadmark/"):]
             if not any(target.startswith(name + "/") for name in ALLOWED[own]):
                 yield f"{own} must not include {target}"
+            elif target.startswith(ALONE[0] + "/") and not relative.startswith(ALONE):
+                yield f"{ALONE[0]} is included by itself only, not {target}"
         elif quoted and quoted != FOR_C and own not in ("tests", "interfaces"):
             yield f'include "{quoted}" must read "treadmark/<folder>/<file>"'
         header = quoted or angled

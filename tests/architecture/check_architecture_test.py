@@ -59,6 +59,11 @@ class Planted(unittest.TestCase):
                 self.expect(name, f'#include "treadmark/{header}"\n', f"must not include {header}")
                 self.expect(name, f"#  include <treadmark/{header}>\n", f"must not include {header}")
 
+    def test_arrows_between_programs_and_interfaces(self):
+        self.expect("app/cli/a.cpp", '#include "treadmark/interfaces/fmi/b.hpp"\n', "app must not include interfaces/fmi/b.hpp")
+        for name in ("interfaces/python/a.cpp", "app/cases/a.cpp"):
+            self.expect(name, '#include "treadmark/app/cli/b.hpp"\n', "by itself only")
+
     def test_no_other_programs(self):
         for call in ["std::system(text)", "::popen (text)", "fork()", "execvp(a, b)", "posix_spawn(a)"]:
             self.expect("io/a.cpp", f"void f() {{ {call}; }}\n", "no other program is started")

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/interfaces/fmi/model_description.hpp"
-#include "treadmark/interfaces/fmi/resources.hpp"
+#include "treadmark/app/fmu/model_description.hpp"
+#include "treadmark/app/fmu/resources.hpp"
 #include "treadmark/tests/interfaces/fmi/importer.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/interfaces/fmi/resources.hpp"
+#include "treadmark/app/fmu/resources.hpp"
 
 #include <fmt/format.h>
 

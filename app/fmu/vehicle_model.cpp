@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/app/fmu/model.hpp"
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/interfaces/fmi/model.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "treadmark/interfaces/fmi/fmu_file.hpp"
+#include "treadmark/app/fmu/fmu_file.hpp"
 
 namespace treadmark::fmi {
 

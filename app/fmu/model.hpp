@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/app/fmu/variables.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/report.hpp"
-#include "treadmark/interfaces/fmi/variables.hpp"
 
 namespace treadmark::fmi {
 

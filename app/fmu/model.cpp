@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/interfaces/fmi/model.hpp"
+#include "treadmark/app/fmu/model.hpp"
 
 #include <fmt/format.h>
 

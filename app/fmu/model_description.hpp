@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "treadmark/interfaces/fmi/model.hpp"
+#include "treadmark/app/fmu/model.hpp"
 
 namespace treadmark::fmi {
 

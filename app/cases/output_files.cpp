@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/cases/output_files.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -28,7 +28,7 @@
 #include "treadmark/report/pictures/comparison_pictures.hpp"
 #include "treadmark/report/pictures/pressure_svg.hpp"
 
-namespace treadmark::cli {
+namespace treadmark::app {
 
 std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,
                                                   const std::vector<std::string>& inputs) {
@@ -150,4 +150,4 @@ std::vector<std::string> write_comparison_folder(const std::filesystem::path& fo
   return notes;
 }
 
-}  // namespace treadmark::cli
+}  // namespace treadmark::app

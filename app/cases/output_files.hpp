@@ -9,7 +9,7 @@
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
-namespace treadmark::cli {
+namespace treadmark::app {
 
 /// The folders for what becomes of input files: the one that was asked for, or where there are several files one with
 /// the name of each in it. Errors: Error(configuration) where two files would share one.
@@ -26,4 +26,4 @@ std::vector<std::string> write_result_folder(const std::filesystem::path& folder
 /// last, compare.json. Returns as above.
 std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison);
 
-}  // namespace treadmark::cli
+}  // namespace treadmark::app

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/interfaces/fmi/model_description.hpp"
+#include "treadmark/app/fmu/model_description.hpp"
 
 namespace treadmark::fmi {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/interfaces/fmi/model_description.hpp"
+#include "treadmark/app/fmu/model_description.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "treadmark/app/version.hpp"
-#include "treadmark/interfaces/fmi/instance.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/report/pictures/svg_text.hpp"
 

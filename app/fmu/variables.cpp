@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/interfaces/fmi/variables.hpp"
+#include "treadmark/app/fmu/variables.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/interfaces/fmi/fmu_file.hpp"
+#include "treadmark/app/fmu/fmu_file.hpp"
 
 #include <fmt/format.h>
 #include <zip.h>
@@ -9,9 +9,9 @@
 #include <memory>
 #include <utility>
 
+#include "treadmark/app/fmu/resources.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/interfaces/fmi/resources.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
 namespace treadmark::fmi {

@@ -9,6 +9,16 @@
 
 namespace treadmark::fmi {
 
+/// Kinds of messages to an importer.
+struct Category {
+  const char *name, *description;
+};
+inline constexpr Category kCategories[] = {
+    {"logStatusError", "calls that failed, with the reason; always told"},
+    {"logStatusDiscard", "steps that could not be computed, with the reason; always told"},
+    {"logAll", "what is to be known of the FMU; with logging on"},
+};
+
 /// A variable of an FMU: one number, or an array of numbers. The table of them is all that descriptions, getters and
 /// setters know of a model.
 struct Variable {

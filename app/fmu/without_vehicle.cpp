@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/fmu/model.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/interfaces/fmi/model.hpp"
 
 namespace treadmark::fmi {
 

@@ -10,10 +10,10 @@
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
+#include "treadmark/app/fmu/model.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/interfaces/fmi/model.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
