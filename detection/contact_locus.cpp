@@ -10,7 +10,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/closest_gap.hpp"
-#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 
 namespace treadmark::detection {
 namespace {

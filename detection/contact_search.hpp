@@ -8,9 +8,9 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/detection/contact_locus.hpp"
+#include "treadmark/detection/contact_program/reference_locus.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/detection/pruned_gap.hpp"
-#include "treadmark/detection/reference_locus.hpp"
 
 namespace treadmark::detection {
 

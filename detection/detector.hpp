@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "treadmark/detection/contact_patch.hpp"
+#include "treadmark/detection/contact_program/reference_locus.hpp"
+#include "treadmark/detection/contact_program/search_mesh.hpp"
 #include "treadmark/detection/interpenetration.hpp"
-#include "treadmark/detection/reference_locus.hpp"
-#include "treadmark/detection/search_mesh.hpp"
 #include "treadmark/model/wheel_on_rail.hpp"
 
 namespace treadmark::detection {

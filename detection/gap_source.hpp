@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "treadmark/detection/contact_program/search_mesh.hpp"
 #include "treadmark/detection/gap_field.hpp"
-#include "treadmark/detection/search_mesh.hpp"
 
 namespace treadmark::detection {
 

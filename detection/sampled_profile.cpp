@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 
 namespace treadmark::detection {
 

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/detection/rail_sections.hpp"
-#include "treadmark/detection/wheel_mesh.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
+#include "treadmark/detection/contact_program/wheel_mesh.hpp"
 
 namespace treadmark::detection {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "treadmark/app/cases/element_table.hpp"
+#include "treadmark/app/cases/contact_program/element_table.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/error.hpp"

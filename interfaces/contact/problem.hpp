@@ -14,7 +14,7 @@
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/interfaces/contact/flags.hpp"
 #include "treadmark/interfaces/contact/units.hpp"
-#include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/cases/contact_program/contact_case.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::contact {

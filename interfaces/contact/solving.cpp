@@ -7,7 +7,7 @@
 #include <cmath>
 #include <ctime>
 
-#include "treadmark/app/cases/element_table.hpp"
+#include "treadmark/app/cases/contact_program/element_table.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/error.hpp"
@@ -15,8 +15,8 @@
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/input_file.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
-#include "treadmark/io/results/write_mat.hpp"
-#include "treadmark/io/results/write_subs.hpp"
+#include "treadmark/io/results/contact_program/write_mat.hpp"
+#include "treadmark/io/results/contact_program/write_subs.hpp"
 
 namespace treadmark::contact {
 namespace {

@@ -10,7 +10,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 
 // Track, wheelset and whole input files of module 1.
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/solvers/wheelrail/element_choice.hpp"
 
 namespace treadmark::wheelrail {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/tests/app/program.hpp"

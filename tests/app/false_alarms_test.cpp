@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/app/cases/run_cases.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 

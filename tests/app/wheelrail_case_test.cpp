@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "treadmark/app/cases/case_sequence.hpp"
-#include "treadmark/app/cases/element_table.hpp"
+#include "treadmark/app/cases/contact_program/element_table.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 
 namespace treadmark::app {

@@ -9,11 +9,11 @@
 #include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/spline/make.hpp"
-#include "treadmark/detection/natural_curve.hpp"
-#include "treadmark/detection/rail_sections.hpp"
-#include "treadmark/detection/search_mesh.hpp"
+#include "treadmark/detection/contact_program/natural_curve.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
+#include "treadmark/detection/contact_program/search_mesh.hpp"
+#include "treadmark/detection/contact_program/wheel_mesh.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
-#include "treadmark/detection/wheel_mesh.hpp"
 
 namespace treadmark::detection {
 namespace {

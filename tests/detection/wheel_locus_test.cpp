@@ -8,7 +8,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/spline/make.hpp"
-#include "treadmark/detection/wheel_locus.hpp"
+#include "treadmark/detection/contact_program/wheel_locus.hpp"
 
 namespace treadmark::detection {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 // A whole command: text of an input file of CONTACT, read, checked and solved.
 #include "small_run.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/fuzz/fuzz_target.hpp"
 
 TREADMARK_FUZZ_TARGET(fuzz_contact_run) {

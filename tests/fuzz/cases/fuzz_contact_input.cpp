@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 // Any bytes as a CONTACT input file: only treadmark::Error may leave the reader.
 
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/fuzz/fuzz_target.hpp"
 
 TREADMARK_FUZZ_TARGET(fuzz_contact_input) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 
 namespace treadmark::io {

@@ -5,7 +5,7 @@
 
 #include <sstream>
 
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 #include "treadmark/tests/support/refusal.hpp"
 

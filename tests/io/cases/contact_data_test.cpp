@@ -6,8 +6,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/shared_data.hpp"

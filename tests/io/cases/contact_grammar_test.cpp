@@ -5,8 +5,8 @@
 
 #include <numbers>
 
-#include "treadmark/io/cases/contact_digits.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/contact_digits.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 
 namespace treadmark::io {

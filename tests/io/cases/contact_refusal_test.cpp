@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include "treadmark/io/cases/contact_digits.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/contact_digits.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 #include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/refusal.hpp"

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <random>
 
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"

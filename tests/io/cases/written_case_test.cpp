@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"

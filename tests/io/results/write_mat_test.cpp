@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/write_mat.hpp"
+#include "treadmark/io/results/contact_program/write_mat.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

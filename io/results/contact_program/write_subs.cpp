@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/write_subs.hpp"
+#include "treadmark/io/results/contact_program/write_subs.hpp"
 
 #include <array>
 #include <string_view>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/io/results/contact_program/write_mat.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
-#include "treadmark/io/results/write_mat.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/detection/reference_locus.hpp"
+#include "treadmark/detection/contact_program/reference_locus.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/detection/wheel_locus.hpp"
+#include "treadmark/detection/contact_program/wheel_locus.hpp"
 
 namespace treadmark::detection {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/detection/search_mesh.hpp"
+#include "treadmark/detection/contact_program/search_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 
 namespace treadmark::detection {
 

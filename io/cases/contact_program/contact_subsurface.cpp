@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/cases/contact_program/contact_case.hpp"
 
 namespace treadmark::io {
 

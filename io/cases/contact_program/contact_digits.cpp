@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/contact_digits.hpp"
+#include "treadmark/io/cases/contact_program/contact_digits.hpp"
 
 #include <algorithm>
 #include <tuple>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
 
 #include <algorithm>
 #include <map>
@@ -11,7 +11,7 @@
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
-#include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/cases/contact_program/contact_case.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/detection/wheel_locus.hpp"
+#include "treadmark/detection/contact_program/wheel_locus.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/detection/contact_locus.hpp"
-#include "treadmark/detection/natural_curve.hpp"
-#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/contact_program/natural_curve.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/detection/sampled_profile.hpp"
 
 namespace treadmark::detection {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/cases/element_table.hpp"
+#include "treadmark/app/cases/contact_program/element_table.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
-#include "treadmark/io/cases/contact_digits.hpp"
-#include "treadmark/io/cases/contact_text.hpp"
+#include "treadmark/io/cases/contact_program/contact_digits.hpp"
+#include "treadmark/io/cases/contact_program/contact_text.hpp"
 #include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/detection/natural_curve.hpp"
+#include "treadmark/detection/contact_program/natural_curve.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/cases/contact_program/contact_case.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/model/magnitudes.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/cases/contact_program/contact_case.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 

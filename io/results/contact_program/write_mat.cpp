@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/io/results/write_mat.hpp"
+#include "treadmark/io/results/contact_program/write_mat.hpp"
 
 #include <fmt/format.h>
 

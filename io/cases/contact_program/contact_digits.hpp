@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "treadmark/io/cases/contact_text.hpp"
+#include "treadmark/io/cases/contact_program/contact_text.hpp"
 
 namespace treadmark::io {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/detection/wheel_mesh.hpp"
+#include "treadmark/detection/contact_program/wheel_mesh.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/detection/rail_sections.hpp"
-#include "treadmark/detection/search_mesh.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
+#include "treadmark/detection/contact_program/search_mesh.hpp"
 
 namespace treadmark::detection {
 namespace {

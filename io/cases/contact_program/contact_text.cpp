@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/contact_text.hpp"
+#include "treadmark/io/cases/contact_program/contact_text.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/detection/natural_curve.hpp"
+#include "treadmark/detection/contact_program/natural_curve.hpp"
 
 namespace treadmark::detection {
 
