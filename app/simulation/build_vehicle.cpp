@@ -18,11 +18,11 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/solvers/vehicle/check_rail.hpp"
-#include "treadmark/solvers/vehicle/contact_on_rail.hpp"
-#include "treadmark/solvers/vehicle/lateral_track.hpp"
-#include "treadmark/solvers/vehicle/switched_contact.hpp"
-#include "treadmark/solvers/vehicle/table_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/check_rail.hpp"
+#include "treadmark/solvers/vehicle/contacts/contact_on_rail.hpp"
+#include "treadmark/solvers/vehicle/contacts/switched_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
+#include "treadmark/solvers/vehicle/track/lateral_track.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
 
 namespace treadmark::app {

@@ -13,7 +13,7 @@
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
-#include "treadmark/solvers/vehicle/full_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/full_contact.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 
 namespace treadmark::app {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "treadmark/io/files/content_cache.hpp"
-#include "treadmark/solvers/vehicle/contact_table.hpp"
-#include "treadmark/solvers/vehicle/creep_table.hpp"
+#include "treadmark/solvers/vehicle/contacts/contact_table.hpp"
+#include "treadmark/solvers/vehicle/contacts/creep_table.hpp"
 
 namespace treadmark::app {
 

@@ -21,7 +21,7 @@
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/solvers/vehicle/eigenmodes.hpp"
+#include "treadmark/solvers/vehicle/stability/eigenmodes.hpp"
 
 namespace treadmark::app {
 

@@ -11,7 +11,7 @@
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
-#include "treadmark/solvers/vehicle/falling_speed.hpp"
+#include "treadmark/solvers/vehicle/stability/falling_speed.hpp"
 
 namespace treadmark::app {
 

@@ -11,7 +11,7 @@
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/files/content_cache.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
-#include "treadmark/solvers/vehicle/stability.hpp"
+#include "treadmark/solvers/vehicle/stability/stability.hpp"
 
 namespace treadmark::app {
 

@@ -10,9 +10,9 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/vehicle/lateral_track.hpp"
-#include "treadmark/solvers/vehicle/rail_on_seats.hpp"
-#include "treadmark/solvers/vehicle/track_receptance.hpp"
+#include "treadmark/solvers/vehicle/track/lateral_track.hpp"
+#include "treadmark/solvers/vehicle/track/rail_on_seats.hpp"
+#include "treadmark/solvers/vehicle/track/track_receptance.hpp"
 
 namespace treadmark::app {
 namespace {

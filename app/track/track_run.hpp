@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/io/simulations/read_vehicle.hpp"
-#include "treadmark/solvers/vehicle/fit_lumped.hpp"
+#include "treadmark/solvers/vehicle/track/fit_lumped.hpp"
 
 namespace treadmark::app {
 

@@ -12,13 +12,13 @@
 namespace treadmark::vehicle {
 namespace {
 
-constexpr double kArm = 0.75;  // moments are compared with forces at half the gauge [m]
+constexpr double kHalfGauge = 0.75;  // moments are compared with forces at half the gauge [m]
 
 double largest_force(const PairVector& f) {
   double most = 0.0;
   for (int c = 0; c < kPairCoordinates; ++c) {
     const bool is_moment = (c >= 3 && c < 6) || c == 8;
-    most = std::max(most, std::abs(f[c]) / (is_moment ? kArm : 1.0));
+    most = std::max(most, std::abs(f[c]) / (is_moment ? kHalfGauge : 1.0));
   }
   return most;
 }

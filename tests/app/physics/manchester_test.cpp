@@ -10,7 +10,7 @@
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
-#include "treadmark/solvers/vehicle/eigenmodes.hpp"
+#include "treadmark/solvers/vehicle/stability/eigenmodes.hpp"
 #include "treadmark/tests/solvers/vehicle/axle_beam.hpp"
 
 namespace treadmark::app {

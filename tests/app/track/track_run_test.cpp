@@ -15,7 +15,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/solvers/vehicle/track_receptance.hpp"
+#include "treadmark/solvers/vehicle/track/track_receptance.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/support/refusal.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"

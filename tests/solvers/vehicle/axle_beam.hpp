@@ -12,7 +12,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "treadmark/model/flexible_axle.hpp"
-#include "treadmark/solvers/vehicle/beam_element.hpp"
+#include "treadmark/solvers/vehicle/track/beam_element.hpp"
 
 namespace treadmark::testing {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/check_rail.hpp"
+#include "treadmark/solvers/vehicle/contacts/check_rail.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/creep_law.hpp"
+#include "treadmark/solvers/vehicle/contacts/creep_law.hpp"
 
 #include <gtest/gtest.h>
 

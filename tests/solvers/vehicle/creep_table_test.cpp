@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/creep_table.hpp"
+#include "treadmark/solvers/vehicle/contacts/creep_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,8 +15,8 @@
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
-#include "treadmark/solvers/vehicle/full_contact.hpp"
-#include "treadmark/solvers/vehicle/table_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/full_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 
 namespace treadmark::vehicle {
 namespace {

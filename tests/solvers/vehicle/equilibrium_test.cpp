@@ -7,9 +7,9 @@
 
 #include "small_vehicles.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/solvers/vehicle/eigenmodes.hpp"
+#include "treadmark/solvers/vehicle/contacts/full_contact.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
-#include "treadmark/solvers/vehicle/full_contact.hpp"
+#include "treadmark/solvers/vehicle/stability/eigenmodes.hpp"
 
 namespace treadmark::vehicle {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/fit_lumped.hpp"
+#include "treadmark/solvers/vehicle/track/fit_lumped.hpp"
 
 #include <gtest/gtest.h>
 

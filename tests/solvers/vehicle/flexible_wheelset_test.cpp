@@ -10,8 +10,8 @@
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/random.hpp"
-#include "treadmark/solvers/vehicle/eigenmodes.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
+#include "treadmark/solvers/vehicle/stability/eigenmodes.hpp"
 
 namespace treadmark::vehicle {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "small_vehicles.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/solvers/vehicle/full_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/full_contact.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 
 namespace treadmark::vehicle {

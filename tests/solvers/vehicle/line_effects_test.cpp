@@ -11,9 +11,9 @@
 #include "small_vehicles.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 #include "treadmark/solvers/vehicle/curving.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
-#include "treadmark/solvers/vehicle/table_contact.hpp"
 
 namespace treadmark::vehicle {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/loaded_rail.hpp"
+#include "treadmark/solvers/vehicle/track/loaded_rail.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "beam_on_bed.hpp"
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/vehicle/contact_on_rail.hpp"
+#include "treadmark/solvers/vehicle/contacts/contact_on_rail.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 
 // Several wheels on one rail.

@@ -12,9 +12,9 @@
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/random.hpp"
-#include "treadmark/solvers/vehicle/contact_on_rail.hpp"
-#include "treadmark/solvers/vehicle/rail_on_seats.hpp"
+#include "treadmark/solvers/vehicle/contacts/contact_on_rail.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
+#include "treadmark/solvers/vehicle/track/rail_on_seats.hpp"
 
 // Joints of rails: hinges with springs, and dips of the unloaded rails.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/rail_on_seats.hpp"
+#include "treadmark/solvers/vehicle/track/rail_on_seats.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

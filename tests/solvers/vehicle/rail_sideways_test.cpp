@@ -13,7 +13,7 @@
 #include "beam_on_bed.hpp"
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/vehicle/contact_on_rail.hpp"
+#include "treadmark/solvers/vehicle/contacts/contact_on_rail.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/contact_table.hpp"
+#include "treadmark/solvers/vehicle/contacts/contact_table.hpp"
 
 #include <gtest/gtest.h>
 

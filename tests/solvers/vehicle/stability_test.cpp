@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/stability.hpp"
+#include "treadmark/solvers/vehicle/stability/stability.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
+#include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
-#include "treadmark/solvers/vehicle/falling_speed.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
-#include "treadmark/solvers/vehicle/table_contact.hpp"
+#include "treadmark/solvers/vehicle/stability/falling_speed.hpp"
 
 namespace treadmark::vehicle {
 namespace {

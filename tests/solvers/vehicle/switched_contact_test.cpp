@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/switched_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/switched_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/vehicle/table_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 
 #include <gtest/gtest.h>
 
