@@ -6,7 +6,7 @@
 #include <string>
 
 #include "treadmark/backends/create.hpp"
-#include "treadmark/model/offset_map.hpp"
+#include "treadmark/model/shape/offset_map.hpp"
 
 namespace treadmark {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "treadmark/backends/registry.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark {
 

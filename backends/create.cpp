@@ -13,7 +13,7 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark {
 namespace {

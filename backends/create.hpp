@@ -12,9 +12,9 @@
 
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/moving_section.hpp"
-#include "treadmark/model/surface_difference.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/moving_section.hpp"
+#include "treadmark/model/shape/surface_difference.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark {
 

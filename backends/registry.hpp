@@ -11,7 +11,7 @@
 #include "treadmark/backends/resampling.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark {
 

@@ -14,7 +14,7 @@
 #include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark {
 

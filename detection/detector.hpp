@@ -13,7 +13,7 @@
 #include "treadmark/detection/contact_program/reference_locus.hpp"
 #include "treadmark/detection/contact_program/search_mesh.hpp"
 #include "treadmark/detection/interpenetration.hpp"
-#include "treadmark/model/wheel_on_rail.hpp"
+#include "treadmark/model/contact/wheel_on_rail.hpp"
 
 namespace treadmark::detection {
 

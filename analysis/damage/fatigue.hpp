@@ -3,7 +3,7 @@
 #pragma once
 
 #include "treadmark/analysis/damage/passed_patch.hpp"
-#include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/damage/fatigue.hpp"
 
 namespace treadmark::damage {
 

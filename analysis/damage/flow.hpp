@@ -7,7 +7,7 @@
 
 #include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/flow_law.hpp"
+#include "treadmark/model/damage/flow_law.hpp"
 
 namespace treadmark::damage {
 

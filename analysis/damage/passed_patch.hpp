@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "treadmark/analysis/damage/stress_history.hpp"
-#include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/damage/fatigue.hpp"
 
 namespace treadmark::damage {
 

@@ -6,9 +6,9 @@
 
 #include "treadmark/analysis/damage/passed_patch.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/offset_map.hpp"
-#include "treadmark/model/surface_record.hpp"
-#include "treadmark/model/wear_law.hpp"
+#include "treadmark/model/damage/surface_record.hpp"
+#include "treadmark/model/damage/wear_law.hpp"
+#include "treadmark/model/shape/offset_map.hpp"
 
 namespace treadmark::damage {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "treadmark/analysis/damage/passed_patch.hpp"
-#include "treadmark/model/wear_law.hpp"
+#include "treadmark/model/damage/wear_law.hpp"
 
 namespace treadmark::damage {
 

@@ -9,7 +9,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/model/contact/hertz_ellipse.hpp"
 
 namespace treadmark::geometry {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "treadmark/analysis/geometry/contact_functions.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 
 namespace treadmark::geometry {
 

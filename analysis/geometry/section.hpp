@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::geometry {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::measured {
 

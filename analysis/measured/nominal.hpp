@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::measured {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::measured {
 

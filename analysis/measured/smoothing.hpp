@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/profile_scatter.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/profile_scatter.hpp"
 
 namespace treadmark::measured {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/analysis/measures/section.hpp"
-#include "treadmark/model/assessment.hpp"
+#include "treadmark/model/vehicle/assessment.hpp"
 
 namespace treadmark::measures {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "treadmark/model/origin.hpp"
-#include "treadmark/model/profile.hpp"
 #include "treadmark/model/rows.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::app {
 

@@ -11,7 +11,7 @@
 #include "treadmark/analysis/measured/patch_spread.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/model/profile_scatter.hpp"
+#include "treadmark/model/shape/profile_scatter.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
 
 namespace treadmark::app {

@@ -17,7 +17,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/report/write_page.hpp"
 
 namespace treadmark::cli {

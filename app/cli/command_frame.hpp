@@ -18,7 +18,7 @@
 
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/core/progress.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 #include "treadmark/report/page.hpp"
 
 namespace treadmark::cli {

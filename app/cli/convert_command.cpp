@@ -29,7 +29,7 @@
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
-#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
 
 namespace treadmark::cli {
 namespace {

@@ -15,12 +15,12 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
-#include "treadmark/model/defects.hpp"
-#include "treadmark/model/fatigue.hpp"
-#include "treadmark/model/flow_law.hpp"
+#include "treadmark/model/contact/theories.hpp"
+#include "treadmark/model/damage/fatigue.hpp"
+#include "treadmark/model/damage/flow_law.hpp"
+#include "treadmark/model/damage/wear_law.hpp"
 #include "treadmark/model/remarks.hpp"
-#include "treadmark/model/theories.hpp"
-#include "treadmark/model/wear_law.hpp"
+#include "treadmark/model/shape/defects.hpp"
 
 namespace treadmark::cli {
 

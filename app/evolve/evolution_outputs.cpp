@@ -9,7 +9,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/tables/json_of.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -12,7 +12,7 @@
 #include "treadmark/analysis/damage/fatigue.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/solvers/kalker/subsurface/subsurface_stress.hpp"
 
 namespace treadmark::app {

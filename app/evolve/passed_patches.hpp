@@ -9,7 +9,7 @@
 #include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
-#include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/damage/fatigue.hpp"
 
 namespace treadmark::app {
 

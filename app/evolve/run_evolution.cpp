@@ -28,7 +28,7 @@
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {

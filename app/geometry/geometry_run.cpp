@@ -24,8 +24,8 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
-#include "treadmark/model/body_name.hpp"
 #include "treadmark/model/magnitudes.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {

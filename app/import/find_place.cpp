@@ -13,7 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/cleaning/pass_steps.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"

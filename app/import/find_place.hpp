@@ -4,7 +4,7 @@
 
 #include "treadmark/app/import/read_clouds.hpp"
 #include "treadmark/app/import/step_clock.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 #include "treadmark/scans/placement/place.hpp"
 
 namespace treadmark::app {

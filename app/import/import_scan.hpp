@@ -8,7 +8,7 @@
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_settings.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::app {
 

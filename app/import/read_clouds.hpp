@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "treadmark/app/import/import_scan.hpp"
-#include "treadmark/model/length_unit.hpp"
-#include "treadmark/model/point_cloud.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
+#include "treadmark/model/shape/point_cloud.hpp"
 
 namespace treadmark::app {
 

@@ -7,7 +7,7 @@
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/core/progress.hpp"
-#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
 #include "treadmark/scans/virtual/virtual_scanner.hpp"
 
 namespace treadmark::app {

@@ -24,8 +24,8 @@
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/json/json_tree.hpp"
-#include "treadmark/model/body_name.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/body_name.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::app {

@@ -24,7 +24,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/scans/cgal/free_mesh.hpp"
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"

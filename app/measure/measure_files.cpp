@@ -19,7 +19,7 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::app {
 namespace {

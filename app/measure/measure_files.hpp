@@ -13,7 +13,7 @@
 #include "treadmark/app/measure/limits.hpp"
 #include "treadmark/app/measure/numbers.hpp"
 #include "treadmark/core/progress.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::app {
 

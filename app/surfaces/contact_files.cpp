@@ -12,7 +12,7 @@
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {

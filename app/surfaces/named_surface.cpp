@@ -18,8 +18,8 @@
 #include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
-#include "treadmark/model/body_name.hpp"
 #include "treadmark/model/magnitudes.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {

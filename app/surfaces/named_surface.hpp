@@ -10,7 +10,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::app {
 

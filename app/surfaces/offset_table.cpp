@@ -13,8 +13,8 @@
 
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
-#include "treadmark/model/body_name.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/body_name.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/io/cases/case_model.hpp"
-#include "treadmark/model/offset_map.hpp"
+#include "treadmark/model/shape/offset_map.hpp"
 
 namespace treadmark::app {
 

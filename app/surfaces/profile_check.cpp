@@ -23,7 +23,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {

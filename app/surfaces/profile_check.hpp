@@ -12,7 +12,7 @@
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/profiles/judge_profile.hpp"
 #include "treadmark/io/results/result_model.hpp"
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::app {
 

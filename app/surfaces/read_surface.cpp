@@ -29,7 +29,7 @@
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 

@@ -15,7 +15,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "treadmark/core/surface.hpp"
 #include "treadmark/io/results/result_model.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::app {
 

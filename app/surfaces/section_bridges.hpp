@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::app {
 

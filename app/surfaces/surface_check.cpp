@@ -20,8 +20,8 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
-#include "treadmark/model/body_name.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/body_name.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::app {
 

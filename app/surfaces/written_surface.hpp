@@ -9,8 +9,8 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/surface_difference.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/surface_difference.hpp"
 
 namespace treadmark::app {
 

@@ -7,7 +7,7 @@
 
 #include "treadmark/backends/analytic/chord_tree.hpp"
 #include "treadmark/backends/analytic/graph_curve.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::analytic {
 

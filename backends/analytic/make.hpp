@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::analytic {
 

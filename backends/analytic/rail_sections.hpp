@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::analytic {
 

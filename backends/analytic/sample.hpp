@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::analytic {
 

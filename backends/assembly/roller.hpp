@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/defects.hpp"
-#include "treadmark/model/slices.hpp"
-#include "treadmark/model/surface_spec.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/defects.hpp"
+#include "treadmark/model/shape/slices.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::assembly {
 

@@ -7,7 +7,7 @@
 
 #include "treadmark/backends/displacement/offset_field.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::displacement {
 

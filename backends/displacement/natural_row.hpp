@@ -9,7 +9,7 @@
 #include "treadmark/backends/displacement/band_kernel.hpp"
 #include "treadmark/core/kernel.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::displacement {
 

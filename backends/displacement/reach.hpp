@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "treadmark/backends/displacement/offset_field.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::displacement {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "treadmark/backends/displacement/offset_field.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::displacement {
 

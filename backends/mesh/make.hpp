@@ -7,8 +7,8 @@
 #include <string>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::mesh {
 

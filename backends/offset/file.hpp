@@ -6,7 +6,7 @@
 #include <string>
 
 #include "treadmark/backends/offset/sparse_offsets.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::offset {
 

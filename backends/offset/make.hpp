@@ -10,8 +10,8 @@
 #include <variant>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/offset_map.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/offset_map.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::offset {
 

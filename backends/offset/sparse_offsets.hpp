@@ -7,7 +7,7 @@
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::offset {
 

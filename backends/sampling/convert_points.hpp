@@ -5,8 +5,8 @@
 #include <string>
 
 #include "treadmark/backends/sampling/region.hpp"
-#include "treadmark/model/slices.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/slices.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::sampling {
 

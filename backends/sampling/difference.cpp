@@ -9,7 +9,7 @@
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::sampling {
 namespace {

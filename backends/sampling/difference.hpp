@@ -4,8 +4,8 @@
 
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/surface_difference.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/surface_difference.hpp"
 
 namespace treadmark::sampling {
 

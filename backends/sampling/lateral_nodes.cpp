@@ -9,7 +9,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::sampling {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::sampling {
 

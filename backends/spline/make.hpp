@@ -8,10 +8,10 @@
 
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/slices.hpp"
-#include "treadmark/model/spline_surface.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/slices.hpp"
+#include "treadmark/model/shape/spline_surface.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::spline {
 

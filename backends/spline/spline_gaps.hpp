@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/model/spline_surface.hpp"
+#include "treadmark/model/shape/spline_surface.hpp"
 
 namespace treadmark::spline {
 

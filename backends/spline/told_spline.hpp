@@ -4,7 +4,7 @@
 
 #include "treadmark/backends/spline/nurbs/nurbs_net.hpp"
 #include "treadmark/backends/spline/thb/thb_spline.hpp"
-#include "treadmark/model/spline_surface.hpp"
+#include "treadmark/model/shape/spline_surface.hpp"
 
 namespace treadmark::spline {
 

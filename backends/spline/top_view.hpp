@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "treadmark/backends/spline/profile_spline.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::spline {
 

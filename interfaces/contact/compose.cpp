@@ -9,7 +9,7 @@
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::contact {
 

@@ -8,7 +8,7 @@
 
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 
 namespace treadmark::contact {
 namespace {

@@ -18,7 +18,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/model/magnitudes.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::python {
 namespace {

@@ -45,7 +45,7 @@ struct CadFault {
   std::string message = {}, advice = {};
 };
 
-/// A tensor one of model/spline_surface.hpp: poles along u fastest.
+/// A tensor one of model/shape/spline_surface.hpp: poles along u fastest.
 struct CadSpline {
   std::int64_t degree_u = 3, degree_v = 3;
   std::vector<double> knots_u = {}, knots_v = {}, weights = {};

@@ -9,10 +9,10 @@
 #include <variant>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/slices.hpp"
-#include "treadmark/model/spline_surface.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/slices.hpp"
+#include "treadmark/model/shape/spline_surface.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::io {
 

@@ -10,12 +10,12 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/contact_settings.hpp"
-#include "treadmark/model/friction.hpp"
-#include "treadmark/model/length_unit.hpp"
-#include "treadmark/model/material.hpp"
-#include "treadmark/model/surface_spec.hpp"
-#include "treadmark/model/wheel_on_rail.hpp"
+#include "treadmark/model/contact/contact_settings.hpp"
+#include "treadmark/model/contact/friction.hpp"
+#include "treadmark/model/contact/material.hpp"
+#include "treadmark/model/contact/wheel_on_rail.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::io {
 

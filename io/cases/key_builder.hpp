@@ -7,7 +7,7 @@
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/model/backend_name.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::io {
 

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "treadmark/model/numerical_influence.hpp"
+#include "treadmark/model/contact/numerical_influence.hpp"
 
 namespace treadmark::io {
 

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/combination_rules.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::io {
 

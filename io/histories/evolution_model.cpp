@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/damage/fatigue.hpp"
+#include "treadmark/model/damage/surface_record.hpp"
 #include "treadmark/model/origin.hpp"
-#include "treadmark/model/profile.hpp"
 #include "treadmark/model/rows.hpp"
-#include "treadmark/model/surface_record.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io {
 

@@ -13,7 +13,7 @@
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/tables/hdf5_origin.hpp"
 #include "treadmark/io/tables/hdf5_rows.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "treadmark/io/imports/import_report.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 

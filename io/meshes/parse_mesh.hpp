@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::io::meshes {
 

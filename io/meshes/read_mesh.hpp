@@ -7,7 +7,7 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::io {
 

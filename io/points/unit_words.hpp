@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
 
 namespace treadmark::io::points {
 

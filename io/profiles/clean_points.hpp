@@ -3,7 +3,7 @@
 #pragma once
 
 #include "treadmark/io/profiles/raw_points.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io::profiles {
 

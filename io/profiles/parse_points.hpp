@@ -7,7 +7,7 @@
 
 #include "treadmark/io/profiles/profile_source.hpp"
 #include "treadmark/io/profiles/raw_points.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io::profiles {
 

@@ -9,7 +9,7 @@
 
 #include "treadmark/analysis/measured/lumps.hpp"
 #include "treadmark/analysis/measured/section.hpp"
-#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
 
 namespace treadmark::io {
 

@@ -10,7 +10,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/profiles/profile_source.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io {
 

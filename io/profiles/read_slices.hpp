@@ -9,7 +9,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/case_model.hpp"
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::io {
 

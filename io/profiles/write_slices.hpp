@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::io {
 

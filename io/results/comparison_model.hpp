@@ -9,8 +9,7 @@
 
 #include "treadmark/io/results/result_model.hpp"
 #include "treadmark/model/origin.hpp"
-#include "treadmark/model/origin.hpp"
-#include "treadmark/model/surface_difference.hpp"
+#include "treadmark/model/shape/surface_difference.hpp"
 
 namespace treadmark::io {
 

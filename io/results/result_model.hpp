@@ -13,11 +13,11 @@
 #include "treadmark/core/grid.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/report.hpp"
-#include "treadmark/model/friction.hpp"
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/friction.hpp"
+#include "treadmark/model/contact/material.hpp"
 #include "treadmark/model/origin.hpp"
 #include "treadmark/model/remarks.hpp"
-#include "treadmark/model/surface_difference.hpp"
+#include "treadmark/model/shape/surface_difference.hpp"
 
 namespace treadmark::io {
 

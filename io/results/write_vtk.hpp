@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "treadmark/io/results/result_model.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::io {
 

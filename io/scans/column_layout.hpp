@@ -11,7 +11,7 @@
 #include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/io/points/fields.hpp"
 #include "treadmark/io/points/text_lines.hpp"
-#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
 
 namespace treadmark::io::scans {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "treadmark/io/points/byte_blocks.hpp"
-#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
 
 namespace treadmark::io::scans {
 

@@ -10,10 +10,10 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/progress.hpp"
-#include "treadmark/model/length_unit.hpp"
-#include "treadmark/model/offset_map.hpp"
-#include "treadmark/model/point_cloud.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
+#include "treadmark/model/shape/offset_map.hpp"
+#include "treadmark/model/shape/point_cloud.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io {
 

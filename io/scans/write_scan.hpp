@@ -6,8 +6,8 @@
 #include <string>
 
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/model/length_unit.hpp"
-#include "treadmark/model/point_cloud.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
+#include "treadmark/model/shape/point_cloud.hpp"
 
 namespace treadmark::io::scans {
 

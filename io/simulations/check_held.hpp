@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/model/vehicle_model.hpp"
+#include "treadmark/model/vehicle/vehicle_model.hpp"
 
 namespace treadmark::io {
 

@@ -6,10 +6,10 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/simulations/study_model.hpp"
-#include "treadmark/model/fatigue.hpp"
-#include "treadmark/model/flow_law.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/wear_law.hpp"
+#include "treadmark/model/damage/fatigue.hpp"
+#include "treadmark/model/damage/flow_law.hpp"
+#include "treadmark/model/damage/wear_law.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io {
 

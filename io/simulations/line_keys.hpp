@@ -8,8 +8,8 @@
 
 #include "treadmark/io/settings/key_rows.hpp"
 #include "treadmark/io/simulations/read_irregularities.hpp"
-#include "treadmark/model/irregularities.hpp"
-#include "treadmark/model/track_layout.hpp"
+#include "treadmark/model/vehicle/irregularities.hpp"
+#include "treadmark/model/vehicle/track_layout.hpp"
 
 namespace treadmark::io {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "treadmark/model/irregularities.hpp"
+#include "treadmark/model/vehicle/irregularities.hpp"
 
 namespace treadmark::io {
 

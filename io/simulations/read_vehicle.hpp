@@ -11,8 +11,8 @@
 
 #include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/io/simulations/table_reader.hpp"
-#include "treadmark/model/flexible_track.hpp"
-#include "treadmark/model/vehicle_model.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
+#include "treadmark/model/vehicle/vehicle_model.hpp"
 
 namespace treadmark::io {
 

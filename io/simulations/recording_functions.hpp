@@ -8,7 +8,7 @@
 
 #include "treadmark/io/simulations/recording_chainage.hpp"
 #include "treadmark/io/simulations/recording_header.hpp"
-#include "treadmark/model/irregularities.hpp"
+#include "treadmark/model/vehicle/irregularities.hpp"
 
 namespace treadmark::io::recording {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/settings/key_info.hpp"
-#include "treadmark/model/irregularities.hpp"
+#include "treadmark/model/vehicle/irregularities.hpp"
 
 namespace treadmark::io::recording {
 

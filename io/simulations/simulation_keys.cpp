@@ -8,7 +8,7 @@
 #include "treadmark/io/simulations/line_keys.hpp"
 #include "treadmark/io/simulations/study_keys.hpp"
 #include "treadmark/io/simulations/vehicle_keys.hpp"
-#include "treadmark/model/assessment.hpp"
+#include "treadmark/model/vehicle/assessment.hpp"
 
 namespace treadmark::io {
 

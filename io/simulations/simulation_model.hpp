@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
-#include "treadmark/model/assessment.hpp"
-#include "treadmark/model/driving.hpp"
-#include "treadmark/model/flexible_track.hpp"
-#include "treadmark/model/irregularities.hpp"
-#include "treadmark/model/track_layout.hpp"
-#include "treadmark/model/vehicle_model.hpp"
+#include "treadmark/model/vehicle/assessment.hpp"
+#include "treadmark/model/vehicle/driving.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
+#include "treadmark/model/vehicle/irregularities.hpp"
+#include "treadmark/model/vehicle/track_layout.hpp"
+#include "treadmark/model/vehicle/vehicle_model.hpp"
 
 namespace treadmark::io {
 

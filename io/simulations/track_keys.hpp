@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/io/settings/key_rows.hpp"
-#include "treadmark/model/flexible_track.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
 
 namespace treadmark::io {
 

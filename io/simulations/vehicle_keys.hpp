@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "treadmark/io/simulations/track_keys.hpp"
-#include "treadmark/model/vehicle_model.hpp"
+#include "treadmark/model/vehicle/vehicle_model.hpp"
 
 namespace treadmark::io {
 

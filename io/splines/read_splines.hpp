@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/spline_surface.hpp"
+#include "treadmark/model/shape/spline_surface.hpp"
 
 namespace treadmark::io {
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::scans {
 

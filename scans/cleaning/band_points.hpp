@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 #include "treadmark/scans/placement/section.hpp"
 
 namespace treadmark::scans {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/slices.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/fit/spline_field.hpp"
 

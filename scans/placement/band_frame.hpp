@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::scans {
 

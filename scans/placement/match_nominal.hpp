@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 #include "treadmark/scans/placement/section.hpp"
 
 namespace treadmark::scans {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "treadmark/model/length_unit.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
+#include "treadmark/model/shape/profile.hpp"
 #include "treadmark/scans/placement/elements.hpp"
 #include "treadmark/scans/placement/match_nominal.hpp"
 #include "treadmark/scans/placement/refine_axis.hpp"

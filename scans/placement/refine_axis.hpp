@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 #include "treadmark/scans/placement/section_fit.hpp"
 
 namespace treadmark::scans {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/natural_view.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::scans::scanner {
 

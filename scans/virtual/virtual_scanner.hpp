@@ -9,9 +9,9 @@
 
 #include "treadmark/core/progress.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/length_unit.hpp"
-#include "treadmark/model/point_cloud.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/length_unit.hpp"
+#include "treadmark/model/shape/point_cloud.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::scans {
 

@@ -10,9 +10,9 @@
 
 #include "treadmark/core/grid.hpp"
 #include "treadmark/core/report.hpp"
-#include "treadmark/model/contact_settings.hpp"
-#include "treadmark/model/friction.hpp"
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/contact_settings.hpp"
+#include "treadmark/model/contact/friction.hpp"
+#include "treadmark/model/contact/material.hpp"
 
 namespace treadmark::kalker {
 

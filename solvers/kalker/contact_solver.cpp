@@ -12,8 +12,8 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/model/magnitudes.hpp"
-#include "treadmark/model/theories.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
 #include "treadmark/solvers/kalker/heat/surface_temperature.hpp"
 #include "treadmark/solvers/kalker/invariants.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "treadmark/model/irregularities.hpp"
+#include "treadmark/model/vehicle/irregularities.hpp"
 #include "treadmark/solvers/vehicle/limited_spline.hpp"
 
 namespace treadmark::vehicle {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "treadmark/model/driving.hpp"
+#include "treadmark/model/vehicle/driving.hpp"
 #include "treadmark/solvers/vehicle/irregularities.hpp"
 #include "treadmark/solvers/vehicle/multibody.hpp"
 #include "treadmark/solvers/vehicle/track_path.hpp"

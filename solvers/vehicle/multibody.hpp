@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/model/vehicle_model.hpp"
+#include "treadmark/model/vehicle/vehicle_model.hpp"
 #include "treadmark/solvers/vehicle/contact_element.hpp"
 
 namespace treadmark::vehicle {

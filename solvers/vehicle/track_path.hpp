@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/track_layout.hpp"
+#include "treadmark/model/vehicle/track_layout.hpp"
 
 namespace treadmark::vehicle {
 

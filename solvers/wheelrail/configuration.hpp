@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/friction.hpp"
-#include "treadmark/model/material.hpp"
-#include "treadmark/model/wheel_on_rail.hpp"
+#include "treadmark/model/contact/friction.hpp"
+#include "treadmark/model/contact/material.hpp"
+#include "treadmark/model/contact/wheel_on_rail.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::wheelrail {

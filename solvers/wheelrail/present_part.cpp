@@ -12,7 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::wheelrail {
 

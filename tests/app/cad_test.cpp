@@ -15,7 +15,7 @@
 #include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"

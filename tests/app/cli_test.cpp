@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/version.hpp"
-#include "treadmark/model/defects.hpp"
+#include "treadmark/model/shape/defects.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"

@@ -16,7 +16,7 @@
 
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/support/parts.hpp"

@@ -14,7 +14,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"

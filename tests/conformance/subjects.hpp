@@ -10,7 +10,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::testing {
 

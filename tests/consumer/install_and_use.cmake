@@ -3,7 +3,9 @@
 # Installs the build to an empty prefix, then configures, builds and runs the project beside this file against it.
 # Every public header is compiled from there.
 include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/TreadmarkPublicHeaders.cmake")
+include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/TreadmarkMovedHeaders.cmake")
 treadmark_public_headers(public_headers "${CMAKE_CURRENT_LIST_DIR}/../../docs/public-headers.md")
+list(APPEND public_headers ${TREADMARK_OLD_HEADERS})
 list(JOIN public_headers "," public_headers)
 file(REMOVE_RECURSE "${WORK}")
 set(sanitize "")

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
-#include "treadmark/model/friction.hpp"
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/friction.hpp"
+#include "treadmark/model/contact/material.hpp"
 
 namespace treadmark {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

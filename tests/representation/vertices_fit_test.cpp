@@ -9,7 +9,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/tests/representation/kinds.hpp"
 
 namespace treadmark::testing {

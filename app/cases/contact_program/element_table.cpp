@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -13,7 +13,7 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
-#include "treadmark/model/body_name.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/report/html_text.hpp"
 
 namespace treadmark::app::pages {

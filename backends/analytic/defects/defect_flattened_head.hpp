@@ -4,7 +4,7 @@
 
 #include "treadmark/backends/analytic/arc_graph.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/defects.hpp"
+#include "treadmark/model/shape/defects.hpp"
 
 namespace treadmark::analytic {
 

@@ -7,7 +7,7 @@
 
 #include "treadmark/backends/analytic/defects/offset_shape.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/defects.hpp"
+#include "treadmark/model/shape/defects.hpp"
 
 namespace treadmark::analytic {
 

@@ -9,8 +9,8 @@
 #include "treadmark/backends/analytic/defects/defect_shapes.hpp"
 #include "treadmark/backends/displacement/offset_field.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/defects.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/defects.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::analytic {
 

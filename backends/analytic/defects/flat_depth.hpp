@@ -6,7 +6,7 @@
 
 #include "treadmark/backends/analytic/defects/offset_functions.hpp"
 #include "treadmark/backends/analytic/wheels/wheel_lanes.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::analytic {
 

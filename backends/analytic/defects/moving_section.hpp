@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/model/moving_section.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/moving_section.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::analytic {
 

@@ -11,8 +11,8 @@
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/core/parametric.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::spline {
 

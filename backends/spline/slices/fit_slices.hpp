@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "treadmark/backends/spline/slices/slice_net.hpp"
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::spline {
 

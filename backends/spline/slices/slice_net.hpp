@@ -11,8 +11,8 @@
 #include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/slices/slice_kernels.hpp"
 #include "treadmark/core/lanes4.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::spline {
 

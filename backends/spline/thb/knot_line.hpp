@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/model/spline_surface.hpp"
+#include "treadmark/model/shape/spline_surface.hpp"
 
 namespace treadmark::spline {
 

@@ -10,7 +10,7 @@
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/cases/contact_program/contact_digits.hpp"
 #include "treadmark/io/cases/contact_program/contact_text.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::io {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::io {
 
@@ -18,7 +18,7 @@ constexpr auto maybe = DigitSupport::conditional;
 constexpr auto no_effect = DigitSupport::no_effect;
 constexpr auto no = DigitSupport::no;
 
-// Without those of theories, see model/theories.hpp.
+// Without those of theories, see model/contact/theories.hpp.
 constexpr DigitValue kDigits[] = {
     {1, 'C', "CONFIG", 0, yes, "left wheel on track"},
     {1, 'C', "CONFIG", 1, yes, "right wheel on track"},

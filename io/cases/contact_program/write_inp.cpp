@@ -16,7 +16,7 @@
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::io {
 

@@ -11,7 +11,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
 #include "treadmark/solvers/kalker/fastsim/strip_theory.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 
 namespace treadmark {
 struct InfluenceSettings;

@@ -6,7 +6,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/model/theories.hpp"
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {

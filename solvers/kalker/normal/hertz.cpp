@@ -10,7 +10,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/model/contact/hertz_ellipse.hpp"
 
 namespace treadmark::kalker {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 #include "treadmark/solvers/kalker/subsurface/half_space_field.hpp"
 #include "treadmark/solvers/kalker/subsurface/stress_state.hpp"
 

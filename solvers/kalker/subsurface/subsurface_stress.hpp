@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 #include "treadmark/solvers/kalker/subsurface/stress_state.hpp"
 
 namespace treadmark::kalker {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 #include "treadmark/solvers/kalker/tangential/patch.hpp"
 
 namespace treadmark::kalker {

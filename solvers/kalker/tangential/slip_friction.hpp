@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/model/friction.hpp"
+#include "treadmark/model/contact/friction.hpp"
 #include "treadmark/solvers/kalker/tangential/patch.hpp"
 
 namespace treadmark::kalker {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 
 namespace treadmark::vehicle {

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "treadmark/model/material.hpp"
+#include "treadmark/model/contact/material.hpp"
 #include "treadmark/solvers/vehicle/contact_element.hpp"
 #include "treadmark/solvers/vehicle/contacts/contact_table.hpp"
 #include "treadmark/solvers/vehicle/contacts/creep_table.hpp"

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "treadmark/model/driving.hpp"
+#include "treadmark/model/vehicle/driving.hpp"
 
 namespace treadmark::vehicle {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "treadmark/model/flexible_track.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
 
 namespace treadmark::vehicle {
 

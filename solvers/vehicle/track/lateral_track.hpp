@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "treadmark/model/flexible_track.hpp"
-#include "treadmark/model/vehicle_model.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
+#include "treadmark/model/vehicle/vehicle_model.hpp"
 
 namespace treadmark::vehicle {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "treadmark/model/driving.hpp"
+#include "treadmark/model/vehicle/driving.hpp"
 #include "treadmark/solvers/vehicle/track/rail_in_time.hpp"
 
 namespace treadmark::vehicle {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "treadmark/model/flexible_track.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
 #include "treadmark/solvers/vehicle/track/beam_element.hpp"
 
 namespace treadmark::vehicle {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/model/flexible_track.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
 #include "treadmark/solvers/vehicle/track/banded_symmetric.hpp"
 #include "treadmark/solvers/vehicle/track/rail_element.hpp"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/model/surface_record.hpp"
+#include "treadmark/model/damage/surface_record.hpp"
 
 namespace treadmark::damage {
 

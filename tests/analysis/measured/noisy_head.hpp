@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::measured::testing {
 

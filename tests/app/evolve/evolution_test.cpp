@@ -23,7 +23,7 @@
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
-#include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/model/contact/hertz_ellipse.hpp"
 #include "treadmark/solvers/kalker/subsurface/subsurface_stress.hpp"
 #include "treadmark/tests/app/evolve/wheel_law.hpp"
 #include "treadmark/tests/app/running_program.hpp"

@@ -19,7 +19,7 @@
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
-#include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/model/contact/hertz_ellipse.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {

@@ -10,7 +10,7 @@
 
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/core/random.hpp"
-#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/shape/surface_spec.hpp"
 
 namespace treadmark::testing {
 namespace {

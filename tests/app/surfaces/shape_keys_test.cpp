@@ -22,8 +22,8 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/model/body_name.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/body_name.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 
 namespace treadmark::app {

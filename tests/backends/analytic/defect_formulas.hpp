@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/model/defects.hpp"
+#include "treadmark/model/shape/defects.hpp"
 
 namespace treadmark::testing {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "treadmark/backends/analytic/make.hpp"
-#include "treadmark/model/defects.hpp"
+#include "treadmark/model/shape/defects.hpp"
 #include "treadmark/tests/backends/analytic/brute_force.hpp"
 
 namespace treadmark::testing {

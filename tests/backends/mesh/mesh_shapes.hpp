@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/triangle_mesh.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::mesh::testing {
 

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
-#include "treadmark/model/slices.hpp"
+#include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/slices.hpp"
 
 namespace treadmark::spline::testing {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "samples.hpp"
-#include "treadmark/model/profile_scatter.hpp"
+#include "treadmark/model/shape/profile_scatter.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -9,7 +9,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::scans::tests {
 

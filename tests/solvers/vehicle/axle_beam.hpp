@@ -11,7 +11,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "treadmark/model/flexible_axle.hpp"
+#include "treadmark/model/vehicle/flexible_axle.hpp"
 #include "treadmark/solvers/vehicle/track/beam_element.hpp"
 
 namespace treadmark::testing {

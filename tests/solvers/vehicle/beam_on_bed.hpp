@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/model/flexible_track.hpp"
+#include "treadmark/model/vehicle/flexible_track.hpp"
 
 namespace treadmark::vehicle {
 

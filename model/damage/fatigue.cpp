@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/fatigue.hpp"
+#include "treadmark/model/damage/fatigue.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/wear_law.hpp"
+#include "treadmark/model/damage/wear_law.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/track_layout.hpp"
+#include "treadmark/model/vehicle/track_layout.hpp"
 
 #include <fmt/format.h>
 

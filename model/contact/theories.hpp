@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/model/contact_settings.hpp"
+#include "treadmark/model/contact/contact_settings.hpp"
 
 namespace treadmark {
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/surface_record.hpp"
+#include "treadmark/model/damage/surface_record.hpp"
 
 #include <algorithm>
 

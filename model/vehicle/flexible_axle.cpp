@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/flexible_axle.hpp"
+#include "treadmark/model/vehicle/flexible_axle.hpp"
 
 #include <fmt/format.h>
 

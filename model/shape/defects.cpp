@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/defects.hpp"
+#include "treadmark/model/shape/defects.hpp"
 
 #include <algorithm>
 #include <cmath>

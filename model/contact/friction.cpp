@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/friction.hpp"
+#include "treadmark/model/contact/friction.hpp"
 
 #include <algorithm>
 #include <cmath>

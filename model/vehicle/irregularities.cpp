@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/irregularities.hpp"
+#include "treadmark/model/vehicle/irregularities.hpp"
 
 #include <fmt/format.h>
 

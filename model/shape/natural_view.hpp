@@ -5,7 +5,7 @@
 #include <span>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark {
 

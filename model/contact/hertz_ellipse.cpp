@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/hertz_ellipse.hpp"
+#include "treadmark/model/contact/hertz_ellipse.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/driving.hpp"
+#include "treadmark/model/vehicle/driving.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/flow_law.hpp"
+#include "treadmark/model/damage/flow_law.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/model/spline_surface.hpp"
+#include "treadmark/model/shape/spline_surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "treadmark/model/damage/surface_record.hpp"
 #include "treadmark/model/rows.hpp"
-#include "treadmark/model/surface_record.hpp"
 
 namespace treadmark {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark {
 

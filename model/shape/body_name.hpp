@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/model/profile.hpp"
+#include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "treadmark/model/numerical_influence.hpp"
+#include "treadmark/model/contact/numerical_influence.hpp"
 
 namespace treadmark {
 

@@ -9,7 +9,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/model/flexible_axle.hpp"
+#include "treadmark/model/vehicle/flexible_axle.hpp"
 
 namespace treadmark {
 
