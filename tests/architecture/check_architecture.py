@@ -5,11 +5,12 @@
 
 usage: check_architecture.py ROOT
 
-Checked: who may include whom, one source file per heavy third-party header, surfaces asked through their contract only,
-licence lines, no package hosts, no other programs started, no rounded number cast to an integer that may not hold it.
+Checked: how much stands at the root, who may include whom, one source file per heavy third-party header, surfaces asked
+through their contract only, licence lines, no package hosts, no other programs started, no rounded number cast to an integer that may not hold it.
 """
 import pathlib
 import re
+import subprocess
 import sys
 
 # A folder and the folders it may include from. The longest match decides.
@@ -35,6 +36,9 @@ ALLOWED = {
     "bench": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app", "bench"],
     "tests": ["core", "model", "io", "report", "backends", "analysis", "scans", "detection", "solvers", "app", "interfaces", "bench", "tests"],
 }
+
+# What a stranger sees first: entries at the root, hidden ones too, and those of them that are folders.
+AT_ROOT, FOLDERS_AT_ROOT = 32, 18
 
 # What nobody else includes: the command line is no library.
 ALONE = ("app/cli", "tests/")
@@ -158,9 +162,23 @@ def unchecked_casts(text):
             yield found.group() + cast
 
 
+def at_root(root):
+    """Names at the root, folders with a slash: those that git keeps, or all where it keeps none."""
+    if (root / ".git").exists():
+        names = subprocess.run(["git", "-C", str(root), "ls-files"], capture_output=True, text=True, check=True).stdout.splitlines()
+        return {re.sub("/.*", "/", name) for name in names}
+    return {path.name + "/" * path.is_dir() for path in root.iterdir() if not SKIPPED.match(path.name) and not SKIPPED_AT_ROOT.match(path.name)}
+
+
+def check_root(names):
+    for kind, most, there in (("entries", AT_ROOT, names), ("folders", FOLDERS_AT_ROOT, [name for name in names if name.endswith("/")])):
+        if len(there) > most:
+            yield f"{len(there)} {kind} at the root, more than {most}: find the new one a place in a folder"
+
+
 def check(root):
     """All violations below a folder, as texts "file: what"."""
-    violations, heavy_users = [], {}
+    violations, heavy_users = list(check_root(at_root(root))), {}
     for path in files(root):
         relative = path.relative_to(root).as_posix()
         data = path.read_bytes()

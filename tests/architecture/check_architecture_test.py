@@ -5,7 +5,7 @@ import pathlib
 import tempfile
 import unittest
 
-from check_architecture import HOSTS, check
+from check_architecture import AT_ROOT, FOLDERS_AT_ROOT, HOSTS, check
 
 LICENCE = "// SPDX-License-Identifier: Apache-2.0\n"
 CLEAN = {
@@ -63,6 +63,13 @@ class Planted(unittest.TestCase):
         self.expect("app/cli/a.cpp", '#include "treadmark/interfaces/fmi/b.hpp"\n', "app must not include interfaces/fmi/b.hpp")
         for name in ("interfaces/python/a.cpp", "app/cases/a.cpp"):
             self.expect(name, '#include "treadmark/app/cli/b.hpp"\n', "by itself only")
+
+    def test_root(self):
+        there = {name.split("/")[0] for name in CLEAN} - {"build"}
+        for most, what, name in ((FOLDERS_AT_ROOT, "folders", "{}/a.md"), (AT_ROOT, "entries", "{}.md")):
+            more = {name.format(f"more{i}"): "" for i in range(most - len(there))}
+            self.assertEqual(self.violations(more), [])
+            self.assertIn(f"{most + 1} {what} at the root", "\n".join(self.violations({**more, name.format("another"): ""})))
 
     def test_no_other_programs(self):
         for call in ["std::system(text)", "::popen (text)", "fork()", "execvp(a, b)", "posix_spawn(a)"]:
