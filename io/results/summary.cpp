@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/tables/shown.hpp"
 
@@ -110,6 +111,7 @@ std::string summary(const CaseResult& result) {
 }
 
 std::string summary_list(std::span<const CaseResult> cases) {
+  using enum Label::Digits;
   const bool posed = std::ranges::any_of(cases, &CaseResult::has_wheelset);
   constexpr const char* kPose = " {:>9} {:>9} {:>9}";
   std::string text = fmt::format("{:>6}  {:<13}", "case", "status");
@@ -120,7 +122,8 @@ std::string summary_list(std::span<const CaseResult> cases) {
   for (const CaseResult& c : cases) {
     text += fmt::format("{:>6}  {:<13}", c.number, status_word(c));
     if (posed)
-      text += fmt::format(kPose, four_decimals(1e3 * c.y), four_decimals(1e3 * c.z), four_decimals(c.pitch * kDegrees));
+      text += fmt::format(kPose, in_digits(1e3 * c.y, four_decimals), in_digits(1e3 * c.z, four_decimals),
+                          in_digits(c.pitch * kDegrees, four_decimals));
     text += fmt::format(" {:>7}", c.patches.size());
     if (!c.patches.empty()) {
       const PatchResult& first = c.patches.front();
@@ -131,8 +134,8 @@ std::string summary_list(std::span<const CaseResult> cases) {
         pressure = std::max(pressure, p.pmax);
         slip += p.nslip, contact += p.ncon;
       }
-      text += fmt::format(" {:>9} {:>9} {:>9} {:>10} {:>7}", five_digits(force.x()), five_digits(force.y()),
-                          five_digits(force.z()), five_digits(1e-6 * pressure),
+      text += fmt::format(" {:>9} {:>9} {:>9} {:>10} {:>7}", in_digits(force.x(), five), in_digits(force.y(), five),
+                          in_digits(force.z(), five), in_digits(1e-6 * pressure, five),
                           contact > 0 ? fmt::format("{:.0f} %", 100.0 * slip / contact) : "");
     }
     text += "\n";

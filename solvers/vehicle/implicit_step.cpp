@@ -12,8 +12,6 @@
 namespace treadmark::vehicle {
 namespace {
 
-constexpr double kHalfGauge = 0.75;  // moments are compared with forces at half the gauge [m]
-
 double largest_force(const PairVector& f) {
   double most = 0.0;
   for (int c = 0; c < kPairCoordinates; ++c) {

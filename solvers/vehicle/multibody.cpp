@@ -16,8 +16,7 @@ namespace treadmark::vehicle {
 
 namespace {
 
-constexpr double kHalfGauge = 0.75;  // [m], to compare rotations with displacements
-constexpr int kRotations = 3;        // freedoms from here on are rotations
+constexpr int kRotations = 3;  // freedoms from here on are rotations
 constexpr const char* kFreedomNames[] = {"x", "y", "z", "roll", "pitch", "yaw"};
 
 /// A bending mode in one plane.

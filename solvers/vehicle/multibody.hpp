@@ -16,6 +16,7 @@ namespace treadmark::vehicle {
 inline constexpr int kPairCoordinates = 9;
 using PairVector = Eigen::Matrix<double, kPairCoordinates, 1>;
 using PairMatrix = Eigen::Matrix<double, kPairCoordinates, kPairCoordinates>;
+inline constexpr double kHalfGauge = 0.75;  ///< arm that compares rotations with displacements, moments with forces [m]
 
 /// Generalised forces that a contact reaction exerts on them: their scalar product with the rates is the power of the
 /// reaction on both bodies.

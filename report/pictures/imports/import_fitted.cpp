@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/io/tables/shown.hpp"
 #include "treadmark/report/pictures/imports/import_map.hpp"
 #include "treadmark/report/pictures/imports/import_pictures.hpp"
 #include "treadmark/report/pictures/imports/import_section.hpp"
@@ -90,7 +91,7 @@ void mark_deepest(Chart& chart, const io::ImportReport& report, const Course& co
 ImportPanel course_panel(const io::ImportReport& report, const std::optional<Course>& course, const ImportPanel& map) {
   ImportPanel out{"Distance along a through the deepest place", {}, map.width};
   if (!course) return out;
-  out.title += fmt::format(", s = {} mm", io::decimals(1e3 * course->s, 1));
+  out.title += fmt::format(", s = {} mm", io::shown_number(1e3 * course->s, 1));
   if (report.damage_threshold > 0.0) out.title += "; dashed: deeper is damage";
   out.chart = distance_chart(course->points, *map.chart.x_range,
                              report.body == Body::wheel ? "along the circumference [mm]" : "x along the track [mm]",
@@ -196,9 +197,9 @@ void add_damage_table(ImportPicture& picture, const io::ImportReport& report) {
       rows.push_back({"", report.body == Body::wheel ? "at angle" : "at x", "y", "length \u00d7 width", "deepest",
                       "missing volume"});
     rows.push_back(
-        {std::to_string(i + 1), io::place_text(report, part.u, "\u00b0"), io::decimals(1e3 * part.y, 1) + " mm",
-         fmt::format("{} \u00d7 {} mm", io::decimals(1e3 * part.length, 1), io::decimals(1e3 * part.width, 1)),
-         depth_text(part.depth), io::decimals(1e9 * part.volume, 1) + " mm\u00b3"});
+        {std::to_string(i + 1), io::place_text(report, part.u, "\u00b0"), io::shown_number(1e3 * part.y, 1) + " mm",
+         fmt::format("{} \u00d7 {} mm", io::shown_number(1e3 * part.length, 1), io::shown_number(1e3 * part.width, 1)),
+         depth_text(part.depth), io::shown_number(1e9 * part.volume, 1) + " mm\u00b3"});
   }
   const std::string what =
       report.damage_threshold > 0.0 ? "Damage beyond " + io::length_text(report.damage_threshold, "\u00b5") : "Damage";

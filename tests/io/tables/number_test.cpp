@@ -18,7 +18,6 @@ TEST(JsonNumber, IsRoundedToItsDigits) {
   EXPECT_EQ(dumped(number(0.1 + 0.2)), "0.3");
   EXPECT_EQ(dumped(number(1e3 * 0.0012345678901239)), "1.23456789012");
   EXPECT_EQ(dumped(number(2.0 / 3.0, Digits::six)), "0.666667");
-  EXPECT_EQ(dumped(number(2.0 / 3.0, Digits::ten)), "0.6666666667");
   EXPECT_EQ(number(0.1 + 0.2, Digits::all).get<double>(), 0.1 + 0.2);
 }
 
