@@ -21,13 +21,13 @@ namespace {
 using Block3 = io::SubsurfaceBlock;
 using Value = io::SubsurfaceValue;
 
-struct Body {
+struct StressedBody {
   const char *id, *name;
   bool is_rail;
 
   bool has(const Value& v) const { return (v.point.z() >= 0.0) == is_rail; }
 };
-constexpr Body kBodies[] = {{"rail", "the rail", true}, {"wheel", "the wheel", false}};
+constexpr StressedBody kBodies[] = {{"rail", "the rail", true}, {"wheel", "the wheel", false}};
 
 struct Direction {
   const char *id, *words, *axis;
@@ -58,7 +58,7 @@ struct Plane {
 };
 
 /// That of the points of one body with this number in the other direction; empty where it is none.
-Plane plane_of(const Block3& block, const Body& body, const Direction& direction, int other) {
+Plane plane_of(const Block3& block, const StressedBody& body, const Direction& direction, int other) {
   const bool along = direction.component == 0;
   const auto at = [&](int i, int iz) -> const Value& {
     const auto ix = static_cast<std::size_t>(along ? i : other), iy = static_cast<std::size_t>(along ? other : i);
@@ -88,7 +88,7 @@ Plane plane_of(const Block3& block, const Body& body, const Direction& direction
 }
 
 /// Of all blocks of a case the plane with the largest von Mises stress.
-Plane worst_plane(const io::CaseResult& result, const Body& body, const Direction& direction) {
+Plane worst_plane(const io::CaseResult& result, const StressedBody& body, const Direction& direction) {
   Plane worst;
   for (const io::PatchResult& patch : result.patches)
     for (const Block3& block : patch.subsurface)
@@ -146,7 +146,7 @@ MapView empty_map(const std::vector<Plane>& planes, const Direction& direction, 
 }
 
 /// Largest von Mises stress of each layer of a body, by depth [mm], [MPa].
-std::vector<std::pair<double, double>> by_depth(const io::CaseResult& result, const Body& body) {
+std::vector<std::pair<double, double>> by_depth(const io::CaseResult& result, const StressedBody& body) {
   std::vector<std::pair<double, double>> out;
   for (const io::PatchResult& patch : result.patches)
     for (const Block3& block : patch.subsurface)
@@ -169,7 +169,7 @@ std::optional<Figure> depth_figure(const io::RunResult& run) {
   for (const io::CaseResult& result : run.cases) {
     ChartView::Curves curves;
     std::vector<std::vector<std::pair<double, double>>> lines;
-    for (const Body& body : kBodies) {
+    for (const StressedBody& body : kBodies) {
       lines.push_back(by_depth(result, body));
       for (const auto& [depth, stress] : lines.back()) curves.x.push_back(depth);
     }
@@ -185,7 +185,7 @@ std::optional<Figure> depth_figure(const io::RunResult& run) {
     view.by_step.push_back(std::move(curves));
   }
   if (!any) return std::nullopt;
-  for (const Body& body : kBodies) panel.series.push_back({body.id, {}, {}, Series::Marks::both});
+  for (const StressedBody& body : kBodies) panel.series.push_back({body.id, {}, {}, Series::Marks::both});
   view.panels.push_back(std::move(panel));
   return Figure{"stress-by-depth", "Largest von Mises stress over the depth", std::move(view)};
 }
@@ -194,7 +194,7 @@ std::optional<Figure> depth_figure(const io::RunResult& run) {
 
 std::optional<Section> subsurface_section(const io::RunResult& run) {
   Section section{"below", "Stresses below the surface"};
-  for (const Body& body : kBodies)
+  for (const StressedBody& body : kBodies)
     for (const Direction& direction : kDirections) {
       std::vector<Plane> planes;
       planes.reserve(run.cases.size());
