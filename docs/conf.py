@@ -31,7 +31,8 @@ def add_navigation(app, name, source):
             source[0] += f"\n```{{toctree}}\n:hidden:\n:caption: {title}\n\n{pages}\n```\n"
     elif not (name.startswith("docs/") and name.removeprefix("docs/") in listed):
         source[0] = "---\norphan: true\n---\n" + source[0]
-    # The parser takes descriptions of pictures for YAML.
+    # Beside a comment the parser does not see a picture; descriptions of pictures it takes for YAML.
+    source[0] = re.sub(r"\s*<!--.*?-->", "", source[0])
     source[0] = re.sub(r'<img [^>]*>', lambda image: re.sub(r'(alt="[^"]*)"', lambda alt: alt[0].replace(": ", " – "), image[0]), source[0])
 
 

@@ -253,9 +253,9 @@ def self_test():
                 (7, "function", "return std::max(a, 2) - g<int>(7);"), (7, "arithmetic", "return std::min(a, 2) + g<int>(7);"),
                 (7, "constant", "return std::min(a, 3) - g<int>(7);"), (7, "constant", "return std::min(a, 2) - g<int>(8);")}
     assert found == expected, f"{found - expected}\n{expected - found}"
-    some = drawn(["geometry"], 5, 1)
-    assert len(some) == 5 and some == drawn(["geometry"], 5, 1) != drawn(["geometry"], 5, 2)
-    for m in drawn(["geometry", "damage"], 200, 1):
+    some = drawn(["analysis/geometry"], 5, 1)
+    assert len(some) == 5 and some == drawn(["analysis/geometry"], 5, 1) != drawn(["analysis/geometry"], 5, 2)
+    for m in drawn(["analysis/geometry", "analysis/damage"], 200, 1):
         assert (ROOT / m.file).read_text().splitlines()[m.line - 1] == m.before != m.after
     for file, before, after in reasons():
         lines = [line.strip() for line in (ROOT / file).read_text().splitlines()]

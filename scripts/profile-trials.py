@@ -189,6 +189,17 @@ GROOVED = ("grooved", "high keeper", "outer keeper")
 # What a base is where all of it would have been measured, and nothing that the head does not touch.
 TRUE_SHAPE = {**dict.fromkeys(GROOVED, "60E1"), "gauge half": "60E1", "top 20": "60E1", "cut 5": "60E1", "cut 8": "60E1", "cut 10": "60E1", "whole outline": "60E1", "outline from foot": "60E1",
               "long back": "new", "both faces": "new"}
+# What nobody can tell: which way round a section lies that is its own mirror image, and on which side of a rail with a keeper the gauge is.
+SYMMETRIC = ("60E1", "flat head", "top 20", "cut 5", "cut 8", "cut 10", "whole outline", "outline from foot")
+MIRRORED = {"outer keeper": "high keeper"}
+
+
+def read_tilts(c):
+    """Those that a reader may take for none."""
+    may = 0 < abs(c["tilt"]) <= 3 or (c["base"] == "rising tread" and c["cut"] in ("flange", "both") and c["tilt"] < 0)  # then it is a usual tread
+    return [0, *([c["tilt"]] if may else []), *([-c["tilt"]] if may and c["mirror"] == "y" and c["base"] in SYMMETRIC else [])]
+
+
 _outlines = {}
 
 
@@ -794,9 +805,8 @@ def converted_right(c, folder):
             continue
     if len(rows) < 4:
         return False, "no points"
-    if c["tilt"] and abs(c["tilt"]) <= 3:
-        rows = min((turned(rows, -c["tilt"]), rows), key=lambda r: best_shift(r, c["base"]))
-    distance = best_shift(rows, c["base"])
+    shapes = [c["base"], *([MIRRORED[c["base"]]] if c["mirror"] == "y" and c["base"] in MIRRORED else [])]
+    distance = min(best_shift(turned(rows, -t), shape) for t in read_tilts(c) for shape in shapes)
     limit = 0.35 + 4 * c["noise"] + c["rounded"] + (0.6 if c["spike"] != "none" else 0.0) + 0.5 * (c["step"] if c["step"] > 0.5 else 0)
     return distance <= limit, f"{distance:.2f} mm from the outline"
 
@@ -810,8 +820,9 @@ def checked_right(c, out):
             return False, f"no line {axis}"
         numbers[axis] = (float(found[1]), float(found[2]))
     points = cut(outline(c["base"]), c["cut"])
-    ways = [turned(points, t) for t in ({0, c["tilt"]} if abs(c["tilt"]) <= 3 else {0})]
+    ways = [turned(points, t) for t in read_tilts(c)]
     slack = 0.4 + 6 * c["noise"] + c["rounded"] + (3.2 if c["spike"] != "none" else 0.0) + (4.0 if "ends" in c["nothing"] else 0)
+    slack += c["step"] if c["nothing"] != "none" else 0  # a mark may stand in place of the last point
     for way in ways:
         wide = max(p[0] for p in way) - min(p[0] for p in way)
         high = max(p[1] for p in way) - min(p[1] for p in way)
@@ -839,8 +850,7 @@ def verdict(program, store, c, folder, index, seed):
     wheel, verb = is_wheel(c["base"]), c["verb"]
     body = "wheel" if wheel else "rail"
     name = written(c, folder, rng)
-    tilts = [0, c["tilt"]] if 0 < abs(c["tilt"]) <= 3 else [0]
-    truths = [truth(program, store, c["base"], t, verb, c["place"], c["y"]) for t in tilts]
+    truths = [truth(program, store, c["base"], t, verb, c["place"], c["y"]) for t in read_tilts(c)]
     if verb == "run":
         (folder / "case.toml").write_text(case_text(c["base"], name, c["y"], c["place"], said_keys(c), c["side"]))
         status, out, err = call(program, folder, "run", "case.toml", "--json", "-", "--threads", "1")

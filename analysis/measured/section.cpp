@@ -394,7 +394,11 @@ class Reader {
     turn_z();
     turn_y();
     if (p_.body == Body::rail) {
-      u_.head = trend_of(up_, kLeastHead, [](std::size_t) { return true; });
+      constexpr double kTop = 6e-3;  // without sides
+      double top = -kInfinity;
+      for (const double h : up_.height)
+        if (h > top) top = h;
+      u_.head = trend_of(up_, kLeastHead, [&](std::size_t i) { return up_.height[i] > top - kTop; });
       if (u_.head) u_.head->slope *= -1.0;
     } else {
       find_marks(p_, down_, u_.wheel);
@@ -504,7 +508,7 @@ class Reader {
   }
 
   void judge_place() {
-    constexpr double kTipNew = -55e-3, kTipOff = 2.5e-3, kLowest = 20e-3, kHighest = 42e-3;
+    constexpr double kTipNew = -55e-3, kTipOff = 2e-3, kLowest = 20e-3, kHighest = 42e-3;
     const WheelMarks& m = u_.wheel;
     if (!w_.place || m.second_flange || !m.tip_y) return;
     const double height = *m.tip_z - m.tape_z.value_or(0.0);

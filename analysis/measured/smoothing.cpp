@@ -715,10 +715,8 @@ std::optional<Laid> usual_curve(const Points& points, const PointNoise& noise, B
 std::vector<Laid> other_curves(const Points& points, const PointNoise& noise, Body body) {
   constexpr double kPerhapsCorner = 3.0;
   std::vector<Laid> out;
-  for (const Restless where : {Restless::anywhere, Restless::in_bends})
-    if (body == Body::rail || where != Restless::in_bends)  // which is the usual one of wheels
-      if (std::optional<Laid> other = lay_curve(points, noise, {where, kPerhapsCorner}))
-        out.push_back(std::move(*other));
+  for (const Restless where : {Restless::anywhere, body == Body::wheel ? Restless::at_changes : Restless::in_bends})
+    if (std::optional<Laid> other = lay_curve(points, noise, {where, kPerhapsCorner})) out.push_back(std::move(*other));
   return out;
 }
 

@@ -96,6 +96,12 @@ void add_doubts(const PlacedScan& scan, io::ImportReport& report) {
                     "{:.2g} mm and the direction of the axle by {:.2g} mrad (standard errors); {}",
                     placement.arc * 180.0 / kPi, kMilli * placement.radius_error, kMilli * placement.direction_error,
                     scans::kKnowMore));
+  if (placement.moved_by_back != 0.0)
+    report.warnings.push_back(
+        fmt::format("y = 0 is 70 mm from the back of the flange, {:.2f} mm from where the flange of {} would put it: "
+                    "is the flange worn?",
+                    kMilli * std::fabs(placement.moved_by_back), report.nominal));
+  for (const measured::Doubt& doubt : placement.doubts) report.warnings.push_back(doubt.text);
   if (!placement.match || !placement.match->ways) return;
   const scans::SectionMatch::Ways& ways = *placement.match->ways;
   if (!ways.clear && ways.asymmetry > kSymmetric)

@@ -147,6 +147,7 @@ std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::L
   constexpr double kTimesBetter = 1.5, kLevelTips = 0.012, kUprightBack = 0.05;
   constexpr double kTread = -0.045,
                    kOtherTreads = 0.055;  // treads taper off by 1:10 to level, rails are canted by 1:20
+  constexpr double kNoTop = 0.09;         // of a head with its sides, which may be worn or cut
   const Profile& profile = sourced.profile;
   const measured::WheelMarks& marks = sourced.source.understood.wheel;
   const auto [top, bottom] = std::ranges::minmax(profile.z);
@@ -168,7 +169,7 @@ std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::L
   else if (marks.tread && std::fabs(marks.tread->slope - kTread) > kOtherTreads + marks.tread->spread)
     seen.push_back({marks.tread->slope - kTread, true, "by the slope of its tread"});
   else if (const auto& head = sourced.source.understood.head;
-           head && bottom - top < kDeep && std::fabs(head->slope) > kOtherTreads)
+           head && std::fabs(head->slope) > (bottom - top < kDeep ? kOtherTreads : kNoTop + head->spread))
     seen.push_back({head->slope, true, "by the slope of its top"});
   if (seen.empty()) return std::nullopt;
   const auto sure = std::ranges::find(seen, true, &Roll::sure);

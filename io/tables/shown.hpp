@@ -8,7 +8,8 @@
 
 namespace treadmark::io {
 
-/// A number for people: so many decimals, negative: five digits; without the sign of zero; with an exponent from 1e9 on.
+/// A number for people: so many decimals, negative: five digits; without the sign of zero; with an exponent from 1e9
+/// on.
 /// "-" for what is not finite.
 std::string shown_number(double value, int decimals);
 /// So many significant digits, the zeros at their end too; with an exponent below `least` and from 1e9 on.

@@ -3,6 +3,7 @@
 #include "treadmark/scans/placement/place.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/median.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 #include "treadmark/scans/placement/circle_axis.hpp"
 #include "treadmark/scans/placement/even_sample.hpp"
@@ -149,6 +151,26 @@ Reference own_reference(const Section& section, Body body) {
     right = std::max(right, p.x());
   }
   return {{-0.5 * (left + right), -top}};
+}
+
+/// From the back of a wheel's flange, where that was scanned, over the tip to the field side: points (y, v) of all
+/// stations and the part of their section that is not too steep to be seen from outside.
+measured::SectionPoints with_back(const Section& section, std::span<const Vec2> points, double radius) {
+  constexpr double kNodes = 0.5e-3, kStrip = 0.5e-3;
+  constexpr std::size_t kStrips = 100, kFewest = 3;
+  std::vector<Vec2> nodes;
+  for (double s = 0.0; s < section.length(); s += kNodes) nodes.push_back(section.at(s).position);
+  const auto tip = std::ranges::max_element(nodes, {}, [](const Vec2& p) { return p.y(); });
+  std::array<std::vector<double>, kStrips> strips;
+  for (const Vec2& p : points)
+    if (const double below = tip->y() - p.y(); p.x() < tip->x() && below >= 0.0 && below < kStrip * kStrips)
+      strips[static_cast<std::size_t>(below / kStrip)].push_back(p.x());
+  measured::SectionPoints out{Body::wheel, {}, {}};
+  const auto add = [&](double y, double v) { out.y.push_back(y), out.z.push_back(v - radius); };
+  for (std::size_t k = kStrips; k-- > 0;)
+    if (strips[k].size() >= kFewest) add(median_of(strips[k]), tip->y() - kStrip * (static_cast<double>(k) + 0.5));
+  for (auto p = tip; p != nodes.end(); ++p) add(p->x(), p->y());
+  return out;
 }
 
 }  // namespace
@@ -310,7 +332,16 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
       found.nominal_radius = wheel ? settings.radius.value_or(-reference.shift.y()) : 0.0;
     }
   }
-  const std::vector<Vec2> section = across(used, body, X_CS);
+  std::vector<Vec2> section = across(used, body, X_CS);
+  if (wheel) {
+    // a worn flange fits the nominal one best where it is not
+    measured::SectionPoints seen = with_back(outline(section), section, found.nominal_radius);
+    measured::Understanding understood = measured::understand(seen, {measured::Turn::no, measured::Turn::no});
+    found.moved_by_back = understood.shift_y;
+    found.doubts = std::move(understood.doubts);
+    X_CS = X_CS * Pose{Vec3(0.0, -found.moved_by_back, 0.0), Mat3::Identity()};
+    for (Vec2& p : section) p.x() += found.moved_by_back;
+  }
   constexpr double kReach = 5e-3, kKnots = 4e-3;
   const SectionFit fit = fit_section(outline(section), section, kReach, kKnots);
   found.X_CS = X_CS;

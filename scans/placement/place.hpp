@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "treadmark/analysis/measured/section.hpp"
 #include "treadmark/model/shape/length_unit.hpp"
 #include "treadmark/model/shape/profile.hpp"
 #include "treadmark/scans/placement/elements.hpp"
@@ -44,12 +46,14 @@ struct PlaceSettings {
 
 /// A wheel or rail found in a scan.
 struct Placement {
-  Pose X_CS;                          ///< surface frame in the cloud's; its u = 0 is not settled yet
-  double nominal_radius = 0.0;        ///< wheel [m]
-  Section section;                    ///< of the undamaged part, in (y, v) of the surface frame: v the radius, or -z
-  std::optional<SectionMatch> match;  ///< of the section with the nominal one
-  double scatter = 0.0;               ///< of most points about the section: robust standard deviation [m]
-  double undamaged = 0.0;             ///< part of the points that fixed the axis
+  Pose X_CS;                            ///< surface frame in the cloud's; its u = 0 is not settled yet
+  double nominal_radius = 0.0;          ///< wheel [m]
+  Section section;                      ///< of the undamaged part, in (y, v) of the surface frame: v the radius, or -z
+  std::optional<SectionMatch> match;    ///< of the section with the nominal one
+  double moved_by_back = 0.0;           ///< y of a wheel, from where the nominal section's flange would have put it [m]
+  std::vector<measured::Doubt> doubts;  ///< about what the section of a wheel is
+  double scatter = 0.0;                 ///< of most points about the section: robust standard deviation [m]
+  double undamaged = 0.0;               ///< part of the points that fixed the axis
   double position_error = 0.0, direction_error = 0.0;  ///< standard errors of the axis [m], [rad]
   double radius_error = 0.0;                           ///< of a wheel's radius at the datum [m]
   double arc = 0.0;                                    ///< of the circumference of a wheel that was scanned [rad]

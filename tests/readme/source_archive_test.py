@@ -40,7 +40,7 @@ with tempfile.TemporaryDirectory() as name:
     source = work / archive.name.removesuffix(".tar.gz")
     call(cmake, "--preset", "smallest", "-B", work / "build", cwd=source)
     commit = call("git", "-C", root, "rev-parse", "HEAD").strip()
-    version = (work / "build" / "app" / "version.cpp").read_text()
+    version = "".join((work / "build" / folder / "version.cpp").read_text() for folder in ("app", "core"))
     assert f'"{commit[:8]}"' in version, version
     time = call("git", "-C", root, "log", "-1", "--format=%cd", "--date=format-local:%Y-%m-%dT%H:%M:%SZ", env={"TZ": "UTC", "PATH": "/usr/bin:/bin"}).strip()
     assert f'"{time}"' in version, (time, version)

@@ -248,10 +248,12 @@ TEST_F(ComparePage, RefusesFilesThatDoNotFit) {
               HasSubstr("fields.h5: the fields do not belong to the comparison"));
   std::filesystem::remove(folder_.path() / "fields.h5");
   page_of(made_up_comparison());
-  Json document = json();
+  const Json whole = json();
+  Json document = whole;
   document["rows"][2].erase("status");
   folder_.write("compare.json", document.dump());
   EXPECT_THAT(error_of([&] { compare_page(folder_.path()); }), HasSubstr("compare.json: rows[2].status is missing"));
+  document = whole;
   document["rows"][2]["backend"] = "clay";
   folder_.write("compare.json", document.dump());
   EXPECT_THAT(error_of([&] { compare_page(folder_.path()); }), HasSubstr("rows[2] belongs to none of the candidates"));

@@ -255,8 +255,9 @@ TEST(GeometryNumbers, OfTheText) {
   r.analysis.nonlinearity = 12.3461;
   r.analysis.gravitational_stiffness = 67.8912;
   const std::string text = geometry_text(r);
-  for (const char* words : {"rail 21.24 mm, wheel 24.68 mm for 3 mm to both sides", "127 m radius, delta r 5.432 mm",
-                            "0.01235 1/mm", "gauge                 1435.700 mm"})
+  for (const char* words : {"contact spread, rail    21.24 mm\n", "contact spread, wheel   24.68 mm\n",
+                            "delta r before flange   5.432 mm\n", "steers to a radius of   127 m\n",
+                            "nonlinearity            0.01235 1/mm\n", "gauge                   1435.700 mm\n"})
     EXPECT_NE(text.find(words), std::string::npos) << words << " in\n" << text;
 }
 

@@ -70,6 +70,42 @@ TEST(Place, WheelWithAFlatInAnyFrame) {
   }
 }
 
+/// Points of a wheel whose flange is 5 mm thinner than that of S1002, its back and its tip as they were; with_back:
+/// down to the tread, else from beside the tip on.
+std::vector<Vec3> thin_flange(bool with_back, const Pose& frame) {
+  const auto smooth = [](double t) { return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t * t * (3.0 - 2.0 * t); };
+  std::vector<Vec2> section;
+  for (double z = 0.5e-3; with_back && z < 9.5e-3; z += 0.5e-3) section.emplace_back(-70e-3, z);
+  for (Vec2 p : tests::nominal_points("S1002", Body::wheel)) {
+    if (!with_back && p.x() < -66e-3) continue;
+    if (p.x() > -57e-3) p.x() -= 5e-3 * smooth((p.x() + 57e-3) / 10e-3) * smooth((-14e-3 - p.x()) / 18e-3);
+    if (section.empty() || (p - section.back()).norm() > 0.7e-3) section.push_back(p);
+  }
+  std::vector<Vec3> out;
+  Random random(3);
+  for (int k = 0; k < 300; ++k)
+    for (const Vec2& p : section) {
+      const double u = 2.0 * kPi * (k + random.uniform()) / 300.0, r = kRadius + p.y() + 10e-6 * tests::gaussian(random);
+      out.push_back(frame.apply({r * std::sin(u), p.x(), r * std::cos(u)}));
+    }
+  return out;
+}
+
+TEST(Place, AWornFlangeIsPlacedByItsBack) {
+  const Pose frame = tests::some_frame(1);
+  const auto placed = [&](bool with_back) {
+    const std::vector<Vec3> points = thin_flange(with_back, frame);
+    return place(points, {}, find_roughly(points, {}, Body::wheel), with_nominal(Body::wheel));
+  };
+  const Placement by_back = placed(true), by_fit = placed(false);
+  EXPECT_LT(std::fabs(axle_error(by_back.X_CS, frame).y), 0.05e-3);
+  EXPECT_GT(std::fabs(by_back.moved_by_back), 2e-3);
+  EXPECT_TRUE(by_back.doubts.empty());
+  EXPECT_GT(std::fabs(axle_error(by_fit.X_CS, frame).y), 2e-3);
+  ASSERT_EQ(by_fit.doubts.size(), 1u);
+  EXPECT_EQ(by_fit.doubts.front().name, "tape_line");
+}
+
 TEST(Place, RailWithASquatInAnyFrame) {
   const auto rail = squat_rail();
   PlaceSettings settings = with_nominal(Body::rail);
