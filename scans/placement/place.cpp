@@ -13,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 #include "treadmark/scans/placement/circle_axis.hpp"
 #include "treadmark/scans/placement/even_sample.hpp"
@@ -164,7 +165,7 @@ measured::SectionPoints with_back(const Section& section, std::span<const Vec2> 
   std::array<std::vector<double>, kStrips> strips;
   for (const Vec2& p : points)
     if (const double below = tip->y() - p.y(); p.x() < tip->x() && below >= 0.0 && below < kStrip * kStrips)
-      strips[static_cast<std::size_t>(below / kStrip)].push_back(p.x());
+      strips[to_whole<std::size_t>(below / kStrip)].push_back(p.x());
   measured::SectionPoints out{Body::wheel, {}, {}};
   const auto add = [&](double y, double v) { out.y.push_back(y), out.z.push_back(v - radius); };
   for (std::size_t k = kStrips; k-- > 0;)

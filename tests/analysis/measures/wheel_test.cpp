@@ -154,15 +154,16 @@ TEST(WheelMeasures, ErrorsLieInsideTheStatedUncertainty) {
   const WheelMeasures truth = measure_wheel(Section(points_of("S1002")));
   int height = 0, thickness = 0, gradient = 0;
   constexpr int kSeeds = 100;
+  constexpr double kNoise = 0.02e-3;
   for (int seed = 0; seed < kSeeds; ++seed) {
     const WheelMeasures m =
-        measure_wheel(Section(noisy(points_of("S1002", 0.2e-3), 0.02e-3, static_cast<unsigned>(seed))));
+        measure_wheel(Section(noisy(points_of("S1002", 0.2e-3), kNoise, static_cast<unsigned>(seed))));
     height += std::fabs(m.flange_height.value - truth.flange_height.value) <= m.flange_height.uncertainty ? 1 : 0;
     thickness +=
         std::fabs(m.flange_thickness.value - truth.flange_thickness.value) <= m.flange_thickness.uncertainty ? 1 : 0;
     gradient +=
         std::fabs(m.flange_gradient.value - truth.flange_gradient.value) <= m.flange_gradient.uncertainty ? 1 : 0;
-    EXPECT_LT(m.flange_thickness.uncertainty, 0.06e-3);
+    EXPECT_LT(m.flange_thickness.uncertainty, 3.5 * kNoise);
   }
   EXPECT_GE(height, 90);
   EXPECT_GE(thickness, 90);

@@ -65,7 +65,7 @@ TEST(ComparisonTable, ColumnsAreAligned) {
   const auto lines = lines_of(io::comparison_table(comparison));
   for (const std::size_t i : {1, 3, 4, 5, 6, 7}) EXPECT_EQ(lines[i].size(), lines[0].size()) << lines[i];
   EXPECT_EQ(lines[2].find("[MB]"), lines[0].find("memory") + 2);  // no cases, and no blanks for them
-  comparison.candidates[2].name = "müsh";  // five bytes, four characters
+  comparison.candidates[2].name = "müsh";                         // five bytes, four characters
   const auto longer = lines_of(io::comparison_table(comparison));
   EXPECT_EQ(longer[5].size(), longer[4].size() + 1);
 }

@@ -85,7 +85,8 @@ std::vector<Vec3> thin_flange(bool with_back, const Pose& frame) {
   Random random(3);
   for (int k = 0; k < 300; ++k)
     for (const Vec2& p : section) {
-      const double u = 2.0 * kPi * (k + random.uniform()) / 300.0, r = kRadius + p.y() + 10e-6 * tests::gaussian(random);
+      const double u = 2.0 * kPi * (k + random.uniform()) / 300.0,
+                   r = kRadius + p.y() + 10e-6 * tests::gaussian(random);
       out.push_back(frame.apply({r * std::sin(u), p.x(), r * std::cos(u)}));
     }
   return out;
