@@ -30,6 +30,7 @@ std::optional<Vec3> direction_of(const std::vector<double>& list) {
 /// (y, v): v is the profile's z of a wheel, -z of a rail.
 scans::Section nominal_section(Body body, const std::vector<Vec2>& nominal) {
   std::vector<Vec2> points;
+  points.reserve(nominal.size());
   for (const Vec2& p : nominal) points.emplace_back(p.x(), body == Body::wheel ? p.y() : -p.y());
   return scans::Section(points);
 }
