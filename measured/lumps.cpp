@@ -57,12 +57,14 @@ Deviation deviation(const Profile& p, std::size_t first, std::size_t last) {
 
 std::optional<Lump> highest_lump(const Profile& p, double noise) {
   constexpr std::size_t kMostPoints = 6;
-  constexpr double kWidest = 3e-3, kLeast = 0.1e-3, kTimesNoise = 8.0, kTimesBeside = 6.0;
+  constexpr std::size_t kFewPoints = 3;
+  constexpr double kWidest = 3e-3, kWidestOfFew = 4.5e-3, kLeast = 0.1e-3, kTimesNoise = 8.0, kTimesBeside = 6.0;
   constexpr double kStraight = 0.35;  // [rad]
   std::optional<Lump> best;
   for (std::size_t first = kBeside; first + kBeside < p.y.size(); ++first)
     for (std::size_t last = first; last < first + kMostPoints && last + kBeside < p.y.size(); ++last) {
-      if (std::hypot(p.y[last + 1] - p.y[first - 1], p.z[last + 1] - p.z[first - 1]) > kWidest) break;
+      const double width = std::hypot(p.y[last + 1] - p.y[first - 1], p.z[last + 1] - p.z[first - 1]);
+      if (width > (last - first < kFewPoints ? kWidestOfFew : kWidest)) break;
       const Deviation d = deviation(p, first, last);
       const double size = std::fabs(d.greatest);
       if (size < std::max({kLeast, kTimesNoise * noise, kTimesBeside * d.beside}) || d.turn > kStraight) continue;

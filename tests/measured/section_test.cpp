@@ -144,6 +144,15 @@ TEST(MeasuredSection, DirtStandsOutAndCornersDoNot) {
   p.body = Body::wheel;
   p.y = clean.y, p.z = clean.z;
   EXPECT_FALSE(highest_lump(p, 0.0));
+  Profile coarse;  // points 1 mm apart
+  coarse.body = Body::wheel;
+  for (std::size_t i = 0; i < p.y.size(); ++i)
+    if (coarse.y.empty() || std::hypot(p.y[i] - coarse.y.back(), p.z[i] - coarse.z.back()) > 0.999e-3)
+      coarse.y.push_back(p.y[i]), coarse.z.push_back(p.z[i]);
+  EXPECT_FALSE(highest_lump(coarse, 0.0));
+  const std::size_t middle = coarse.y.size() / 2;
+  coarse.z[middle] += 0.4e-3, coarse.z[middle - 1] += 0.25e-3, coarse.z[middle + 1] += 0.25e-3;
+  EXPECT_TRUE(highest_lump(coarse, 1e-6));
   const std::size_t at = 250;
   p.z[at] += 0.4e-3, p.z[at - 1] += 0.25e-3, p.z[at + 1] += 0.25e-3;
   const std::optional<Lump> lump = highest_lump(p, 1e-6);
