@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/roots.hpp"
 #include "treadmark/core/to_whole.hpp"
+#include "treadmark/model/rail_head.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -34,8 +37,7 @@ Section sampled(const Surface& surface, const Pose& X_SP, Body body) {
     low = std::min(low, y);
     high = std::max(high, y);
   }
-  low = std::isfinite(low) ? std::max(low, -kFarthest) : -kFarthest;
-  high = std::isfinite(high) ? std::min(high, kFarthest) : kFarthest;
+  if (!(high - low < 2.0 * kFarthest)) low = std::max(low, -kFarthest), high = std::min(high, kFarthest);
   const auto first = to_whole<long>(std::floor(low / kSectionStep)),
              last = to_whole<long>(std::ceil(high / kSectionStep));
   const int count = static_cast<int>(std::max(last - first + 1, 2L));
@@ -117,20 +119,24 @@ Section rail_section(const Surface& rail, double cant, double x) {
 RailTop rail_top(const Section& rail, double gauge_height) {
   constexpr double kSteep = 5.0;     // an end as steep as that is the side of the head, seen from above
   constexpr double kReached = 5e-5;  // of points that end at the gauge height [m]
+  constexpr double kOfHead = 10e-3;  // depth that tells the head from a keeper beside a groove [m]
   const std::vector<double>& z = rail.z();
-  std::size_t top = 0;
-  for (std::size_t i = 1; i < z.size(); ++i)
-    if (z[i] < z[top] || std::isnan(z[top])) top = i;
-  RailTop out{z[top], rail.y(top), kNaN};
+  std::vector<double> y(z.size());
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] = rail.y(i);
+  RailTop out{kNaN, kNaN, kNaN};
   // finer around the least sample
-  const double s = rail.slope()[top];
-  const std::size_t next = s > 0.0 ? top - std::min<std::size_t>(top, 1) : std::min(top + 1, z.size() - 1);
-  if (next != top && std::isfinite(z[next])) {
-    const std::size_t i = std::min(top, next);
-    const double y = between(rail, i, [](const SectionPoint& p) { return p.slope < 0.0; });
-    if (rail.at(y).z < out.z_top) out.z_top = rail.at(y).z, out.y_top = y;
-  }
-  for (std::size_t i = 0; i <= top; ++i) {
+  const auto finer = [&](std::size_t top) {
+    out.z_top = z[top], out.y_top = y[top];
+    const double s = rail.slope()[top];
+    const std::size_t next = s > 0.0 ? top - std::min<std::size_t>(top, 1) : std::min(top + 1, z.size() - 1);
+    if (next == top || !std::isfinite(z[next])) return out.z_top;
+    const double at = between(rail, std::min(top, next), [](const SectionPoint& p) { return p.slope < 0.0; });
+    if (rail.at(at).z < out.z_top) out.z_top = rail.at(at).z, out.y_top = at;
+    return out.z_top;
+  };
+  const std::optional<RailHead> head = head_of_rail(y, z, std::max(gauge_height, kOfHead), false, finer);
+  if (!head) return out;
+  for (std::size_t i = head->first; i <= head->top; ++i) {
     if (!(z[i] - out.z_top <= gauge_height)) continue;
     const bool inside = i > 0 && std::isfinite(z[i - 1]);
     if (inside)
@@ -178,8 +184,10 @@ std::string wrong_body(const Section& section) {
     for (std::size_t i = 0; i < z.size(); ++i)
       if (z[i] - top.z_top <= kHead) from = std::min(from, i), to = i;
     if (to > from && static_cast<double>(to - from) * section.step() > kWidest)
-      return fmt::format("it is {:.0f} mm wide within {:.0f} mm below its top, as wheels are and no head of a rail is",
-                         kMilli * static_cast<double>(to - from) * section.step(), kMilli * kHead);
+      return fmt::format(
+          "it is {:.0f} mm wide within {:.0f} mm below its top, as wheels are and no head of a rail is, not even with "
+          "a groove",
+          kMilli * static_cast<double>(to - from) * section.step(), kMilli * kHead);
     return {};
   }
   constexpr double kFieldSide = 20e-3;  // [m]

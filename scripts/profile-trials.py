@@ -112,14 +112,16 @@ def soft_max(z, level, soft):
     return 0.5 * (z + level + math.hypot(z - level, 2 * soft))
 
 
-def grooved():
-    """A head with a groove of 50 mm, 45 mm deep, and a keeper beside it."""
+def grooved(below=7.0, outside=False):
+    """A head with a groove of 50 mm, 45 mm deep, and a keeper beside its gauge side or the other one, so far below its top."""
     head = rail_60e1(40.0)
     bottom, wall = 45.0, head[0][0] - 50.0
-    keeper = joined(line((wall - 22, 14.0), (wall - 22, 11.0)), arc(wall - 18, 11.0, 4.0, 180, 270), line((wall - 18, 7.0), (wall - 4, 7.0)),
-                    arc(wall - 4, 11.0, 4.0, -90, 0), line((wall, 11.0), (wall, bottom)), line((wall, bottom), (head[0][0], bottom)),
+    middle = below + 4.0
+    keeper = joined(line((wall - 22, middle + 3.0), (wall - 22, middle)), arc(wall - 18, middle, 4.0, 180, 270), line((wall - 18, below), (wall - 4, below)),
+                    arc(wall - 4, middle, 4.0, -90, 0), line((wall, middle), (wall, bottom)), line((wall, bottom), (head[0][0], bottom)),
                     line((head[0][0], bottom), head[0]))
-    return joined(keeper, head)
+    points = joined(keeper, head)
+    return [(-y, z) for y, z in reversed(points)] if outside else points
 
 
 def whole_outline(start=0.0):
@@ -168,6 +170,8 @@ WHEELS = {
 RAILS = {
     "60E1": rail_60e1,
     "grooved": grooved,
+    "high keeper": lambda: grooved(0.0),
+    "outer keeper": lambda: grooved(0.0, True),
     "side worn 2": lambda: side_worn(2.0),
     "side worn 4": lambda: side_worn(4.0),
     "side worn 6": lambda: side_worn(6.0),
@@ -181,8 +185,9 @@ RAILS = {
     "whole outline": whole_outline,
     "outline from foot": lambda: whole_outline(0.5),
 }
+GROOVED = ("grooved", "high keeper", "outer keeper")
 # What a base is where all of it would have been measured, and nothing that the head does not touch.
-TRUE_SHAPE = {"grooved": "60E1", "gauge half": "60E1", "top 20": "60E1", "cut 5": "60E1", "cut 8": "60E1", "cut 10": "60E1", "whole outline": "60E1", "outline from foot": "60E1",
+TRUE_SHAPE = {**dict.fromkeys(GROOVED, "60E1"), "gauge half": "60E1", "top 20": "60E1", "cut 5": "60E1", "cut 8": "60E1", "cut 10": "60E1", "whole outline": "60E1", "outline from foot": "60E1",
               "long back": "new", "both faces": "new"}
 _outlines = {}
 
@@ -269,15 +274,15 @@ def makes_sense(c):
         return False
     if c["place"] == "rail_y" and (wheel or c["verb"] not in ("run",) or not plain("frame", "height", "mirror")):
         return False
-    if c["order"] == "shuffled" and c["base"] in ("whole outline", "outline from foot", "grooved", "long back", "both faces"):
+    if c["order"] == "shuffled" and c["base"] in ("whole outline", "outline from foot", "long back", "both faces", *GROOVED):
         return False
     if c["verb"] != "run" and not plain("y", "keys", "side"):
         return False
-    if c["sampled"] == "by y" and c["base"] in ("whole outline", "outline from foot", "grooved", "long back", "both faces", "lip"):
+    if c["sampled"] == "by y" and c["base"] in ("whole outline", "outline from foot", "long back", "both faces", "lip", *GROOVED):
         return False
     if c["verb"] == "geometry" and c["base"] == "double flange":
         return False  # it has no flange back to be placed by
-    if c["verb"] in ("simulate", "measure") and c["base"] in ("double flange", "grooved"):
+    if c["verb"] in ("simulate", "measure") and c["base"] in ("double flange", *GROOVED):
         return False
     if c["verb"] == "simulate" and (c["noise"] > 0.003 or reader == "slices"):
         return False

@@ -343,7 +343,7 @@ namespace {
 /// next: the section beside it.
 std::optional<io::ProfileRemark> doubt_of_section(const Profile& section, const Profile& next,
                                                   measured::Understanding seen, const io::ExpectedProfile& expected) {
-  constexpr double kFelt = 2e-6;  // [m] neighbouring sections take some away
+  constexpr double kFelt = 0.25e-6;  // [m] neighbouring sections take some away
   constexpr double kSamePlace = 2e-3;
   constexpr double kDense = 1e-3;  // [m] points farther apart scatter by the curve between them
   io::SourcedProfile sourced;
@@ -361,7 +361,9 @@ std::optional<io::ProfileRemark> doubt_of_section(const Profile& section, const 
         fmt::format("{} of {:.2g} mm at y = {:.2f} mm: dirt or damage? where it touches, the pressure is that of it",
                     lump->height > 0.0 ? "a lump" : "a notch", kMilli * std::fabs(lump->height),
                     kMilli * section.y[lump->first])};
-  if (section.smoothing.strength > 0.0 || noise.across < kFelt || noise.step > kDense) return std::nullopt;
+  const bool rounded = noise.rounding_y > 0.0 || noise.rounding_z > 0.0;
+  if (section.smoothing.strength > 0.0 || noise.across < kFelt || (noise.step > kDense && !rounded))
+    return std::nullopt;
   return io::ProfileRemark{
       "noise",
       fmt::format("the points scatter by {:.2g} mm and the surface runs through all of them: pressures are too "

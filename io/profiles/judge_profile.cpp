@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/measured/lumps.hpp"
 #include "treadmark/measured/noise.hpp"
 #include "treadmark/measured/smoothing.hpp"
+#include "treadmark/model/rail_head.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -134,15 +136,26 @@ class Judge {
                                       kMm * *marks.back_y, kMm * *expected_.flange_back, kMm * *marks.back_y));
   }
 
+  /// Whether points of these, beside a head, are as high as it.
+  bool has_keeper(std::size_t first, std::size_t end, double depth) const {
+    constexpr double kWide = 5e-3;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t i = first; i < end; ++i)
+      if (p_.z[i] < depth) low = std::min(low, p_.y[i]), high = std::max(high, p_.y[i]);
+    return high - low > kWide;
+  }
+
   /// 14 mm below the top on the side of small y, where the gauge is measured.
   void gauge_point() {
     constexpr double kDepth = 14e-3, kNear = 1e-3;
-    const auto top = static_cast<std::size_t>(std::min_element(p_.z.begin(), p_.z.end()) - p_.z.begin());
+    const RailHead head = head_of_rail(p_.y, p_.z, kDepth).value_or(RailHead{});
+    const std::size_t top = head.top;
     const double depth = p_.z[top] + kDepth;
-    std::size_t left = top, right = top;
-    while (left > 0 && p_.z[left] < depth) --left;
-    while (right + 1 < p_.z.size() && p_.z[right] < depth) ++right;
-    const bool reaches_left = p_.z[left] >= depth, reaches_right = p_.z[right] >= depth;
+    const bool reaches_left = head.first > 0, reaches_right = head.last + 1 < p_.z.size();
+    if (has_keeper(head.last + 1, p_.z.size(), depth) && !has_keeper(0, head.first, depth))
+      remark("gauge_side", fmt::format("there is a groove on the side of great y only: is the gauge side there? set "
+                                       "mirror_y = {}",
+                                       source_.mirrored_y ? "false" : "true"));
     if (!reaches_left) {
       fact("gauge point", "not in the profile: it ends less than 14 mm below the top");
       if (expected_.by_gauge)
@@ -159,6 +172,7 @@ class Judge {
                         source_.mirrored_y ? "false" : "true"));
       return;
     }
+    const std::size_t left = head.first - 1;
     const double t = (depth - p_.z[left]) / (p_.z[left + 1] - p_.z[left]);
     fact("gauge point",
          fmt::format("y = {:.2f} mm, 14 mm below the top", kMm * (p_.y[left] + t * (p_.y[left + 1] - p_.y[left]))));

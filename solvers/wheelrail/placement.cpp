@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,20 +13,23 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
+#include "treadmark/model/rail_head.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
 
-// Lateral extent of a surface's box seen in frame T, cut to something finite.
+// Lateral extent of a surface's box seen in frame T, cut to what one rail or wheel may have where it is wider.
 LateralRange box_range(const Surface& surface, const Pose& X_ST) {
   constexpr double kFarthest = 0.5;
   const Box3 box = surface.bounds();
+  const bool wide = !(box.max.y() - box.min.y() < 2.0 * kFarthest);
   const Pose X_TS = X_ST.inverse();
   LateralRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double x : {box.min.x(), box.max.x()})
     for (const double y : {box.min.y(), box.max.y()})
       for (const double z : {box.min.z(), box.max.z()}) {
-        const Vec3 corner(std::isfinite(x) ? x : 0.0, std::clamp(y, -kFarthest, kFarthest), std::clamp(z, -2.0, 2.0));
+        const Vec3 corner(std::isfinite(x) ? x : 0.0, wide ? std::clamp(y, -kFarthest, kFarthest) : y,
+                          std::clamp(z, -2.0, 2.0));
         const double y_T = X_TS.apply(corner).y();
         range.y_min = std::min(range.y_min, y_T);
         range.y_max = std::max(range.y_max, y_T);
@@ -104,19 +108,11 @@ LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T)
   return range;
 }
 
-GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, double x) {
-  // Frame with the rail's origin and the track's orientation; the rail is rolled by -cant in it.
-  const Pose X_RT{Vec3::Zero(), rotation_x(cant)};
-  const Section section = lateral_section(rail, X_RT, x, box_range(rail, X_RT), kScanStep);
+namespace {
 
-  std::size_t top = section.z.size();
-  for (std::size_t i = 0; i < section.z.size(); ++i)
-    if (!std::isnan(section.z[i]) && (top == section.z.size() || section.z[i] < section.z[top])) top = i;
-  if (top == section.z.size()) refuse_without_surface(rail, x);
-
-  // Top of the rail: ever finer sections around the least height.
-  GaugePoint point;
-  point.z_top = section.z[top];
+/// Height of the top near a point of a section, by ever finer sections.
+double top_height(const Surface& rail, const Pose& X_RT, double x, const Section& section, std::size_t top) {
+  double height = section.z[top];
   LateralRange around{section.y[top > 0 ? top - 1 : top], section.y[std::min(top + 1, section.y.size() - 1)]};
   constexpr double kFlat = 1e-9;     // the height changes with the square of this [m]
   constexpr int kMostSections = 60;  // far from y = 0 the last bits of y are coarser than that
@@ -126,38 +122,39 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, dou
     for (std::size_t i = 1; i < fine.z.size(); ++i)
       if (!(fine.z[least] <= fine.z[i]) && !std::isnan(fine.z[i])) least = i;
     if (std::isnan(fine.z[least])) break;
-    point.z_top = std::min(point.z_top, fine.z[least]);
+    height = std::min(height, fine.z[least]);
     around = {fine.y[least > 0 ? least - 1 : 0], fine.y[std::min(least + 1, fine.y.size() - 1)]};
   }
+  return height;
+}
 
+}  // namespace
+
+GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, double x) {
+  // Frame with the rail's origin and the track's orientation; the rail is rolled by -cant in it.
+  const Pose X_RT{Vec3::Zero(), rotation_x(cant)};
+  const Section section = lateral_section(rail, X_RT, x, box_range(rail, X_RT), kScanStep);
+  if (std::ranges::all_of(section.z, [](double z) { return std::isnan(z); })) refuse_without_surface(rail, x);
+  const std::optional<RailHead> head =
+      head_of_rail(section.y, section.z, track.gauge_height, track.gauge_at_innermost,
+                   [&](std::size_t top) { return top_height(rail, X_RT, x, section, top); });
+  if (!head)
+    throw Error(ErrorKind::configuration, "no gauge point found on the rail profile", {},
+                "check the gauge height and the orientation of the rail profile");
   // Innermost point not lower than the gauge height: still going inward there, or the inner side itself.
-  const auto high_enough = [&](double z) { return z - point.z_top <= track.gauge_height; };
-  // what is high enough in one piece: the head, and a keeper beside the groove of a tramway rail
-  std::size_t first = section.z.size(), widest = 0;
-  for (std::size_t i = 0; i < section.z.size(); ++i) {
-    if (!high_enough(section.z[i])) continue;
-    const std::size_t from = i;
-    std::size_t last = i;  // a hole in the head does not end it
-    for (; i + 1 < section.z.size() && (high_enough(section.z[i + 1]) || std::isnan(section.z[i + 1])); ++i)
-      if (!std::isnan(section.z[i + 1])) last = i + 1;
-    if (first < section.z.size() && (track.gauge_at_innermost || last - from < widest)) continue;
-    first = from;
-    widest = last - from;
-  }
-  if (first < section.z.size()) {
-    point.y = section.y[first];
-    if (first > 0) point.y = boundary(rail, X_RT, x, section.y[first], section.y[first - 1], high_enough);
-    // an end that is as steep as the side of a head is one, seen from above
-    constexpr double kSteep = 5.0, kReached = 5e-5, kBeside = 5e-5;
-    const bool ends = first == 0 || std::isnan(section.z[first - 1]);
-    const Section end = lateral_section(rail, X_RT, x, {point.y + 0.1 * kBeside, point.y + 1.1 * kBeside}, kBeside);
-    const double depth = end.z.front() - point.z_top,
-                 slope = (end.z.front() - end.z.back()) / (end.y.back() - end.y.front());
-    point.seen = !ends || !(depth < track.gauge_height - kReached) || !(slope < kSteep);
-    return point;
-  }
-  throw Error(ErrorKind::configuration, "no gauge point found on the rail profile", {},
-              "check the gauge height and the orientation of the rail profile");
+  const auto high_enough = [&](double z) { return z - head->z_top <= track.gauge_height; };
+  GaugePoint point;
+  point.z_top = head->z_top;
+  point.y = section.y[head->first];
+  if (head->first > 0) point.y = boundary(rail, X_RT, x, point.y, section.y[head->first - 1], high_enough);
+  // an end that is as steep as the side of a head is one, seen from above
+  constexpr double kSteep = 5.0, kReached = 5e-5, kBeside = 5e-5;
+  const bool ends = head->first == 0 || std::isnan(section.z[head->first - 1]);
+  const Section end = lateral_section(rail, X_RT, x, {point.y + 0.1 * kBeside, point.y + 1.1 * kBeside}, kBeside);
+  const double depth = end.z.front() - point.z_top,
+               slope = (end.z.front() - end.z.back()) / (end.y.back() - end.y.front());
+  point.seen = !ends || !(depth < track.gauge_height - kReached) || !(slope < kSteep);
+  return point;
 }
 
 Placement place(const Geometry& geometry, const Problem& p) {

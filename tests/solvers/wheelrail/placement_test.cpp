@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/backends/analytic/sample.hpp"
+#include "treadmark/backends/spline/make.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::wheelrail {
@@ -43,6 +45,20 @@ TEST(Placement, CantTurnsTheHeadInwardAndKeepsTheTopAtTheTrackPlane) {
   }
   EXPECT_NEAR(top, 0.0, 1e-9);
   EXPECT_NEAR(gauge_y, 0.7175, 1.1e-5);
+}
+
+TEST(Placement, APlaceFarFromTheRailsOriginMakesNoDifference) {
+  const Profile near = analytic::sample_profile({"60E1"}, 0.2e-3);
+  Problem p;
+  p.track.cant = 1.0 / 40.0;
+  const GaugePoint there = gauge_point(*standard_geometry().rail, p.track.cant, p.track);
+  for (const double y : {-1.5, 0.75}) {
+    Profile far = near;
+    for (double& v : far.y) v += y;
+    const auto rail = spline::make_profile_surface(far, 0.0);
+    const GaugePoint here = gauge_point(*rail, p.track.cant, p.track);
+    EXPECT_NEAR(here.y - there.y, y * std::cos(p.track.cant), 2e-6);
+  }
 }
 
 TEST(Placement, AbsolutePlacementAndIrregularity) {
