@@ -55,16 +55,16 @@ Deviation deviation(const Profile& p, std::size_t first, std::size_t last) {
 
 }  // namespace
 
-std::optional<Lump> highest_lump(const Profile& p, double noise) {
+std::optional<Lump> highest_lump(const Profile& p, double noise, bool narrow) {
   constexpr std::size_t kMostPoints = 6;
-  constexpr std::size_t kFewPoints = 3;
-  constexpr double kWidest = 3e-3, kWidestOfFew = 4.5e-3, kLeast = 0.1e-3, kTimesNoise = 8.0, kTimesBeside = 6.0;
+  constexpr double kWidest = 3e-3, kWidestOfThree = 4.5e-3, kLeast = 0.1e-3, kTimesNoise = 8.0, kTimesBeside = 6.0;
   constexpr double kStraight = 0.35;  // [rad]
   std::optional<Lump> best;
   for (std::size_t first = kBeside; first + kBeside < p.y.size(); ++first)
     for (std::size_t last = first; last < first + kMostPoints && last + kBeside < p.y.size(); ++last) {
       const double width = std::hypot(p.y[last + 1] - p.y[first - 1], p.z[last + 1] - p.z[first - 1]);
-      if (width > (last - first < kFewPoints ? kWidestOfFew : kWidest)) break;
+      if (width > kWidestOfThree) break;
+      if (width > kWidest && (narrow || last - first != 2)) continue;
       const Deviation d = deviation(p, first, last);
       const double size = std::fabs(d.greatest);
       if (size < std::max({kLeast, kTimesNoise * noise, kTimesBeside * d.beside}) || d.turn > kStraight) continue;

@@ -16,7 +16,7 @@ struct Lump {
 };
 
 /// The highest one that is significant against the noise (standard deviation across the profile [m]) and more than
-/// 0.1 mm high, of one to six points and at most 3 mm wide (up to three points: 4.5 mm). Thread-safe.
-std::optional<Lump> highest_lump(const Profile& profile, double noise);
+/// 0.1 mm high, of one to six points and at most 3 mm wide (three points: 4.5 mm, unless `narrow`). Thread-safe.
+std::optional<Lump> highest_lump(const Profile& profile, double noise, bool narrow = false);
 
 }  // namespace treadmark::measured

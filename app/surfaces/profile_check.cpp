@@ -353,8 +353,8 @@ std::optional<io::ProfileRemark> doubt_of_section(const Profile& section, const 
   judge_against_nominal(sourced, expected, judged);
   if (!judged.remarks.empty()) return std::move(judged.remarks.front());
   const measured::PointNoise noise = measured::profile_noise(section);
-  const std::optional<measured::Lump> lump = measured::highest_lump(section, noise.across),
-                                      beside = measured::highest_lump(next, noise.across);
+  const std::optional<measured::Lump> lump = measured::highest_lump(section, noise.across, true),
+                                      beside = measured::highest_lump(next, noise.across, true);
   if (lump && beside && std::fabs(section.y[lump->first] - next.y[beside->first]) < kSamePlace)
     return io::ProfileRemark{
         "lump",

@@ -87,10 +87,23 @@ void filter(RawPoints& points, double near_distance, const ProfileOptions& optio
                 {points.file, 0, 0}, "check the points and the unit of length, or allow a larger share");
 }
 
+double extent_of(const std::vector<double>& values) {
+  const auto [least, most] = std::ranges::minmax(values);
+  return most - least;
+}
+
 void check_length(const RawPoints& points, Body body, double asked_scale) {
   const double length = profiles::total_length(points);
   if (length >= kShortest_mm && length <= kLongest_mm) return;
   const auto plausible = [](double l) { return l >= kShortest_mm && l <= kLongest_mm; };
+  const double across = std::hypot(extent_of(points.y), extent_of(points.z));
+  if (length > kLongest_mm && plausible(across))
+    throw Error(
+        ErrorKind::input_data,
+        fmt::format("the points do not lie in order: the way from one to the next is {:.4g} mm long in all, over "
+                    "{:.4g} mm",
+                    length, across),
+        {points.file, 0, 0}, "sort them along the profile; are there several profiles?");
   std::string advice = "check the points and the scale, which leads to mm";
   if (plausible(1e3 * length)) advice = "is the file in metres? use a scale of 1000";
   if (plausible(25.4 * length) && !plausible(1e3 * length)) advice = "is the file in inches? use a scale of 25.4";
@@ -106,6 +119,9 @@ void check_length(const RawPoints& points, Body body, double asked_scale) {
 void check_direction(const RawPoints& points, Body body) {
   const double change = points.y.back() - points.y.front();
   if (body == Body::rail ? change > 0.0 : change < 0.0) return;
+  if (extent_of(points.y) == 0.0)
+    throw Error(ErrorKind::input_data, "y is the same in all points", {points.file, 0, 0},
+                "which columns are y and z? name them in a line before");
   throw Error(ErrorKind::input_data,
               body == Body::rail ? "the points of a rail profile must run with increasing y"
                                  : "the points of a wheel profile must run with decreasing y",

@@ -88,16 +88,12 @@ Points whole_outline() {
   return joined(head, corners);
 }
 
-/// A head with a groove of 50 mm beside the side of great y, and a keeper beside that, so far below the top.
-Points with_keeper(double below) {
+/// A head with a groove of 50 mm beside its gauge side, and a keeper beside that.
+Points grooved() {
   const Points head = standard("60E1");
   const double y = -head.front().x(), wall = y + 50.0;
-  return joined(head, {{y, 45.0},
-                       {wall, 45.0},
-                       {wall, below + 4.0},
-                       {wall + 1.2, below + 1.2},
-                       {wall + 4.0, below},
-                       {wall + 22.0, below}});
+  return mirrored(
+      joined(head, {{y, 45.0}, {wall, 45.0}, {wall, 11.0}, {wall + 1.2, 8.2}, {wall + 4.0, 7.0}, {wall + 22.0, 7.0}}));
 }
 
 Points with_long_back() {
@@ -335,12 +331,7 @@ const std::vector<BaseShape>& base_shapes() {
                return Vec2(0.0, 0.5 * (1.0 - p.y() + std::hypot(p.y() - 1.0, 1.2)));
              });
            }),
-      rail(
-          "grooved", [] { return mirrored(with_keeper(7.0)); }, "60E1"),
-      rail(
-          "high keeper", [] { return mirrored(with_keeper(0.0)); }, "60E1"),
-      rail(
-          "outer keeper", [] { return with_keeper(0.0); }, "60E1"),
+      rail("grooved", grooved, "60E1"),
       rail(
           "top", [] { return kept(standard("60E1"), [](const Vec2& p) { return std::fabs(p.x()) <= 20.0; }); }, "60E1"),
       rail(

@@ -65,7 +65,7 @@ class Tab {
   }
 
   async waitForStep(step) {
-    await this.page.waitForFunction((k) => document.querySelector(".timeline-slider").valueAsNumber === k, step);
+    await this.page.waitForFunction((k) => document.querySelector(".timeline-slider").valueAsNumber === k, step, { polling: 50 });
   }
 
   async key(selector, key) {
