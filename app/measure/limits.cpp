@@ -108,8 +108,7 @@ std::string word_of(Verdict verdict) {
 Limits read_limits(const std::filesystem::path& file) {
   Limits limits;
   limits.file = file.filename().string();
-  for (const io::CaseEntry& entry :
-       io::parse_toml(io::profiles::read_text(file, "file of limits", {}), file.string())) {
+  for (const io::CaseEntry& entry : io::parse_toml(io::profiles::read_text(file, "limits", {}), file.string())) {
     if (entry.key == "wheel")
       limits.wheel = limit_table<WheelNumbers>(entry.value);
     else if (entry.key == "rail")

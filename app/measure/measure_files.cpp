@@ -520,7 +520,7 @@ std::vector<std::string> measured_names(const std::vector<std::string>& given, B
   for (const std::string& name : given) {
     if (name.starts_with('@')) {
       const fs::path list = name.substr(1);
-      std::string text = io::profiles::read_text(list, "list of files", {});
+      std::string text = io::profiles::read_text(list, "list", {});
       for (std::size_t start = 0; start < text.size();) {
         const std::size_t end = std::min(text.find('\n', start), text.size());
         std::string line = text.substr(start, end - start);

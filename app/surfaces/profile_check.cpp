@@ -18,6 +18,7 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -301,6 +302,8 @@ CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Bo
   for (const Body b : {Body::rail, Body::wheel}) {
     try {
       (b == Body::rail ? rail : wheel) = io::read_sourced_profile(file, b, options, {});
+    } catch (const MissingFile&) {
+      throw;
     } catch (const Error& error) {
       // a file that names its body tells more when it is read as that
       if (!trouble || trouble->message().find("profile is expected") != std::string::npos) trouble = error;

@@ -16,6 +16,7 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -197,6 +198,8 @@ CheckedProfile check_surface(const std::filesystem::path& file, std::optional<Bo
     const NaturalSurface rail = read_as(source, Body::rail);
     const Box3 box = rail.surface->bounds();
     if (std::max(std::fabs(box.min.z()), std::fabs(box.max.z())) < kAxleAbove) return described(source, rail, true);
+  } catch (const MissingFile&) {
+    throw;
   } catch (const Error& error) {
     if (io::is_mesh_file(file) && is_cloud_file(file) && error.message().find("triangles") != std::string::npos)
       return check_cloud(file);

@@ -43,6 +43,14 @@ void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-v
     raise("InputError", wrong.what, {}, "");
   } catch (const Cancelled& end) {
     raise("Cancelled", end.what(), {}, "");
+  } catch (const std::filesystem::filesystem_error& error) {
+    const py::object made = py::reinterpret_borrow<py::object>(PyExc_OSError)(
+        error.code().value(), error.code().message(), error.path1().string());
+    PyErr_SetObject(py::type::handle_of(made).ptr(), made.ptr());
+  } catch (const py::builtin_exception&) {
+    throw;  // Python's own
+  } catch (const std::runtime_error& error) {
+    raise("TreadmarkError", error.what(), {}, "");
   }
 }
 

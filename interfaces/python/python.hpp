@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "treadmark/app/surfaces/surface_store.hpp"
@@ -193,12 +194,16 @@ struct Source {
 /// Errors: Error(configuration) for other kinds of files.
 io::CaseFile cases_of(const Source& source);
 
+/// What differs between cases: a name and a value a case. Numbers are in SI by their names, else TOML by the key.
+using Varied = std::vector<std::pair<std::string, std::vector<std::variant<double, std::string>>>>;
+
 /// A run, for files and pictures of it.
 struct Run {
   std::shared_ptr<io::RunResult> result;
   Strings notes;
   /// What it was made from, until surfaces for pictures are sampled; null: they are as they are.
   std::shared_ptr<std::pair<io::CaseFile, app::SurfaceStore>> made_from;
+  Varied varied = {};
 
   /// The result with the surfaces that pictures show.
   io::RunResult& whole();

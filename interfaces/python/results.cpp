@@ -185,6 +185,7 @@ void add_results(py::module_& module) {
           })
       .def_property_readonly("head", [](const Run& run) { return head_of(*run.result); })
       .def_property_readonly("notes", [](const Run& run) { return run.notes; })
+      .def_property_readonly("varied", [](const Run& run) { return run.varied; })
       .def("cases", [](const Run& run) { return to_python(run.result, run.result->cases); })
       .def("json", [](const Run& run) { return io::to_json(*run.result); })
       .def("summary",

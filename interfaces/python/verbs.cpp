@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,7 +17,9 @@
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/interfaces/c/numbers.hpp"
 #include "treadmark/interfaces/python/python.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
@@ -35,6 +39,34 @@ struct Held {
   std::shared_ptr<T> content;
 };
 
+/// Of the cases of a file that have results.
+Varied varied_of(const io::CaseFile& file, const io::RunResult& result) {
+  std::vector<const io::Case*> cases;
+  for (const io::CaseResult& one : result.cases)
+    if (const auto found = std::ranges::find(file.cases, one.number, &io::Case::number); found != file.cases.end())
+      cases.push_back(&*found);
+  Varied varied;
+  if (cases.empty() || cases.size() != result.cases.size()) return varied;
+  const auto add = [&](const std::string& name, io::KeyScope scope, const auto& value_of) {
+    if (scope != io::KeyScope::any && static_cast<std::size_t>(scope) != 1 + cases.front()->content.index()) return;
+    Varied::value_type row{name, {}};
+    for (const io::Case* one : cases) {
+      if (one->content.index() != cases.front()->content.index()) return;
+      row.second.emplace_back(value_of(*one));
+    }
+    if (std::ranges::adjacent_find(row.second, std::not_equal_to<>()) != row.second.end())
+      varied.push_back(std::move(row));
+  };
+  for (const c::CaseNumber& number : c::case_numbers())
+    if (number.key->get)
+      add(number.name, number.key->info.scope, [&](const io::Case& one) { return number.key->get(one) * number.si; });
+  for (const io::CaseKey& key : io::case_keys())
+    if (!key.get && (key.written || key.text))
+      add(key.info.path, key.info.scope,
+          [&](const io::Case& one) { return key.written ? key.written(one, {}) : key.text(one); });
+  return varied;
+}
+
 Run run_cases(const Source& source, const py::object& progress, int threads) {
   Run run;
   with_progress(progress, threads, [&](const Progress& report) {
@@ -45,6 +77,7 @@ Run run_cases(const Source& source, const py::object& progress, int threads) {
     run.result->settings = source.overrides;
     run.notes = file.notes;
     for (std::string& doubt : app::profile_doubts(file)) run.notes.push_back(std::move(doubt));
+    run.varied = varied_of(file, *run.result);
     return true;
   });
   return run;

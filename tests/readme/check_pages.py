@@ -49,8 +49,7 @@ def wrong_words(name, text, others):
 
 
 def wrong_versions(root):
-    patterns = {"CMakeLists.txt": r"project\(Treadmark VERSION ([\d.]+)", "CITATION.cff": r"^version: ([\d.]+)", "CHANGELOG.md": r"^## ([\d.]+)",
-                "interfaces/python/pyproject.toml": r'^version = "([\d.]+)"'}
+    patterns = {"CMakeLists.txt": r"project\(Treadmark VERSION ([\d.]+)", "CITATION.cff": r"^version: ([\d.]+)", "CHANGELOG.md": r"^## ([\d.]+)"}
     found = {name: re.search(pattern, (root / name).read_text(), re.MULTILINE) for name, pattern in patterns.items()}
     versions = {name: match[1] if match else "none" for name, match in found.items()}
     if len(set(versions.values())) != 1:

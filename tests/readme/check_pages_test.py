@@ -13,7 +13,6 @@ CLEAN = {
     "README.md": "# Treadmark\n\n```\nbash scripts/main-job.sh\nbash scripts/test.sh\n```\n",
     "CMakeLists.txt": "project(Treadmark VERSION 0.2.0 LANGUAGES CXX)\n",
     "CITATION.cff": "version: 0.2.0\ndate-released: 2026-01-01\n",
-    "interfaces/python/pyproject.toml": 'version = "0.2.0"\n',
     "CHANGELOG.md": "# Changelog\n\n## 0.2.0 (2026-01-01)\n\n### Added\n\n- Scans.\n\n## 0.1.0\n\n- First\n  version.\n",
     "core/README.md": "",
     "docs/index.md": PAGE + "[scans](scans.md) [glossary](glossary.md) [C](c.md)\n",

@@ -7,8 +7,11 @@ All numbers are in SI units (m, N, Pa, rad, s); axes are x along the track, y to
 ``geometry``, ``measure``, ``profiles``. Single instants: ``Surface``, ``Pair``, ``Problem``.
 The handbook is docs/python.md.
 """
+from __future__ import annotations
+
 from . import _treadmark
 from ._errors import Cancelled, ConvergenceWarning, InputError, MissingFileError, NumericalError, TreadmarkError
+from ._inputs import checked as _checked
 from ._records import CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Grid, Patch, Quantity, Remark, Result
 from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, LimitCheck, Measure, Measured, SecondContact, ShiftLimit, geometry,
                         measure, measure_files, measures_to_pandas, profiles)
@@ -31,9 +34,10 @@ def parts() -> dict[str, bool]:
     return _treadmark.parts()
 
 
+@_checked
 def set_threads(count: int) -> None:
     """Threads of all calls of this process, at most; 0 = all of the machine. Results do not depend on it."""
     _treadmark.set_threads(count)
 
 
-__all__ = [name for name in dir() if not name.startswith("_")] + ["__version__"]
+__all__ = [name for name in dir() if not name.startswith("_") and name != "annotations"] + ["__version__"]

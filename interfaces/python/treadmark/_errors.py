@@ -10,10 +10,18 @@ import re
 #: What the program calls otherwise.
 _WORDS = (("--nominal-radius in mm", "nominal_radius in m"), ("--body wheel or --body rail", 'body="wheel" or body="rail"'),
           ("treadmark list profiles", "treadmark.profiles()"), ("treadmark list backends", "treadmark.backends()"))
+#: What the folder of files begins with that are written for arrays.
+ARRAYS = "treadmark-arrays-"
+
+
+def without_folder(text: str) -> str:
+    """The same without the folder of files that are written for arrays."""
+    return re.sub(rf"[^\s'\"]*{ARRAYS}\w+/\d+/", "", text)
 
 
 def _in_python(text: str) -> str:
     """The same with the names that functions of this package have for options and verbs of the program."""
+    text = re.sub(r"^override '.*?': ", "", text)
     for theirs, ours in _WORDS:
         text = text.replace(theirs, ours)
     return re.sub(r"(?<![\w-])--([a-z][a-z-]*)", lambda option: option[1].replace("-", "_"), text)
@@ -26,7 +34,7 @@ class TreadmarkError(Exception):
     """
 
     def __init__(self, message: str, file: str = "", line: int = 0, column: int = 0, advice: str = "") -> None:
-        message, advice = _in_python(message), _in_python(advice)
+        message, file, advice = _in_python(without_folder(message)), without_folder(file), _in_python(without_folder(advice))
         if pathlib.PurePath(file).name == "dictionary":  # of which nobody sees lines
             file, line, column = "", 0, 0
         super().__init__(message, file, line, column, advice)

@@ -3,24 +3,71 @@
 """Results as plain records. Their numbers and fields are those of the tables of the library: what is new there is here, too."""
 from __future__ import annotations
 
+import copy
 import dataclasses
 import html
 import json
 import math
 import pathlib
-from typing import TYPE_CHECKING, Any, Callable, ClassVar, Mapping, NamedTuple
+from typing import TYPE_CHECKING, Any, Callable, ClassVar, Iterator, Mapping, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _treadmark
-from ._inputs import Path
+from ._errors import without_folder
+from ._inputs import Path, checked
+from ._others import needed
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
 Array = npt.NDArray[np.float64]
+#: Points (n, 3) [m], faces of their indices (m, 3 or 4), and, where there are fields, "cell_data" by name, a value a face.
+Mesh = dict[str, Any]
+
+
+class Said:
+    """What is left of a result in C++ when it is pickled: some of what it says."""
+
+    def __init__(self, said: Mapping[str, Any]) -> None:
+        self._said = said
+
+    def __getattr__(self, name: str) -> Callable[[], Any]:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name not in self._said:
+            raise ValueError("a result that was pickled, read from JSON or made by a pair has numbers and fields only: write it where it was made")
+        return lambda: self._said[name]
+
+
+class Held:
+    """A result that something in C++ stands behind. Copies share that, pickles keep what it says."""
+
+    _held: Any
+    #: What of it pickles keep.
+    _kept: ClassVar[tuple[str, ...]] = ("json", "summary")
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_held": Said({name: getattr(self._held, name)() for name in self._kept if hasattr(self._held, name)}
+                                               if self._is_whole() else getattr(self._held, "_said", {}))}
+
+    def __copy__(self) -> Any:
+        made: Any = object.__new__(type(self))
+        made.__dict__.update(self.__dict__)
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Any:
+        made = memo[id(self)] = copy.copy(self)
+        made.__dict__.update({name: copy.deepcopy(value, memo) for name, value in self.__dict__.items() if name != "_held"})
+        return made
+
+    def _is_whole(self) -> bool:
+        return not isinstance(self._held, (Said, type(None)))
+
+    def _whole(self) -> Any:
+        return self._held if self._is_whole() else Said({}).whole()
 
 
 class Quantity(NamedTuple):
@@ -147,21 +194,35 @@ class Patch(_Named):
 
     def to_xarray(self) -> "xarray.Dataset":
         """All fields over (s, x), with units and meanings, and the numbers as attributes. Needs xarray."""
-        import xarray
-
         variables = {name: (("s", "x"), values, {"units": FIELDS[name].unit, "long_name": FIELDS[name].meaning}) for name, values in self.fields.items()}
         coordinates = {"s": ("s", self.s, {"units": "m"}), "x": ("x", self.x, {"units": "m"})}
-        return xarray.Dataset(variables, coordinates, self.numbers)
+        made: "xarray.Dataset" = needed("xarray", "to_xarray").Dataset(variables, coordinates, self.numbers)
+        return made
+
+    @checked
+    def plot(self, field: str = "pressure", **options: Any) -> Any:
+        """A field over (x, s), by xarray with its options (``ax``, ``cmap``); gives the axes of matplotlib back. Needs both."""
+        needed("matplotlib", "plot")
+        return self.to_xarray()[field].plot(**options).axes
+
+    def to_mesh(self) -> Mesh:
+        """Its elements in track axes with all fields: "points" (n, 3) [m], "faces" (m, 4), "cell_data" by name."""
+        nx, ny, x0, y0, dx, dy = self.grid
+        x, s = np.meshgrid(x0 + dx * (np.arange(nx + 1) - 0.5), y0 + dy * (np.arange(ny + 1) - 0.5))
+        points = self.origin + np.stack([x.ravel(), s.ravel(), np.zeros(x.size)], axis=1) @ self.rotation.T
+        first = (np.arange(ny)[:, None] * (nx + 1) + np.arange(nx)).reshape(-1, 1)
+        return {"points": points, "faces": first + [0, 1, nx + 2, nx + 1], "cell_data": {name: values.ravel() for name, values in self.fields.items()}}
 
 
 @dataclasses.dataclass(eq=False)
-class Case(_Named):
+class Case(Held, _Named):
     """What came out of a case: a wheel on a rail at one instant, or one patch.
 
     ``numbers``: by name in SI (``treadmark.CASE_QUANTITIES``), also as attributes: ``case.z`` for ``case.numbers["wheelset.z"]``.
     """
 
     _short: ClassVar[Mapping[str, str]] = _last_parts(CASE_QUANTITIES)
+    _kept = ("summary",)
 
     numbers: dict[str, float]
     number: int = 1  #: in its input, from 1
@@ -171,14 +232,11 @@ class Case(_Named):
     seconds: float = 0.0
     patches: list[Patch] = dataclasses.field(default_factory=list)
     force_iterations: list[tuple[float, float]] = dataclasses.field(default_factory=list)  #: (z [m], vertical force [N])
-    _handle: _treadmark.Solved | None = dataclasses.field(default=None, repr=False)
+    _held: Any = dataclasses.field(default=None, repr=False)
 
     def __repr__(self) -> str:
         count = len(self.patches)
         return f"<{type(self).__name__} {self.number}: {self.status}, {count} patch{'' if count == 1 else 'es'}, force {self.force} N>"
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_handle": None}
 
     @property
     def ok(self) -> bool:
@@ -209,15 +267,10 @@ class Case(_Named):
 
     def summary(self) -> str:
         """As the program prints it."""
-        return self._solved().summary()
-
-    def _solved(self) -> _treadmark.Solved:
-        if self._handle is None:
-            raise ValueError("a result that was pickled or read from JSON has numbers and fields only")
-        return self._handle
+        return str((self._held or self._whole()).summary())
 
     def _repr_svg_(self) -> str | None:
-        return self._handle.run().svg() if self._handle is not None and any(p.fields for p in self.patches) else None
+        return self._held.run().svg() if self._is_whole() and any(p.fields for p in self.patches) else None
 
 
 #: What Pair.solve gives.
@@ -232,14 +285,12 @@ def patch_of(raw: dict[str, Any]) -> Patch:
 def case_of(raw: dict[str, Any]) -> Case:
     raw["number"] = raw["number"] or 1  # of a pair's solution there is none
     raw["patches"] = [patch_of(patch) for patch in raw["patches"]]
-    raw["remarks"] = [Remark(*remark) for remark in raw["remarks"]]
-    return Case(**raw)
+    raw["remarks"] = [Remark(name, without_folder(text), *rest) for name, text, *rest in raw["remarks"]]
+    return Case(_held=raw.pop("_handle"), **raw)
 
 
-def frame(rows: list[dict[str, Any]]) -> "pandas.DataFrame":
-    import pandas
-
-    return pandas.DataFrame(rows)
+def frame(rows: Any) -> "pandas.DataFrame":
+    return needed("pandas", "to_pandas").DataFrame(rows)
 
 
 def html_table(rows: list[dict[str, Any]], caption: str = "") -> str:
@@ -259,8 +310,15 @@ def _write_text(file: Path, text: str) -> None:
     pathlib.Path(file).write_text(text, encoding="utf-8")
 
 
+def _moved(cases: list[Case]) -> dict[str, list[Any]]:
+    """What differs between the positions of cases of which nothing else is known any more."""
+    found = {name: [case.numbers.get(name, math.nan) for case in cases] for name in CASE_QUANTITIES if name.startswith("wheelset.") and name != "wheelset.z"}
+    return {name: values for name, values in found.items() if any(value != values[0] for value in values)}
+
+
+@checked
 @dataclasses.dataclass(eq=False)
-class Result:
+class Result(Held):
     """All cases of a run."""
 
     cases: list[Case]
@@ -277,7 +335,9 @@ class Result:
     cases_total: int = 0
     surfaces: list[dict[str, Any]] = dataclasses.field(default_factory=list)  #: backends, resolutions [m], memory
     notes: list[str] = dataclasses.field(default_factory=list)
-    _run: _treadmark.Run | None = dataclasses.field(default=None, repr=False)
+    #: What differs between the cases, a value a case: numbers by their names in SI ("wheelset.y"), other keys as in files.
+    varied: dict[str, list[Any]] = dataclasses.field(default_factory=dict)
+    _held: Any = dataclasses.field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.cases)
@@ -285,26 +345,26 @@ class Result:
     def __getitem__(self, index: int) -> Case:
         return self.cases[index]
 
+    def __iter__(self) -> Iterator[Case]:
+        return iter(self.cases)
+
     def __repr__(self) -> str:
         bad = [case.number for case in self.cases if not case.ok]
-        return f"<Result of {self.input_file or 'text'}: {len(self.cases)} of {self.cases_total} cases" + (f", not ok: {bad}>" if bad else ">")
+        return f"<Result of {self.input_file or 'problems'}: {len(self.cases)} of {self.cases_total} cases" + (f", not ok: {bad}>" if bad else ">")
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_run": None}
-
-    def _whole(self) -> _treadmark.Run:
-        if self._run is None:
-            raise ValueError("a result that was pickled or read from JSON has numbers and fields only: write it where it was made")
-        return self._run
+    def _head(self, index: int) -> dict[str, Any]:
+        case = self.cases[index]
+        return {"case": case.number, "status": case.status, **{name: values[index] for name, values in self.varied.items()}}
 
     def rows(self) -> list[dict[str, Any]]:
-        """A dictionary a patch: case, status, patch (from 1), then its numbers in SI by their names; NaN where one was not computed."""
-        return [{"case": case.number, "status": case.status, "patch": k + 1, **{name: patch.numbers.get(name, math.nan) for name in PATCH_QUANTITIES}}
-                for case in self.cases for k, patch in enumerate(case.patches)]
+        """A dictionary a patch: case, status, what was varied, patch (from 1), then its numbers in SI by their names; NaN where one was not
+        computed."""
+        return [{**self._head(i), "patch": k + 1, **{name: patch.numbers.get(name, math.nan) for name in PATCH_QUANTITIES}}
+                for i, case in enumerate(self.cases) for k, patch in enumerate(case.patches)]
 
     def case_rows(self) -> list[dict[str, Any]]:
-        """A dictionary a case: its number, status and numbers in SI."""
-        return [{"case": case.number, "status": case.status, **{name: case.numbers.get(name, math.nan) for name in CASE_QUANTITIES}} for case in self.cases]
+        """A dictionary a case: its number, status, what was varied and numbers in SI."""
+        return [{**self._head(i), **{name: case.numbers.get(name, math.nan) for name in CASE_QUANTITIES}} for i, case in enumerate(self.cases)]
 
     def to_pandas(self, per: str = "patch") -> "pandas.DataFrame":
         """A row a patch (or a case: per="case"), a column a number in SI. Needs pandas."""
@@ -313,19 +373,27 @@ class Result:
         return frame(self.rows() if per == "patch" else self.case_rows())
 
     def to_xarray(self, case: int = 1, patch: int = 1) -> "xarray.Dataset":
-        """Fields of a patch, counted from 1; see Patch.to_xarray."""
-        found = next((c for c in self.cases if c.number == case), None)
-        if found is None or not 1 <= patch <= len(found.patches):
+        """Fields of a patch, counted from 1, as Patch.to_xarray has them, with the case and what was varied as coordinates: those of several
+        cases can be put together by xarray.concat. Needs xarray."""
+        index = next((i for i, c in enumerate(self.cases) if c.number == case), None)
+        if index is None or not 1 <= patch <= len(self.cases[index].patches):
             raise IndexError(f"there is no patch {patch} of a case {case}")
-        return found.patches[patch - 1].to_xarray()
+        return self.cases[index].patches[patch - 1].to_xarray().assign_coords({**self._head(index), "patch": patch})
+
+    def plot(self, y: str = "pmax", x: str | None = None, **options: Any) -> Any:
+        """A number of the patches or cases, by its name or the last part of it, over one that was varied (None: the first, or the case), by pandas with
+        its options; gives the axes of matplotlib back. Needs both."""
+        needed("matplotlib", "plot")
+        per, full = ("patch", Patch._short[y]) if y in Patch._short else ("case", Case._short[y])
+        return self.to_pandas(per).plot(x or next(iter(self.varied), "case"), full, **{"style": "o", **options})
 
     def to_json(self) -> str:
         """The text of result.json, as ``treadmark run --json`` writes it."""
-        return self._whole().json()
+        return str((self._held or self._whole()).json())
 
     def summary(self) -> str:
         """Cases and patches as text, as the program prints them."""
-        return self._whole().summary()
+        return "".join(case.summary() + "\n" for case in self.cases)
 
     def write(self, file: Path) -> None:
         """Writes .json (numbers), .h5 (all fields), .html (a report), .svg (pressures), or, to a name without an ending, a folder with all
@@ -348,19 +416,21 @@ class Result:
 
     def svg(self) -> str:
         """Pressures of all cases as a picture."""
-        return self._whole().svg()
+        return str(self._whole().svg())
 
     def _repr_svg_(self) -> str | None:
-        return self.svg() if self._run is not None and any(p.fields for c in self.cases for p in c.patches) else None
+        return self.svg() if self._is_whole() and any(p.fields for c in self.cases for p in c.patches) else None
 
     def _repr_html_(self) -> str:
-        names = ("case", "status", "patch", "fn", "fx", "fs", "pmax", "approach", "reference.y_tr")
+        names = ("case", "status", *self.varied, "patch", "fn", "fx", "fs", "pmax", "approach", "reference.y_tr")
         rows = [{name: row[name] for name in names} for row in self.rows()[:50]]
         return (self._repr_svg_() or "") + html_table(rows, f"{self!r}, SI units")
 
 
 def result_of(run: _treadmark.Run) -> Result:
-    return Result(cases=[case_of(raw) for raw in run.cases()], notes=run.notes, _run=run, **run.head)
+    cases = [case_of(raw) for raw in run.cases()]
+    varied = {name: [value.strip("'\"") if isinstance(value, str) else value for value in values] for name, values in run.varied}
+    return Result(cases, notes=[without_folder(note) for note in run.notes], varied=varied or _moved(cases), _held=run, **run.head)
 
 
 def result_of_json(text: str) -> Result:
@@ -386,4 +456,5 @@ def result_of_json(text: str) -> Result:
         cases.append(Case(numbers(CASE_QUANTITIES, c), c["case"], c["status"], c.get("message", ""), remarks, c.get("seconds") or 0.0, patches))
     made, given = document["treadmark"], document["input"]
     return Result(cases, made["version"], made["git"], made["threads"], made["seconds"], given["file"], given["sha256"],
-                  [(g["file"], g["sha256"]) for g in given.get("geometry", [])], document["settings"], document["complete"], document["cases_total"])
+                  given.get("title", ""), [(g["file"], g["sha256"]) for g in given.get("geometry", [])], settings=document["settings"],
+                  complete=document["complete"], cases_total=document["cases_total"], varied=_moved(cases))

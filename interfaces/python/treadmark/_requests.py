@@ -7,14 +7,16 @@ import json
 import math
 import os
 import pathlib
-from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple, Sequence, Union
+from typing import TYPE_CHECKING, Annotated, Any, Iterable, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
 from . import _treadmark
-from ._errors import InputError
-from ._inputs import Changes, Path, assignments, toml_value
+from ._errors import InputError, without_folder
+from ._inputs import Changes, Metre, Newton, Path, Radian, Shape, assignments, checked, file_of, is_array, toml_value
+from ._others import Drawn
 from ._records import Array, frame, html_table
+from ._surfaces import radius_of
 from ._verbs import Progress, _Document, _Text
 
 if TYPE_CHECKING:
@@ -59,13 +61,12 @@ def _settings(verb: str, values: Mapping[str, Any], changes: Changes = None) -> 
         if value is None:
             continue
         key, factor = _keys[verb][name]
-        if isinstance(value, Mapping):
-            raise TypeError(f"{name} cannot be a dictionary: name a file")
-        if factor != 1.0 and not isinstance(value, (str, os.PathLike)):
-            try:
-                value = np.asarray(value, dtype=np.float64) / factor
-            except (TypeError, ValueError) as error:
-                raise InputError(f"{name} must be numbers: {error}") from None
+        if name == "nominal_radius":
+            radius_of(value)
+        if is_array(value):
+            value = file_of(value, name)
+        elif factor != 1.0 and not isinstance(value, str):
+            value = np.asarray(value, dtype=np.float64) / factor
         made.append(f"{key}={toml_value(value)}")
     return made + assignments(changes)
 
@@ -125,7 +126,8 @@ class GaugeMap(NamedTuple):
     reasons: list[str]
 
 
-class Geometry(_Document):
+@checked
+class Geometry(_Document, Drawn):
     """How a wheelset sits on its track at every shift, without forces.
 
     ``numbers``: what is one number, by its name in geometry.json without the unit, in SI ("track.gauge", "wheelset.active_faces",
@@ -136,9 +138,8 @@ class Geometry(_Document):
 
     def __init__(self, held: _treadmark.Geometry) -> None:
         self._held = held
-        self._text = held.json()
-        g = json.loads(self._text)["geometry"]
-        self.notes: list[str] = held.notes  #: warnings, about profile files too
+        g = self.document["geometry"]
+        self.notes = [without_folder(note) for note in held.notes]  #: warnings, about profile files too
         self.functions: dict[str, Array] = {}
         self.units: dict[str, str] = {}  #: of the functions
         self.numbers: dict[str, float] = {}
@@ -195,13 +196,6 @@ class Geometry(_Document):
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._short]
 
-    def __getstate__(self) -> dict[str, Any]:
-        raise TypeError("the geometry of a wheelset cannot be pickled: keep its document")
-
-    def to_json(self) -> str:
-        """The text of geometry.json, as ``treadmark geometry --json`` writes it."""
-        return self._text
-
     @property
     def equilibrium(self) -> float:
         """The shift with equal rolling radii [m]; NaN where there is none: reasons["equilibrium"]."""
@@ -209,28 +203,24 @@ class Geometry(_Document):
 
     def summary(self) -> str:
         """As the program prints it."""
-        return self._whole().summary()
+        return str(self._held.summary())
 
     def to_pandas(self) -> "pandas.DataFrame":
         """The functions, a row a shift, in SI. Needs pandas."""
-        import pandas
+        return frame(self.functions)
 
-        return pandas.DataFrame(self.functions)
+    def _axes(self) -> tuple[str, str]:
+        return "y", "delta_r"
 
     def svg(self, what: str = "charts") -> str:
         """A picture: "charts" over the shift and of the conicity, "points" in contact, or "gauges" where they were asked for."""
         if what not in ("charts", "points", "gauges") or what == "gauges" and self.gauges is None:
             raise ValueError('what must be "charts", "points" or, where gauges were asked for, "gauges"')
-        text: str = getattr(self._whole(), what + "_svg")()
-        return text
+        return str(getattr(self._held, what + "_svg")())
 
     def report(self, file: Path) -> None:
         """The report of ``treadmark geometry --report``: one HTML file with a slider over the shift."""
         _treadmark.report_geometry(self._whole(), pathlib.Path(file))
-
-    def _whole(self) -> _treadmark.Geometry:
-        held: _treadmark.Geometry = self._held
-        return held
 
     def __repr__(self) -> str:
         profiles = self.document["geometry"]["profiles"]
@@ -246,17 +236,19 @@ class Geometry(_Document):
         return self.svg() + html_table(rows, f"{self!r}, SI units")
 
 
-def geometry(wheel: Path | None = None, rail: Path | None = None, *, wheel_left: Path | None = None, rail_left: Path | None = None,
-             new_wheel: Path | None = None, new_rail: Path | None = None, case: Path | None = None, diameter: float | None = None, diameter_left: float | None = None, gauge: float | None = None,
-             gauge_height: float | None = None, cant: str | float | None = None, rail_origins: float | None = None,
-             wheel_origins: float | None = None, amplitudes: Sequence[float] | str | None = None, amplitude: float | None = None,
-             gauges: Sequence[float] | str | None = None, roll: str | None = None, axle_load: float | None = None, yaw: float | None = None,
-             step: float | None = None, second: float | None = None, pitch: float | None = None, position: float | None = None,
-             scale: float | None = None, backend: str | None = None, resolution: float | None = None, set: Changes = None,
+@checked
+def geometry(wheel: Shape | None = None, rail: Shape | None = None, *, wheel_left: Shape | None = None, rail_left: Shape | None = None,
+             new_wheel: Shape | None = None, new_rail: Shape | None = None, case: Path | None = None, diameter: Metre | None = None,
+             diameter_left: Metre | None = None, gauge: Metre | None = None, gauge_height: Metre | None = None, cant: str | float | None = None,
+             rail_origins: Metre | None = None, wheel_origins: Metre | None = None, amplitudes: Sequence[Metre] | str | None = None,
+             amplitude: Metre | None = None, gauges: Sequence[Metre] | str | None = None, roll: str | None = None,
+             axle_load: Newton | None = None, yaw: Radian | None = None, step: Metre | None = None, second: Metre | None = None,
+             pitch: Radian | None = None, position: Metre | None = None, scale: float | None = None, backend: str | None = None,
+             resolution: Metre | None = None, set: Changes = None,
              progress: Progress = None, threads: int = 0) -> Geometry:
     """Contact of a wheelset with its rails at every lateral shift, without forces, and its equivalent conicity, as ``treadmark geometry``.
 
-    wheel, rail: files or names of ``profiles()``, of both sides or of the right one; left ones as for the right-hand side; new_wheel, new_rail:
+    wheel, rail: files, arrays (n, 2) of y and z [m], or names of ``profiles()``, of both sides or of the right one; left ones as for the right-hand side; new_wheel, new_rail:
     in place of both sides, for the effect of wear (``document``, "with_new"). case: a case
     file, whose wheel, rail and track hold where nothing else is given; set: changes of its keys. diameter [m]: at the tape lines, 0.92 unless
     given. gauge [m] (down to gauge_height [m] below the rails' tops) with cant ("1:40", or its tangent), or rail_origins [m]: distance of
@@ -298,6 +290,7 @@ class LimitCheck(NamedTuple):
     sure: bool
 
 
+@checked
 class Measured(_Text):
     """What was measured of a wheel or rail.
 
@@ -306,9 +299,8 @@ class Measured(_Text):
     orders, roughness, and numbers over the position. Can be pickled; one that was cannot write reports any more.
     """
 
-    def __init__(self, held: _treadmark.Measured | None, text: str | None = None) -> None:
+    def __init__(self, held: _treadmark.Measured) -> None:
         self._held = held
-        self._text = held.json() if held is not None else text or ""
         d = self.document
         self.file: str = d["file"]
         self.body: str = d["body"]
@@ -331,22 +323,9 @@ class Measured(_Text):
             value, width = _number(row["value"], factor), _number(row["uncertainty"], factor)
             self.limits.append(LimitCheck(name, value, width, low, high, row["status"], row["sure"]))
 
-    def __reduce__(self) -> Any:
-        return Measured, (None, self._text)
-
-    def to_json(self) -> str:
-        """The text that ``treadmark measure --json`` writes."""
-        return self._text
-
-    def _whole(self) -> _treadmark.Measured:
-        if self._held is None:
-            raise ValueError("measures that were pickled have numbers only")
-        held: _treadmark.Measured = self._held
-        return held
-
     def summary(self) -> str:
         """The table that the program prints; of a file that failed, why."""
-        return self.error or self._whole().summary()
+        return self.error or without_folder(self._held.summary())
 
     def report(self, file: Path) -> None:
         """The report of ``treadmark measure --report``: one HTML file."""
@@ -369,11 +348,12 @@ def _measured_in(key: str) -> tuple[str, float, str]:
     return name, factor, unit or ("%" if key.endswith("_percent") else "dB" if key.endswith("_db") else "")
 
 
-def measure(body: str, file: Path, *, nominal: Path | None = None, nominal_radius: float | None = None, limits: Path | None = None,
-            alignment: str | None = None, mate: Path | None = None, as_in_file: bool = False, stations: int = 36, line: float = 0.0,
-            line_step: float = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None, threads: int = 0) -> Measured:
+@checked
+def measure(body: str, file: Shape, *, nominal: Shape | None = None, nominal_radius: Metre | None = None, limits: Path | None = None,
+            alignment: str | None = None, mate: Shape | None = None, as_in_file: bool = False, stations: int = 36, line: Metre = 0.0,
+            line_step: Metre = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None, threads: int = 0) -> Measured:
     """Measures a "wheel" or "rail" from a profile, slices, triangles, offsets, a scan, a case file or a name of ``profiles()``, as
-    ``treadmark measure`` does.
+    ``treadmark measure`` does; profiles and scans may be arrays [m] of the shapes (n, 2) and (n, 3), too.
 
     nominal: what wear is counted against, a name of ``profiles()`` or a file; nominal_radius [m]: of a wheel, where the file does not have it;
     limits: a TOML file; alignment: of a rail upon its nominal section, "unworn", "top" or "none"; mate: the other wheel of the axle, in the
@@ -386,23 +366,25 @@ def measure(body: str, file: Path, *, nominal: Path | None = None, nominal_radiu
     28.0
     """
     given = {name: value for name, value in locals().items() if name in _keys["measure"]}
-    return Measured(_treadmark.measure(body, os.fspath(file), _settings("measure", given, set), progress, threads))
+    return Measured(_treadmark.measure(body, file_of(file, body), _settings("measure", given, set), progress, threads))
 
 
-def measure_files(body: str, files: Union[Path, Iterable[Path]], *, nominal: Path | None = None, nominal_radius: float | None = None,
-                  limits: Path | None = None, alignment: str | None = None, as_in_file: bool = False, stations: int = 36, line: float = 0.0,
-                  line_step: float = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None,
+@checked
+def measure_files(body: str, files: Path | Iterable[Shape], *, nominal: Shape | None = None, nominal_radius: Metre | None = None,
+                  limits: Path | None = None, alignment: str | None = None, as_in_file: bool = False, stations: int = 36, line: Metre = 0.0,
+                  line_step: Metre = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None,
                   threads: int = 0) -> list[Measured]:
     """The same of many on all cores, in their order. Folders stand for the files in them, "@LIST" for those that a text file names.
 
     What fails has its ``error`` and does not stop the rest, also what was not measured before progress returned False.
     """
     given = {name: value for name, value in locals().items() if name in _keys["measure"]}
-    named = [files] if isinstance(files, (str, os.PathLike)) else list(files)
+    named: list[Any] = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     settings = _settings("measure", given, set)
-    return [Measured(held) for held in _treadmark.measure_files(body, [os.fspath(file) for file in named], settings, progress, threads)]
+    return [Measured(held) for held in _treadmark.measure_files(body, [file_of(file, body) for file in named], settings, progress, threads)]
 
 
+@checked
 def measures_to_pandas(measured: Iterable[Measured]) -> "pandas.DataFrame":
     """A row a file: its name, verdict and error, and all numbers in SI. Needs pandas."""
     return frame([{"file": m.file, "verdict": m.verdict, "error": m.error, **{name: number.value for name, number in m.numbers.items()}}

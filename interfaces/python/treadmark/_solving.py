@@ -6,14 +6,14 @@ from __future__ import annotations
 import functools
 import threading
 import warnings
-from typing import Any, Mapping, Sequence
+from typing import Any, Mapping
 
 import numpy as np
 
 from . import _treadmark
 from ._errors import ConvergenceWarning, InputError
-from ._inputs import Changes, Input, Path, assignments, number as as_number, toml_value
-from ._records import Case, Solution, case_of
+from ._inputs import Changes, Input, Newton, Path, assignments, checked, number as as_number, toml_value
+from ._records import Case, Result, Solution, case_of
 from ._surfaces import Surface, case_of_input
 
 _numbers: dict[str, int] = {}
@@ -62,11 +62,12 @@ def _change(case: _treadmark.Case, values: Mapping[str, Any], changes: Changes =
         if number is not None and not (isinstance(value, str) and full in _keys):
             case.set_number(number, as_number(value, name, _units[number]))
         else:
-            case.set(f"{full}={toml_value(value)}")
+            case.set(f"{full}={toml_value(value, full)}")
     for assignment in assignments(changes):
         case.set(assignment)
 
 
+@checked
 class Problem:
     """What is given at one instant, all of it with defaults. It does not change: ``replace`` makes another one.
 
@@ -110,10 +111,11 @@ class Problem:
 
 def _warned(solution: Solution) -> Solution:
     if solution.status in ("not_converged", "failed"):
-        warnings.warn(f"{solution.status}: {solution.message}", ConvergenceWarning, stacklevel=3)
+        warnings.warn(f"{solution.status}: {solution.message}", ConvergenceWarning, stacklevel=4)
     return solution
 
 
+@checked
 class State:
     """What a pair remembers after a solution: to go on from it, in any pair of the same surfaces, to the same bits. Can be pickled."""
 
@@ -131,6 +133,7 @@ class State:
         return State, (self.to_bytes(),)
 
 
+@checked
 class Pair:
     """A wheel on a rail, and what the last solution left. Several threads may use it; they wait for each other.
 
@@ -140,8 +143,6 @@ class Pair:
     __slots__ = ("_pair", "_lock", "rail", "wheel", "problem")
 
     def __init__(self, rail: Surface, wheel: Surface, problem: Problem | None = None) -> None:
-        if not isinstance(rail, Surface) or not isinstance(wheel, Surface):
-            raise TypeError("rail and wheel must be surfaces")
         self._pair: _treadmark.Pair | None = _treadmark.Pair(rail._surface, wheel._surface)
         self._lock = threading.Lock()
         self.rail, self.wheel = rail, wheel
@@ -164,7 +165,7 @@ class Pair:
         """Solves one instant: a Solution. It goes on from the last one only if asked to (history="continue").
 
         Keywords as in Problem, in SI units: ``pair.solve(y=5e-3, vertical_force=10e3, speed=2.0, pitch_rate=-4.335, friction=0.3)``.
-        Arrays in place of numbers are broadcast and make independent problems, solved in parallel: a list of Solutions in C order.
+        Arrays in place of numbers are broadcast and make independent problems, solved in parallel: a Result of them in C order.
         Warns (ConvergenceWarning) of a status "not_converged" or "failed". Errors: InputError for what makes no sense. Ctrl-C ends it.
         """
         base = problem or self.problem
@@ -179,12 +180,12 @@ class Pair:
             raw = self._open().solve(case)
         return _warned(case_of(raw))
 
-    def _solve_all(self, base: Problem, set: Changes, values: Mapping[str, Any]) -> list[Solution]:
+    def _solve_all(self, base: Problem, set: Changes, values: Mapping[str, Any]) -> Result:
         """Numbers that are arrays become one problem an element."""
         varied = {name: np.asarray(value) for name, value in values.items() if _find(name, False)[0] is not None and np.ndim(value) > 0}
         if not varied:  # lists that belong to keys
             with self._lock:
-                return [_warned(case_of(self._open().solve(base.replace(set, **values)._case)))]
+                return Result([_warned(case_of(self._open().solve(base.replace(set, **values)._case)))], cases_total=1)
         try:
             arrays = np.broadcast_arrays(*varied.values())
         except ValueError as error:
@@ -197,7 +198,8 @@ class Pair:
             cases.append(case)
         with self._lock:
             raws = self._open().solve_all(cases)
-        return [_warned(case_of(raw)) for raw in raws]
+        named = {_find(name, False)[1]: array.ravel().tolist() for name, array in zip(varied, arrays)}
+        return Result([_warned(case_of(raw)) for raw in raws], cases_total=len(raws), varied=named)
 
     def step(self, problem: Problem | None = None, *, set: Changes = None, **values: Any) -> Solution:
         """Solves the next instant: goes on from the last solution. Keywords as in solve(), for example regime="transient"."""
@@ -236,6 +238,7 @@ class Pair:
         return f"<Pair: {self.wheel!r} on {self.rail!r}>"
 
 
+@checked
 class PatchSolver:
     """One patch of given geometry (Kalker's problem without wheel and rail), and what its last solution left."""
 
@@ -254,7 +257,8 @@ class PatchSolver:
         return _warned(case_of(raw))
 
 
-def hertz(normal_force: float, semi_axes: Sequence[float] | None = None, curvatures: Sequence[float] | None = None, *, mx: int = 40, my: int = 40,
+@checked
+def hertz(normal_force: Newton, semi_axes: tuple[float, float] | None = None, curvatures: tuple[float, float] | None = None, *, mx: int = 40, my: int = 40,
           **values: Any) -> Solution:
     """Contact of two bodies as Hertz has them: normal_force [N] and either the semi-axes (a, b) of the ellipse [m] or the curvatures
     (A, B) of their distance A x^2 + B y^2 [1/m]. Further keywords as in PatchSolver.solve."""

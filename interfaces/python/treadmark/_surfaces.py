@@ -4,24 +4,26 @@
 from __future__ import annotations
 
 import pathlib
-from typing import Any, Callable, Mapping, NamedTuple, Sequence
+from typing import Annotated, Any, Callable, Mapping, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _treadmark
 from ._errors import InputError
-from ._inputs import Input, Path, number, source as _source, toml_value, to_toml
+from ._inputs import Input, Metre, Path, Radian, checked, source as _source, toml_value, to_toml
 
 Array = npt.NDArray[np.float64]
 
 
 def numbers(values: Any, name: str, *shape: int) -> Array:
-    """Values as finite numbers of a shape (-1: any length), or an error that says which shape is wanted."""
+    """Values as finite numbers of a shape (-1: any length), or an error that says which shape is wanted; without one all numbers are taken."""
     try:
         array = np.asarray(values, dtype=np.float64, order="C")
     except (TypeError, ValueError) as error:
         raise InputError(f"{name} must be numbers: {error}") from None
+    if not shape:
+        return array
     if array.ndim != len(shape) or any(wanted not in (-1, got) for wanted, got in zip(shape, array.shape)):
         raise InputError(f"{name} has the shape {array.shape}", advice=f"it must be ({', '.join('n' if n < 0 else str(n) for n in shape)})")
     if not np.isfinite(array).all():
@@ -29,9 +31,8 @@ def numbers(values: Any, name: str, *shape: int) -> Array:
     return array
 
 
-def _radius(value: Any) -> float:
+def radius_of(radius: float) -> float:
     """A nominal radius; 0: none is given. Errors: InputError for one that no wheel has."""
-    radius = number(value, "nominal_radius")
     least, most = _treadmark.wheel_radii()
     if radius != 0.0 and not least <= radius <= most:
         raise InputError(f"no wheel has a nominal_radius of {radius:g} m", advice="it is in metres: 0.46 for 460 mm")
@@ -84,6 +85,7 @@ class Line(NamedTuple):
     curvature_along: Array
 
 
+@checked
 class Surface:
     """A wheel or rail. It never changes, and any number of threads may use it.
 
@@ -104,16 +106,16 @@ class Surface:
         return made
 
     @classmethod
-    def read(cls, file: Path, body: str, nominal_radius: float = 0.0, scale_to_mm: float = 1.0) -> "Surface":
+    def read(cls, file: Path, body: str, nominal_radius: Metre = 0.0, scale_to_mm: float = 1.0) -> "Surface":
         """A profile, slices, triangles or offsets from a file.
 
         body: "rail" or "wheel"; nominal_radius [m]: of a wheel, 0 where the file has it; scale_to_mm: unit of profiles and triangles.
         Errors: InputError for a file that is missing, broken or implausible.
         """
-        return cls._of(_treadmark.Surface.read(pathlib.Path(file), body, _radius(nominal_radius), number(scale_to_mm, "scale_to_mm", "")))
+        return cls._of(_treadmark.Surface.read(pathlib.Path(file), body, radius_of(nominal_radius), scale_to_mm))
 
     @classmethod
-    def standard(cls, name: str, body: str | None = None, nominal_radius: float = 0.46) -> "Surface":
+    def standard(cls, name: str, body: str | None = None, nominal_radius: Metre = 0.46) -> "Surface":
         """A standard profile by its published formula: "60E1" (rail), "S1002" (wheel) or another one of ``profiles()``. nominal_radius [m]: of a
         wheel. body: asked for no more than to be checked."""
         which = _treadmark.profile_body(name) or body or "rail"
@@ -122,7 +124,7 @@ class Surface:
         other = "60E1" if which == "wheel" else "S1002"
         shape = {which: name, ("rail" if which == "wheel" else "wheel"): other}
         case = {f"{part}.shape.standard": profile for part, profile in shape.items()}
-        return cls.of_case({**case, "wheelset.nominal_radius_mm": 1e3 * _radius(nominal_radius), "wheelset.vertical_force_N": 1.0}, which)
+        return cls.of_case({**case, "wheelset.nominal_radius_mm": 1e3 * radius_of(nominal_radius), "wheelset.vertical_force_N": 1.0}, which)
 
     @classmethod
     def of_case(cls, given: Input, body: str, case: int = 1, folder: Path | None = None) -> "Surface":
@@ -131,25 +133,25 @@ class Surface:
         return cls._of(_treadmark.Surface.of_case(case_of_input(given, case, folder), body))
 
     @classmethod
-    def profile(cls, y: Any, z: Any, body: str, nominal_radius: float = 0.0, smoothing: float = 0.0) -> "Surface":
+    def profile(cls, y: Any, z: Any, body: str, nominal_radius: Metre = 0.0, smoothing: Annotated[float, "m^3"] = 0.0) -> "Surface":
         """A cross-section through points, shapes (n,) [m], in order: rails with growing, wheels with falling y.
 
         nominal_radius [m]: of a wheel; smoothing [m^3]: strength, 0 = through the points.
         """
         y = numbers(y, "y", -1)
-        return cls._of(_treadmark.Surface.profile(body, y, numbers(z, "z", len(y)), _radius(nominal_radius), number(smoothing, "smoothing", "m^3")))
+        return cls._of(_treadmark.Surface.profile(body, y, numbers(z, "z", len(y)), radius_of(nominal_radius), smoothing))
 
     @classmethod
-    def slices(cls, u: Any, y: Any, z: Any, body: str, nominal_radius: float = 0.0) -> "Surface":
+    def slices(cls, u: Any, y: Any, z: Any, body: str, nominal_radius: Metre = 0.0) -> "Surface":
         """Cross-sections at growing u, shape (n,): x along the track [m] or angles round the wheel [rad]. y, z: shapes (n, m) or, y,
         (m,) [m]; z of wheels is radial, over the nominal radius, downwards."""
         u = numbers(u, "u", -1)
         z = numbers(z, "z", len(u), -1)
         y = numbers(np.broadcast_to(numbers(y, "y", z.shape[1]), z.shape) if np.ndim(y) == 1 else y, "y", *z.shape)
-        return cls._of(_treadmark.Surface.slices(body, u, y, z, _radius(nominal_radius)))
+        return cls._of(_treadmark.Surface.slices(body, u, y, z, radius_of(nominal_radius)))
 
     @classmethod
-    def mesh(cls, vertices: Any, faces: Any, body: str, nominal_radius: float = 0.0) -> "Surface":
+    def mesh(cls, vertices: Any, faces: Any, body: str, nominal_radius: Metre = 0.0) -> "Surface":
         """Triangles: vertices (n, 3) [m], faces (m, 3) of their indices, counter-clockwise seen from outside the material."""
         vertices = numbers(vertices, "vertices", -1, 3)
         corners = np.asarray(faces)
@@ -157,11 +159,11 @@ class Surface:
             raise InputError(f"faces has the shape {corners.shape} of {corners.dtype}", advice="it must be (m, 3) whole numbers")
         if corners.size and (corners.min() < 0 or corners.max() >= len(vertices)):
             raise InputError("a face names a vertex that does not exist")
-        return cls._of(_treadmark.Surface.mesh(body, vertices, corners.astype(np.int32), _radius(nominal_radius)))
+        return cls._of(_treadmark.Surface.mesh(body, vertices, corners.astype(np.int32), radius_of(nominal_radius)))
 
     @classmethod
-    def function(cls, heights: Any, body: str, u: Sequence[float], y: Sequence[float], n_u: int = 201, n_y: int = 401,
-                 nominal_radius: float = 0.0) -> "Surface":
+    def function(cls, heights: Any, body: str, u: tuple[float, float], y: tuple[float, float], n_u: int = 201, n_y: int = 401,
+                 nominal_radius: Metre = 0.0) -> "Surface":
         """A function of one's own, sampled: heights(u, y) -> z, or an object with such a method.
 
         It is called once with arrays of the shape (n_u, n_y): u from u[0] to u[1] along the track [m] or round the wheel [rad], y from
@@ -177,7 +179,7 @@ class Surface:
         grid_u, grid_y = np.meshgrid(np.linspace(u[0], u[1], n_u), across[::-1] if body == "wheel" else across, indexing="ij")
         return cls.slices(grid_u[:, 0], grid_y, numbers(call(grid_u, grid_y), "what the function gives", n_u, n_y), body, nominal_radius)
 
-    def represent(self, backend: str, resolution: float = 0.0) -> "Surface":
+    def represent(self, backend: str, resolution: Metre = 0.0) -> "Surface":
         """The same surface by another backend ("spline", "mesh", "offset", ...), sampled at a resolution [m]; 0 = its default."""
         return Surface._of(self._surface.represent(backend, resolution))
 
@@ -186,7 +188,7 @@ class Surface:
         ``corrugations``, ``polygonizations``, ... A list replaces that of the surface. Not for surfaces from files of offsets."""
         return Surface._of(self._surface.with_defects([f"{self.body}.{name}={toml_value(items)}" for name, items in defects.items()]))
 
-    def with_flat(self, length: float, depth: float | None = None, angle: float = 0.0, y: float = 0.0, width: float = 0.0) -> "Surface":
+    def with_flat(self, length: Metre, depth: Metre | None = None, angle: Radian = 0.0, y: Metre = 0.0, width: Metre = 0.0) -> "Surface":
         """A wheel with a flat: length along the circumference, depth of a rounded one (None: a fresh chord), middle y, width across (0:
         the whole profile) [m]; angle of its middle round the wheel [rad]."""
         flat: dict[str, Any] = {"shape": "fresh" if depth is None else "rounded", "length_mm": 1e3 * length, "y_center_mm": 1e3 * y,
@@ -198,7 +200,7 @@ class Surface:
 
         origin (3,) [m] and rotation (3, 3): the plane's axes in the surface's; None: the surface's own axes. slopes=True: (z, dz/dx, dz/dy).
         """
-        xs, ys = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
+        xs, ys = np.broadcast_arrays(numbers(x, "x"), numbers(y, "y"))
         found = self._surface.heights(np.ascontiguousarray(xs), np.ascontiguousarray(ys),
                                       None if origin is None else numbers(origin, "origin", 3),
                                       None if rotation is None else numbers(rotation, "rotation", 3, 3), slopes)
@@ -221,19 +223,23 @@ class Surface:
         u = numbers(u, "u", -1)
         return Evaluated(*self._surface.evaluate(u, numbers(v, "v", len(u))))
 
-    def section_line(self, u: float, step: float = 1e-3, y: tuple[float, float] | None = None) -> Line:
+    def section_line(self, u: float, step: Metre = 1e-3, y: tuple[float, float] | None = None) -> Line:
         """The line across at u, with growing y, from end to end or between two y [m]; step: arc length between points [m]."""
-        return Line(*self._surface.trace(True, float(u), y, float(step)))
+        return Line(*self._surface.trace(True, u, y, step))
 
-    def line_along(self, y: float, u: tuple[float, float], step: float = 1e-3) -> Line:
+    def line_along(self, y: Metre, u: tuple[float, float], step: Metre = 1e-3) -> Line:
         """The line of constant v along a rail or round a wheel, from the point at y [m] on, between two u ([m] or [rad])."""
-        return Line(*self._surface.trace(False, float(y), (float(u[0]), float(u[1])), float(step)))
+        return Line(*self._surface.trace(False, y, u, step))
 
-    def triangles(self, resolution: float = 0.0) -> tuple[Array, npt.NDArray[np.uint32]]:
+    def triangles(self, resolution: Metre = 0.0) -> tuple[Array, npt.NDArray[np.uint32]]:
         """Triangles over the surface, sampled at a resolution [m]: vertices (n, 3) [m] and faces (m, 3)."""
         return self._surface.triangles(resolution)
 
-    def save(self, file: Path, resolution: float = 0.0) -> None:
+    def to_mesh(self, resolution: Metre = 0.0) -> dict[str, Any]:
+        """The same as a dictionary: "points" (n, 3) [m] and "faces" (m, 3)."""
+        return dict(zip(("points", "faces"), self.triangles(resolution)))
+
+    def save(self, file: Path, resolution: Metre = 0.0) -> None:
         """Writes triangles (.ply .stl .obj .off), slices (.slcs .slcw) or offsets (.vdb), sampled at a resolution [m]."""
         self._surface.save(pathlib.Path(file), resolution)
 
@@ -297,6 +303,7 @@ def case_of_input(given: Input, case: int, folder: Path | None) -> _treadmark.Ca
     return _treadmark.Case.read(pathlib.Path(given), case)
 
 
+@checked
 def register_backend(name: str, representation: Callable[..., Any], summary: str = "", order: float = 2.0, refine: int = 4) -> None:
     """A representation of surfaces in Python: from now on ``name`` is a choice in Surface.represent, in the keys ``wheel.backend`` and
     ``rail.backend``, in compare() and in bench(), in this process.

@@ -13,15 +13,16 @@ import math
 import os
 import pathlib
 import re
-from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, Callable, Iterable, NamedTuple, Optional, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _treadmark
-from ._errors import Cancelled, InputError
-from ._inputs import Changes, Input, Path, assignments, source as _source
-from ._records import Array, Case, Result, case_of, frame, html_table, result_of, result_of_json
+from ._errors import ARRAYS, Cancelled, InputError, MissingFileError, without_folder
+from ._inputs import Changes, Input, Metre, Path, Shape, assignments, checked, file_of, is_array, source as _source
+from ._others import Drawn
+from ._records import Array, Case, Held, Result, case_of, frame, html_table, result_of, result_of_json
 
 if TYPE_CHECKING:
     import pandas
@@ -30,8 +31,9 @@ if TYPE_CHECKING:
 Progress = Optional[Callable[[int, int, str], Any]]
 
 
+@checked
 def run(source: Input, *, set: Changes = None, folder: Path | None = None, backend: str | None = None, wheel_backend: str | None = None,
-        rail_backend: str | None = None, resolution: float | None = None, progress: Progress = None, threads: int = 0) -> Result:
+        rail_backend: str | None = None, resolution: Metre | None = None, progress: Progress = None, threads: int = 0) -> Result:
     """Solves all cases of a case file (.toml, .inp), of its text or of a dictionary, as ``treadmark run`` does.
 
     set: changes of keys, {"wheelset.y_mm": 5.0}; folder: from which names of files in text count; backend: representation of both surfaces,
@@ -98,33 +100,35 @@ class Check:
         return html.escape(repr(self)) + html_table(rows) + "".join(position.svg() for position in self.positions[:6])
 
 
-def check(source: Input, *, set: Changes = None, folder: Path | None = None, body: str = "", kind: str = "") -> Check:
+@checked
+def check(source: Input | Shape, *, set: Changes = None, folder: Path | None = None, body: str = "", kind: str = "") -> Check:
     """Reads all that a file of cases, a simulation, a study or a profile names, without solving anything.
 
-    body: "wheel" or "rail" of a profile that does not tell; kind: "simulation" of text (else cases). Errors: InputError with the place.
+    body: "wheel" or "rail" of a profile that does not tell, which may be an array (n, 2) of y and z [m], too; kind: "simulation" of text (else cases). Errors: InputError with the place.
     """
-    given = _source(source, set, folder)
+    file: Any = file_of(source, body or "profile") if is_array(source) else source
+    given = _source(file, set, folder)
     kind = given.kind if given.kind != "text" else kind or "cases"
     if kind == "profile":
         if assignments(set):
             raise InputError("set changes keys of case files, this is a profile")
-        return Check(kind, 1, [], [CheckedProfile(*p) for p in _treadmark.check_profile(pathlib.Path(source), body)], [])  # type: ignore[arg-type]
+        return Check(kind, 1, [], [CheckedProfile(without_folder(name), *p) for name, *p in _treadmark.check_profile(pathlib.Path(file), body)], [])
     if kind != "cases":
         count, notes = _treadmark.check_simulation(given, kind == "study")
         return Check(kind, count, notes, [], [])
     count, notes, profiles, positions = _treadmark.check_cases(given)
-    return Check(kind, count, notes, [CheckedProfile(*p) for p in profiles], [Position(*p) for p in positions])
+    return Check(kind, count, [without_folder(note) for note in notes], [CheckedProfile(*p) for p in profiles], [Position(*p) for p in positions])
 
 
-class _Text:
+class _Text(Held):
     """What the JSON text of the same content says: names with their units, None where nothing is known."""
 
-    _held: Any
+    _kept = ("json", "summary", "csv", "table", "maps", *(f"{name}svg" for name in ("", "charts_", "points_", "gauges_", "pressures_", "errors_", "costs_",
+                                                                                 "before_", "removed_", "fitted_", "residual_")))
 
     def to_json(self) -> str:
         """The text of the JSON file."""
-        text: str = self._held.json()
-        return text
+        return without_folder(self._held.json())
 
     @property
     def document(self) -> dict[str, Any]:
@@ -133,12 +137,13 @@ class _Text:
         return content
 
 
+@checked
 class _Document(_Text):
     """The same with a folder and a report."""
 
     def write(self, folder: Path) -> None:
         """Writes the folder that the program writes with -o."""
-        self._held.write_folder(pathlib.Path(folder))
+        self._whole().write_folder(pathlib.Path(folder))
 
     def report(self, file: Path) -> None:
         """Writes the HTML report of this content."""
@@ -149,7 +154,8 @@ class _Document(_Text):
             _treadmark.report_folder(pathlib.Path(folder), pathlib.Path(file))
 
 
-class Comparison(_Document):
+@checked
+class Comparison(_Document, Drawn):
     """The same cases through several representations of the surfaces: the first candidate is the reference."""
 
     def __init__(self, held: _treadmark.Comparison) -> None:
@@ -169,19 +175,17 @@ class Comparison(_Document):
     @property
     def candidates(self) -> list[dict[str, Any]]:
         """Each representation, its bodies and how far they are from the reference, as in compare.json."""
-        found: list[dict[str, Any]] = self._document["candidates"]
-        return found
+        return list(self._document["candidates"])
 
     def cases(self, candidate: int) -> list[Case]:
         """Results of a candidate, from 0, with their fields."""
         if not 0 <= candidate < len(self.candidates):
             raise IndexError(f"there are {len(self.candidates)} candidates")
-        return [case_of(raw) for raw in self._held.cases(candidate)]
+        return [case_of(raw) for raw in self._whole().cases(candidate)]
 
     def rows(self) -> list[dict[str, Any]]:
         """A dictionary a candidate and case, with names and units of compare.csv."""
-        found: list[dict[str, Any]] = self._document["rows"]
-        return found
+        return list(self._document["rows"])
 
     def to_pandas(self) -> "pandas.DataFrame":
         """A row a candidate and case. Needs pandas."""
@@ -189,15 +193,13 @@ class Comparison(_Document):
 
     def table(self) -> str:
         """A line a candidate, for people."""
-        text: str = self._held.table()
-        return text
+        return str(self._held.table())
 
     def svg(self, what: str = "errors") -> str:
         """A picture: "errors" over resolution, "costs", or "pressures"."""
         if what not in ("errors", "costs", "pressures"):
             raise ValueError('what must be "errors", "costs" or "pressures"')
-        text: str = getattr(self._held, what + "_svg")()
-        return text
+        return str(getattr(self._held, what + "_svg")())
 
     def __repr__(self) -> str:
         return f"<Comparison of {len(self.candidates)} representations>"
@@ -206,6 +208,7 @@ class Comparison(_Document):
         return self.svg() + self.svg("pressures") + f"<pre>{html.escape(self.table())}</pre>"
 
 
+@checked
 def compare(source: Input, *, set: Changes = None, folder: Path | None = None, backends: Iterable[str] = (), resolutions: Iterable[float] = (),
             bodies: str = "auto", wheel_backends: Iterable[str] = (), rail_backends: Iterable[str] = (), progress: Progress = None,
             threads: int = 0) -> Comparison:
@@ -220,7 +223,8 @@ def compare(source: Input, *, set: Changes = None, folder: Path | None = None, b
                                          list(rail_backends), progress, threads))
 
 
-class Bench(_Document):
+@checked
+class Bench(_Document, Drawn):
     """What representations cost: time and memory."""
 
     def __init__(self, held: _treadmark.Bench) -> None:
@@ -228,8 +232,7 @@ class Bench(_Document):
 
     def rows(self) -> list[dict[str, Any]]:
         """A dictionary a representation and body, with names and units of bench.csv."""
-        rows: list[dict[str, Any]] = self.document["rows"]
-        return rows
+        return list(self.document["rows"])
 
     def to_pandas(self) -> "pandas.DataFrame":
         """A row a representation and body. Needs pandas."""
@@ -237,18 +240,17 @@ class Bench(_Document):
 
     def table(self) -> str:
         """For people."""
-        text: str = self._held.table()
-        return text
+        return str(self._held.table())
 
     def svg(self) -> str:
         """Costs by backend and resolution as a picture."""
-        text: str = self._held.svg()
-        return text
+        return str(self._held.svg())
 
     def _repr_html_(self) -> str:
         return self.svg() + f"<pre>{html.escape(self.table())}</pre>"
 
 
+@checked
 def bench(source: Input | None = None, *, set: Changes = None, folder: Path | None = None, backends: Iterable[str] = (),
           resolutions: Iterable[float] = (), seconds_per_measure: float = 0.2, progress: Progress = None, threads: int = 1) -> Bench:
     """Times the representations of the surfaces of a case, by default a wheel with a flat on a rail with a squat. Checks agreement first."""
@@ -266,6 +268,7 @@ class BandMap(NamedTuple):
     s_max: float
 
 
+@checked
 class ScanImport(_Document):
     """What was done to a scan, from the points to the surface."""
 
@@ -279,35 +282,42 @@ class ScanImport(_Document):
 
     def summary(self) -> str:
         """A page of text."""
-        text: str = self._held.summary()
-        return text
+        return str(self._held.summary())
 
     def svg(self, what: str = "fitted") -> str:
         """A picture: "before", "removed", "fitted" or "residual"."""
         if what not in ("before", "removed", "fitted", "residual"):
             raise ValueError('what must be "before", "removed", "fitted" or "residual"')
-        text: str = getattr(self._held, what + "_svg")()
-        return text
+        return str(getattr(self._held, what + "_svg")())
 
     def _repr_html_(self) -> str:
         return self.svg() + f"<pre>{html.escape(self.summary())}</pre>"
 
 
-def import_scan(scans: Path | Sequence[Path], outputs: Path | Sequence[Path], *, settings: Path | None = None, set: Changes = None,
+@checked
+def import_scan(scans: Shape | Sequence[Any], outputs: Path | Sequence[Path], *, settings: Path | None = None, set: Changes = None,
                 progress: Progress = None, threads: int = 0) -> ScanImport:
     """From points of a scanner (or a gridded map of deviations) to a surface, as ``treadmark import`` does.
 
-    scans: several files are several passes; outputs: .slcs .slcw .ply .stl .obj .off .vdb, read again by Surface.read; settings: a TOML
+    scans: several files are several passes; an array (n, 3) of x, y and z [m] stands for a file, and so do (x, y, deviations) [m] of the shapes
+    (n,), (m,) and (n, m) for that of a map; outputs: .slcs .slcw .ply .stl .obj .off .vdb, read again by Surface.read; settings: a TOML
     file; set: changes of settings, {"scan.body": "wheel"}. Errors: InputError naming the file.
     """
 
     def paths(given: Any) -> list[pathlib.Path]:
-        return [pathlib.Path(given)] if isinstance(given, (str, pathlib.PurePath)) else [pathlib.Path(one) for one in given]
+        many = [given] if isinstance(given, (str, os.PathLike)) or is_array(given) else given
+        return [pathlib.Path(file_of(one, "scan")) for one in many]
 
-    if not paths(scans):
+    read = paths(scans)
+    if not read:
         raise InputError("there is no scan to import", advice="name its file")
-    return ScanImport(_treadmark.import_scan(paths(scans), paths(outputs), None if settings is None else pathlib.Path(settings), assignments(set),
-                                             progress, threads))
+    try:
+        return ScanImport(_treadmark.import_scan(read, paths(outputs), None if settings is None else pathlib.Path(settings), assignments(set),
+                                                 progress, threads))
+    finally:
+        for file in read:
+            if ARRAYS in str(file):
+                file.unlink(missing_ok=True)  # clouds are large
 
 
 class Value(NamedTuple):
@@ -344,8 +354,9 @@ class Mode(NamedTuple):
     shape: str
 
 
+@checked
 @dataclasses.dataclass(eq=False)
-class Simulation:
+class Simulation(Held, Drawn):
     """A vehicle on its track in time. ``simulation["t_s"]`` is a column of its history, without a copy."""
 
     title: str
@@ -363,7 +374,7 @@ class Simulation:
     modes: list[Mode]
     snapshots: list[Case]  #: contact fields at chosen instants
     snapshot_times: list[float]  #: [s]
-    _held: _treadmark.Simulated | None = dataclasses.field(default=None, repr=False)
+    _held: Any = dataclasses.field(default=None, repr=False)
 
     def __getitem__(self, column: str) -> Array:
         names = [c.name for c in self.columns]
@@ -374,23 +385,17 @@ class Simulation:
     def __repr__(self) -> str:
         return f"<Simulation {self.title!r}: {self.status}, {len(self.values)} instants of {len(self.columns)} columns>"
 
-    def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "_held": None}
-
-    def _whole(self) -> _treadmark.Simulated:
-        if self._held is None:
-            raise ValueError("a simulation that was pickled has numbers and fields only")
-        return self._held
-
     def to_pandas(self) -> "pandas.DataFrame":
         """A row an instant, a column a quantity (units in the names). Needs pandas."""
-        import pandas
+        return frame({c.name: self.values[:, k] for k, c in enumerate(self.columns)})
 
-        return pandas.DataFrame(self.values, columns=[c.name for c in self.columns])
+    def _axes(self) -> tuple[str, list[str]]:
+        """Vertical forces of the wheels over time."""
+        return "t_s", ([c.name for c in self.columns if c.name.endswith("Q_N")] or [c.name for c in self.columns[1:4]])[:6]
 
     def to_json(self) -> str:
         """The summary as ``treadmark simulate --json`` writes it."""
-        return self._whole().json()
+        return str((self._held or self._whole()).json())
 
     def write(self, folder: Path) -> None:
         """simulation.h5, history.csv, events.csv, modes.csv and pictures."""
@@ -398,12 +403,11 @@ class Simulation:
 
     def svg(self, columns: Sequence[str] = (), x: str = "t_s") -> str:
         """Columns over another one as a picture; default: vertical forces of the wheels."""
-        chosen = list(columns) or [c.name for c in self.columns if c.name.endswith("Q_N")] or [c.name for c in self.columns[1:4]]
-        return self._whole().svg(x, chosen[:6], self.title)
+        return str(self._whole().svg(x, list(columns)[:6] or self._axes()[1], self.title))
 
     def _repr_html_(self) -> str:
         rows = [v._asdict() for v in self.summary.values()]
-        return (self.svg() if self._held is not None and len(self.values) > 1 else "") + html_table(rows, repr(self))
+        return (self.svg() if self._is_whole() and len(self.values) > 1 else "") + html_table(rows, repr(self))
 
 
 def _simulation_of(held: _treadmark.Simulated) -> Simulation:
@@ -417,6 +421,7 @@ def _simulation_of(held: _treadmark.Simulated) -> Simulation:
     return Simulation(**raw, _held=held)
 
 
+@checked
 def simulate(source: Input, *, set: Changes = None, folder: Path | None = None, modes_only: bool = False, progress: Progress = None,
              threads: int = 0) -> Simulation:
     """A vehicle on its track in time, as ``treadmark simulate`` does; modes_only: equilibrium and modes, without integration.
@@ -438,8 +443,9 @@ def _table(text: str) -> "pandas.DataFrame":
     return frame([{name: value(cell) for name, cell in row.items()} for row in csv.DictReader(text.splitlines())])
 
 
-class _Found(_Text):
-    """The same as a table and with a folder."""
+@checked
+class _Table(_Text, Drawn):
+    """The same as a table."""
 
     def __init__(self, held: Any) -> None:
         self._held = held
@@ -450,12 +456,16 @@ class _Found(_Text):
 
     def summary(self) -> str:
         """For people."""
-        text: str = self._held.summary()
-        return text
+        return str(self._held.summary())
+
+
+@checked
+class _Found(_Table):
+    """The same with a folder."""
 
     def write(self, folder: Path) -> None:
         """Writes the folder that the program writes with -o."""
-        self._held.write_folder(pathlib.Path(folder))
+        self._whole().write_folder(pathlib.Path(folder))
 
 
 class _Drawn(_Found):
@@ -463,8 +473,7 @@ class _Drawn(_Found):
 
     def svg(self) -> str:
         """As a picture."""
-        text: str = self._held.svg()
-        return text
+        return str(self._held.svg())
 
     def _repr_html_(self) -> str:
         return self.svg()
@@ -486,7 +495,8 @@ class Track(_Drawn):
                 for name, curve in self.document["curves"].items()}
 
 
-def track(file: Path, *, set: Changes = None, from_Hz: float = 10.0, to_Hz: float = 1500.0, count: int = 200, fit: int = 0) -> Track:
+@checked
+def track(file: Path, *, set: Changes = None, from_Hz: Annotated[float, "Hz"] = 10.0, to_Hz: Annotated[float, "Hz"] = 1500.0, count: int = 200, fit: int = 0) -> Track:
     """How the track of a file gives way, as ``treadmark track`` does; fit: layers of a lumped track that is fitted to it, 0 = none."""
     return Track(_treadmark.track(pathlib.Path(file), assignments(set), (from_Hz, to_Hz), count, fit))
 
@@ -505,34 +515,24 @@ class Stability(_Drawn):
         return float(self.document.get("critical_speed_m_s", math.nan))
 
 
-def stability(file: Path, *, set: Changes = None, from_m_s: float = 10.0, to_m_s: float = 100.0, count: int = 46, tolerance: float = 0.01,
+@checked
+def stability(file: Path, *, set: Changes = None, from_m_s: Annotated[float, "m/s"] = 10.0, to_m_s: Annotated[float, "m/s"] = 100.0, count: int = 46, tolerance: float = 0.01,
               shown_Hz: float = 20.0, threads: int = 0) -> Stability:
     """Eigenvalues of the vehicle of a simulation file by its speed, as ``treadmark stability`` does; tolerance: of the critical speed
     [m/s]; shown_Hz: highest frequency in the picture."""
     return Stability(_treadmark.stability(pathlib.Path(file), assignments(set), (from_m_s, to_m_s), count, tolerance, shown_Hz, threads))
 
 
-class Evolution(_Text):
+class Evolution(_Table):
     """Surfaces that contact changes: a row a generation."""
-
-    def __init__(self, held: Any) -> None:
-        self._held = held
 
     @property
     def status(self) -> str:
         """"complete", "interrupted" (the same call goes on) or "failed"."""
         return str(self.document["status"])
 
-    def to_pandas(self) -> "pandas.DataFrame":
-        """The rows of evolution.csv, with its names and units. Needs pandas."""
-        return _table(self._held.csv())
 
-    def summary(self) -> str:
-        """For people."""
-        text: str = self._held.summary()
-        return text
-
-
+@checked
 def evolve(file: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0) -> Evolution:
     """Evolves the surfaces of a file with [evolve] into a folder, or goes on there, as ``treadmark evolve -o`` does."""
     return Evolution(_treadmark.evolve(pathlib.Path(file), assignments(set), pathlib.Path(output), resume, progress, threads))
@@ -542,15 +542,18 @@ class Assessment(_Found):
     """Runs against limits: a row a run, section, place and quantity."""
 
 
-def assess(results: Path | Sequence[Path], *, vehicle: str = "passenger", begin: float = 0.0,
-           sections: Sequence[tuple[Any, ...]] = (), spectra: Sequence[str] = (), channels: Sequence[str] = ()) -> Assessment:
+@checked
+def assess(results: Path | Sequence[Path], *, vehicle: str = "passenger", begin: Metre = 0.0,
+           sections: Sequence[Sequence[Any]] = (), spectra: Sequence[str] = (), channels: Sequence[str] = ()) -> Assessment:
     """Reads out of folders of simulations, or their simulation.h5, what ``treadmark assess`` does.
 
     sections: (name, from, to) or (name, from, to, kind) with places in m, kind "straight", "curve" or "transition"; begin [m]: where the
     assessment begins without them; spectra: channels whose spectra are wanted; channels: those that ``write`` draws over the distance.
     """
-    files = [results] if isinstance(results, (str, pathlib.PurePath)) else list(results)
-    parts = [(*section, "straight")[:4] for section in sections]
+    files = [results] if isinstance(results, (str, os.PathLike)) else list(results)
+    parts: list[Any] = [(*section, "straight")[:4] for section in sections]
+    if any(len(part) < 4 for part in parts):
+        raise InputError("a section has a name, from and to [m], and maybe a kind")
     return Assessment(_treadmark.assess([str(file) for file in files], vehicle, begin, parts, list(spectra), list(channels)))
 
 
@@ -566,8 +569,9 @@ class SweepRun(NamedTuple):
     store: str  #: its simulation.h5, for read_simulation; may be empty
 
 
+@checked
 @dataclasses.dataclass(eq=False)
-class Sweep:
+class Sweep(Drawn):
     """Simulations that differ in the values of some keys."""
 
     title: str
@@ -607,6 +611,7 @@ def _sweep_of(raw: dict[str, Any]) -> Sweep:
     return Sweep(**raw)
 
 
+@checked
 def sweep(source: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0,
           client: Any = None, runs_per_task: int = 1) -> Sweep:
     """Solves the runs of a study file that are not finished yet, into a folder, as ``treadmark sweep -o`` does.
@@ -654,6 +659,7 @@ def _solve_on_workers(client: Any, begun: dict[str, Any], work: tuple[str, str, 
         client.cancel(tasks)
 
 
+@checked
 def read_result(file: Path) -> Result:
     """A run from fields.h5 (all of it), result.json (numbers), or a folder of ``treadmark run -o``."""
     path = pathlib.Path(file)
@@ -663,29 +669,35 @@ def read_result(file: Path) -> Result:
         return result_of(_treadmark.Run.read_hdf5(path))
     try:
         return result_of_json(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise MissingFileError("there is no such result", str(path), advice="give result.json, fields.h5 or their folder") from None
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", str(path)) from None
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"is no result of treadmark run: {error}", str(path), advice="give result.json or fields.h5") from None
 
 
+@checked
 def read_comparison(folder: Path) -> Comparison:
     """The folder of ``treadmark compare -o``."""
     return Comparison(_treadmark.Comparison.read_folder(pathlib.Path(folder)))
 
 
+@checked
 def read_bench(file: Path) -> Bench:
     """bench.json, or its folder."""
     path = pathlib.Path(file)
     return Bench(_treadmark.Bench.read(path / "bench.json" if path.is_dir() else path))
 
 
+@checked
 def read_import(folder: Path) -> ScanImport:
     """The folder of ``treadmark import --report``."""
     _left_out("Imported", "import_scan")
     return ScanImport(_treadmark.Imported.read_folder(pathlib.Path(folder)))
 
 
+@checked
 def read_simulation(file: Path) -> Simulation:
     """simulation.h5, or its folder, with its snapshots."""
     _left_out("Simulated", "simulate")
@@ -698,6 +710,7 @@ def _text(cell: str) -> str:
     return cell[1:] if re.match(r"'[=+\-@\t\r]", cell) else cell
 
 
+@checked
 def read_sweep(folder: Path) -> Sweep:
     """The folder of ``treadmark sweep -o``, or its sweep.h5."""
     path = pathlib.Path(folder)
@@ -713,6 +726,7 @@ def read_sweep(folder: Path) -> Sweep:
     return Sweep(head["title"], head["version"], head["input_file"], head["settings"], runs, True, len(runs))
 
 
+@checked
 def report(folder: Path, file: Path) -> None:
     """Writes the HTML report of a folder of results of any verb."""
     _treadmark.report_folder(pathlib.Path(folder), pathlib.Path(file))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 """What people do wrong in Python: errors of the right class, in the words and units of the package."""
+import dataclasses
+import inspect
 import os
 import pickle
 import re
@@ -16,7 +18,7 @@ def test_files_that_are_not_there(tmp_path):
     (tmp_path / "my.toml").write_text("[wheel]\n")
     (tmp_path / "wheel.csv").write_text("0 0\n")
     calls = [(lambda: tm.run(tmp_path / "MY.toml"), "my.toml"), (lambda: tm.Problem(tmp_path / "MY.toml"), "my.toml"),
-             (lambda: tm.check(tmp_path / "MY.toml"), "my.toml"), (lambda: tm.Surface.read(tmp_path / "Wheel.csv", "wheel"), "wheel.csv"),
+             (lambda: tm.check(tmp_path / "MY.toml"), "my.toml"), (lambda: tm.check(tmp_path / "Wheel.csv"), "wheel.csv"), (lambda: tm.Surface.read(tmp_path / "Wheel.csv", "wheel"), "wheel.csv"),
              (lambda: tm.Surface.read(str(tmp_path / "Wheel.csv"), "rail"), "wheel.csv"),
              (lambda: tm.measure("wheel", tmp_path / "Wheel.csv"), "wheel.csv"),
              (lambda: tm.run({"rail.shape.standard": "60E1", "wheel.shape.file": str(tmp_path / "Wheel.csv"), "wheelset.vertical_force_N": 1e5}),
@@ -28,8 +30,13 @@ def test_files_that_are_not_there(tmp_path):
         assert isinstance(error, tm.InputError) and isinstance(error, tm.MissingFileError) and isinstance(error, ValueError)
         again = pickle.loads(pickle.dumps(error))
         assert str(again) == str(error) and type(again) is type(error)
-    with pytest.raises(FileNotFoundError):
-        tm.Surface.read("nosuch.csv", "wheel")
+    calls = [(tm.Surface.read, "wheel"), (tm.measure_files,), (tm.read_result,), (tm.read_comparison,), (tm.read_bench,)]
+    if tm.parts()["scans"] and tm.parts()["vehicle"] and tm.parts()["hdf5"] and tm.parts()["report"]:
+        calls += [(tm.read_import,), (tm.read_simulation,), (tm.read_sweep,), (tm.track,), (tm.stability,), (tm.assess,), (tm.simulate,), (tm.evolve, tmp_path / "out"),
+                  (tm.sweep, tmp_path / "out"), (tm.report, tmp_path / "out.html")]
+    for function, *more in calls:
+        with pytest.raises(FileNotFoundError, match="nosuch"):
+            function("rail", "@nosuch") if function is tm.measure_files else function(str(tmp_path / "nosuch.toml"), *more)
 
 
 def test_places_of_texts_and_dictionaries():
@@ -72,9 +79,27 @@ def test_types(pair):
     for value in ("2 mm", b"2", object(), 1j):
         with pytest.raises(TypeError, match="y must be a number in m, not "):
             pair.solve(y=value)
-    with pytest.raises(TypeError, match="nominal_radius must be a number in m, not '460'"):
-        tm.Surface.standard("S1002", nominal_radius="460")
     assert pair.solve(y=np.float32(0.0)).ok and pair.solve(y=np.array(0.0)).ok
+
+
+def functions():
+    for name in tm.__all__:
+        thing = getattr(tm, name)
+        if inspect.isfunction(thing):
+            yield name, thing
+        for member in dir(thing) if inspect.isclass(thing) and not issubclass(thing, Exception) else ():
+            if not member.startswith("_") or member == "__init__" and not dataclasses.is_dataclass(thing) and "held" not in str(inspect.signature(thing)):
+                if inspect.isfunction(getattr(thing, member)) or inspect.ismethod(getattr(thing, member)):
+                    yield f"{name}.{member}", getattr(thing, member)
+
+
+@pytest.mark.parametrize("function", [pytest.param(function, id=name) for name, function in functions()])
+def test_every_argument_is_checked(function):
+    """Also those of functions that are yet to come: the error says which argument is wrong."""
+    for parameter in inspect.signature(function).parameters.values():
+        if parameter.annotation not in (parameter.empty, "Any") and parameter.kind is not parameter.VAR_POSITIONAL and parameter.kind is not parameter.VAR_KEYWORD:
+            with pytest.raises(TypeError, match=f"^{parameter.name} must be "):
+                function(**{parameter.name: object()})
 
 
 def test_bytes_that_are_no_text(tmp_path):

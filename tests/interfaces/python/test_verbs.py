@@ -3,6 +3,7 @@
 """compare, bench, import, simulate, assess, stability and sweep, against the program and the files that it writes."""
 import csv
 import json
+import pickle
 
 import numpy as np
 import pytest
@@ -172,6 +173,14 @@ def test_import(tmp_path):
     if tm.parts()["hdf5"]:
         audit.write(tmp_path / "audit")
         assert tm.read_import(tmp_path / "audit").to_json() == audit.to_json()
+    cloud = tm.import_scan(points, tmp_path / "cloud.slcs", set={"scan.body": "rail"})  # in metres
+    assert cloud.maps["fitted"].values == pytest.approx(audit.maps["fitted"].values, abs=1e-6, nan_ok=True)
+    assert tm.Surface.read(tmp_path / "cloud.slcs", "rail").heights(0.05, 0.0) == pytest.approx(made.heights(0.05, 0.0), abs=1e-6)
+    map_of = (np.linspace(0.0, 0.2, 41), np.linspace(-0.03, 0.03, 61), np.full((41, 61), 2e-5))
+    tm.import_scan(map_of, tmp_path / "map.slcs", set={"scan.body": "rail"})
+    assert tm.Surface.read(tmp_path / "map.slcs", "rail").heights(0.1, 0.0) == pytest.approx(rail.heights(0.0, 0.0) + 2e-5, abs=2e-6)
+    again = pickle.loads(pickle.dumps(audit))
+    assert again.summary() == audit.summary() and (again.maps["fitted"].values.shape == audit.maps["fitted"].values.shape)
     with pytest.raises(tm.InputError, match="nowhere"):
         tm.import_scan("nowhere.xyz", tmp_path / "rail.slcs", set={"scan.body": "rail"})
     with pytest.raises(tm.InputError):
