@@ -186,9 +186,9 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--json", options->json_file, "Write the summary here; - for standard output instead of the table")
       ->check(is_output())
       ->type_name("FILE");
-  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail");
-  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
-  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");
+  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail")->type_name(kBackendName);
+  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel")->type_name(kBackendName);
+  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail")->type_name(kBackendName);
   CLI::Option* const resume =
       verb.add_flag("--resume", options->resume, "Leave a simulation alone that is complete in the output folder");
   verb.add_flag("--anew", options->anew, "Begin again, and discard an interrupted simulation in the output folder")
