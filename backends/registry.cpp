@@ -12,6 +12,7 @@
 
 #include "treadmark/backends/builtin.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/model/backend_name.hpp"
 
@@ -85,9 +86,11 @@ std::vector<const Backend*> left_out_backends() { return Registry::the().those(f
 const Backend& backend_of(std::string_view name) {
   const auto all = Registry::the().all();
   const auto found = std::ranges::find(all, name, &Backend::name);
-  if (found == all.end())
+  if (found == all.end()) {
+    const std::vector<std::string_view> known = backend_names();
     throw Error(ErrorKind::configuration, fmt::format("unknown backend '{}'", name), {},
-                fmt::format("available: {}", fmt::join(backend_names(), ", ")));
+                advice_on_name(name, std::vector<std::string>(known.begin(), known.end())));
+  }
   return require_built(**found);
 }
 

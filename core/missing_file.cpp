@@ -60,6 +60,14 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   return best;
 }
 
+std::string advice_on_name(std::string_view name, std::span<const std::string> known, const std::string& otherwise) {
+  if (const std::string near = nearest_name(name, known); !near.empty()) return "did you mean '" + near + "'?";
+  if (!otherwise.empty()) return otherwise;
+  std::string all;
+  for (const std::string& one : known) all += (all.empty() ? "choose " : ", ") + one;
+  return all;
+}
+
 std::string advice_on_missing(const fs::path& file, const std::string& otherwise) {
   std::error_code code;
   std::string portable = file.string();

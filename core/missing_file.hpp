@@ -34,4 +34,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b);
 /// The candidate that a name was probably meant to be; empty when nothing is near.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
+/// What to do about a name that is none of those known: the one that was probably meant, else `otherwise`, or all.
+std::string advice_on_name(std::string_view name, std::span<const std::string> known,
+                           const std::string& otherwise = {});
+
 }  // namespace treadmark

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/model/backend_name.hpp"
 
@@ -73,9 +74,10 @@ const DetectorRow& detector_of(std::string_view name) {
   const std::vector<const DetectorRow*> all = detectors();
   const auto found = std::ranges::find(all, name, &DetectorRow::name);
   if (found != all.end()) return **found;
-  std::string names;
-  for (const DetectorRow* row : all) names += (names.empty() ? "" : ", ") + row->name;
-  throw Error(ErrorKind::configuration, "there is no detector '" + std::string(name) + "'", {}, "choose " + names);
+  std::vector<std::string> names;
+  for (const DetectorRow* row : all) names.push_back(row->name);
+  throw Error(ErrorKind::configuration, "there is no detector '" + std::string(name) + "'", {},
+              advice_on_name(name, names));
 }
 
 }  // namespace treadmark::detection

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/report/field_catalogue.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/static_figure.hpp"
@@ -102,10 +103,10 @@ std::string plot(const Page& page, const std::string& what, const std::vector<in
     throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
   if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SectionView{0}}, page).front();
   if (figure != nullptr) return static_figure(*figure, page).front();
-  std::string known;
-  for (const auto& [name, meaning] : plots_of(page)) known += (known.empty() ? "" : ", ") + name;
+  std::vector<std::string> known;
+  for (const auto& [name, meaning] : plots_of(page)) known.push_back(name);
   throw Error(ErrorKind::configuration, fmt::format("these results have no plot \"{}\"", what), {},
-              known.empty() ? "there is nothing to draw" : "there are " + known);
+              known.empty() ? "there is nothing to draw" : advice_on_name(what, known));
 }
 
 }  // namespace treadmark::report

@@ -137,6 +137,14 @@ def section(entry, program, work, pictures):
     return text
 
 
+def thumbnails():
+    """Pictures that lead to their sections."""
+    def anchor(title):
+        return re.sub(r"[^a-z0-9 -]", "", title.lower()).replace(" ", "-")
+    return "\n" + "\n".join(f'[<img src="gallery/{e.example}.svg" alt="{e.title}" title="{e.title}" width="160">](#{anchor(e.title)})'
+                            for e in ENTRIES if e.plot) + "\n"
+
+
 def differences(old, new):
     """Lines whose numbers differ by more than rounding, or whose words differ."""
     number = re.compile(r"-?\d+\.?\d*(?:e[-+]?\d+)?")
@@ -161,7 +169,7 @@ def main():
     if pictures:
         pictures.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as work:
-        text = "\n" + "\n".join(section(entry, options.program.resolve(), pathlib.Path(work), pictures) for entry in ENTRIES)
+        text = thumbnails() + "\n" + "\n".join(section(entry, options.program.resolve(), pathlib.Path(work), pictures) for entry in ENTRIES)
     if not options.check:
         PAGE.write_text(by_hand + MARK + text)
         return 0

@@ -13,6 +13,7 @@
 #include "treadmark/app/cases/position_picture.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/pages/check_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/surface_check.hpp"
@@ -56,7 +57,7 @@ void print_profile(const app::CheckedProfile& profile) {
   std::size_t width = 0;
   for (const auto& [name, value] : profile.judgement.facts) width = std::max(width, name.size());
   const auto line = [&](const std::string& name, const std::string& value) {
-    std::cout << "  " << name << std::string(width + 2 - std::min(width, name.size()), ' ') << value << '\n';
+    print("  " + name + std::string(width + 2 - std::min(width, name.size()), ' ') + value + '\n');
   };
   std::cout << profile.name << '\n';
   for (const auto& [name, value] : profile.judgement.facts) line(name, value);
@@ -103,7 +104,7 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
       write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number), input.positions[k].second);
   }
   for (const std::string& doubt : app::value_doubts(file)) {
-    std::cout << "  warning  " << doubt << '\n';
+    print("  warning  " + doubt + '\n');
     input.doubts.push_back(doubt);
   }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);

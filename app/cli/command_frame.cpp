@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -23,11 +24,11 @@
 namespace treadmark::cli {
 namespace {
 
-constexpr const char* kOutput = "output";
+constexpr const char *kOutput = "output", *kTold = "told output";
 
-bool is_marked(CLI::Option& option) {
+bool is_marked(CLI::Option& option, const char* mark) {
   try {
-    return option.get_validator(kOutput) != nullptr;
+    return option.get_validator(mark) != nullptr;
   } catch (const CLI::OptionNotFound&) {
     return false;
   }
@@ -42,7 +43,7 @@ void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector
 
 void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const char* example) {
   verb.add_option("--set", overrides, fmt::format("Override a key of the file, for example --set {}", example))
-      ->type_name("KEY=VALUE")
+      ->type_name(kSettingWord)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
@@ -64,16 +65,18 @@ std::optional<Body> body_asked(const std::string& word, const std::filesystem::p
   return body;
 }
 
-CLI::Validator is_output() {
-  return {[](std::string&) { return std::string(); }, "", kOutput};
+CLI::Validator is_output(bool told) {
+  return {[](std::string&) { return std::string(); }, "", told ? kTold : kOutput};
 }
 
 NamedFiles named_files(CLI::App& verb) {
   NamedFiles named;
   for (CLI::Option* option : verb.get_options()) {
     const auto& words = option->results();
-    auto& list = is_marked(*option) ? named.outputs : named.others;
+    const bool untold = is_marked(*option, kOutput);
+    auto& list = untold || is_marked(*option, kTold) ? named.outputs : named.others;
     list.insert(list.end(), words.begin(), words.end());
+    if (untold) named.untold.insert(named.untold.end(), words.begin(), words.end());
   }
   return named;
 }
@@ -93,7 +96,10 @@ void print_notes(const std::vector<std::string>& notes, bool quiet) {
 
 void print_results(const std::string& json_file, const std::function<std::string()>& json,
                    const std::function<std::string()>& text) {
-  std::cout << (json_file == "-" ? json() : text());
+  if (json_file == "-")
+    std::cout << json();
+  else
+    print(text());
 }
 
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json) {
@@ -148,7 +154,8 @@ ProgressLine::~ProgressLine() {
 
 void ProgressLine::draw(const std::string& text) {
   drawn_ = true;
-  std::fputs(("\r\x1b[K" + text).c_str(), stderr);
+  const std::string_view shown = cut(text, terminal_columns(STDERR_FILENO) - 1);  // what breaks cannot be drawn over
+  std::fputs(fmt::format("\r\x1b[K{}", shown).c_str(), stderr);
   std::fflush(stderr);
 }
 
@@ -174,8 +181,11 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
   }
   if (drawn_ && finished < total && now - last_ < 100ms) return;
   last_ = now;
-  std::string line = fmt::format("{}/{} ({:.0f} %) {}", finished, total,
-                                 100.0 * static_cast<double>(finished) / static_cast<double>(total), what);
+  constexpr double kCells = 20.0;
+  const double share = static_cast<double>(finished) / static_cast<double>(total);
+  std::string line =
+      fmt::format("[{:.<20}] {}/{} ({:.0f} %) {}", std::string(static_cast<std::size_t>(kCells * share), '#'), finished,
+                  total, 100.0 * share, what);
   if (finished > 0)
     line += fmt::format(", {:.1f} s left",
                         seconds() / static_cast<double>(finished) * static_cast<double>(total - finished));

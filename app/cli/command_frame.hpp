@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "treadmark/app/cli/shell_words.hpp"
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/model/shape/profile.hpp"
@@ -68,11 +69,12 @@ void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector
 /// --set.
 /// example: a key of the files that the verb reads, with a value.
 void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const char* example = "wheelset.y_mm=3");
-/// Marks an option that names what is written.
-CLI::Validator is_output();
-/// The words that options of a verb were given: names of outputs, and others, files that are read among them.
+/// Marks an option that names what is written. told: the verb itself says so on standard output.
+CLI::Validator is_output(bool told = false);
+/// The words that options of a verb were given: names of outputs, those of them that the verb does not tell, and
+/// others, files that are read among them.
 struct NamedFiles {
-  std::vector<std::string> outputs, others;
+  std::vector<std::string> outputs, untold, others;
 };
 NamedFiles named_files(CLI::App& verb);
 /// --report of a file.

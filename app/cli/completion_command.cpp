@@ -35,12 +35,20 @@ std::string verb_names(const CLI::App& program, const char* between) {
 }
 
 std::string bash(const CLI::App& program) {
-  std::string rows, choices;
+  std::string lists, rows, choices;
+  for (const NameList& list : name_lists())
+    lists += fmt::format("  local {}={}\n", list.list, quoted(fmt::format("{}", fmt::join(list.names, " "))));
   for (const CLI::App* verb : verbs_of(program)) {
     const std::vector<OptionWords> options = option_words(*verb);
     rows += fmt::format("    {}) options+={} ;;\n", verb->get_name(), quoted(" " + names_of(options)));
     for (const OptionWords& option : options)
-      if (!option.choices.empty())
+      if (!option.list.empty())
+        choices += fmt::format("    {}\\ {}) words=${}{} ;;\n", verb->get_name(),
+                               option.names.empty() ? "[!-]*" : option.names.back(), option.list,
+                               option.list == "profiles"        ? "' '$(compgen -f -- \"$word\")"
+                               : option.list.ends_with("_keys") ? "; compopt -o nospace 2>/dev/null"
+                                                                : "");
+      else if (!option.choices.empty())
         choices += option.names.empty()
                        ? fmt::format("    {0}\\ {0}) words={1} ;;\n", verb->get_name(),
                                      quoted(fmt::format("{}", fmt::join(option.choices, " "))))
@@ -51,7 +59,7 @@ std::string bash(const CLI::App& program) {
 _treadmark() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} verb= words= i
   local options={}
-  for ((i = 1; i < COMP_CWORD; ++i)); do
+{}  for ((i = 1; i < COMP_CWORD; ++i)); do
     case ${{COMP_WORDS[i]}} in {}) verb=${{COMP_WORDS[i]}}; break ;; esac
   done
   case "$verb" in
@@ -64,7 +72,7 @@ _treadmark() {{
 }}
 complete -o default -F _treadmark treadmark
 )",
-                     quoted(names_of(option_words(program))), verb_names(program, "|"),
+                     quoted(names_of(option_words(program))), lists, verb_names(program, "|"),
                      quoted(verb_names(program, " ")), rows, choices);
 }
 
@@ -73,6 +81,8 @@ std::string zsh_row(const OptionWords& option) {
   std::string text = quoted(option.description), what = ":_files";
   text = text.substr(1, text.size() - 2);
   std::erase_if(text, [](char c) { return c == '[' || c == ']' || c == ':'; });
+  if (!option.list.empty())
+    what = fmt::format(":{{compadd {}-a {}; _files}}", option.list.ends_with("_keys") ? "-S \"\" " : "", option.list);
   if (!option.choices.empty()) what = fmt::format(":({})", fmt::join(option.choices, " "));
   if (option.names.empty())
     return fmt::format("'{}:{}{}'", option.repeated ? "*" : "", option.value.empty() ? "value" : option.value, what);
@@ -89,7 +99,9 @@ std::string zsh(const CLI::App& program) {
     for (const OptionWords& option : option_words(app)) rows += " \\\n      " + zsh_row(option);
     return rows;
   };
-  std::string verbs, rows;
+  std::string lists, verbs, rows;
+  for (const NameList& list : name_lists())
+    lists += fmt::format("  local -a {}=({})\n", list.list, fmt::join(list.names, " "));
   for (const CLI::App* verb : verbs_of(program)) {
     std::string text = verb->get_description();
     std::erase(text, ':');
@@ -99,7 +111,7 @@ std::string zsh(const CLI::App& program) {
   return fmt::format(R"(#compdef treadmark
 # zsh completion of treadmark; made by: treadmark completion zsh
 _treadmark() {{
-  local -a verbs=({}
+{}  local -a verbs=({}
   )
   local verb=${{words[(r)({})]}}
   case $verb in
@@ -109,11 +121,12 @@ _treadmark() {{
 }}
 _treadmark "$@"
 )",
-                     verbs, verb_names(program, "|"), rows_of(program), rows);
+                     lists, verbs, verb_names(program, "|"), rows_of(program), rows);
 }
 
 std::string fish(const CLI::App& program) {
   std::string out = "# fish completion of treadmark; made by: treadmark completion fish\n";
+  for (const NameList& list : name_lists()) out += fmt::format("set -l {} {}\n", list.list, fmt::join(list.names, " "));
   const auto add = [&](const CLI::App& app, const std::string& where) {
     for (const OptionWords& option : option_words(app)) {
       std::string row = "complete -c treadmark" + where;
@@ -121,7 +134,9 @@ std::string fish(const CLI::App& program) {
         row += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       if (!option.value.empty() && !option.names.empty()) row += option.choices.empty() ? " -r" : " -x";
       if (!option.choices.empty()) row += " -a " + quoted(fmt::format("{}", fmt::join(option.choices, " ")));
-      if (!option.names.empty() || !option.choices.empty()) out += row + " -d " + quoted(option.description) + '\n';
+      if (!option.list.empty()) row += fmt::format(" -a \"${}\"", option.list);
+      if (!option.names.empty() || !option.choices.empty() || !option.list.empty())
+        out += row + " -d " + quoted(option.description) + '\n';
     }
   };
   add(program, "");

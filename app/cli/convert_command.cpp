@@ -162,11 +162,12 @@ Command add_convert(CLI::App& verb) {
           "IN", options->input,
           "Profile, slices, triangles (.ply .stl .obj .off), CAD (.step .iges), splines (.xml), offsets (.vdb), "
           "a name of 'treadmark list profiles', a case file, or with --at the simulation.h5 of a simulation")
-      ->required();
+      ->required()
+      ->type_name(kProfileName);
   verb.add_option("OUT,-o,--output", options->output,
                   ".ply .stl .obj .off, .vtp (ParaView, in m), .slcs .slcw, .vdb, .step, .xml, or a profile: .prr .prw "
                   ".ban .whl .csv; of a case file also .inp (CONTACT) or .toml: its cases")
-      ->check(is_output())
+      ->check(is_output(true))
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

@@ -37,7 +37,7 @@ int fmu_command(const FmuOptions& options, const CommonOptions& common) {
 Command add_fmu(CLI::App& verb) {
   auto options = std::make_shared<FmuOptions>();
   verb.add_option("CASE", options->input, "A case file with a wheel on a rail, or a simulation")->required();
-  verb.add_option("-o,--output", options->output, "The FMU")->check(is_output())->required()->type_name("FILE.fmu");
+  verb.add_option("-o,--output", options->output, "The FMU")->check(is_output(true))->required()->type_name("FILE.fmu");
   verb.add_option("--fmi", options->version, "Version of the interface")->check(CLI::IsMember({2, 3}));
   verb.add_option("--case", options->content.number, "Number of the case, default the first of a wheel on a rail")
       ->check(CLI::PositiveNumber)

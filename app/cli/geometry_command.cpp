@@ -125,17 +125,18 @@ Command add_geometry(CLI::App& verb) {
   };
   verb.add_option("CASE", options->case_file, "Case file (.toml or .inp): wheel, rail and track of its first case");
   verb.add_option("--wheel", options->wheel,
-                  "Profile, slices, triangles or offsets of both wheels, or of the right one; or a built-in name");
+                  "Profile, slices, triangles or offsets of both wheels, or of the right one; or a built-in name")
+      ->type_name(kProfileName);
   verb.add_option("--wheel-left", options->wheel_left, "Of the left wheel, given as for the right side")
-      ->type_name("FILE");
-  verb.add_option("--rail", options->rail, "Of both rails, or of the right one");
+      ->type_name(kProfileName);
+  verb.add_option("--rail", options->rail, "Of both rails, or of the right one")->type_name(kProfileName);
   verb.add_option("--rail-left", options->rail_left, "Of the left rail, given as for the right side")
-      ->type_name("FILE");
+      ->type_name(kProfileName);
   verb.add_option("--new-wheel", options->new_wheel,
                   "The conicity with this profile in place of both wheels' too: effect of wear")
-      ->type_name("NAME");
+      ->type_name(kProfileName);
   verb.add_option("--new-rail", options->new_rail, "The same with this profile in place of both rails'")
-      ->type_name("NAME");
+      ->type_name(kProfileName);
   mm("--diameter-mm", options->diameter_mm, "At the tape lines, 920 unless given");
   mm("--diameter-left-mm", options->diameter_left_mm, "Of the left wheel");
   mm("--gauge-mm", options->gauge_mm, "Distance of the rails' gauge points");
@@ -172,7 +173,8 @@ Command add_geometry(CLI::App& verb) {
   verb.add_option("--position-mm", options->position_mm, "Place along rails that vary")->type_name("MM");
   verb.add_option("--scale", options->scale_to_mm, "Factor from units of profile files to mm")
       ->check(CLI::PositiveNumber);
-  verb.add_option("--backend", options->backend, "Surface backend (see: treadmark list backends)");
+  verb.add_option("--backend", options->backend, "Surface backend (see: treadmark list backends)")
+      ->type_name(kBackendName);
   verb.add_option("--resolution", options->resolution_mm, "Spacing of the data of that backend [mm]")
       ->check(CLI::PositiveNumber)
       ->type_name("MM");

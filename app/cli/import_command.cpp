@@ -105,7 +105,7 @@ Command add_import(CLI::App& verb) {
       ->check(CLI::IsMember({"auto", "m", "mm", "um", "in"}));
   verb.add_option("--nominal", options->nominal,
                   "Nominal profile: S1002, 60E1, a profile file, none; default S1002 for wheels, 60E1 for rails")
-      ->type_name("PROFILE");
+      ->type_name(kProfileName);
   verb.add_option("--nominal-radius", options->nominal_radius_mm,
                   "Wheel radius at profile z = 0 [mm], default from the scan")
       ->check(CLI::PositiveNumber)

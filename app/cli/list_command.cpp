@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/backends/registry.hpp"
@@ -32,16 +33,16 @@ void print_left_out(std::string_view name, std::string_view part) {
 
 /// A row a profile, columns apart.
 void print_profiles() {
-  constexpr const char* kRow = "{:<14} {:<6} {:>7} {:>6} {:>8} {:>7}  {:<12} {}\n";
-  std::cout << fmt::format(kRow, "name", "body", "height", "width", "area", "mass", "from", "shape; other names");
-  std::cout << fmt::format(kRow, "", "", "mm", "mm", "cm2", "kg/m", "", "");
+  constexpr const char* kRow = "{:<14} {:<5} {:>6} {:>6} {:>6} {:>6}  {}\n";
+  std::cout << fmt::format(kRow, "name", "body", "height", "width", "area", "mass", "from; shape; other names");
+  std::cout << fmt::format(kRow, "", "", "mm", "mm", "cm2", "kg/m", "");
   const auto number = [](double value, double unit, int digits) {
     return value > 0.0 ? fmt::format("{:.{}f}", value / unit, digits) : std::string("-");
   };
   for (const LibraryProfile& p : profile_library())
-    std::cout << fmt::format(kRow, p.name, p.body == Body::wheel ? "wheel" : "rail", number(p.height, 1e-3, 1),
-                             number(p.width, 1e-3, 1), number(p.area, 1e-4, 2), number(p.mass_per_m, 1.0, 2), p.source,
-                             p.also.empty() ? p.shape : fmt::format("{}; {}", p.shape, p.also));
+    print(fmt::format(kRow, p.name, p.body == Body::wheel ? "wheel" : "rail", number(p.height, 1e-3, 1),
+                      number(p.width, 1e-3, 1), number(p.area, 1e-4, 2), number(p.mass_per_m, 1.0, 2),
+                      fmt::format("{}; {}{}{}", p.source, p.shape, p.also.empty() ? "" : "; ", p.also)));
 }
 
 /// The tables of case files that damage a surface, with their keys.
@@ -52,7 +53,7 @@ void print_defects() {
     std::string names;
     for (const io::KeyInfo& key : list->info.elements)
       names += fmt::format("{}{}{}", names.empty() ? "" : ", ", key.path, key.required ? " (required)" : "");
-    std::cout << fmt::format("{:<29} {}\n{:<29} keys: {}\n", path, list->info.doc, "", names);
+    print(fmt::format("{:<29}  {}\n{:<29}  keys: {}\n", path, list->info.doc, "", names));
   });
 }
 
@@ -79,13 +80,13 @@ int list_command(const std::string& what) {
     for (const Backend* backend : left_out_backends()) print_left_out(backend->name, backend->part);
   } else if (what == "detectors") {
     for (const detection::DetectorRow* row : detection::detectors())
-      std::cout << fmt::format("{:<11} {}\n", row->name, row->summary);
+      print(fmt::format("{:<11}  {}\n", row->name, row->summary));
   } else if (what == "defects") {
     print_defects();
   } else if (what == "profiles") {
     print_profiles();
   } else if (what == "solvers") {
-    std::cout << theory_list();
+    print(theory_list());
   } else if (what == "verbs") {
     for (const Verb& verb : verbs())
       if (verb.part == nullptr || has_part(verb.part))
@@ -94,11 +95,11 @@ int list_command(const std::string& what) {
         print_left_out(verb.name, verb.part);
   } else if (what == "remarks") {
     for (const RemarkRow& row : kRemarkRows)
-      std::cout << fmt::format("{:<24} {:<13} {}\n", row.name, row.grave ? "warning" : "minor warning", row.meaning);
+      print(fmt::format("{:<24} {:<13}  {}\n", row.name, row.grave ? "warning" : "minor warning", row.meaning));
   } else if (what == "laws") {
     const auto print_row = [](const auto& row) {
-      std::cout << fmt::format("{:<11} {}\n{:<11} source: {}\n{:<11} for: {}\n{:<11} needs: {}\n", row.word, row.name,
-                               "", row.source, "", row.validity, "", row.keys);
+      print(fmt::format("{:<11}  {}\n{:<11}  source: {}\n{:<11}  for: {}\n{:<11}  needs: {}\n", row.word, row.name, "",
+                        row.source, "", row.validity, "", row.keys));
     };
     for (const WearTheoryRow& row : kWearTheories) print_row(row);
     for (const FlowTheoryRow& row : kFlowTheories) print_row(row);
@@ -106,9 +107,7 @@ int list_command(const std::string& what) {
   } else {
     std::vector<std::string> names;
     for (const ListedKind& kind : kListed) names.emplace_back(kind.name);
-    const std::string near = nearest_name(what, names);
-    throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
-                near.empty() ? fmt::format("choose {}", fmt::join(names, ", ")) : "did you mean '" + near + "'?");
+    throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {}, advice_on_name(what, names));
   }
   return kOk;
 }

@@ -6,6 +6,7 @@
 
 #include <iostream>
 
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -48,14 +49,14 @@ std::optional<app::ResultList> make_list(
   }
 }
 
-void write_list(const ListFiles& files, const app::ResultList& list, bool print) {
+void write_list(const ListFiles& files, const app::ResultList& list, bool shown) {
   if (files.csv == "-")
     std::cout << app::list_csv(list);
   else if (!files.csv.empty())
     write_file(files.csv, app::list_csv(list));
   if (!files.hdf5.empty()) app::write_list_store(files.hdf5, list);
   write_report_file(files.report, [&] { return app::list_page(list); });
-  if (print && files.csv != "-") std::cout << app::list_text(list);
+  if (shown && files.csv != "-") print(app::list_text(list));
   if (list.failed() > 0)
     std::cerr << fmt::format("{} of {} {} failed: see the column error\n", list.failed(), list.rows.size(),
                              list.things);

@@ -29,8 +29,8 @@ std::optional<app::ResultList> make_list(
     const ListFiles& files, const CommonOptions& common,
     const std::function<app::ResultList(const std::filesystem::path& kept, const Progress& progress)>& make);
 
-/// Writes the files, and the list on standard output unless print is false or the table goes there; then deletes the
+/// Writes the files, and the list on standard output unless shown is false or the table goes there; then deletes the
 /// unfinished rows that were kept.
-void write_list(const ListFiles& files, const app::ResultList& list, bool print = true);
+void write_list(const ListFiles& files, const app::ResultList& list, bool shown = true);
 
 }  // namespace treadmark::cli

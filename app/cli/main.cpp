@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -11,6 +12,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -19,11 +21,13 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/printable_stream.hpp"
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/cli/usage_faults.hpp"
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_claim.hpp"
+#include "treadmark/core/output_file.hpp"
 
 namespace {
 
@@ -75,6 +79,19 @@ constexpr const char* kFirstSteps =
     "  treadmark import SCAN.ply -o wheel.slcw      a surface from a laser scan\n"
     "  treadmark VERB --help                        all options of a verb\n";
 
+/// Verbs with a line each, whose beginning no option makes wide.
+class Help final : public CLI::Formatter {
+  std::string make_subcommand(const CLI::App* verb) const override {
+    return fmt::format("  {:<11} {}\n", verb->get_name(), verb->get_description());
+  }
+};
+
+void print_help(const std::string& text) {
+  constexpr std::size_t kWidest = 100, kInFiles = 80;
+  const std::size_t columns = cli::terminal_columns(STDOUT_FILENO);
+  std::cout << cli::folded(text, columns == 0 ? kInFiles : std::min(columns, kWidest));
+}
+
 /// Everything but whether the standard output took what it was given.
 int parse_and_run(int argc, char** argv) {
   CLI::App program{"Treadmark: wheel-rail contact on any 3D surface", "treadmark"};
@@ -82,6 +99,7 @@ int parse_and_run(int argc, char** argv) {
       "--version", "treadmark " + app::version() + " (" + app::git_revision() + ")\n" + app::build_description(),
       "Display version and parts of the program; with --json behind it also libraries and licences, for programs; with "
       "--spdx as a bill of materials (SPDX)");
+  program.formatter(std::make_shared<Help>());
   program.require_subcommand(1);
   program.fallthrough();
   program.footer(
@@ -96,13 +114,15 @@ int parse_and_run(int argc, char** argv) {
 
   std::vector<std::pair<CLI::App*, cli::Command>> commands;
   for (const cli::Verb& verb : cli::verbs()) {
-    CLI::App* app = program.add_subcommand(verb.name, verb.summary);
+    CLI::App* app = program.add_subcommand(verb.name, verb.summary)->group(verb.group);
+    app->footer(fmt::format("Examples:\n{}\n{}", cli::example_lines(verb), program.get_footer()));
     commands.emplace_back(app, verb.add(*app));
   }
   if (argc == 1) {
-    std::cout << program.help() << kFirstSteps;
+    print_help(program.help() + kFirstSteps);
     return cli::kUsage;
   }
+  using namespace std::string_literals;
   using namespace std::string_view_literals;
   if (argc == 3 && argv[1] == "--version"sv && argv[2] == "--json"sv) {
     std::cout << app::version_json();
@@ -118,7 +138,10 @@ int parse_and_run(int argc, char** argv) {
     std::ranges::reverse(words);  // as the parser takes them
     program.parse(std::move(words));
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return program.exit(e) == 0 ? cli::kOk : cli::kUsage;
+    if (e.get_exit_code() == 0) {
+      print_help(dynamic_cast<const CLI::CallForVersion*>(&e) != nullptr ? e.what() + "\n"s : program.help());
+      return cli::kOk;
+    }
     std::cerr << cli::usage_fault(program, e);
     return cli::kUsage;
   }
@@ -128,7 +151,12 @@ int parse_and_run(int argc, char** argv) {
     const cli::NamedFiles named = cli::named_files(*verb);
     const OutputClaim claim(named.outputs);
     for (const std::string& word : named.others) refuse_output_as_input(word);
-    return command(common);
+    const int status = command(common);
+    std::error_code unknown;
+    for (const std::string& output : named.untold)
+      if (!common.quiet && !cli::interrupted() && std::filesystem::exists(output, unknown) && !is_stream(output))
+        std::cerr << "results: " << output << '\n';
+    return status;
   }
   return cli::kUsage;
 }
@@ -159,7 +187,8 @@ int main(int argc, char** argv) {
   hold_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit is an error of writing
   std::set_terminate(leave_without_memory);
-  cli::PrintableStream out(std::cout), err(std::cerr);
+  cli::PrintableStream out(std::cout, cli::has_colours(STDOUT_FILENO), 0),
+      err(std::cerr, cli::has_colours(STDERR_FILENO), cli::terminal_columns(STDERR_FILENO));
   const int status = run(argc, argv);
   if (std::cout.flush()) return status;
   std::cerr << "treadmark: the results could not be written to standard output (is its disk full, or is it closed?)\n";

@@ -12,6 +12,7 @@
 #include "treadmark/app/cli/shell_words.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -68,12 +69,16 @@ std::string page(const CLI::App& program, const CLI::App* verb) {
   std::string others;
   if (verb == nullptr) {
     out += ".SH VERBS\n";
+    std::string group;
     for (const CLI::App* each : verbs_of(program)) {
+      if (each->get_group() != group) out += fmt::format(".SS {}\n", group = each->get_group());
       out += fmt::format(".TP\n\\fB{}\\fR\n{}\n", each->get_name(), escaped(each->get_description()));
       others += fmt::format("{}\\fBtreadmark\\-{}\\fR(1)", others.empty() ? "" : ", ", each->get_name());
     }
   } else {
     out += ".PP\nOptions of \\fBtreadmark\\fR(1) may stand here too.\n";
+    const auto row = std::ranges::find(verbs(), verb->get_name(), [](const Verb& v) { return std::string(v.name); });
+    out += ".SH EXAMPLES\n.nf\n" + escaped(example_lines(*row)) + ".fi\n";
     others = "\\fBtreadmark\\fR(1)";
   }
   return out + ".SH NOTES\n" + escaped(program.get_footer()) + "\n.SH SEE ALSO\n" + others + "\n";
@@ -86,10 +91,14 @@ Command add_man(CLI::App& verb) {
   verb.add_option("VERB", *name, "Page of this verb; default: that of the program");
   return [name, program = verb.get_parent()](const CommonOptions&) -> int {
     const CLI::App* found = nullptr;
-    for (const CLI::App* each : verbs_of(*program))
+    std::vector<std::string> names;
+    for (const CLI::App* each : verbs_of(*program)) {
       if (each->get_name() == *name) found = each;
+      names.push_back(each->get_name());
+    }
     if (found == nullptr && !name->empty())
-      throw Error(ErrorKind::configuration, "there is no verb '" + *name + "'", {}, "see treadmark list verbs");
+      throw Error(ErrorKind::configuration, "there is no verb '" + *name + "'", {},
+                  advice_on_name(*name, names, "see treadmark list verbs"));
     std::cout << page(*program, found);
     return kOk;
   };

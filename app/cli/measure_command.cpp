@@ -94,10 +94,11 @@ Command add_measure(CLI::App& verb) {
           "FILE", options->files,
           "Profile, slices, triangles, offsets, scan, case file or a name of 'treadmark list profiles'; folders, and "
           "@LIST of a file a line, for many")
-      ->required();
+      ->required()
+      ->type_name(kProfileName);
   verb.add_option("--nominal", options->nominal,
                   "Profile that wear is counted against: a name of 'treadmark list profiles' or a file")
-      ->type_name("NAME");
+      ->type_name(kProfileName);
   verb.add_option("--limits", options->limits, "TOML file of limits: tables [wheel], [rail] and [roughness]")
       ->type_name("FILE");
   verb.add_option("--json", options->json, "Write all of it here (JSON); - for standard output instead of the table")

@@ -383,7 +383,7 @@ Command add_new(CLI::App& verb) {
   verb.add_option("FILE", options->file,
                   "Where to; without it KIND.toml, of a backend backend.py. Files that it names are written beside it "
                   "where they are not there")
-      ->check(is_output());
+      ->check(is_output(true));
   return command(options, new_command);
 }
 

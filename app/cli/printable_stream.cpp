@@ -2,8 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/printable_stream.hpp"
 
+#include <algorithm>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
+#include <fmt/format.h>
+
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::cli {
@@ -18,7 +24,47 @@ bool is_control(std::string_view character) {
   return character.size() == 1 || (character[0] == '\xc2' && static_cast<unsigned char>(character[1]) < 0xa0);
 }
 
+/// How a terminal shows what lines begin with.
+struct Label {
+  std::string_view word, colour;
+};
+constexpr Label kLabels[] = {{"treadmark", "\x1b[1;31m"},
+                             {"interrupted", "\x1b[1;33m"},
+                             {"warning", "\x1b[1;33m"},
+                             {"minor warning", "\x1b[33m"},
+                             {"note", "\x1b[36m"}};
+
+/// Labels end with a colon, in lists with two blanks: "treadmark run: ", "  warning  ".
+std::string coloured(std::string_view line) {
+  const std::size_t from = std::min(line.find_first_not_of(' '), line.size());
+  const std::size_t to = std::min({line.find(':', from), line.find("  ", from), line.size()});
+  const std::string_view label = line.substr(from, to - from), rest = line.substr(to);
+  const bool message = label.starts_with("treadmark ") && rest.starts_with(':');  // else it is a command
+  for (const auto& [word, colour] : kLabels)
+    if (!rest.empty() && (label == word || (message && word == "treadmark")))
+      return fmt::format("{}{}{}\x1b[0m{}", line.substr(0, from), colour, label, rest);
+  return std::string(line);
+}
+
 }  // namespace
+
+/// Labels come in one piece.
+bool PrintableStream::put(std::string_view printable) {
+  held_.append(printable);
+  const std::size_t whole = columns_ == 0 ? held_.size() : held_.rfind('\n') + 1;
+  std::string out = folded(held_.substr(0, whole), columns_);
+  held_.erase(0, whole);
+  if (coloured_) {
+    std::istringstream lines(std::exchange(out, {}));
+    for (std::string line; std::getline(lines, line);) {
+      out += line_begins_ ? coloured(line) : line;
+      line_begins_ = !lines.eof();
+      if (line_begins_) out += '\n';
+    }
+  }
+  const auto size = static_cast<std::streamsize>(out.size());
+  return to_->sputn(out.data(), size) == size;
+}
 
 /// all: nothing more will follow what may be the beginning of a character.
 bool PrintableStream::pass(bool all) {
@@ -39,8 +85,7 @@ bool PrintableStream::pass(bool all) {
     at += length > 0 ? length : 1;
   }
   waiting_.erase(0, at);
-  const auto size = static_cast<std::streamsize>(out.size());
-  return to_->sputn(out.data(), size) == size;
+  return put(out);
 }
 
 std::streamsize PrintableStream::xsputn(const char* text, std::streamsize size) {

@@ -48,7 +48,7 @@ Command add_report(CLI::App& verb) {
       ->required();
   verb.add_option("-o,--output", options->output_file,
                   "The report, default FOLDER/report.html, of several overlay.html in the first")
-      ->check(is_output())
+      ->check(is_output(true))
       ->type_name("FILE.html");
   verb.add_flag("--static", options->static_pictures,
                 "Fixed pictures in place of live views: a smaller file without scripts");

@@ -147,9 +147,10 @@ Command add_run(CLI::App& verb) {
       ->type_name("FILE");
   verb.add_flag("--vtk", options->bodies, "Write wheel and rail of every case for ParaView too: FOLDER/vtk/bodies.pvd");
   verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");
-  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)");
-  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
-  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");
+  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)")
+      ->type_name(kBackendName);
+  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel")->type_name(kBackendName);
+  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail")->type_name(kBackendName);
   verb.add_option("--resolution", options->resolution_mm,
                   "Spacing of the data that surfaces in other backends are sampled at [mm]")
       ->check(CLI::PositiveNumber)

@@ -33,7 +33,7 @@ struct SimulateOptions {
   std::string file;
   std::string output_folder, json_file;              ///< empty = none; JSON "-" = stdout
   std::string backend, wheel_backend, rail_backend;  ///< backend: of both, where they are empty
-  bool resume = false;
+  bool resume = false, anew = false;
   bool vtk = false;          ///< snapshots, wheel and rail for ParaView
   bool modes_only = false;   ///< print eigenfrequencies, do not integrate
   std::string track_folder;  ///< show how the track gives way, do not integrate; empty = none
@@ -128,13 +128,16 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     lock.emplace(app::claim_folder(folder));
     run.checkpoint_file = folder / "unfinished.h5";
     run.table_file = folder / "history.csv";
-    run.resume = options.resume;
     if (options.resume && app::is_finished(folder / "simulation.h5", file, overrides)) {
       std::cerr << "the simulation in " << folder.string() << " is complete already\n";
       write_report_file(options.report_file, [&] { return app::pages::read_report(folder); });
       return kOk;
     }
-    if (!options.resume) {
+    if (options.anew) remove_file(run.checkpoint_file);
+    if (app::goes_on(run.checkpoint_file, options.resume)) {
+      print_notes({"goes on with the interrupted simulation in " + folder.string() + "; --anew begins again"},
+                  common.quiet);
+    } else {
       remove_file(folder / "simulation.h5");  // where it stands, the other files are of its making
       remove_file(run.checkpoint_file);
       remove_file(folder / "assessment.json");
@@ -160,7 +163,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       options.json_file, app::to_json(result, times, own),
       app::summary_text(result) + (own ? app::assessment_text(std::span(own, 1)) : "") + app::times_text(times));
   if (result.status == "interrupted")
-    std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';
+    std::cerr << result.message << (folder.empty() ? "" : "; the same command goes on from there") << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
   if (const double steps = doubtful_steps(result); steps > 0.0)
     std::cerr << fmt::format(
@@ -183,10 +186,13 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--json", options->json_file, "Write the summary here; - for standard output instead of the table")
       ->check(is_output())
       ->type_name("FILE");
-  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail");
-  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
-  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");
-  verb.add_flag("--resume", options->resume, "Go on with an interrupted simulation in the output folder");
+  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail")->type_name(kBackendName);
+  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel")->type_name(kBackendName);
+  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail")->type_name(kBackendName);
+  CLI::Option* const resume =
+      verb.add_flag("--resume", options->resume, "Leave a simulation alone that is complete in the output folder");
+  verb.add_flag("--anew", options->anew, "Begin again, and discard an interrupted simulation in the output folder")
+      ->excludes(resume);
   verb.add_flag("--vtk", options->vtk,
                 "Write the contact at the snapshots, wheel and rail for ParaView too, over time: FOLDER/vtk");
   verb.add_flag("--modes", options->modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
+#include <string>
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/stability/stability_run.hpp"
-#include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 
@@ -27,9 +27,6 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
     request.falling = options.falling;
     if (!options.folder.empty()) require_part("hdf5", "histories of falling speeds");
     request.falling->folder = options.folder;
-    if (options.falling.resume && options.folder.empty())
-      throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted run", {},
-                  "give it with -o FOLDER");
   }
   const app::StabilityRun run =
       with_progress(common.quiet, [&](const Progress& progress) { return app::run_stability(request, progress); });
@@ -40,7 +37,7 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
   print_results(options.json_file, json, [&] { return app::stability_table(run); });
   if (run.falling && run.falling->status() != "complete") {
     std::cerr << "treadmark: " << app::falling_verdict(*run.falling)
-              << (options.folder.empty() ? "" : "; --resume goes on from there") << '\n';
+              << (options.folder.empty() ? "" : "; the same command goes on from there") << '\n';
     return kFailed;
   }
   if (run.result.verdict != vehicle::StabilityVerdict::unknown) return kOk;
@@ -55,7 +52,13 @@ Command add_stability(CLI::App& verb) {
   app::StabilityRequest& request = options->request;
   verb.add_option("FILE", options->file, "Simulation file (.toml)")->required();
   const auto add_speed = [&](const char* name, double& value, const char* text) {
-    verb.add_option(name, value, text)->check(CLI::Range(1e-3, 1e3))->capture_default_str()->type_name("M/S");
+    CLI::Option* const in_m_s =
+        verb.add_option(name, value, text)->check(CLI::Range(1e-3, 1e3))->capture_default_str()->type_name("M/S");
+    verb.add_option_function<double>(
+            std::string(name) + "-km-h", [&value](double speed) { value = speed / 3.6; }, "The same in km/h")
+        ->check(CLI::Range(3.6e-3, 3.6e3))
+        ->type_name("KM/H")
+        ->excludes(in_m_s);
   };
   add_speed("--from", request.from, "Lowest speed [m/s]");
   add_speed("--to", request.to, "Highest speed [m/s]");
@@ -93,7 +96,8 @@ Command add_stability(CLI::App& verb) {
   add_fall("--wave-m", falling.wave_height, "Height of the track's wave to the side that disturbs the vehicle [m]", 0.1,
            "M");
   add_fall("--wave-length-m", falling.wave_length, "Its length [m]", 1e3, "M");
-  verb.add_flag("--resume", falling.resume, "Go on with an interrupted --falling in the output folder")->needs(falls);
+  verb.add_flag("--anew", falling.anew, "Begin --falling again, and discard what is in the output folder")
+      ->needs(falls);
   add_overrides(verb, request.overrides, "simulation.vehicle=mine.toml");
   return command(options, stability_command);
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/slurm_jobs.hpp"
@@ -75,12 +76,12 @@ int slurm_command(const io::StudyFile& study, const SweepOptions& options) {
 
 void print_table(const io::StudyResult& study) {
   for (const io::SimulationRun& run : study.runs) {
-    std::cout << fmt::format("{:>4}  {:<40} {:<10}", run.number, run.label, run.status);
+    std::string line = fmt::format("{:>4}  {:<40} {:<10}", run.number, run.label, run.status);
     for (const char* name : {"q_max_N", "q_max_over_static", "ty_max_N", "pmax_Pa"}) {
       const double value = io::summary_value(run, name);
-      if (value == value) std::cout << fmt::format("  {} {:.5g}", name, value);
+      if (value == value) line += fmt::format("  {} {:.5g}", name, value);
     }
-    std::cout << (run.message.empty() ? "" : "  " + run.message) << '\n';
+    print(line + (run.message.empty() ? "" : "  " + run.message) + '\n');
   }
 }
 
@@ -130,6 +131,7 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
     write_report();
   }
   if (place.rank == 0) print_table(outcome.study);
+  if (speaks && share.whole()) std::cerr << "results: " << options.output_folder << '\n';
   const bool all_good =
       std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
   return all_good ? kOk : kFailed;
@@ -141,7 +143,7 @@ Command add_sweep(CLI::App& verb) {
   auto options = std::make_shared<SweepOptions>();
   verb.add_option("STUDY", options->file, "Study file (.toml)")->required();
   verb.add_option("-o,--output", options->output_folder, "Folder for sweep.h5, sweep.csv, figures and the runs")
-      ->check(is_output())
+      ->check(is_output(true))
       ->type_name("FOLDER")
       ->required();
   verb.add_flag("--resume", options->resume, "Go on with a study that was stopped; there must be one in the folder");

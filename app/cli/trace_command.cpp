@@ -86,7 +86,7 @@ Command add_trace(CLI::App& verb) {
   auto options = std::make_shared<TraceOptions>();
   verb.add_option("FILE", options->file, "Profile, slices, triangles, offsets (.vdb) or case file")->required();
   verb.add_option("-o,--output", options->output, "CSV file; default: standard output")
-      ->check(is_output())
+      ->check(is_output(true))
       ->type_name("FILE");
   verb.add_option("--body", options->body, "wheel or rail, where the file does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

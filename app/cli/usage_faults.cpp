@@ -152,13 +152,11 @@ void check_words(const CLI::App& program, const std::vector<std::string>& words)
   if (!is_verb(word)) {
     std::vector<std::string> known;
     for (const Verb& verb : verbs()) known.emplace_back(verb.name);
-    const std::string near = nearest_name(word, known);
     std::error_code ignored;
     const bool file = std::filesystem::path(word).has_extension() || std::filesystem::exists(word, ignored);
     throw Error(ErrorKind::configuration, "there is no verb '" + word + "'", {},
-                file           ? "the verb stands first: treadmark run " + word
-                : near.empty() ? "treadmark --help lists all"
-                               : "did you mean '" + near + "'?");
+                file ? "the verb stands first: treadmark run " + word
+                     : advice_on_name(word, known, "treadmark --help lists all"));
   }
   const CLI::App* verb = program.get_subcommand(word);
   for (std::size_t k = at + 1; k < words.size(); ++k)

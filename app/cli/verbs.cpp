@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/verbs.hpp"
 
+#include "treadmark/io/files/replaced.hpp"
+
 namespace treadmark::cli {
 namespace {
 
 constexpr Verb kVerbs[] = {
-#define VERB(name, summary, part) {#name, summary, add_##name, part},
+#define VERB(name, group, summary, part, examples) {#name, group, summary, part, examples, add_##name},
 #include "treadmark/app/cli/verbs.def"
 #undef VERB
 };
@@ -14,5 +16,9 @@ constexpr Verb kVerbs[] = {
 }  // namespace
 
 std::span<const Verb> verbs() { return kVerbs; }
+
+std::string example_lines(const Verb& verb) {
+  return "  treadmark " + io::replaced(verb.examples, "\n", "\n  treadmark ") + '\n';
+}
 
 }  // namespace treadmark::cli

@@ -29,19 +29,20 @@ struct CommonOptions {
 /// Does the work of a verb, whose options it holds. Returns an exit status or throws treadmark::Error.
 using Command = std::function<int(const CommonOptions&)>;
 
-/// One verb of the program. add: its options, and the command that they are parsed into. part: of parts()
-/// (core/parts.hpp), without which the verb says so; nullptr: none.
+/// One verb of the program. part: of parts() (core/parts.hpp), without which the verb says so; nullptr: none. examples:
+/// what may stand behind "treadmark ", one a line. add: its options, and the command that they are parsed into.
 struct Verb {
-  const char* name;
-  const char* summary;
+  const char *name, *group, *summary, *part, *examples;
   Command (*add)(CLI::App& verb);
-  const char* part = nullptr;
 };
 
 /// All verbs, in the order in which they are listed.
 std::span<const Verb> verbs();
 
-#define VERB(name, summary, part) Command add_##name(CLI::App& verb);
+/// The examples of a verb, indented, one a line.
+std::string example_lines(const Verb& verb);
+
+#define VERB(name, ...) Command add_##name(CLI::App& verb);
 #include "treadmark/app/cli/verbs.def"
 #undef VERB
 

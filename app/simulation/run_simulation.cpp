@@ -267,8 +267,7 @@ class Run {
   }
 
   std::optional<io::SimulationCheckpoint> find_kept() const {
-    if (!options_.resume || options_.checkpoint_file.empty() || !std::filesystem::exists(options_.checkpoint_file))
-      return {};
+    if (options_.checkpoint_file.empty() || !std::filesystem::exists(options_.checkpoint_file)) return {};
     const auto lock = lock_stores();
     io::SimulationCheckpoint kept = io::read_checkpoint(options_.checkpoint_file);
     require_same_simulation(options_.checkpoint_file, kept, file_, options_.settings);
@@ -324,7 +323,13 @@ void require_same_simulation(const std::filesystem::path& store, const io::Simul
       kept.settings == settings && kept.geometry_sha256 == input_hashes(file))
     return;
   throw Error(ErrorKind::configuration, fmt::format("{} belongs to another simulation", store.string()), {},
-              "resume with the same files, settings and build of Treadmark, or start anew in another folder");
+              "go on with the same files, settings and build of Treadmark, choose another folder, or discard it with "
+              "--anew");
+}
+
+bool goes_on(const std::filesystem::path& checkpoint, bool also_failed) {
+  return std::filesystem::exists(checkpoint) &&
+         (also_failed || io::read_simulation_head(checkpoint).status == "interrupted");
 }
 
 bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file,

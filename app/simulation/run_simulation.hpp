@@ -22,11 +22,10 @@ namespace treadmark::app {
 struct SimulationOptions {
   std::vector<std::string> settings;  ///< echo of overrides
   std::vector<std::pair<std::string, std::string>> swept;
-  /// Where unfinished results are kept, with what it takes to go on; empty: nowhere. The file is removed by nobody
-  /// here.
+  /// Where unfinished results are kept, with what it takes to go on; what is there already is gone on from. Empty:
+  /// nowhere. The file is removed by nobody here.
   std::filesystem::path checkpoint_file;
   std::filesystem::path table_file;   ///< history so far as text, written with every checkpoint; empty: none
-  bool resume = false;                ///< go on from that file, if there is one
   ContactTables* tables = nullptr;    ///< shared by runs; null: none are
   std::mutex* store_mutex = nullptr;  ///< held while files are written: the HDF5 library may not be thread-safe
   /// Called with warnings about the start (the message of the result) before the vehicle runs; empty: not called.
@@ -58,6 +57,10 @@ void require_same_simulation(const std::filesystem::path& store, const io::Simul
 /// Whether a finished result lies there. Errors: as require_same_simulation.
 bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file,
                  const std::vector<std::string>& settings);
+
+/// Whether a checkpoint lies there that is to be gone on from: that of a failed run leads to the same failure. Errors:
+/// Error(input_data).
+bool goes_on(const std::filesystem::path& checkpoint, bool also_failed = false);
 
 /// Vehicle, track and contacts in equilibrium, without integration: static values and modes.
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,

@@ -135,7 +135,6 @@ class Workers {
     wanted.settings = run.overrides;
     wanted.swept = swept_of(study_, run);
     wanted.checkpoint_file = checkpoint_of(i);
-    wanted.resume = true;
     wanted.store_mutex = &store_mutex();
     wanted.tables = &tables_;
     Progress inner;

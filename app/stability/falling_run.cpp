@@ -125,10 +125,10 @@ class Falls {
     const FileLock lock = claim_folder(folder);
     options.checkpoint_file = folder / "unfinished.h5";
     options.table_file = folder / "history.csv";
-    options.resume = request.resume;
-    if (request.resume && is_finished(store, file, options.settings)) return io::read_simulation(store);
+    if (request.anew) remove_file(store);
+    if (is_finished(store, file, options.settings)) return io::read_simulation(store);
+    if (request.anew || !goes_on(options.checkpoint_file)) remove_file(options.checkpoint_file);
     remove_file(store);
-    if (!request.resume) remove_file(options.checkpoint_file);
     io::SimulationResult result = run_simulation(file, store_, options, progress_);
     write_simulation_folder(folder, result);
     if (result.status == "complete") remove_file(options.checkpoint_file);

@@ -24,7 +24,7 @@ struct FallingRequest {
   double amplitude = 1e-4;                        ///< of wheelsets that sway no more [m]
   double wave_height = 3e-3, wave_length = 20.0;  ///< of the track to the side, which disturbs the vehicle [m]
   std::filesystem::path folder;                   ///< histories are kept here, in a folder each; empty: nowhere
-  bool resume = false;                            ///< go on with what is there
+  bool anew = false;                              ///< discard what is there; else it is gone on with
 };
 
 /// One run.

@@ -33,6 +33,7 @@ constexpr FileUnit kPerSecond{"1/s"};
 
 constexpr Column<ModeRow> kModes[] = {
     {"speed_m_s", {"m/s"}, "", of<&ModeRow::speed>(), "", kInTable, "V"},
+    {"", {"km/h", 3.6, "m/s"}, "", of<&ModeRow::speed>(), "", kInTable, "V"},
     {"branch",
      unit::kOne,
      "",

@@ -86,12 +86,14 @@ std::string stability_verdict(const StabilityRun& run) {
   };
   switch (r.verdict) {
     case vehicle::StabilityVerdict::stable:
-      return fmt::format("stable from {:g} to {:g} m/s", r.at.front().speed, r.at.back().speed);
+      return fmt::format("stable from {:g} to {:g} m/s ({:.4g} to {:.4g} km/h)", r.at.front().speed, r.at.back().speed,
+                         3.6 * r.at.front().speed, 3.6 * r.at.back().speed);
     case vehicle::StabilityVerdict::critical:
       return fmt::format("critical speed {:.5g} m/s ({:.4g} km/h), within {:.2g} m/s; {}", r.critical->speed,
                          3.6 * r.critical->speed, r.critical->error, motion(r.critical->beyond));
     case vehicle::StabilityVerdict::unstable:
-      return fmt::format("unstable already at {:g} m/s; {}", r.at.front().speed, motion(r.at.front()));
+      return fmt::format("unstable already at {:g} m/s ({:.4g} km/h); {}", r.at.front().speed, 3.6 * r.at.front().speed,
+                         motion(r.at.front()));
     case vehicle::StabilityVerdict::unknown:
       break;
   }

@@ -113,19 +113,26 @@ std::string summary(const CaseResult& result) {
 std::string summary_list(std::span<const CaseResult> cases) {
   using enum Label::Digits;
   const bool posed = std::ranges::any_of(cases, &CaseResult::has_wheelset);
-  constexpr const char* kPose = " {:>9} {:>9} {:>9}";
-  std::string text = fmt::format("{:>6}  {:<13}", "case", "status");
-  if (posed) text += fmt::format(kPose, "y [mm]", "z [mm]", "pitch [°]");
-  text += fmt::format(" {:>7} {:>9} {:>9} {:>9} {:>10} {:>7}\n", "patches", "Fx [N]", posed ? "Fy [N]" : "Fs [N]",
-                      posed ? "Fz [N]" : "Fn [N]", "pmax [MPa]", "slip");
+  std::size_t status = 6;
+  for (const CaseResult& c : cases) status = std::max(status, status_word(c).size());
+  // Rows of 80 characters where no status is longer than "no_contact".
+  constexpr const char *kCase = "{:>4} {:<{}}", *kPose = " {:>7} {:>7} {:>8}",
+                       *kContact = " {:>3} {:>7} {:>7} {:>7} {:>6} {:>4}\n";
+  std::string text = fmt::format(kCase, "case", "status", status);
+  if (posed) text += fmt::format(kPose, "y", "z", "pitch");
+  text += fmt::format(kContact, "no.", "Fx", posed ? "Fy" : "Fs", posed ? "Fz" : "Fn", "pmax", "slip");
+  text += fmt::format(kCase, "", "", status);
+  if (posed) text += fmt::format(kPose, "mm", "mm", "deg");
+  text += fmt::format(kContact, "", "N", "N", "N", "MPa", "%");
   std::string said;
   for (const CaseResult& c : cases) {
-    text += fmt::format("{:>6}  {:<13}", c.number, status_word(c));
+    text += fmt::format(kCase, c.number, status_word(c), status);
     if (posed)
       text += fmt::format(kPose, in_digits(1e3 * c.y, four_decimals), in_digits(1e3 * c.z, four_decimals),
                           in_digits(c.pitch * kDegrees, four_decimals));
-    text += fmt::format(" {:>7}", c.patches.size());
-    if (!c.patches.empty()) {
+    if (c.patches.empty()) {
+      text += fmt::format(" {:>3}\n", 0);
+    } else {
       const PatchResult& first = c.patches.front();
       const Vec3 force = c.has_wheelset ? c.force_tr : Vec3(first.fx, first.fs, first.fn);
       double pressure = 0.0;
@@ -134,11 +141,10 @@ std::string summary_list(std::span<const CaseResult> cases) {
         pressure = std::max(pressure, p.pmax);
         slip += p.nslip, contact += p.ncon;
       }
-      text += fmt::format(" {:>9} {:>9} {:>9} {:>10} {:>7}", in_digits(force.x(), five), in_digits(force.y(), five),
+      text += fmt::format(kContact, c.patches.size(), in_digits(force.x(), five), in_digits(force.y(), five),
                           in_digits(force.z(), five), in_digits(1e-6 * pressure, five),
-                          contact > 0 ? fmt::format("{:.0f} %", 100.0 * slip / contact) : "");
+                          contact > 0 ? fmt::format("{:.0f}", 100.0 * slip / contact) : "");
     }
-    text += "\n";
     if (!c.message.empty()) said += fmt::format("case {}: {}\n", c.number, c.message);
     for (const Remark& remark : c.remarks) said += fmt::format("case {}: {}\n", c.number, to_line(remark));
   }

@@ -247,7 +247,7 @@ TEST(BenchCommand, RefusesWhatMakesNoSense) {
     EXPECT_THAT(result.err, HasSubstr(words));
     EXPECT_EQ(result.out, "");
   };
-  refused({"--backends", "clay"}, "unknown backend 'clay' (available: analytic, spline");
+  refused({"--backends", "clay"}, "unknown backend 'clay' (choose analytic, spline");
   refused({"--resolutions", "0"}, "resolutions must be positive");
   refused({"--resolutions", "-1"}, "resolutions must be positive");
   refused({"--seconds-per-measure", "0"}, "the time of a measure must be positive");

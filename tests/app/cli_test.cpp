@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <regex>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -22,6 +23,7 @@ namespace {
 
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(CommandLine, HelpAndVersion) {
   const ProgramResult help = run_program({"--help"});
@@ -125,11 +127,30 @@ TEST(CommandLine, ListsAndSchema) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
   EXPECT_EQ(run_program({"list", "verbs"}).out,
-            "run\ncompare\ndiff\nbench\ngeometry\nconvert\ntrace\n" + verb("import", "scans") + verb("scan", "scans") +
-                "measure\n" + verb("simulate", "vehicle") + verb("assess", "vehicle") + verb("sweep", "vehicle") +
-                verb("evolve", "vehicle") + verb("stability", "vehicle") + verb("track", "vehicle") +
-                verb("fmu", "fmu") + verb("report", "report") + verb("plot", "report") +
-                "new\ncheck\nlist\nschema\ncompletion\nman\n");
+            "run\ncheck\ngeometry\ncompare\ndiff\nbench\nmeasure\n" + verb("import", "scans") + verb("scan", "scans") +
+                "convert\ntrace\n" + verb("simulate", "vehicle") + verb("assess", "vehicle") +
+                verb("stability", "vehicle") + verb("track", "vehicle") + verb("fmu", "fmu") +
+                verb("evolve", "vehicle") + verb("sweep", "vehicle") + verb("report", "report") +
+                verb("plot", "report") + "new\nlist\nschema\ncompletion\nman\n");
+}
+
+TEST(CommandLine, HelpFitsATerminalAndHasExamples) {
+  const std::string all = run_program({"--help"}).out;
+  EXPECT_THAT(all, ContainsRegex("Wheel on rail:\n  run  +Solve"));
+  std::istringstream verbs("--help\n" + run_program({"list", "verbs"}).out);
+  for (std::string verb; std::getline(verbs, verb);) {
+    if (verb.find(' ') != std::string::npos) continue;  // left out
+    const std::string help = run_program({verb, "--help"}).out;
+    if (verb != "--help") {
+      EXPECT_THAT(help, HasSubstr("Examples:\n  treadmark " + verb + ' '));
+      EXPECT_THAT(all, ContainsRegex("\n  " + verb + " +[A-Z]"));
+    }
+    std::istringstream lines(help);
+    for (std::string line; std::getline(lines, line);)
+      if (!line.starts_with("  -")) {  // choices of an option are one word
+        EXPECT_LE(line.size(), 80u) << line;
+      }
+  }
 }
 
 /// What bash would offer for the last of these words.
@@ -143,6 +164,13 @@ TEST(CommandLine, ShellsCompleteVerbsOptionsAndChoices) {
   EXPECT_EQ(completed("treadmark com"), "compare completion\n");
   EXPECT_EQ(completed("treadmark run --js"), "--json\n");
   EXPECT_EQ(completed("treadmark --quiet completion z"), "zsh\n");
+  EXPECT_EQ(completed("treadmark geometry --wheel S10"), "S1002\n");
+  EXPECT_EQ(completed("treadmark measure rail 60E2"), "60E2\n");
+  EXPECT_EQ(completed("treadmark run --backend mesh-"), "mesh-flat\n");
+  EXPECT_EQ(completed("treadmark run my.toml --set track.gauge_m"), "track.gauge_mm=\n");
+  if (has_part("vehicle")) {
+    EXPECT_EQ(completed("treadmark simulate my.toml --set simulation.speed_k"), "simulation.speed_km_h=\n");
+  }
   EXPECT_EQ(completed("treadmark run examples/wheel"), "\n");  // files are the shell's own work
   EXPECT_THAT(run_program({"completion", "zsh"}).out, HasSubstr("'*--json["));
   EXPECT_THAT(run_program({"completion", "fish"}).out, HasSubstr("__fish_seen_subcommand_from run' -l json -r"));
@@ -167,9 +195,11 @@ TEST(CommandLine, ManualPagesSayWhatHelpSays) {
   const std::string page = run_program({"man", "run"}).out;
   EXPECT_THAT(page, HasSubstr(".TH TREADMARK-RUN 1"));
   EXPECT_THAT(page, HasSubstr("\\fB\\-\\-json\\fR \\fIFILE\\fR"));
+  EXPECT_THAT(page, HasSubstr(".SH EXAMPLES\n.nf\n  treadmark run "));
   const std::string all = run_program({"man"}).out;
   EXPECT_THAT(all, HasSubstr("\\fBtreadmark\\-check\\fR(1)"));
-  EXPECT_EQ(run_program({"man", "wishes"}).status, 2);
+  EXPECT_THAT(all, HasSubstr(".SS Vehicle and track"));
+  EXPECT_THAT(run_program({"man", "rum"}).err, HasSubstr("did you mean 'run'?"));
 }
 
 TEST(CommandLine, CheckReadsWithoutSolving) {
@@ -187,6 +217,8 @@ TEST(CommandLine, RunPrintsASummaryAndWritesEveryFile) {
   const ProgramResult r = run_program({"run", input.inp().string(), "-o", folder.string()});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("MPa"));
+  EXPECT_THAT(r.err, HasSubstr("results: " + folder.string() + "\n"));
+  EXPECT_THAT(run_program({"run", input.inp().string()}).err, Not(HasSubstr("results:")));
   for (const char* file : {"result.json", "pressure.svg", "vtk"})
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
   EXPECT_EQ(std::filesystem::exists(folder / "fields.h5"), has_part("hdf5"));

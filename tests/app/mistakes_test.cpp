@@ -84,6 +84,9 @@ TEST_F(Mistakes, OptionsAndPlacesAreNamed) {
   expect({"convert", "@/wheel.csv", "x.stl", "--nominal-radius", "460,5"}, 2,
          {"must be a number from 0 on, not '460,5' (write 460.5)"});
   expect({"list", "profile"}, 2, {"cannot list 'profile' (did you mean 'profiles'?)"});
+  expect({"run", "@/my.toml", "--backend", "splin"}, 2, {"unknown backend 'splin' (did you mean 'spline'?)"});
+  expect({"compare", "@/my.toml", "--detectors", "gird"}, 2, {"there is no detector 'gird' (did you mean 'grid'?)"});
+  expect({"run", "@/my.toml", "--set", "rail.shape.standard=60E3"}, 2, {"did you mean"});
 }
 
 TEST_F(Mistakes, VerbsAreNamed) {

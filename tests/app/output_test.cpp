@@ -74,7 +74,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
       {"completion", {{"bash"}}},
       {"man", {{}}}};
   for (const char* verb : {
-#define VERB(name, summary, part) #name,
+#define VERB(name, ...) #name,
 #include "treadmark/app/cli/verbs.def"
 #undef VERB
        }) {

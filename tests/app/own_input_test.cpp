@@ -72,7 +72,7 @@ TEST(OwnInput, IsNoOutputOfAnyVerb) {
                                    "measure --mate",    "geometry --wheel-left", "geometry --rail-left"};
   int tried = 0;
   for (const std::string verb : {
-#define VERB(name, summary, part) #name,
+#define VERB(name, ...) #name,
 #include "treadmark/app/cli/verbs.def"
 #undef VERB
        }) {

@@ -30,6 +30,9 @@ TEST(NearestName, IsNoneWhereNothingIsNear) {
   EXPECT_EQ(nearest_name("xy", names), "");
   EXPECT_EQ(nearest_name("", names), "");
   EXPECT_EQ(nearest_name("something_else", names), "");
+  EXPECT_EQ(advice_on_name("CANT", names), "did you mean 'cant'?");
+  EXPECT_EQ(advice_on_name("xy", names, "see the list"), "see the list");
+  EXPECT_THAT(advice_on_name("xy", names), ::testing::StartsWith("choose " + names.front() + ", "));
 }
 
 TEST(MissingFile, IsLookedForBesideItsName) {

@@ -7,6 +7,7 @@ README.md fits on a screen.
 usage: check_pages.py ROOT
 - README.md: at most 60 lines of 100 characters, with both commands that set everything up;
 - docs/*.md: a title, a paragraph, then a block of one command, or of a program, within the first 12 lines; a link to it in docs/index.md;
+- what docs/index.md lists below How-to: its last section is what can go wrong;
 - docs/glossary.md, docs/symbols.md: what they put in back-quotes stands in another document, too;
 - CMakeLists.txt, CITATION.cff, the package for Python and the newest section of CHANGELOG.md have one version (and date); entries of that section have one line.
 """
@@ -42,6 +43,13 @@ def wrong_beginning(name, text):
         yield f"{name}: its first block has more than one command"
 
 
+def wrong_ends(index, pages):
+    listed = re.search(r"^## How-to\n\n((?:- .*\n)+)", index, re.MULTILINE)
+    for name in re.findall(r"\]\(([\w-]+\.md)\)", listed[1]) if listed else []:
+        if re.findall(r"^## (.*)$", pages.get(name, ""), re.MULTILINE)[-1:] != ["What can go wrong"]:
+            yield f"docs/{name} does not end with what can go wrong"
+
+
 def wrong_words(name, text, others):
     for words in re.findall(r"`([^`\n]+)`", re.sub(r"```.*?```", "", text, flags=re.DOTALL)):
         if words not in others:
@@ -71,6 +79,7 @@ def problems(root):
     pages = {page.name: page.read_text() for page in sorted((root / "docs").glob("*.md"))}
     others = "".join(text for name, text in pages.items() if name not in GLOSSARIES)
     others += "".join(path.read_text() for path in [root / "core/README.md", *(root / "docs").glob("*.schema.json")] if path.exists())
+    yield from wrong_ends(index, pages)
     for name, text in pages.items():
         yield from wrong_beginning(f"docs/{name}", text)
         if name != "index.md" and f"]({name})" not in index:

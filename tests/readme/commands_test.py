@@ -72,5 +72,9 @@ for page in pages_of(root):
         seen += 1
         violations += [f"{page.relative_to(root)}:{line}: {text}: {' '.join(words)}" for text in program.wrong(words)]
 assert seen > 80, seen
+for verb in sorted(program.verbs):
+    examples = re.findall(r"^  treadmark (.+)", program.call(verb, "--help").partition("Examples:")[2].partition("Exit status")[0], re.M)
+    violations += [f"{verb} --help: {text}" for example in examples for text in program.wrong(["treadmark", *example.split()])]
+    assert examples, verb
 print("\n".join(violations) or f"{seen} commands")
 sys.exit(1 if violations else 0)

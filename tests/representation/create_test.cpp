@@ -34,7 +34,7 @@ void expect_refused(const SurfaceSpec& spec, const char* words) {
 }
 
 constexpr const char* kAll =
-    "available: analytic, spline, nurbs, thb, thb-quadratic, mesh, mesh-flat, offset, offset-quadratic, "
+    "choose analytic, spline, nurbs, thb, thb-quadratic, mesh, mesh-flat, offset, offset-quadratic, "
     "offset-bilinear, chords, prismatic";
 
 TEST(CreateSurface, ListsWhatThereIs) {

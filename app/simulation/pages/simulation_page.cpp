@@ -163,8 +163,8 @@ void add_simulation_banners(const Result& result, Section& overview, const std::
   };
   if (result.status == "interrupted")
     add(Banner::Kind::failed, "Interrupted.",
-        fmt::format("{}{}The history ends before the end of the track; treadmark simulate --resume goes on.",
-                    result.message, result.message.empty() ? "" : ". "));
+        fmt::format("{}{}The history ends before the end of the track; the same command goes on.", result.message,
+                    result.message.empty() ? "" : ". "));
   if (result.status == "failed") add(Banner::Kind::failed, "Failed.", result.message);
   if (!result.events.empty())
     add(Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below.");

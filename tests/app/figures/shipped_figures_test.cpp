@@ -100,7 +100,6 @@ TEST(ShippedFigures, AnInterruptedRunDrawsTheSame) {
   const io::SimulationResult part = simulated(settings, options, progress);
   ASSERT_EQ(part.status, "interrupted");
   EXPECT_EQ(patches_panels(part).size(), 1u);
-  options.resume = true;
   const io::SimulationResult resumed = simulated(settings, options);
   ASSERT_EQ(resumed.status, "complete");
   EXPECT_EQ(pictures::patches_csv(patches_panels(resumed)), pictures::patches_csv(patches_panels(undisturbed)));

@@ -52,8 +52,7 @@ class Resume : public ::testing::Test {
     ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
     int resumed = 0;
     for (const int delay_ms : {0, 20, 60, 150}) {
-      RunningProgram program(
-          command("killed", resumed > 0 ? std::vector<std::string>{"--resume"} : std::vector<std::string>{}));
+      RunningProgram program(command("killed"));
       if (!wait_for_checkpoint(program, "killed")) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
       program.send(SIGKILL);
@@ -62,7 +61,7 @@ class Resume : public ::testing::Test {
     }
     EXPECT_GE(resumed, 1) << "never killed between the first checkpoint and the end";
     input.write("killed/.history.csv.part1-0", "what a kill in the middle of writing leaves");
-    const ProgramResult last = RunningProgram(command("killed", {"--resume"})).wait();
+    const ProgramResult last = RunningProgram(command("killed")).wait();
     ASSERT_EQ(last.status, 0) << last.err;
     expect_same("undisturbed", "killed");
     for (const auto& entry : fs::directory_iterator(input.path("killed")))
@@ -125,11 +124,14 @@ TEST_F(Resume, AfterAnInterruptTheMessageSaysHowToGoOn) {
   program.send(SIGINT);
   const ProgramResult stopped = program.wait();
   EXPECT_EQ(stopped.status, 1);
-  EXPECT_THAT(stopped.err, HasSubstr("--resume"));
+  EXPECT_THAT(stopped.err, HasSubstr("the same command goes on"));
   EXPECT_THAT(stopped.out, HasSubstr("interrupted"));
   EXPECT_TRUE(fs::exists(input.path("stopped/history.csv"))) << "what there is";
-  const ProgramResult resumed = RunningProgram(command("stopped", {"--resume"})).wait();
+  std::vector<std::string> again = command("stopped");
+  std::erase(again, "--quiet");
+  const ProgramResult resumed = RunningProgram(again).wait();
   ASSERT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, HasSubstr("goes on with the interrupted simulation"));
   expect_same("undisturbed", "stopped");
 }
 
@@ -146,6 +148,7 @@ TEST_F(Resume, OtherInputIsRefused) {
     EXPECT_TRUE(kept == input.read("stopped/unfinished.h5")) << "the checkpoint must stay";
   };
   expect_refused({"--resume", "--set", "simulation.speed_m_s=21"});
+  expect_refused({"--set", "simulation.speed_m_s=21"});
   input.edit("vehicle.toml", "mass_kg = 9000", "mass_kg = 9100");
   expect_refused({"--resume"});
   input.edit("vehicle.toml", "mass_kg = 9100", "mass_kg = 9000");
@@ -153,6 +156,9 @@ TEST_F(Resume, OtherInputIsRefused) {
   expect_refused({"--resume"});
   input.edit("simulation.toml", "distance_m = 0.16", "distance_m = 0.15");
   EXPECT_EQ(RunningProgram(command("stopped", {"--resume"})).wait().status, 0);
+  input.write("stopped/unfinished.h5", kept);
+  EXPECT_EQ(RunningProgram(command("stopped", {"--anew", "--set", "simulation.distance_m=0.01"})).wait().status, 0);
+  EXPECT_FALSE(fs::exists(input.path("stopped/unfinished.h5")));
 }
 
 TEST_F(Resume, AFinishedResultStaysAsItIs) {

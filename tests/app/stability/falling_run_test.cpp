@@ -136,7 +136,7 @@ TEST_F(Falling, AfterKillsTheResultIsThatOfAnUndisturbedRun) {
   ASSERT_EQ(RunningProgram(command(10, 60, {"-o", path("undisturbed")})).wait().status, 0);
   int resumed = 0;
   for (const int delay_ms : {300, 600, 1200}) {
-    RunningProgram program(command(10, 60, {"-o", path("killed"), "--resume"}));
+    RunningProgram program(command(10, 60, {"-o", path("killed")}));
     while (program.running() && !fs::exists(path("killed/fall/unfinished.h5")) &&
            !fs::exists(path("killed/slow-fall/unfinished.h5")))
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -147,7 +147,7 @@ TEST_F(Falling, AfterKillsTheResultIsThatOfAnUndisturbedRun) {
     ++resumed;
   }
   EXPECT_GE(resumed, 1);
-  const ProgramResult last = RunningProgram(command(10, 60, {"-o", path("killed"), "--resume"})).wait();
+  const ProgramResult last = RunningProgram(command(10, 60, {"-o", path("killed")})).wait();
   ASSERT_EQ(last.status, 0) << last.err;
   for (const char* file :
        {"fall/simulation.h5", "slow-fall/simulation.h5", "falling.csv", "stability.json", "stability.svg"})
@@ -158,7 +158,7 @@ TEST_F(Falling, RefusesWhatMakesNoSense) {
   const auto status = [&](std::vector<std::string> more) {
     return RunningProgram(command(10, 60, std::move(more))).wait();
   };
-  EXPECT_EQ(status({"--resume"}).status, 2);
+  EXPECT_EQ(status({"--to-km-h", "200"}).status, 2) << "--to is given too";
   const ProgramResult hasty = RunningProgram({"treadmark", "stability", path("simulation.toml"), "--falling", "--from",
                                               "30", "--to", "100", "--count", "2", "--hold-m", "300"})
                                   .wait();

@@ -52,11 +52,12 @@ TEST(Summary, ManyCasesHaveALineEach) {
   std::istringstream lines(io::summary_list(run.cases));
   std::vector<std::string> text;
   for (std::string line; std::getline(lines, line);) text.push_back(line);
-  ASSERT_GT(text.size(), run.cases.size());
-  EXPECT_THAT(text[0], HasSubstr("pmax [MPa]"));
+  ASSERT_GT(text.size(), run.cases.size() + 1);
+  EXPECT_THAT(text[1], HasSubstr("MPa"));
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
     const io::CaseResult& c = run.cases[i];
-    std::istringstream cells(text[i + 1]);
+    std::istringstream cells(text[i + 2]);
+    EXPECT_LE(text[i + 2].size(), 83u) << text[i + 2];
     int number = 0;
     std::string status;
     cells >> number >> status;
@@ -66,14 +67,14 @@ TEST(Summary, ManyCasesHaveALineEach) {
     double y = 0, z = 0, pitch = 0, patches = 0, fx = 0, fy = 0, fz = 0, pmax = 0, most = 0;
     cells >> y >> z >> pitch >> patches >> fx >> fy >> fz >> pmax;
     for (const io::PatchResult& p : c.patches) most = std::max(most, p.pmax);
-    EXPECT_NEAR(y, 1e3 * c.y, 1e-4) << text[i + 1];
-    EXPECT_EQ(patches, static_cast<double>(c.patches.size())) << text[i + 1];
+    EXPECT_NEAR(y, 1e3 * c.y, 1e-4) << text[i + 2];
+    EXPECT_EQ(patches, static_cast<double>(c.patches.size())) << text[i + 2];
     EXPECT_NEAR(fz, c.force_tr.z(), 1e-4 * std::abs(c.force_tr.z()));
     EXPECT_NEAR(pmax, 1e-6 * most, 1e-10 * most);
   }
   std::size_t said = 0;
   for (const io::CaseResult& c : run.cases) said += c.remarks.size() + (c.message.empty() ? 0 : 1);
-  EXPECT_EQ(text.size(), 1 + run.cases.size() + said);
+  EXPECT_EQ(text.size(), 2 + run.cases.size() + said);
 }
 
 TEST(Summary, ColumnsAreAligned) {
