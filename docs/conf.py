@@ -31,17 +31,10 @@ def add_navigation(app, name, source):
             pages = "\n".join(re.findall(r"\]\(([\w-]+)\.md\)", items))
             source[0] += f"\n```{{toctree}}\n:hidden:\n:caption: {title}\n\n{pages}\n```\n"
     elif not (name.startswith("docs/") and name.removeprefix("docs/") in listed):
-<<<<<<< HEAD
-        source[0] = "---\norphan: true\n---\n" + source[0]
-    # Beside a comment the parser does not see a picture; descriptions of pictures it takes for YAML.
-    source[0] = re.sub(r"\s*<!--.*?-->", "", source[0])
-=======
         unsearched = "nosearch: true\n" if name == "CHANGELOG" else ""
         source[0] = f"---\norphan: true\n{unsearched}---\n" + source[0]
-    # A picture is one only where nothing follows it at once.
-    source[0] = re.sub(r"(<img [^>]*>)\n(<!--)", r"\1\n\n\2", source[0])
-    # The parser takes descriptions of pictures for YAML.
->>>>>>> c19a28ea
+    # Beside a comment the parser does not see a picture; descriptions of pictures it takes for YAML.
+    source[0] = re.sub(r"\s*<!--.*?-->", "", source[0])
     source[0] = re.sub(r'<img [^>]*>', lambda image: re.sub(r'(alt="[^"]*)"', lambda alt: alt[0].replace(": ", " – "), image[0]), source[0])
 
 

@@ -84,6 +84,14 @@ def _taken(kind: Any, value: Any) -> Any:
     raise TypeError
 
 
+def taken(name: str, kind: Any, value: Any) -> Any:
+    """An argument as this kind. Errors: TypeError that names it and says what is wanted."""
+    try:
+        return value if kind is Any else _taken(kind, value)
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"{name} must be {_words(kind)}, not {reprlib.repr(value)}") from None
+
+
 def checked(thing: T) -> T:
     """The function, or the class with all its methods, with arguments that are checked by their annotations: a TypeError says which of them is
     wrong and what is wanted."""
@@ -105,11 +113,7 @@ def checked(thing: T) -> T:
                 if one.annotation is not one.empty and one.kind not in (one.VAR_POSITIONAL, one.VAR_KEYWORD)}
 
     def take(name: str, value: Any) -> Any:
-        kind = kinds().get(name, Any)
-        try:
-            return value if kind is Any else _taken(kind, value)
-        except (TypeError, ValueError, OverflowError):
-            raise TypeError(f"{name} must be {_words(kind)}, not {reprlib.repr(value)}") from None
+        return taken(name, kinds().get(name, Any), value)
 
     @functools.wraps(function)
     def call(*arguments: Any, **keywords: Any) -> Any:

@@ -3,17 +3,19 @@
 """Contact geometry of a wheelset on its track, and measures of wheels and rails."""
 from __future__ import annotations
 
+import difflib
+import inspect
 import json
 import math
 import os
 import pathlib
-from typing import TYPE_CHECKING, Annotated, Any, Iterable, Mapping, NamedTuple, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, Callable, Iterable, Mapping, NamedTuple, Sequence, TypeVar, Union
 
 import numpy as np
 
 from . import _treadmark
 from ._errors import InputError, without_folder
-from ._inputs import Changes, Metre, Newton, Path, Radian, Shape, assignments, checked, file_of, is_array, toml_value
+from ._inputs import Changes, Path, Shape, assignments, checked, file_of, is_array, taken, toml_value
 from ._others import Drawn
 from ._records import Array, frame, html_table
 from ._surfaces import radius_of
@@ -50,23 +52,64 @@ def _number(value: Any, factor: float = 1.0) -> float:
     return math.nan if value is None else float(factor * value)
 
 
-_keys = {verb: {in_si(key)[0]: (key, factor) for key, factor in rows} for verb, rows in _treadmark.request_tables().items() if verb != "measures"}
-_meanings: dict[str, str] = dict(_treadmark.request_tables()["measures"])
+_KINDS: dict[str, Any] = {"number": float, "integer": int, "flag": bool, "list": Union[str, float, Sequence[float]], "file": Shape, "text": Union[str, float]}
+
+
+class Setting(NamedTuple):
+    """A setting of a verb of the program: its key, the keyword, the factor from one to the other, the unit in SI, the kind of its values and the meaning."""
+
+    key: str
+    name: str
+    factor: float
+    unit: str
+    values: str
+    meaning: str
+
+    @property
+    def kind(self) -> Any:
+        """The annotation of its argument."""
+        return Annotated[float, self.unit] if self.values == "number" and self.unit != "1" else _KINDS[self.values]
+
+
+_settings_of = {verb: {row[1]: Setting(*row) for row in _treadmark.request_tables()[verb]} for verb in ("geometry", "measure")}
+_meanings: dict[str, str] = {key: meaning for key, meaning in _treadmark.request_tables()["measures"]}
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def _takes_settings(verb: str, *but: str) -> Callable[[_Function], _Function]:
+    """Says in signature and help of a function what settings its **settings are."""
+
+    def told(function: _Function) -> _Function:
+        own = inspect.signature(function)
+        settings = [one for name, one in _settings_of[verb].items() if name not in own.parameters and name not in but]
+        keywords = [inspect.Parameter(one.name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=one.kind) for one in settings]
+        parameters = [one for one in own.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
+        at = next((i for i, one in enumerate(parameters) if one.kind is inspect.Parameter.KEYWORD_ONLY), len(parameters))
+        setattr(function, "__signature__", own.replace(parameters=[*parameters[:at], *keywords, *parameters[at:]]))
+        lines = [f"    {one.name}{'' if one.unit == '1' else f' [{one.unit}]'}: {one.meaning}" for one in settings]
+        function.__doc__ = (function.__doc__ or "").replace("    SETTINGS", "\n".join(lines))
+        return function
+
+    return told
 
 
 def _settings(verb: str, values: Mapping[str, Any], changes: Changes = None) -> list[str]:
     """Keywords in SI as "key=value" with the units of the program's options."""
     made = []
     for name, value in values.items():
+        if name not in _settings_of[verb]:
+            near = difflib.get_close_matches(name, _settings_of[verb], 1)
+            raise TypeError(f"there is no keyword {name!r}" + (f": did you mean {near[0]!r}?" if near else f" of {', '.join(_settings_of[verb])}"))
         if value is None:
             continue
-        key, factor = _keys[verb][name]
+        setting = _settings_of[verb][name]
+        value = taken(name, setting.kind, value)
         if name == "nominal_radius":
             radius_of(value)
         if is_array(value):
             value = file_of(value, name)
-        elif factor != 1.0 and not isinstance(value, str):
-            value = np.asarray(value, dtype=np.float64) / factor
+        elif setting.factor != 1.0 and not isinstance(value, str):
+            value = np.asarray(value, dtype=np.float64) / setting.factor
         made.append(f"{key}={toml_value(value)}")
     return made + assignments(changes)
 
@@ -236,34 +279,25 @@ class Geometry(_Document, Drawn):
         return self.svg() + html_table(rows, f"{self!r}, SI units")
 
 
+@_takes_settings("geometry")
 @checked
-def geometry(wheel: Shape | None = None, rail: Shape | None = None, *, wheel_left: Shape | None = None, rail_left: Shape | None = None,
-             new_wheel: Shape | None = None, new_rail: Shape | None = None, case: Path | None = None, diameter: Metre | None = None,
-             diameter_left: Metre | None = None, gauge: Metre | None = None, gauge_height: Metre | None = None, cant: str | float | None = None,
-             rail_origins: Metre | None = None, wheel_origins: Metre | None = None, amplitudes: Sequence[Metre] | str | None = None,
-             amplitude: Metre | None = None, gauges: Sequence[Metre] | str | None = None, roll: str | None = None,
-             axle_load: Newton | None = None, yaw: Radian | None = None, step: Metre | None = None, second: Metre | None = None,
-             pitch: Radian | None = None, position: Metre | None = None, scale: float | None = None, backend: str | None = None,
-             resolution: Metre | None = None, set: Changes = None,
-             progress: Progress = None, threads: int = 0) -> Geometry:
+def geometry(wheel: Shape | None = None, rail: Shape | None = None, *, set: Changes = None, progress: Progress = None, threads: int = 0,
+             **settings: Any) -> Geometry:
     """Contact of a wheelset with its rails at every lateral shift, without forces, and its equivalent conicity, as ``treadmark geometry``.
 
-    wheel, rail: files, arrays (n, 2) of y and z [m], or names of ``profiles()``, of both sides or of the right one; left ones as for the right-hand side; new_wheel, new_rail:
-    in place of both sides, for the effect of wear (``document``, "with_new"). case: a case
-    file, whose wheel, rail and track hold where nothing else is given; set: changes of its keys. diameter [m]: at the tape lines, 0.92 unless
-    given. gauge [m] (down to gauge_height [m] below the rails' tops) with cant ("1:40", or its tangent), or rail_origins [m]: distance of
-    the origins of the rails' profiles. wheel_origins [m]: the same of the wheels. amplitudes, gauges [m], or in mm as "from:to:step": of the
-    conicity; amplitude [m]: of the single value. roll: "none" (each side by itself, EN 15302) or "free"; axle_load [N]: forces and
-    pressures too; yaw [rad]; step [m]: of the shift; second [m]: gap up to which further contacts are listed; pitch [rad], position [m]: which
-    section of a wheel that is not round, of a rail that varies; scale: from numbers of profile files to mm; backend, resolution [m]: of all
-    surfaces. Errors: InputError for what cannot be read or placed, NumericalError for wheelsets that cannot stand on their rails.
+    wheel, rail: files, arrays (n, 2) of y and z [m], or names of ``profiles()``, of both sides or of the right one. set: changes of keys
+    of the case. In SI, profiles as arrays too:
+
+    SETTINGS
+
+    Lists of lengths may be text in mm, "from:to:step". Errors: InputError for what cannot be read or placed, NumericalError for wheelsets
+    that cannot stand on their rails.
 
     >>> found = geometry("S1002", "60E1", gauge=1.435, cant="1:40")
     >>> round(float(found.conicity.tan_gamma_e[20]), 2), len(found.jumps) > 0
     (0.17, True)
     """
-    given = {name: value for name, value in locals().items() if name in _keys["geometry"]}
-    return Geometry(_treadmark.geometry(_settings("geometry", given, set), progress, threads))
+    return Geometry(_treadmark.geometry(_settings("geometry", {"wheel": wheel, "rail": rail, **settings}, set), progress, threads))
 
 
 class Measure(NamedTuple):
@@ -348,40 +382,35 @@ def _measured_in(key: str) -> tuple[str, float, str]:
     return name, factor, unit or ("%" if key.endswith("_percent") else "dB" if key.endswith("_db") else "")
 
 
+@_takes_settings("measure")
 @checked
-def measure(body: str, file: Shape, *, nominal: Shape | None = None, nominal_radius: Metre | None = None, limits: Path | None = None,
-            alignment: str | None = None, mate: Shape | None = None, as_in_file: bool = False, stations: int = 36, line: Metre = 0.0,
-            line_step: Metre = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None, threads: int = 0) -> Measured:
+def measure(body: str, file: Shape, *, set: Changes = None, progress: Progress = None, threads: int = 0, **settings: Any) -> Measured:
     """Measures a "wheel" or "rail" from a profile, slices, triangles, offsets, a scan, a case file or a name of ``profiles()``, as
-    ``treadmark measure`` does; profiles and scans may be arrays [m] of the shapes (n, 2) and (n, 3), too.
+    ``treadmark measure`` does; profiles and scans may be arrays [m] of the shapes (n, 2) and (n, 3), too. set: changes of a case's keys. In SI:
 
-    nominal: what wear is counted against, a name of ``profiles()`` or a file; nominal_radius [m]: of a wheel, where the file does not have it;
-    limits: a TOML file; alignment: of a rail upon its nominal section, "unworn", "top" or "none"; mate: the other wheel of the axle, in the
-    same axes; as_in_file: y = 0 is a wheel's tape line wherever its flange back is; stations: sections along a rail or round a wheel; line: y
-    of the line along a rail whose roughness is told, line_step: of its samples [m]; scale: from numbers of profile files to mm; set: changes
-    of a case's keys.
+    SETTINGS
+
     Errors: InputError naming the file. Limits that do not hold are no errors: see ``verdict``.
 
     >>> round(1e3 * measure("wheel", "S1002").numbers["flange_height"].value, 2)
     28.0
     """
-    given = {name: value for name, value in locals().items() if name in _keys["measure"]}
-    return Measured(_treadmark.measure(body, file_of(file, body), _settings("measure", given, set), progress, threads))
+    return Measured(_treadmark.measure(body, file_of(file, body), _settings("measure", settings, set), progress, threads))
 
 
+@_takes_settings("measure", "mate")
 @checked
-def measure_files(body: str, files: Path | Iterable[Shape], *, nominal: Shape | None = None, nominal_radius: Metre | None = None,
-                  limits: Path | None = None, alignment: str | None = None, as_in_file: bool = False, stations: int = 36, line: Metre = 0.0,
-                  line_step: Metre = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None,
-                  threads: int = 0) -> list[Measured]:
+def measure_files(body: str, files: Path | Iterable[Shape], *, set: Changes = None, progress: Progress = None, threads: int = 0,
+                  **settings: Any) -> list[Measured]:
     """The same of many on all cores, in their order. Folders stand for the files in them, "@LIST" for those that a text file names.
 
-    What fails has its ``error`` and does not stop the rest, also what was not measured before progress returned False.
+    What fails has its ``error`` and does not stop the rest, also what was not measured before progress returned False. In SI:
+
+    SETTINGS
     """
-    given = {name: value for name, value in locals().items() if name in _keys["measure"]}
     named: list[Any] = [files] if isinstance(files, (str, os.PathLike)) else list(files)
-    settings = _settings("measure", given, set)
-    return [Measured(held) for held in _treadmark.measure_files(body, [file_of(file, body) for file in named], settings, progress, threads)]
+    made = _settings("measure", settings, set)
+    return [Measured(held) for held in _treadmark.measure_files(body, [file_of(file, body) for file in named], made, progress, threads)]
 
 
 @checked
