@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/pages/plain_page.hpp"
 #include "treadmark/app/stability/stability_run.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 struct StabilityOptions {
   app::StabilityRequest request;
-  std::string file, json_file, folder;  ///< empty = none; JSON "-" = stdout
+  std::string file, json_file, folder, report_file;  ///< empty = none; JSON "-" = stdout
   app::FallingRequest falling;
   bool falls = false;
 };
@@ -37,6 +38,10 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
   const auto json = [&] { return app::stability_json(run); };
   write_json_file(options.json_file, json);
   if (!options.folder.empty()) app::write_stability_folder(options.folder, run);
+  write_report_file(options.report_file, [&] {
+    return app::pages::plain_page("stability", "the stability of a vehicle", json(),
+                                  {{"stability", "Eigenvalues", report::PictureView{app::stability_svg(run)}}});
+  });
   print_results(options.json_file, json, [&] { return app::stability_table(run); });
   if (run.falling && run.falling->status() != "complete") {
     std::cerr << "treadmark: " << app::falling_verdict(*run.falling)
@@ -94,6 +99,7 @@ Command add_stability(CLI::App& verb) {
            "M");
   add_fall("--wave-length-m", falling.wave_length, "Its length [m]", 1e3, "M");
   verb.add_flag("--resume", falling.resume, "Go on with an interrupted --falling in the output folder")->needs(falls);
+  add_report_file(verb, options->report_file);
   add_overrides(verb, request.overrides, "simulation.vehicle=mine.toml");
   return command(options, stability_command);
 }
