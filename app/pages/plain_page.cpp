@@ -38,7 +38,8 @@ Page plain_page(const std::string& kind, const std::string& lead, const std::str
   const io::Json all = io::Json::parse(json, nullptr, false);
   if (!all.is_object()) throw Error(ErrorKind::input_data, kind + ".json is no JSON", {}, "let the command write anew");
   Page page{kind, kind, lead};
-  for (const char* key : {"name", "title"}) page.title = all.value(key, page.title);
+  for (const char* key : {"name", "title"})
+    if (const auto at = all.find(key); at != all.end() && at->is_string()) page.title = at->get<std::string>();
   Facts inputs, origin, numbers;
   for (const auto& [key, value] : all.items())
     add_leaves(key == "input" ? inputs : key == "treadmark" ? origin : numbers, value, key == kind ? "" : key);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <variant>
 
@@ -59,7 +60,7 @@ void flatten(const CaseValue& value, const std::string& path, std::vector<std::p
     if (const auto* flag = std::get_if<bool>(&leaf.data)) return *flag ? "true" : "false";
     if (const auto* whole = std::get_if<std::int64_t>(&leaf.data)) return fmt::format("{}", *whole);
     if (const auto* number = std::get_if<double>(&leaf.data)) return fmt::format("{}", *number);
-    if (const auto* text = std::get_if<std::string>(&leaf.data)) return *text;
+    if (const auto* text = std::get_if<std::string>(&leaf.data)) return toml_text(*text);
     return "";
   };
   const std::string below = path.empty() ? "" : path + ".";
