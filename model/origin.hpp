@@ -15,6 +15,7 @@ struct Origin {
   std::string input_file, input_sha256;                              ///< empty: there is none
   std::vector<std::string> settings;                                 ///< echo of overrides (--set key=value, --backend)
   std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every other file read
+  std::vector<std::pair<std::string, std::string>> inputs;  ///< what was asked for: ("track: gauge", "1435 mm")
 };
 
 }  // namespace treadmark

@@ -52,6 +52,7 @@ struct Panel {
 /// Panels above each other over a common x. Linked: a value for each step of the timeline, whose axes are x.
 struct ChartView {
   bool linked = false;
+  bool to_scale = false;  ///< one millimetre is as long upwards as across; of one panel, not linked
   std::optional<Axis> x = {};
   std::vector<Panel> panels = {};
   struct Curves {

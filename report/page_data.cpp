@@ -239,6 +239,7 @@ class Writer {
     if (const auto* chart = std::get_if<ChartView>(&figure.view)) {
       out["type"] = "chart";
       out["linked"] = chart->linked;
+      if (chart->to_scale) out["to_scale"] = true;
       out["x"] = chart->x ? axis(*chart->x) : Json();
       Json& panels = out["panels"] = Json::array();
       for (const Panel& panel : chart->panels) {

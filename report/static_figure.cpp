@@ -112,6 +112,16 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
       for (const auto& point : series.curve) all_x.push_back(point[0]);
       for (const auto& point : series.points) all_x.push_back(point.x);
     }
+  if (view.to_scale) {
+    std::vector<double> all_y;
+    for (const pictures::ChartSeries& series : sheet.charts.front().series) {
+      for (const auto& point : series.curve) all_y.push_back(point[1]);
+      for (const auto& point : series.points) all_y.push_back(point.y);
+    }
+    const pictures::ChartAxis across(pictures::AxisScale::linear, all_x), up(pictures::AxisScale::linear, all_y);
+    sheet.charts.front().y_range = {up.low(), up.high()};
+    sheet.height = sheet.width * (up.high() - up.low()) / (across.high() - across.low());
+  }
   const pictures::ChartAxis range(axis && axis->logarithmic ? pictures::AxisScale::log : pictures::AxisScale::linear,
                                   all_x);
   for (pictures::Chart& chart : sheet.charts) {

@@ -60,7 +60,9 @@ std::string head_of(const Column& column) {
 }
 
 std::string html(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return fmt::format("<td>{}</td>", html_text(*text));
+  constexpr std::size_t kWords = 24;  // texts of so many bytes want room
+  if (const auto* text = std::get_if<std::string>(&cell))
+    return fmt::format("<td{}>{}</td>", text->size() > kWords ? " class=\"words\"" : "", html_text(*text));
   const Number& number = std::get<Number>(cell);
   if (!std::isfinite(number.value)) return "<td class=\"number\">–</td>";
   return fmt::format("<td class=\"number\" data-value=\"{:.12g}\">{}</td>", number.value, shown(number));

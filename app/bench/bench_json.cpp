@@ -24,6 +24,7 @@ std::string bench_json(const BenchReport& report) {
   out["libraries"] = Json::object();
   for (const auto& [name, version] : report.libraries) out["libraries"][name] = version;
   out["input"] = {{"file", report.input_file}, {"sha256", report.input_sha256}};
+  for (const auto& [name, value] : report.inputs) out["input"]["values"][name] = value;
   out["settings"] = report.settings;
   out["seconds_per_measure"] = io::number(report.seconds_per_measure, kDigits);
   out["truth"] = report.truth;
@@ -45,6 +46,8 @@ BenchReport read_bench(const std::filesystem::path& file) {
   for (const auto& [name, version] : root.at("libraries").entries()) out.libraries.emplace_back(name, version.text());
   out.input_file = input.text("file");
   out.input_sha256 = input.text("sha256");
+  if (const auto values = input.find("values"))
+    for (const auto& [name, value] : values->entries()) out.inputs.emplace_back(name, value.text());
   out.settings = root.at("settings").texts();
   out.seconds_per_measure = root.number("seconds_per_measure");
   out.truth = root.text("truth");

@@ -13,6 +13,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -71,6 +72,7 @@ BenchReport bench_surfaces(const io::CaseFile& file, const BenchSettings& settin
   out.seconds_per_measure = settings.seconds_per_measure;
   out.input_file = file.path.string();
   out.input_sha256 = file.sha256;
+  out.inputs = io::inputs_of(file.cases, file.path.parent_path());
   const std::string rail(scene.rail->surface->backend()), wheel(scene.wheel->surface->backend());
   out.truth = rail == wheel ? rail : fmt::format("wheel {}, rail {}", wheel, rail);
 

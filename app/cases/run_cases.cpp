@@ -25,6 +25,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/solvers/wheelrail/usual_values.hpp"
 
 namespace treadmark::app {
@@ -87,6 +88,7 @@ io::RunResult head_of(const io::CaseFile& file) {
   run.title = file.title;
   run.input_file = file.path.string();
   run.input_sha256 = file.sha256;
+  run.inputs = io::inputs_of(file.cases, file.path.parent_path());
   run.cases_total = static_cast<int>(file.cases.size());
   run.complete = file.cases.empty();
   return run;

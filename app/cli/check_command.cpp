@@ -22,6 +22,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/report/pictures/section_picture.hpp"
 
@@ -95,6 +96,8 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
   const std::vector<app::CaseGeometry> cases = app::check_geometry(file);
   print_notes(file.notes, false);
   input.notes = file.notes;
+  input.title = file.title;
+  input.inputs = io::inputs_of(file.cases, file.path.parent_path());
   if (!pictures.empty() || !options.report_file.empty())
     for (const app::CaseGeometry& c : cases)
       input.positions.emplace_back(fmt::format("Case {}", c.given->number), position_svg(c));

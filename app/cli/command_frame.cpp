@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "treadmark/app/cli/page_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -49,10 +50,13 @@ void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const ch
 }
 
 void add_report_file(CLI::App& verb, std::string& file) {
-  verb.add_option("--report", file, "Write a report here that opens in any browser, offline")
+  verb.add_option("--report", file, "Write a report here that opens in any browser, offline; .pdf: as it is printed")
       ->check(is_output())
       ->type_name("FILE.html")
-      ->each([](const std::string&) { require_part("report", "--report"); });
+      ->each([](const std::string& name) {
+        require_part("report", "--report");
+        check_page_name(name);
+      });
 }
 
 std::optional<Body> body_asked(const std::string& word, const std::filesystem::path& file, bool quiet) {
@@ -107,7 +111,7 @@ void write_json_file(const std::string& json_file, const std::function<std::stri
 }
 
 void write_report_file(const std::filesystem::path& file, const std::function<report::Page()>& page) {
-  if (!file.empty()) write_file(file, report::to_html(page()));
+  if (!file.empty()) write_page(file, report::to_html(page()));
 }
 
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/page_file.hpp"
 #include "treadmark/app/pages/read_report.hpp"
-#include "treadmark/core/output_file.hpp"
 #include "treadmark/report/write_page.hpp"
 
 namespace treadmark::cli {
@@ -31,7 +31,7 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
   report::PageOptions how;
   how.live = !options.static_pictures;
   const std::string html = report::to_html(page, how);
-  write_file(file, html);
+  write_page(file, html);
   if (how.live && report::page_script().empty() && !common.quiet)
     std::cerr << "note: this build has no Node.js: the report shows fixed pictures\n";
   std::cout << file.string() << '\n';
@@ -43,13 +43,16 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
 Command add_report(CLI::App& verb) {
   auto options = std::make_shared<ReportOptions>();
   verb.add_option("FOLDER", options->folders,
-                  "What run, compare, bench, import --report, simulate, sweep or evolve wrote. Two to four folders of "
+                  "What run, compare, bench, import --report, simulate, sweep, evolve, geometry, track, stability or "
+                  "assess wrote. "
+                  "Two to four folders of "
                   "run, or of simulate, are overlaid and compared with the first")
       ->required();
   verb.add_option("-o,--output", options->output_file,
                   "The report, default FOLDER/report.html, of several overlay.html in the first")
       ->check(is_output(true))
-      ->type_name("FILE.html");
+      ->type_name("FILE.html")
+      ->each([](const std::string& name) { check_page_name(name); });
   verb.add_flag("--static", options->static_pictures,
                 "Fixed pictures in place of live views: a smaller file without scripts");
   return command(options, report_command);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/pages/plain_page.hpp"
 #include "treadmark/app/stability/stability_run.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 struct StabilityOptions {
   app::StabilityRequest request;
-  std::string file, json_file, folder;  ///< empty = none; JSON "-" = stdout
+  std::string file, json_file, folder, report_file;  ///< empty = none; JSON "-" = stdout
   app::FallingRequest falling;
   bool falls = false;
 };
@@ -34,6 +35,10 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
   const auto json = [&] { return app::stability_json(run); };
   write_json_file(options.json_file, json);
   if (!options.folder.empty()) app::write_stability_folder(options.folder, run);
+  write_report_file(options.report_file, [&] {
+    return app::pages::plain_page("stability", "the stability of a vehicle", json(),
+                                  {{"stability", "Eigenvalues", report::PictureView{app::stability_svg(run)}}});
+  });
   print_results(options.json_file, json, [&] { return app::stability_table(run); });
   if (run.falling && run.falling->status() != "complete") {
     std::cerr << "treadmark: " << app::falling_verdict(*run.falling)
@@ -98,6 +103,7 @@ Command add_stability(CLI::App& verb) {
   add_fall("--wave-length-m", falling.wave_length, "Its length [m]", 1e3, "M");
   verb.add_flag("--anew", falling.anew, "Begin --falling again, and discard what is in the output folder")
       ->needs(falls);
+  add_report_file(verb, options->report_file);
   add_overrides(verb, request.overrides, "simulation.vehicle=mine.toml");
   return command(options, stability_command);
 }

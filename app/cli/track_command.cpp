@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/pages/plain_page.hpp"
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 struct TrackOptions {
   std::string file;
-  std::string csv_file, json_file, folder;  ///< empty = none; "-": standard output instead of the table
+  std::string csv_file, json_file, folder, report_file;  ///< empty = none; "-": standard output instead of the table
   int layers = 0;
   double from = 10.0, to = 1500.0;
   int count = 200;
@@ -40,6 +41,10 @@ int track_command(const TrackOptions& options, const CommonOptions&) {
   else if (!options.csv_file.empty())
     write_file(options.csv_file, app::track_csv(result));
   if (!options.folder.empty()) app::write_track_folder(options.folder, result);
+  write_report_file(options.report_file, [&] {
+    return app::pages::plain_page("track", "how a track gives way", json(),
+                                  {{"receptance", "Receptance", report::PictureView{app::track_svg(result)}}});
+  });
   if (options.csv_file != "-") print_results(options.json_file, json, [&] { return app::track_table(result); });
   if (!result.fitted || result.fitted->fit.report.status == Status::ok) return kOk;
   std::cerr << "treadmark: " << result.fitted->fit.report.message << '\n';
@@ -81,6 +86,7 @@ Command add_track(CLI::App& verb) {
                   "Folder for track.json, receptance.csv, track.svg and the fitted track, fitted.toml")
       ->check(is_output())
       ->type_name("FOLDER");
+  add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides, "scale_stiffness=2");
   return command(options, track_command);
 }

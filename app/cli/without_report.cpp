@@ -6,6 +6,7 @@
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/compare/pages/compare_page.hpp"
 #include "treadmark/app/import/pages/import_page.hpp"
+#include "treadmark/app/pages/plain_page.hpp"
 #include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/app/simulation/pages/simulation_page.hpp"
 #include "treadmark/app/surfaces/pages/check_page.hpp"
@@ -36,6 +37,7 @@ namespace treadmark::app::pages {
 using namespace report;
 
 Page read_report(const std::filesystem::path&) { without_report(); }
+Page plain_page(const std::string&, const std::string&, const std::string&, std::vector<Figure>) { without_report(); }
 Page read_overlay(const std::vector<std::filesystem::path>&) { without_report(); }
 Page run_page(const std::shared_ptr<const io::RunResult>&, std::string) { without_report(); }
 Page check_page(const std::vector<CheckedInput>&) { without_report(); }

@@ -18,6 +18,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/detector.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/results/summary.hpp"
 
 namespace treadmark::app {
@@ -290,6 +291,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   out.title = file.title;
   out.input_file = file.path.string();
   out.input_sha256 = file.sha256;
+  out.inputs = io::inputs_of(file.cases, file.path.parent_path());
   out.geometry_sha256 = store.hashes();
   out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return out;

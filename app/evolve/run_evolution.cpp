@@ -103,6 +103,7 @@ class EvolutionRun {
     result.git = git_revision();
     result.input_file = file_.positions.path.filename().string();
     result.input_sha256 = file_.positions.sha256;
+    result.inputs = io::inputs_of(file_.positions);
     result.title = file_.positions.title;
     result.settings = options_.settings;
     return result;

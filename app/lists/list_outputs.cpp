@@ -9,22 +9,10 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/io/settings/key_words.hpp"
 
 namespace treadmark::app {
 namespace {
-
-/// The end of a name that is a unit: "tread_wear_mm" has "mm".
-std::string unit_of(const std::string& name) {
-  for (const auto& [ending, unit] : {std::pair{"_mm2", "mm²"},
-                                     {"_per_mm", "1/mm"},
-                                     {"_mm", "mm"},
-                                     {"_deg", "°"},
-                                     {"_db", "dB"},
-                                     {"_percent", "%"},
-                                     {"_rad", "rad"}})
-    if (name.ends_with(ending)) return unit;
-  return "";
-}
 
 std::vector<std::size_t> shown_columns(const ResultList& list) {
   std::vector<std::size_t> out;
@@ -40,10 +28,14 @@ double number_of(const ListRow& row, std::size_t column) {
 /// A number of all rows that have it, from the worst row to the best.
 report::ChartView column_view(const std::vector<const ListRow*>& rows, const ListColumn& column, std::size_t k) {
   report::ChartView view;
-  view.x = report::Axis{"rank, 1 is the worst", ""};
+  constexpr std::size_t kMostNames = 40;
+  const bool named = rows.size() <= kMostNames;
+  view.x = report::Axis{named ? "from the worst to the best" : "rank, 1 is the worst", ""};
+  for (const ListRow* row : rows)
+    if (named) view.x->labels.push_back(row->name);
   report::Series series{"", {}};
   series.marks = report::Series::Marks::points;
-  double place = 0.0;
+  double place = named ? -1.0 : 0.0;  // names count from 0
   for (const ListRow* row : rows) {
     ++place;
     if (!row->error.empty() || std::isnan(number_of(*row, k))) continue;
@@ -51,7 +43,8 @@ report::ChartView column_view(const std::vector<const ListRow*>& rows, const Lis
     series.y.push_back(number_of(*row, k));
     series.texts.push_back(row->name);
   }
-  view.panels.push_back({column.name, unit_of(column.name), false, {std::move(series)}, column.levels});
+  const io::KeyWords words = io::words_of_key(column.name);
+  view.panels.push_back({words.name, words.unit, false, {std::move(series)}, column.levels});
   return view;
 }
 
@@ -119,7 +112,7 @@ void write_list_store(const std::filesystem::path& file, const ResultList& list)
     std::vector<double> all;
     for (const ListRow& row : list.rows) all.push_back(number_of(row, k));
     const std::string& name = list.numbers[k].name;
-    const std::string unit = unit_of(name);
+    const std::string unit = io::words_of_key(name).unit;
     out.root().write({name, {all.size()}, unit.empty() ? "1" : unit, "the unit ends the name"},
                      std::span<const double>(all));
   }
@@ -146,7 +139,10 @@ report::Page list_page(const ResultList& list) {
 
   report::Section all{"list", "All " + list.things};
   report::Table table{"rows", "From the worst to the best", {{"name"}, {"status"}}};
-  for (const std::size_t k : columns) table.columns.push_back({list.numbers[k].name, unit_of(list.numbers[k].name)});
+  for (const std::size_t k : columns) {
+    io::KeyWords words = io::words_of_key(list.numbers[k].name);
+    table.columns.push_back({std::move(words.name), std::move(words.unit)});
+  }
   for (const ListRow* row : rows) {
     report::Table::Row cells{{row->name, row->error.empty() ? row->status : "failed: " + row->error}};
     for (const std::size_t k : columns) cells.cells.emplace_back(report::Number{number_of(*row, k)});
@@ -155,10 +151,13 @@ report::Page list_page(const ResultList& list) {
   all.blocks.emplace_back(std::move(table));
   page.sections.push_back(std::move(all));
   report::Section charts{"numbers", "Numbers"};
-  for (const std::size_t k : columns)
-    charts.blocks.emplace_back(report::Figure{fmt::format("column-{}", k), list.numbers[k].name,
-                                              column_view(rows, list.numbers[k], k),
+  for (const std::size_t k : columns) {
+    report::ChartView view = column_view(rows, list.numbers[k], k);
+    if (view.panels.front().series.front().y.empty()) continue;
+    std::string title = view.panels.front().label;
+    charts.blocks.emplace_back(report::Figure{fmt::format("column-{}", k), std::move(title), std::move(view),
                                               "each point is a row of the table, in its order"});
+  }
   if (!charts.blocks.empty()) page.sections.push_back(std::move(charts));
   return page;
 }

@@ -8,8 +8,6 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/core/error.hpp"
-#include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/report/html_text.hpp"
 
 namespace treadmark::app::pages {
@@ -28,34 +26,6 @@ SaidByAll& line_of(std::vector<SaidByAll>& lines, const std::string& what, std::
 
 std::string version_of(const Origin& origin) {
   return origin.git.empty() ? origin.version : fmt::format("{} ({})", origin.version, origin.git);
-}
-
-/// Adds "a.b.0.c" and the value of each leaf.
-void flatten(const io::CaseValue& value, const std::string& path,
-             std::vector<std::pair<std::string, std::string>>& out) {
-  const auto text_of = [](const io::CaseValue& leaf) -> std::string {
-    if (const auto* flag = std::get_if<bool>(&leaf.data)) return *flag ? "true" : "false";
-    if (const auto* whole = std::get_if<std::int64_t>(&leaf.data)) return fmt::format("{}", *whole);
-    if (const auto* number = std::get_if<double>(&leaf.data)) return fmt::format("{}", *number);
-    if (const auto* text = std::get_if<std::string>(&leaf.data)) return *text;
-    return "";
-  };
-  const std::string below = path.empty() ? "" : path + ".";
-  if (value.is_table()) {
-    for (const io::CaseEntry& entry : value.table()) flatten(entry.value, below + entry.key, out);
-  } else if (value.is_list()) {
-    const auto& list = value.list();
-    const bool plain = std::ranges::none_of(list, [](const auto& one) { return one.is_table() || one.is_list(); });
-    std::string text;
-    for (std::size_t k = 0; k < list.size(); ++k)
-      if (plain)
-        text += (k == 0 ? "" : ", ") + text_of(list[k]);
-      else
-        flatten(list[k], fmt::format("{}{}", below, k), out);
-    if (plain) out.emplace_back(path, "[" + text + "]");
-  } else {
-    out.emplace_back(path, text_of(value));
-  }
 }
 
 /// As much of a text as a table has room for.
@@ -134,34 +104,9 @@ std::vector<SaidByAll> origins_of(std::span<const Origin> origins, bool whole) {
       const bool pair = equals != std::string::npos;
       say("set: " + setting.substr(0, equals), pair ? setting.substr(equals + 1) : "yes", "as in the input");
     }
+    for (const auto& [name, value] : origin.inputs) say(name, value, "not given");
   }
   return lines;
-}
-
-std::vector<SaidByAll> inputs_of(std::span<const std::string> texts) {
-  std::vector<SaidByAll> lines;
-  if (std::ranges::any_of(texts, [](const std::string& text) { return text.empty(); })) return lines;
-  for (std::size_t k = 0; k < texts.size(); ++k) {
-    io::CaseValue root;
-    try {
-      root.data = io::parse_toml(texts[k], "input");
-    } catch (const Error&) {
-      return {};  // of another format
-    }
-    std::vector<std::pair<std::string, std::string>> leaves;
-    flatten(root, "", leaves);
-    for (const auto& [path, text] : leaves) line_of(lines, path, texts.size(), "not given").texts[k] = text;
-  }
-  return lines;
-}
-
-std::string inputs_note(std::span<const Origin> origins, std::span<const std::string> texts) {
-  const bool differ =
-      std::ranges::any_of(origins, [&](const Origin& one) { return one.input_sha256 != origins.front().input_sha256; });
-  if (!differ || !inputs_of(texts).empty()) return "";
-  return "The inputs differ but are not compared key by key: results keep their hashes only, and not all files are "
-         "there "
-         "as they were, or they are no TOML.";
 }
 
 Block difference_table(const std::vector<std::string>& names, const std::vector<SaidByAll>& lines) {
@@ -182,6 +127,7 @@ Section origins_section(const std::vector<std::string>& names, std::span<const O
   for (std::size_t k = 0; k < names.size(); ++k) {
     section.blocks.emplace_back(Paragraph{names[k] + ":"});
     section.blocks.emplace_back(origin_facts(origins[k]));
+    if (!origins[k].inputs.empty()) section.blocks.emplace_back(Facts{origins[k].inputs});
   }
   return section;
 }

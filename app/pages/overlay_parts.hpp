@@ -19,7 +19,6 @@ template <class Result>
 struct Overlaid {
   std::string name;
   Result result;
-  std::string input = {};  ///< text of its input file; empty: it is no longer there, or has changed since
 };
 
 /// From one number to another. A difference below 1e-9 of the larger of them is rounding: 0.
@@ -48,15 +47,9 @@ struct SaidByAll {
   std::vector<std::string> texts = {};
 };
 
-/// Version, input, settings and geometry files; what only some say is "–" of the others. whole: hashes in full.
+/// Version, input, settings, geometry files and what was asked for; what only some say is "–" of the others. whole:
+/// hashes in full.
 std::vector<SaidByAll> origins_of(std::span<const Origin> origins, bool whole);
-
-/// A line for each key of inputs that are TOML; none where not all texts are there. Numbers are as they are in the
-/// files.
-std::vector<SaidByAll> inputs_of(std::span<const std::string> texts);
-
-/// What is to be said where inputs differ and cannot be compared key by key; may be empty.
-std::string inputs_note(std::span<const Origin> origins, std::span<const std::string> texts);
 
 /// The table of what differs among these lines, or a sentence that nothing does.
 report::Block difference_table(const std::vector<std::string>& names, const std::vector<SaidByAll>& lines);

@@ -30,7 +30,13 @@ Facts origin_facts(const Origin& origin) {
   return facts;
 }
 
-Section origin_section(Facts facts) { return {"origin", "Origin", {std::move(facts)}}; }
+void add_origin(Page& page, const Origin& origin) { add_origin(page, origin, origin_facts(origin)); }
+
+void add_origin(Page& page, const Origin& origin, Facts facts) {
+  if (!origin.inputs.empty())
+    page.sections.insert(page.sections.begin() + 1, {"inputs", "Inputs", {Facts{origin.inputs}}});
+  page.sections.push_back({"origin", "Origin", {std::move(facts)}});
+}
 
 double in_file(double value) { return std::isfinite(value) ? io::rounded(value) : kNaN; }
 

@@ -15,8 +15,9 @@ namespace treadmark::app::pages {
 /// Version, input and settings as facts.
 report::Facts origin_facts(const Origin& origin);
 
-/// Facts as the last section of a page: what made it.
-report::Section origin_section(report::Facts facts);
+/// Puts what was asked for behind the first section of a page, and what made it, origin_facts or these, at its end.
+void add_origin(report::Page& page, const Origin& origin);
+void add_origin(report::Page& page, const Origin& origin, report::Facts facts);
 
 /// A number with the 12 digits of the result files, so that a page is the same from a result and from its files; NaN
 /// where it is not finite.

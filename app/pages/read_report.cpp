@@ -18,12 +18,12 @@
 #include "treadmark/app/evolve/pages/evolution_page.hpp"
 #include "treadmark/app/import/pages/import_page.hpp"
 #include "treadmark/app/pages/page_parts.hpp"
+#include "treadmark/app/pages/plain_page.hpp"
 #include "treadmark/app/simulation/pages/simulation_overlay_page.hpp"
 #include "treadmark/app/simulation/pages/simulation_page.hpp"
 #include "treadmark/app/simulation/pages/sweep_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
-#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -64,7 +64,7 @@ Page simulation_in(const fs::path& store) {
   return simulation_page(result, {}, assessed ? &*assessed : nullptr);
 }
 
-enum class Kind { run, compare, bench, import, evolution, sweep, simulation };
+enum class Kind { run, compare, bench, import, evolution, sweep, simulation, plain };
 
 /// By which file a folder is known to hold results. simulation.h5: of a simulation that ended, be it by Ctrl-C;
 /// unfinished.h5: what a killed one left at its last checkpoint.
@@ -79,7 +79,11 @@ constexpr KindRow kKinds[] = {{Kind::compare, "compare.json", "a comparison"},
                               {Kind::sweep, "study.id", "a sweep"},
                               {Kind::simulation, "simulation.h5", "a simulation"},
                               {Kind::simulation, "unfinished.h5", "a simulation"},
-                              {Kind::run, "fields.h5", "a run"}};
+                              {Kind::run, "fields.h5", "a run"},
+                              {Kind::plain, "geometry.json", "the geometry of a wheelset on its track"},
+                              {Kind::plain, "track.json", "how a track gives way"},
+                              {Kind::plain, "stability.json", "the stability of a vehicle"},
+                              {Kind::plain, "assessment.json", "an assessment"}};
 
 struct Found {
   const KindRow* row = nullptr;
@@ -100,8 +104,8 @@ Found find_results(const fs::path& given) {
   if (row == std::end(kKinds))
     throw Error(
         ErrorKind::input_data, "the folder holds no results", {folder.string()},
-        "results are fields.h5 (run), compare.json, bench.json, report.json (import --report), simulation.h5 and "
-        "study.id (sweep), evolution.id (evolve)");
+        "results are fields.h5 (run), compare.json, bench.json, report.json (import --report), simulation.h5, "
+        "study.id (sweep), evolution.id (evolve), geometry.json, track.json, stability.json and assessment.json");
   return {&*row, folder};
 }
 
@@ -142,29 +146,12 @@ std::vector<std::string> short_names(const std::vector<Found>& all) {
   return out;
 }
 
-/// The input file of results, where it is still there as it was: as it was named, or beside the results or their
-/// folder.
-template <class Result>
-std::string input_of(const Result& result, const fs::path& folder) {
-  const fs::path named = result.input_file, here = fs::absolute(folder);
-  for (const fs::path& file : {named, here / named.filename(), here.parent_path() / named.filename()}) {
-    std::error_code unknown;
-    if (fs::is_regular_file(file, unknown) && io::sha256_file(file) == result.input_sha256)
-      return io::profiles::read_text(file, "input", {});
-  }
-  return {};
-}
-
 template <class Result>
 std::vector<Overlaid<Result>> read_all(const std::vector<Found>& found, Result (*read)(const fs::path&)) {
   const std::vector<std::string> names = short_names(found);
   std::vector<Overlaid<Result>> out;
   out.reserve(found.size());
-  for (std::size_t k = 0; k < found.size(); ++k) {
-    Result result = read(found[k].store());
-    std::string input = input_of(result, found[k].folder);
-    out.push_back({names[k], std::move(result), std::move(input)});
-  }
+  for (std::size_t k = 0; k < found.size(); ++k) out.push_back({names[k], read(found[k].store())});
   return out;
 }
 
@@ -185,6 +172,8 @@ Page read_report(const fs::path& given) {
       return sweep_page(read_study_folder(found.folder));
     case Kind::simulation:
       return simulation_in(found.store());
+    case Kind::plain:
+      return plain_page(found.folder, found.row->file, found.row->words);
     case Kind::run:
       break;
   }

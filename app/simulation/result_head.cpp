@@ -7,7 +7,9 @@
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
 
 namespace treadmark::app {
 
@@ -30,10 +32,14 @@ io::SimulationResult head_of(const File& file, const SimulationOptions& options)
 }  // namespace
 
 io::SimulationResult result_head(const io::SimulationFile& file, const SimulationOptions& options) {
-  return head_of(file, options);
+  io::SimulationResult result = head_of(file, options);
+  result.inputs = io::inputs_of(file);
+  return result;
 }
 io::SimulationResult result_head(const io::CaseFile& file, const SimulationOptions& options) {
-  return head_of(file, options);
+  io::SimulationResult result = head_of(file, options);
+  result.inputs = io::inputs_of(file.cases, file.path.parent_path());
+  return result;
 }
 
 namespace {

@@ -202,6 +202,7 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
   result.git = git_revision();
   result.input_file = study.path.filename().string();
   result.input_sha256 = study.sha256;
+  result.inputs = io::inputs_of(study);
   result.title = study.title;
   result.settings = options.settings;
   for (const io::Variation& v : study.variations)

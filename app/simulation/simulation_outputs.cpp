@@ -160,6 +160,7 @@ std::string to_json(const io::SimulationResult& r, const SimulationTimes& t, con
   out["treadmark"] = {{"version", r.version}, {"git", r.git}, {"threads", thread_count()}};
   out["input"] = {{"file", r.input_file}, {"sha256", r.input_sha256}, {"settings", r.settings}};
   for (const auto& [file, hash] : r.geometry_sha256) out["input"]["geometry"][file] = hash;
+  for (const auto& [name, value] : r.inputs) out["input"]["values"][name] = value;
   out["title"] = r.title;
   out["status"] = r.status;
   out["message"] = r.message;

@@ -74,7 +74,12 @@ void add_track(KeyList& list) {
   ratio.group = "track.cant";
   ratio.alternative = "ratio";
   ratio.scope = KeyScope::wheel_rail;
-  list.add(ratio).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& inclined = list.add(ratio);
+  inclined.written = [](const Case& c, const std::filesystem::path&) {
+    const double cant = std::get<W>(c.content).track.cant, run = std::round(1.0 / std::tan(cant));
+    return run >= 1.0 && std::isfinite(run) && std::atan(1.0 / run) == cant ? fmt::format("\"1:{:.0f}\"", run) : std::string();
+  };
+  inclined.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     const std::string& text = v.text();
     double run = 0.0;
     std::from_chars(text.data() + 2, text.data() + text.size(), run);

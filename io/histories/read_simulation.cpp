@@ -35,14 +35,6 @@ class Store {
   Hdf5Reader file_;
 };
 
-std::vector<std::pair<std::string, std::string>> pairs(const Store& store, const char* firsts, const char* seconds) {
-  const auto first = store.root().texts(firsts), second = store.root().texts(seconds);
-  store.require(first.size() == second.size(), seconds);
-  std::vector<std::pair<std::string, std::string>> out;
-  for (std::size_t i = 0; i < first.size(); ++i) out.emplace_back(first[i], second[i]);
-  return out;
-}
-
 std::vector<HistoryColumn> read_columns(const Store& store) {
   const Hdf5GroupReader group = store.root().open_group("history");
   std::vector<HistoryColumn> out;
@@ -88,7 +80,7 @@ SimulationResult read_head(const Store& store) {
   read_origin(root, result);
   result.status = root.text("status");
   result.message = root.text("message");
-  result.swept = pairs(store, "swept_keys", "swept_values");
+  result.swept = read_pairs(root, "swept_keys", "swept_values");
   result.columns = read_columns(store);
   result.events = read_rows<HistoryEvent>(root.open_group("events"));
   result.statics = read_named(store, "static");
@@ -138,7 +130,7 @@ SimulationCheckpoint read_checkpoint(const std::filesystem::path& path) {
           root.text("git"),
           root.text("sha256"),
           root.texts("settings"),
-          pairs(store, "geometry_files", "geometry_sha256"),
+          read_pairs(root, "geometry_files", "geometry_sha256"),
           read_bytes(store)};
 }
 

@@ -11,23 +11,11 @@
 namespace treadmark::io {
 namespace {
 
-void add_pairs(std::vector<Attribute>& list, const std::vector<std::pair<std::string, std::string>>& pairs,
-               const char* firsts, const char* seconds) {
-  std::vector<std::string> first, second;
-  for (const auto& [one, other] : pairs) {
-    first.push_back(one);
-    second.push_back(other);
-  }
-  list.push_back({firsts, first});
-  list.push_back({seconds, second});
-}
-
 std::vector<Attribute> attributes_of(const SimulationResult& result) {
   std::vector<Attribute> list = origin_attributes(kSimulationFormat, result);
   list.push_back({"axes", "x forward, y right, z down; forces and tractions act on the rail"});
   list.push_back({"status", result.status});
   list.push_back({"message", result.message});
-  add_pairs(list, result.geometry_sha256, "geometry_files", "geometry_sha256");
   add_pairs(list, result.swept, "swept_keys", "swept_values");
   return list;
 }

@@ -28,6 +28,7 @@ std::string to_json(const Comparison& comparison) {
   for (const auto& [file, sha256] : comparison.geometry_sha256)
     input["geometry"].push_back({{"file", file}, {"sha256", sha256}});
   if (!comparison.title.empty()) input["title"] = comparison.title;
+  for (const auto& [name, value] : comparison.inputs) input["values"][name] = value;
   out["settings"] = comparison.settings;
   out["complete"] = comparison.complete;
   out["truth"] = comparison.truth;
@@ -93,6 +94,8 @@ Comparison comparison_in(const JsonTree& root) {
   out.input_sha256 = input.text("sha256");
   for (const JsonTree& file : input.at("geometry").items())
     out.geometry_sha256.emplace_back(file.text("file"), file.text("sha256"));
+  if (const auto values = input.find("values"))
+    for (const auto& [name, value] : values->entries()) out.inputs.emplace_back(name, value.text());
   out.settings = root.at("settings").texts();
   out.truth = root.text("truth");
   out.complete = root.flag("complete");

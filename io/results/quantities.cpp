@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "treadmark/core/constants.hpp"
 
 namespace treadmark::io {
@@ -119,9 +121,13 @@ constexpr Quantity<P> kPatchQuantities[] = {
      {"elastic_energy"}, {"elastic energy", Digits::four}},
     {"", "dissipated_W", kPower, B::energy, {[](const P& p) { return 0.0 - p.frictional_power; }},
      "power that friction dissipates; shift: the work, done in one second",
-     {}, {"dissipated by friction", Digits::four}, kEnergy},
+     {}, {"dissipated by friction", Digits::four, "dissipated_W"}, kEnergy},
+    {"", "t_gamma_N", kForce, B::energy,
+     {[](const P& p) { return p.wear_number(); }, nullptr, [](const P& p) { return !std::isnan(p.wear_number()); }},
+     "wear number: power that friction dissipates over the rolling speed", {},
+     {"wear number T gamma", Digits::four, "t_gamma_N"}},
     {"", "frictional_power_W", kPower, B::energy, of<&P::frictional_power>(),
-     "the same with the sign of CONTACT, negative: dissipated", {"frictional_power"}, {}, kEnergy},
+     "dissipated_W with the sign of CONTACT, negative: dissipated", {"frictional_power"}, {}, kEnergy},
     {"", "frictional_work_J", kEnergy, B::work, of<&P::frictional_power>(), "likewise, of shift cases only"},
     {"", "", kStress, B::energy, of<&P::shear_modulus>(), "combined shear modulus", {"shear_modulus"}},
     {"", "fn_over_g_mm2", kArea, B::energy, {[](const P& p) { return p.fn / p.shear_modulus; }},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -178,6 +179,11 @@ struct PatchResult {
     double pmax = 0.0, area = 0.0, fn = 0.0, place = 0.0;  ///< [Pa], [m^2], [N], across the rolling direction [m]
   };
   std::optional<Noise> noise;
+
+  /// Power that friction dissipates over the rolling speed [N]; NaN where nothing rolls.
+  double wear_number() const {
+    return has_rolling && !shift && velocity > 0.0 ? 0.0 - frictional_power / velocity : NAN;
+  }
 };
 
 /// What came out of one case.

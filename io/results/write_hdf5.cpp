@@ -13,6 +13,7 @@
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
+#include "treadmark/io/tables/hdf5_origin.hpp"
 
 namespace treadmark::io {
 
@@ -213,29 +214,14 @@ std::vector<Attribute> attributes_of(const CaseResult& result) {
 }
 
 std::vector<Attribute> attributes_of(const RunResult& run) {
-  std::vector<Attribute> list;
+  std::vector<Attribute> list = origin_attributes(kResultFormat, run);
   const auto add = [&](std::string name, Attribute::Value value) {
     list.push_back({std::move(name), std::move(value)});
   };
-  add("format", kResultFormat);
-  add("units", "SI");
   add("axes", kAxes);
-  add("version", run.version);
-  add("git", run.git);
   add("threads", run.threads);
   add("seconds", run.seconds);
-  if (!run.title.empty()) add("title", run.title);
-  add("input", run.input_file);
-  add("sha256", run.input_sha256);
-  std::vector<std::string> files, hashes;
-  for (const auto& [name, hash] : run.geometry_sha256) {
-    files.push_back(name);
-    hashes.push_back(hash);
-  }
-  add("geometry_files", files);
-  add("geometry_sha256", hashes);
   if (!run.doubts.empty()) add("doubts", run.doubts);
-  add("settings", run.settings);
   add("complete", run.complete ? 1 : 0);
   add("cases_total", run.cases_total);
   return list;

@@ -139,6 +139,7 @@ std::string to_json(const RunResult& run) {
       {"version", run.version}, {"git", run.git}, {"threads", run.threads}, {"seconds", number(run.seconds)}};
   out["input"] = {{"file", run.input_file}, {"sha256", run.input_sha256}, {"geometry", hashes(run.geometry_sha256)}};
   if (!run.title.empty()) out["input"]["title"] = run.title;
+  for (const auto& [name, value] : run.inputs) out["input"]["values"][name] = value;
   if (!run.doubts.empty()) out["input"]["doubts"] = run.doubts;
   out["surfaces"] = Json::array();
   for (const SurfaceUse& use : run.surfaces) out["surfaces"].push_back(surface_json(use));

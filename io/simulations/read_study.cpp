@@ -11,9 +11,11 @@
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
 #include "treadmark/io/simulations/study_keys.hpp"
 
 namespace treadmark::io {
@@ -193,6 +195,25 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
 }
 
 Base read_study_run(const StudyFile& study, const StudyRun& run) { return read_base(study.base).read(run.overrides); }
+
+Inputs inputs_of(const StudyFile& study) {
+  if (study.runs.empty()) return {};
+  const Base first = read_study_run(study, study.runs.front());
+  const auto* cases = std::get_if<CaseFile>(&first);
+  Inputs out = cases != nullptr ? inputs_of(cases->cases, cases->path.parent_path())
+                                : inputs_of(std::get<SimulationFile>(first));
+  for (const Variation& varied : study.variations) {
+    std::vector<std::string> values;
+    for (const VariedValue& value : varied.values) values.push_back(value.label);
+    InputList list;
+    list.add({}, varied.key.empty() ? varied.label : varied.key, values);
+    for (auto& [name, value] : list.words()) {
+      std::erase_if(out, [&](const auto& one) { return one.first == name; });
+      out.emplace(out.begin(), "varied: " + name, value);
+    }
+  }
+  return out;
+}
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/settings/key_words.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/io/simulations/study_model.hpp"
 #include "treadmark/io/simulations/table_of.hpp"
@@ -26,6 +27,9 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
 
 /// The base with the overrides of one run. Throws as above.
 std::variant<SimulationFile, CaseFile> read_study_run(const StudyFile& study, const StudyRun& run);
+
+/// What the first run asks for, in words and units, with all values of what varies. Errors: as read_study_run.
+Inputs inputs_of(const StudyFile& study);
 
 /// Parts of the reader of study files. Error(configuration) at the place of what is wrong.
 

@@ -3,6 +3,7 @@
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
 #include "treadmark/io/simulations/evolve_keys.hpp"
 #include "treadmark/io/simulations/line_keys.hpp"
@@ -276,5 +277,23 @@ std::string track_key_table() { return key_table(std::span(track_tables()).first
 std::string simulation_key_table() { return key_table(simulation_tables()); }
 std::string study_key_table() { return key_table(study_tables()); }
 std::string evolve_key_table() { return key_table(evolve_tables()); }
+
+Inputs inputs_of(const SimulationFile& file) {
+  const SimulationFile fresh;
+  Inputs out{{"vehicle", file.vehicle.name}};
+  if (!file.vehicle_file.path.empty()) out.emplace_back("vehicle file", file.vehicle_file.path.filename().string());
+  if (file.track_file) out.emplace_back("track file", file.track_file->path.filename().string());
+  if (file.irregularity_file) out.emplace_back("irregularities", file.irregularity_file->path.filename().string());
+  InputList inputs;
+  for (const SettingKey<SimulationFile>& key : simulation_keys().rows) {
+    const std::string value = value_of(key, file, {});
+    if (value != value_of(key, fresh, {})) inputs.add(key.info, "simulation." + key.info.path, {value});
+  }
+  Case contact;
+  contact.content = file.contact;
+  for (Inputs list : {inputs.words(), inputs_of({&contact, 1}, file.path.parent_path())})
+    out.insert(out.end(), list.begin(), list.end());
+  return out;
+}
 
 }  // namespace treadmark::io

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "treadmark/io/settings/key_rows.hpp"
+#include "treadmark/io/settings/key_words.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 
 namespace treadmark::io {
@@ -27,6 +28,9 @@ const KeyTable<PointInput>& point_keys();
 /// [assessment] and [[assessment.sections]] beside [simulation].
 const KeyTable<AssessmentRequest>& assessment_keys();
 const KeyTable<AssessmentSection>& section_keys();
+
+/// What a simulation asks for, in words and units, for people. Thread-safe.
+Inputs inputs_of(const SimulationFile& file);
 
 /// JSON Schemas (draft 2020-12) of the files.
 std::string vehicle_file_schema();

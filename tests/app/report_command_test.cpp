@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,6 +15,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -38,6 +40,44 @@ TEST(ReportCommand, OfAFolderEqualsThatOfTheRun) {
   ASSERT_EQ(fixed.status, 0) << fixed.err;
   EXPECT_THAT(input.read("out/static.html"), Not(HasSubstr("<script")));
   EXPECT_THAT(input.read("out/static.html"), HasSubstr("data:image/svg+xml"));
+}
+
+TEST(ReportCommand, FoldersWithoutAPageOfTheirOwnHaveNumbersPicturesAndTables) {
+  const SampleInput input;
+  const std::string folder = (input.folder() / "geometry").string();
+  ASSERT_EQ(run_program({"geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "-o", folder}).status, 0);
+  const ProgramResult made = run_program({"report", folder});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string html = input.read("geometry/report.html");
+  EXPECT_THAT(html, HasSubstr("<dt>track: gauge</dt><dd>1435 mm</dd>"));
+  EXPECT_THAT(html, HasSubstr("id=\"picture-charts\""));
+  input.write("geometry/geometry.json", "no JSON");
+  EXPECT_EQ(run_program({"report", folder}).status, 3);
+}
+
+TEST(ReportCommand, TracksHaveAReport) {
+  TREADMARK_NEEDS("vehicle");
+  const SampleInput input;
+  const std::string track = std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/gm-tt0088.toml";
+  const std::string html = (input.folder() / "track.html").string();
+  const ProgramResult made = run_program({"track", track, "--report", html});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(input.read("track.html"), HasSubstr("<h1>One mass for each rail, P2 values</h1>"));
+  EXPECT_THAT(input.read("track.html"), HasSubstr("id=\"receptance\""));
+}
+
+TEST(ReportCommand, OtherFilesThanPagesAreRefusedBeforeTheWork) {
+  const SampleInput input;
+  const std::string folder = input.folder().string();
+  const ProgramResult picture = run_program({"run", folder + "/missing.inp", "--report", folder + "/x.png"});
+  EXPECT_EQ(picture.status, 2);
+  EXPECT_THAT(picture.err, HasSubstr("a report is a page (.html) or its print (.pdf)"));
+  const std::string before = std::getenv("PATH");
+  setenv("PATH", folder.c_str(), 1);  // where there is no browser
+  const ProgramResult print = run_program({"run", folder + "/missing.inp", "--report", folder + "/x.pdf"});
+  setenv("PATH", before.c_str(), 1);
+  EXPECT_EQ(print.status, 2);
+  EXPECT_THAT(print.err, HasSubstr("Chromium, which is not installed"));
 }
 
 TEST(ReportCommand, ReportsNeedNoFolder) {

@@ -87,6 +87,19 @@ TEST(RunPage, TablesHoldTheNumbers) {
   EXPECT_THAT(card_of(page, "Largest pressure"), HasSubstr("case 3"));
 }
 
+TEST(RunPage, SaysWhatWasAskedForAndTheWear) {
+  const auto run = sample(2);
+  EXPECT_EQ(card_of(run_page(run, ""), "Largest wear number Tγ"), "no card Largest wear number Tγ");  // nothing rolls
+  run->inputs = {{"track: gauge", "1435 mm"}};
+  io::PatchResult& rolls = run->cases[1].patches[0];
+  rolls.has_rolling = true, rolls.velocity = 20.0, rolls.frictional_power = -2400.0;
+  const Page page = run_page(run, "");
+  EXPECT_EQ(page.sections.at(1).title, "Inputs");
+  EXPECT_EQ(fact_of(page, "track: gauge"), "1435 mm");
+  EXPECT_THAT(card_of(page, "Largest wear number Tγ"), HasSubstr("120 N"));
+  EXPECT_EQ(numbers_in(table_of(page, "patches"), "Tγ")[1], 120.0);
+}
+
 TEST(RunPage, StepsAreNamedByWhatVaries) {
   const Page page = run_page(sample(3), "");
   ASSERT_TRUE(page.timeline);

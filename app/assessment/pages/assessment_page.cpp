@@ -169,6 +169,7 @@ Page assessment_page(std::span<const AssessedRun> runs, std::span<const std::str
   page.sections.push_back(std::move(overview));
   for (Section& section : assessment_sections(runs)) page.sections.push_back(std::move(section));
   page.document = assessment_json(runs);
+  if (runs.size() == 1) add_origin(page, *runs.front().result);
   return page;
 }
 

@@ -232,7 +232,7 @@ Page bench_page(const BenchReport& bench, std::string document) {
   page.sections.push_back(std::move(overview));
   if (Section charts = charts_of(rows); !charts.blocks.empty()) page.sections.push_back(std::move(charts));
   page.sections.push_back({"figures", "Figures", {table_of(rows)}});
-  page.sections.push_back(origin_section(facts_of(bench)));
+  add_origin(page, bench, facts_of(bench));
   return page;
 }
 

@@ -200,13 +200,15 @@ Table case_table(const io::RunResult& run) {
 }
 
 Table patch_table(const io::RunResult& run) {
-  Table table{"patches",
-              "Contact patches. x, y, z: contact reference in track axes; forces and creepages in contact axes.",
-              {}};
+  Table table{
+      "patches",
+      "Contact patches. x, y, z: contact reference in track axes; forces and creepages in contact axes: ξ along "
+      "the track, η across, φ spin; Tγ wear number, friction power over speed.",
+      {}};
   table.columns = {
       {"case"},           {"patch"},     {"x", "mm"},   {"y", "mm"},      {"z", "mm"},        {"contact angle", "°"},
       {"F_n", "kN"},      {"F_x", "kN"}, {"F_s", "kN"}, {"p_max", "MPa"}, {"approach", "mm"}, {"area", "mm²"},
-      {"slip area", "%"}, {"ξ"},         {"η"},         {"φ", "rad/mm"}};
+      {"slip area", "%"}, {"ξ"},         {"η"},         {"φ", "rad/mm"},  {"Tγ", "N"}};
   for (std::size_t i = 0; i < run.cases.size(); ++i)
     for (std::size_t k = 0; k < run.cases[i].patches.size(); ++k) {
       const io::PatchResult& p = run.cases[i].patches[k];
@@ -218,7 +220,7 @@ Table patch_table(const io::RunResult& run) {
             none * kMilli * p.x_tr, none * kMilli * p.y_tr, none * kMilli * p.z_tr, none * kDegrees * p.angle,
             kKilo * p.fn, kKilo * p.fx, kKilo * p.fs, kMega * p.pmax, kMilli * p.approach,
             kSquareMilli * p.ncon * p.fields.grid.cell_area(), slip, rolls * p.xi, rolls * p.eta,
-            rolls * p.phi / kMilli})
+            rolls * p.phi / kMilli, p.wear_number()})
         row.cells.emplace_back(Number{value});
       table.rows.push_back(std::move(row));
     }

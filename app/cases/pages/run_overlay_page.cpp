@@ -214,24 +214,7 @@ std::string surfaces_text(const Run& run, const std::string& body) {
   return used.empty() ? "–" : fmt::format("{}", fmt::join(used, ", "));
 }
 
-/// A setting of which results tell no more than what was used in each patch.
-struct PatchSetting {
-  const char *what, *unit;
-  void (*add)(const io::PatchResult&, Extent&);
-};
-constexpr PatchSetting kPatchSettings[] = {
-    {"elements, along x", "mm", [](const io::PatchResult& p, Extent& e) { e.add(kMilli * p.fields.grid.dx); }},
-    {"elements, along s", "mm", [](const io::PatchResult& p, Extent& e) { e.add(kMilli * p.fields.grid.dy); }},
-    {"coefficient of friction in contact", "",
-     [](const io::PatchResult& p, Extent& e) {
-       for (std::size_t i = 0; i < std::min(p.fields.friction.size(), p.fields.state.size()); ++i)
-         if (p.fields.state[i] != 0) e.add(p.fields.friction[i]);
-     }},
-    {"combined shear modulus", "GPa", [](const io::PatchResult& p, Extent& e) { e.add(1e-9 * p.shear_modulus); }},
-};
-
-std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const std::vector<Origin>& origins,
-                                std::span<const std::string> inputs) {
+std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const std::vector<Origin>& origins) {
   std::vector<SaidByAll> lines;
   const auto say = [&](const std::string& what, const std::function<std::string(const Run&)>& text) {
     SaidByAll line{what};
@@ -240,23 +223,9 @@ std::vector<SaidByAll> lines_of(const Runs& runs, const Matched& matched, const 
   };
   say("title", [](const Run& run) { return run.title.empty() ? "–" : run.title; });
   for (SaidByAll& line : origins_of(origins, false)) lines.push_back(std::move(line));
-  for (SaidByAll& line : inputs_of(inputs)) lines.push_back(std::move(line));
   say("cases", [](const Run& run) { return fmt::format("{}", run.cases_total); });
   for (const char* body : {"wheel", "rail"})
     say(fmt::format("surface of the {}", body), [body](const Run& run) { return surfaces_text(run, body); });
-  for (const PatchSetting& setting : kPatchSettings)
-    say(setting.what, [&](const Run& run) {
-      Extent extent;
-      for (const Case& one : run.cases)
-        for (const io::PatchResult& patch : one.patches) setting.add(patch, extent);
-      return extent.text(setting.unit);
-    });
-  say("speed of the wheelset", [](const Run& run) {
-    Extent extent;
-    for (const Case& one : run.cases)
-      if (one.has_wheelset) extent.add(one.vs);
-    return extent.text("m/s");
-  });
   for (const PoseRow& pose : kPose)
     if (!same_pose(matched, pose.member))
       say(fmt::format("{} of cases of the same number", pose.name), [&](const Run& run) {
@@ -458,10 +427,8 @@ Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
   Runs runs;
   std::vector<std::string> names;
   std::vector<Origin> origins;
-  std::vector<std::string> inputs;
   std::vector<io::SampledSurface> surfaces;
-  for (auto& [name, run, input] : given) {
-    inputs.push_back(std::move(input));
+  for (auto& [name, run] : given) {
     take_surfaces(run, fmt::format("r{}_", runs.size() + 1), surfaces);
     origins.push_back(run);
     names.push_back(name);
@@ -491,9 +458,7 @@ Page run_overlay_page(std::vector<Overlaid<Run>>&& given) {
 
   const std::vector<Curve> curves = curves_of(runs, matched);
   if (!matched.empty() && !equal) overview.blocks.emplace_back(cards_of(curves, names, matched));
-  overview.blocks.emplace_back(difference_table(names, lines_of(runs, matched, origins, inputs)));
-  if (std::string note = inputs_note(origins, inputs); !note.empty())
-    overview.blocks.emplace_back(Paragraph{std::move(note)});
+  overview.blocks.emplace_back(difference_table(names, lines_of(runs, matched, origins)));
   page.sections.push_back(std::move(overview));
 
   if (!matched.empty()) {

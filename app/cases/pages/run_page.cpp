@@ -38,6 +38,14 @@ Cards::Card extreme(const io::RunResult& run, const char* label, const char* uni
 
 double largest_pressure(const io::CaseResult& c) { return largest(c, &io::PatchResult::pmax); }
 
+/// Of all patches that roll; NaN without any.
+double wear_number(const io::CaseResult& c) {
+  double sum = NAN;
+  for (const io::PatchResult& p : c.patches)
+    if (const double one = p.wear_number(); !std::isnan(one)) sum = std::isnan(sum) ? one : sum + one;
+  return sum;
+}
+
 /// The case with the largest pressure.
 std::size_t worst_case(const io::RunResult& run) {
   std::size_t worst = 0;
@@ -64,6 +72,8 @@ Cards cards_of(const io::RunResult& run) {
     for (const io::PatchResult& p : c.patches) sum += p.fn;
     return sum;
   }));
+  if (Cards::Card wear = extreme(run, "Largest wear number Tγ", "N", 1.0, wear_number); !wear.note.empty())
+    cards.cards.push_back(std::move(wear));
   cards.cards.push_back({"Patches at once", fmt::format("{}", patches), "at most"});
   cards.cards.push_back(
       {"Wall-clock time", duration_text(run.seconds), counted(static_cast<std::size_t>(run.threads), "thread")});
@@ -142,7 +152,7 @@ Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string docum
   if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
   if (std::optional<Section> below = subsurface_section(*run)) page.sections.push_back(std::move(*below));
   page.sections.push_back({"cases", "Cases", {case_table(*run), patch_table(*run)}});
-  page.sections.push_back(origin_section(origin_facts(*run)));
+  add_origin(page, *run);
   return page;
 }
 

@@ -225,7 +225,7 @@ Page page_of(const std::shared_ptr<const io::Comparison>& data, std::string docu
   Section tables{"tables", "Figures", {candidate_table(all)}};
   if (!all.cases.empty()) tables.blocks.emplace_back(compared_row_table(all));
   page.sections.push_back(std::move(tables));
-  page.sections.push_back(origin_section(comparison_facts(comparison)));
+  add_origin(page, comparison, comparison_facts(comparison));
   return page;
 }
 

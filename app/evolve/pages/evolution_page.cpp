@@ -102,7 +102,7 @@ ChartView section_by_generation(const io::EvolutionResult& result, const fs::pat
   const std::vector<SectionLine> lines = endured(result.generations.front().bodies[body]);
   ChartView view;
   view.x = Axis{"y", "mm"};
-  view.panels = {{"height z of the section", "mm", false, {Series{"section", {}}}},
+  view.panels = {{"height of the section, -z", "mm", false, {Series{"section", {}}}},
                  {"depth removed, mean along", "mm", false, {Series{"depth", {}}}}};
   for (const SectionLine& line : lines) {
     if (view.panels.back().label != line.panel) view.panels.push_back({line.panel, line.unit, false, {}});
@@ -118,7 +118,7 @@ ChartView section_by_generation(const io::EvolutionResult& result, const fs::pat
       double volume = 0.0;
       for (int i = 0; i < b.cells.nu; ++i) volume += b.record.volume.at(i, j);
       curves.x.push_back(in_file(kMilli * b.cells.y(j)));
-      curves.y[0][0].push_back(in_file(kMilli * b.z[static_cast<std::size_t>(j)]));
+      curves.y[0][0].push_back(in_file(-kMilli * b.z[static_cast<std::size_t>(j)]));
       curves.y[1][0].push_back(in_file(kMilli * volume / (b.cells.area(j) * b.cells.nu)));
       std::size_t panel = 1, series = 0;
       for (const SectionLine& line : lines) {
@@ -350,7 +350,7 @@ Page evolution_page(const fs::path& folder) {
   }
   add_contacts(page, result, folder);
   page.sections.push_back({"generations", "Generations", {generation_table(result)}});
-  page.sections.push_back(origin_section(origin_facts(result)));
+  add_origin(page, result);
   return page;
 }
 

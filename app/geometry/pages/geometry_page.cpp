@@ -47,10 +47,11 @@ void add_load_panels(ChartView& view, const GeometryResult& result, const std::v
 
 /// Rail and wheel of one side where they are at each step.
 ChartView side_view(const geometry::WheelsetOnTrack& wheelset, const std::vector<const Position*>& steps, bool right) {
-  constexpr double kBeside = 45.0, kStep = 0.5, kLowest = 36.0, kHighest = -16.0;  // what is shown [mm]
+  constexpr double kInside = 85.0, kOutside = 65.0, kStep = 0.75, kLowest = 42.0, kHighest = -16.0;  // shown [mm]
   const geometry::SideInput& side = wheelset.side(right);
   const double sign = right ? 1.0 : -1.0, z_top = geometry::rail_top(*side.rail, 0.0).z_top;
   ChartView view;
+  view.to_scale = true;
   view.x = report::Axis{"y on the track", "mm"};
   view.panels.push_back({"height", "mm", false, {Series{"rail", {}}, Series{"wheel", {}}, Series{"contact", {}}}});
   view.panels[0].series[2].marks = Series::Marks::points;
@@ -60,7 +61,7 @@ ChartView side_view(const geometry::WheelsetOnTrack& wheelset, const std::vector
     ChartView::Curves curves;
     curves.y.assign(1, std::vector<std::vector<double>>(3));
     std::vector<double> across;  // outwards from the middle of the track [mm]
-    for (double y = -kBeside; y <= kBeside; y += kStep) across.push_back(kMilli * side.rail_y + y);
+    for (double y = -kInside; y <= kOutside; y += kStep) across.push_back(kMilli * side.rail_y + y);
     across.push_back(kMilli * touch.track_y);
     std::ranges::sort(across);
     for (const double y : across) {
@@ -118,7 +119,7 @@ ChartView conicity_view(const geometry::Analysis& a, const std::optional<geometr
     if (!a.harmonic.empty()) harmonic.y.push_back(a.harmonic[i]);
   }
   view.x = std::move(x);
-  Panel panel{"tan gamma_e", "", false, {std::move(integral)}};
+  Panel panel{"equivalent conicity tan γₑ", "", false, {std::move(integral)}};
   if (!harmonic.y.empty()) panel.series.push_back(std::move(harmonic));
   if (with_new) {
     Series fresh{"new profiles, integral method", {}};
@@ -139,7 +140,7 @@ ChartView sweep_view(const GaugeSweep& sweep) {
     series.y.push_back(sweep.trouble[g].empty() ? sweep.at_3mm[g].tan_gamma : kNaN);
   }
   view.x = std::move(x);
-  view.panels.push_back({"tan gamma_e at 3 mm", "", false, {std::move(series)}});
+  view.panels.push_back({"equivalent conicity tan γₑ at 3 mm", "", false, {std::move(series)}});
   return view;
 }
 

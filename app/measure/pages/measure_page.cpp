@@ -9,6 +9,8 @@
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
+#include "treadmark/io/settings/key_words.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -29,14 +31,52 @@ Series curve(const char* name, const std::vector<Vec2>& points) {
   return out;
 }
 
+/// A length that is measured, as a line with its name and number.
+void add_gauge(Panel& panel, const char* name, const measures::Measure& measure, const Vec2& from, const Vec2& to) {
+  if (!measure.known()) return;
+  panel.series.push_back(curve("", {from, to}));
+  panel.series.back().name = fmt::format("{} {:.2f} mm", name, kMilli * measure.value);
+  panel.series.back().marks = Series::Marks::both;
+}
+
+void add_gauges(Panel& panel, const WheelNumbers& n, const MeasuredFile& file) {
+  const measures::WheelGauge gauge;
+  const Vec2 tip = *std::ranges::max_element(file.section, {}, [](const Vec2& p) { return p.y(); });
+  const double face = n.flange_thickness.value - gauge.tape_line, upper = n.flange_height.value - gauge.below_tip;
+  add_gauge(panel, "Sh", n.flange_height, {tip.x(), 0.0}, {tip.x(), n.flange_height.value});
+  add_gauge(panel, "Sd", n.flange_thickness, {-gauge.tape_line, gauge.face_depth}, {face, gauge.face_depth});
+  if (n.flange_thickness.known())
+    add_gauge(panel, "qR", n.flange_gradient, {face - n.flange_gradient.value, upper}, {face, upper});
+}
+
+/// From the nominal section inwards; its crown is at the origin and the gauge side at y < 0.
+void add_gauges(Panel& panel, const RailNumbers& n, const MeasuredFile& file) {
+  const measures::RailGauge gauge;
+  Vec2 side(kNaN, gauge.side_depth), corner(kNaN, kNaN);
+  double nearest = kInfinity;
+  for (std::size_t i = 0; i + 1 < file.nominal.size(); ++i) {
+    const Vec2 &a = file.nominal[i], &b = file.nominal[i + 1], step = b - a;
+    if ((a.y() - side.y()) * (b.y() - side.y()) <= 0.0 && a.y() != b.y())
+      side.x() = std::fmin(side.x(), a.x() + step.x() * (side.y() - a.y()) / step.y());
+    const double off = std::fabs(std::atan2(-step.y(), step.x()) - gauge.oblique);
+    if (a.x() < 0.0 && a.y() < 2.0 * gauge.side_depth && off < nearest) nearest = off, corner = 0.5 * (a + b);
+  }
+  const Vec2 inwards(std::sin(gauge.oblique), std::cos(gauge.oblique));
+  add_gauge(panel, "W1", n.w1, {0.0, 0.0}, {0.0, n.w1.value});
+  add_gauge(panel, "W2", n.w2, side, side + Vec2(n.w2.value, 0.0));
+  add_gauge(panel, "W3", n.w3, corner, corner + n.w3.value * inwards);
+}
+
 ChartView section_view(const MeasuredFile& file) {
   ChartView view;
+  view.to_scale = true;
   view.x = Axis{"y", "mm"};
   Panel panel{"height", "mm", false, {curve("measured", file.section)}};
   if (!file.nominal.empty()) {
     panel.series.push_back(curve("nominal", file.nominal));
     panel.series.back().dashed = true;
   }
+  if (!file.section.empty()) std::visit([&](const auto& n) { add_gauges(panel, n, file); }, file.numbers);
   view.panels.push_back(std::move(panel));
   return view;
 }
@@ -130,28 +170,49 @@ ChartView stations_view(const std::vector<MeasuredStation<Numbers>>& stations, A
     Series series{"", {}};
     for (const auto& station : stations) series.y.push_back(row.in_file(station.numbers));
     if (std::ranges::any_of(series.y, [](double v) { return v == v; }))
-      view.panels.push_back({std::string(row.label), "", false, {std::move(series)}});
+      view.panels.push_back({std::string(row.label), io::words_of_key(row.key).unit, false, {std::move(series)}});
   }
   view.x = std::move(x);
   return view;
 }
 
+std::string range_of(const Limit& limit) {
+  std::string range = limit.min ? fmt::format("from {:g}", *limit.min) : "";
+  if (limit.max) range += fmt::format("{}to {:g}", range.empty() ? "" : " ", *limit.max);
+  return range;
+}
+
 template <class Numbers>
 report::Table shown_numbers(const MeasuredFile& file, const Numbers& numbers) {
-  report::Table table{"numbers", "Measures", {{"measure"}, {"key"}, {"value"}, {"uncertainty"}, {"limit"}, {"status"}}};
+  report::Table table{
+      "numbers", "Measures", {{"measure"}, {"value"}, {"unit"}, {"uncertainty"}, {"limit"}, {"status"}}};
+  const auto in_decimals = [](double value, int decimals) {
+    const double before = value == 0.0 || !std::isfinite(value) ? 1.0 : std::floor(std::log10(std::fabs(value))) + 1.0;
+    return Number{value, std::max(1, to_whole<int>(before) + decimals)};
+  };
   for (const auto& row : number_rows(numbers)) {
     const bool known = row.known(numbers);
     const auto limit = std::ranges::find(file.limits, row.key, [](const LimitResult& l) { return l.limit.key; });
     std::string range, status = known ? "" : row.access.reason(numbers);
     if (limit != file.limits.end()) {
-      if (limit->limit.min) range = fmt::format("from {:g}", *limit->limit.min);
-      if (limit->limit.max) range += fmt::format("{}to {:g}", range.empty() ? "" : " ", *limit->limit.max);
+      range = range_of(limit->limit);
       if (known) status = word_of(limit->verdict) + (limit->sure ? "" : ", nearer than its uncertainty");
     }
-    table.rows.push_back({{std::string(row.label), std::string(row.key), Number{row.in_file(numbers), 5},
-                           Number{row.uncertainty_in_file(numbers), 2}, range, status}});
+    table.rows.push_back(
+        {{std::string(row.label), in_decimals(row.in_file(numbers), row.decimals), io::words_of_key(row.key).unit,
+          Number{row.uncertainty_in_file(numbers), 2}, range, status}});
   }
   return table;
+}
+
+/// "flange height Sh = 27.2 mm, allowed from 27.5".
+template <class Numbers>
+std::string broken_limit(const LimitResult& limit, const Numbers& numbers) {
+  const auto rows = number_rows(numbers);
+  const auto row = std::ranges::find(rows, limit.limit.key, [](const auto& one) { return one.key; });
+  const std::string name(row == rows.end() ? std::string_view(limit.limit.key) : row->label);
+  return fmt::format("{} = {:.4g} {}, allowed {}", name, limit.value, io::words_of_key(limit.limit.key).unit,
+                     range_of(limit.limit));
 }
 
 }  // namespace
@@ -166,7 +227,8 @@ report::Page measure_page(const MeasuredFile& file, const MeasureRequest& reques
   for (const LimitResult& l : file.limits)
     if (l.verdict == Verdict::outside)
       overview.blocks.emplace_back(report::Banner{
-          report::Banner::Kind::warning, "Outside its limit:", fmt::format("{} = {:.4g}", l.limit.key, l.value)});
+          report::Banner::Kind::warning,
+          "Outside its limit:", std::visit([&](const auto& n) { return broken_limit(l, n); }, file.numbers)});
   report::Facts facts;
   facts.entries = {{"file", file.file},
                    {"kind", file.kind},

@@ -53,12 +53,12 @@ std::optional<Figure> histories_over(const Simulations& all, const std::string& 
   ChartView view;
   const ShownUnit unit = shown_unit(abscissa);
   view.x = Axis{label, unit.name};
-  for (const auto& [name, simulation, input] : all)
+  for (const auto& [name, simulation] : all)
     if (column_of(simulation, abscissa) == nullptr) return {};
   for (const auto& [column, what] : kShownColumns) {
     Panel panel{what, shown_unit(column).name};
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const auto& [name, simulation, input] = all[k];
+      const auto& [name, simulation] = all[k];
       const std::vector<std::size_t> rows = thinned_rows(simulation, {column}, kMostPointsOfCurve);
       auto y = column_at(simulation, column, rows);
       if (!y || rows.empty()) continue;
@@ -124,7 +124,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
               {{"quantity"}, {"meaning"}, {"unit"}}};
   add_columns(table, names, "", "");
   std::vector<const io::HistoryColumn*> columns;
-  for (const auto& [name, simulation, input] : all)
+  for (const auto& [name, simulation] : all)
     for (const io::HistoryColumn& column : simulation.columns)
       if (column.name != "t_s" && column.name != "x_m" &&
           std::ranges::none_of(columns, [&](const auto* known) { return known->name == column.name; }))
@@ -133,7 +133,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
     const ShownUnit unit = shown_unit(column->name);
     std::vector<Measures> measures;
     measures.reserve(all.size());
-    for (const auto& [name, simulation, input] : all) {
+    for (const auto& [name, simulation] : all) {
       const io::HistoryColumn* here = column_of(simulation, column->name);
       const io::HistoryColumn* time = column_of(simulation, "t_s");
       measures.push_back(here != nullptr && time != nullptr
@@ -162,13 +162,13 @@ Table named_table(const char* id, const char* caption, const Simulations& all, c
   Table table{id, caption, {{"quantity"}, {"meaning"}, {"unit"}}};
   add_columns(table, names, "", "");
   std::vector<const io::NamedValue*> rows;
-  for (const auto& [name, simulation, input] : all)
+  for (const auto& [name, simulation] : all)
     for (const io::NamedValue& one : list(simulation))
       if (std::ranges::none_of(rows, [&](const auto* known) { return known->name == one.name; })) rows.push_back(&one);
   for (const io::NamedValue* one : rows) {
     const ShownUnit unit = shown_unit(one->name);
     std::vector<double> values;
-    for (const auto& [name, simulation, input] : all) {
+    for (const auto& [name, simulation] : all) {
       const auto& here = list(simulation);
       const auto found = std::ranges::find(here, one->name, &io::NamedValue::name);
       values.push_back(found == here.end() ? kNaN : unit.factor * found->value);
@@ -185,7 +185,7 @@ Table named_table(const char* id, const char* caption, const Simulations& all, c
 
 Table event_table(const Simulations& all) {
   Table table{"events", "Loss of contact.", {{"simulation"}}};
-  for (const auto& [name, simulation, input] : all) {
+  for (const auto& [name, simulation] : all) {
     Table own = report::table_of("", "", simulation.events, 6);
     if (table.columns.size() == 1) std::ranges::copy(own.columns, std::back_inserter(table.columns));
     for (Table::Row& row : own.rows) {
@@ -199,7 +199,7 @@ Table event_table(const Simulations& all) {
 // ---------------------------------------------------------------------------------------------------------- overview
 
 void add_missing_columns(const Simulations& all, Section& overview) {
-  for (const auto& [name, simulation, input] : all) {
+  for (const auto& [name, simulation] : all) {
     std::vector<std::string> lacking;
     for (const auto& [other, has, unused] : all)
       for (const io::HistoryColumn& column : has.columns)
@@ -212,12 +212,11 @@ void add_missing_columns(const Simulations& all, Section& overview) {
   }
 }
 
-std::vector<SaidByAll> lines_of(const Simulations& all, const std::vector<Origin>& origins,
-                                std::span<const std::string> inputs) {
+std::vector<SaidByAll> lines_of(const Simulations& all, const std::vector<Origin>& origins) {
   std::vector<SaidByAll> lines;
   const auto say = [&](const char* what, const std::function<std::string(const Simulation&)>& text) {
     SaidByAll line{what};
-    for (const auto& [name, simulation, input] : all) line.texts.push_back(text(simulation));
+    for (const auto& [name, simulation] : all) line.texts.push_back(text(simulation));
     lines.push_back(std::move(line));
   };
   const auto last = [](const Simulation& simulation, const char* column, const char* unit) {
@@ -227,7 +226,6 @@ std::vector<SaidByAll> lines_of(const Simulations& all, const std::vector<Origin
   };
   say("title", [](const Simulation& one) { return one.title.empty() ? "–" : one.title; });
   for (SaidByAll& line : origins_of(origins, false)) lines.push_back(std::move(line));
-  for (SaidByAll& line : inputs_of(inputs)) lines.push_back(std::move(line));
   say("status", [](const Simulation& one) { return one.status; });
   say("ends at", [&](const Simulation& one) { return last(one, "t_s", "s"); });
   say("distance", [&](const Simulation& one) { return last(one, "x_m", "m"); });
@@ -300,7 +298,7 @@ std::optional<Section> snapshots_of(Simulations& all, const std::vector<std::str
   timeline.axes.push_back(std::move(axis));
   std::vector<NamedRun> runs;
   std::vector<io::SampledSurface> surfaces;
-  for (auto& [name, simulation, input] : all) {
+  for (auto& [name, simulation] : all) {
     take_surfaces(simulation.snapshots, fmt::format("r{}_", runs.size() + 1), surfaces);
     runs.push_back({name, std::make_shared<const io::RunResult>(std::move(simulation.snapshots))});
   }
@@ -318,10 +316,8 @@ Page simulation_overlay_page(Simulations&& all) {
   if (all.size() < 2) throw Error(ErrorKind::configuration, "one simulation alone cannot be overlaid");
   std::vector<std::string> names;
   std::vector<Origin> origins;
-  std::vector<std::string> inputs;
-  for (const auto& [name, one, input] : all) {
+  for (const auto& [name, one] : all) {
     names.push_back(name);
-    inputs.push_back(input);
     origins.push_back(one);
   }
   const Simulation& first = all.front().result;
@@ -330,7 +326,7 @@ Page simulation_overlay_page(Simulations&& all) {
       fmt::format("{} overlaid: {}", counted(all.size(), "simulation"), title_of(first.title, first.input_file));
   page.full_data = "simulation.h5";
   Section overview{"overview", "Overview"};
-  for (const auto& [name, one, input] : all) add_simulation_banners(one, overview, name);
+  for (const auto& [name, one] : all) add_simulation_banners(one, overview, name);
   add_missing_columns(all, overview);
   add_version_note(origins, overview);
   const bool equal = std::ranges::all_of(all, [&](const auto& one) {
@@ -343,9 +339,7 @@ Page simulation_overlay_page(Simulations&& all) {
     overview.blocks.emplace_back(
         Banner{Banner::Kind::note, "No difference:", "all numbers of the histories are the same."});
   if (Cards cards = cards_of(all); !cards.cards.empty()) overview.blocks.emplace_back(std::move(cards));
-  overview.blocks.emplace_back(difference_table(names, lines_of(all, origins, inputs)));
-  if (std::string note = inputs_note(origins, inputs); !note.empty())
-    overview.blocks.emplace_back(Paragraph{std::move(note)});
+  overview.blocks.emplace_back(difference_table(names, lines_of(all, origins)));
   page.sections.push_back(std::move(overview));
 
   Section histories{"histories", "Histories"};

@@ -11,6 +11,7 @@
 #include "treadmark/app/cases/pages/case_figures.hpp"
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/app/simulation/pages/history_panels.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/row_blocks.hpp"
 
@@ -89,6 +90,16 @@ std::string watched_wheel(const Result& result) {
     if (const auto open = column.description.rfind('('); column.name == "Q_N" && open != std::string::npos)
       return column.description.substr(open + 1, column.description.size() - open - 2);
   return "wheel";
+}
+
+/// Where the largest pressure is, or without any the largest vertical force.
+std::size_t worst_row(const Result& result, const Rows& rows) {
+  for (const char* column : {"pmax_Pa", "Q_N"})
+    if (const auto values = column_at(result, column, rows))
+      return static_cast<std::size_t>(
+          std::ranges::max_element(*values, {}, [](double v) { return std::isnan(v) ? -kInfinity : v; }) -
+          values->begin());
+  return 0;
 }
 
 void add(ChartView& chart, std::optional<Panel> panel) {
@@ -187,6 +198,7 @@ Page simulation_page(const std::shared_ptr<const Result>& result, std::string do
     if (auto pitch = column_at(*result, "pitch_rad", rows))
       timeline.axes.push_back({"pitch angle", "°", false, std::move(*pitch)});
     if (fields && !result->snapshot_times.empty()) timeline.frames = frames_at(*result, times);
+    timeline.start = worst_row(*result, rows);
     page.timeline = std::move(timeline);
     page.sections.push_back(histories(*result, rows));
   }
@@ -213,7 +225,7 @@ Page simulation_page(const std::shared_ptr<const Result>& result, std::string do
   if (assessed)
     for (Section& section : assessment_sections(std::span(assessed, 1))) page.sections.push_back(std::move(section));
   page.sections.push_back(tables(*result));
-  page.sections.push_back(origin_section(origin_facts(*result)));
+  add_origin(page, *result);
   return page;
 }
 

@@ -18,6 +18,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
+#include "treadmark/io/settings/key_words.hpp"
 #include "treadmark/report/html_text.hpp"
 
 namespace treadmark::app::pages {
@@ -54,20 +55,7 @@ std::optional<std::vector<double>> numbers_of(const io::StudyTable& table, const
   return out;
 }
 
-/// The unit at the end of a key: "simulation.speed_m_s" has "m/s".
-std::string unit_of_key(const std::string& key) {
-  for (const auto& [ending, unit] : {std::pair{"_m_s", "m/s"},
-                                     {"_km_h", "km/h"},
-                                     {"_mm", "mm"},
-                                     {"_deg", "°"},
-                                     {"_rad", "rad"},
-                                     {"_N", "N"},
-                                     {"_kg", "kg"},
-                                     {"_m", "m"},
-                                     {"_s", "s"}})
-    if (key.ends_with(ending)) return unit;
-  return "";
-}
+std::string unit_of_key(const std::string& key) { return io::words_of_key(key).unit; }
 
 std::string run_name(const io::SimulationRun& run) {
   return fmt::format("run {}{}{}", run.number, run.label.empty() ? "" : ": ", run.label);
@@ -77,6 +65,7 @@ std::string run_name(const io::SimulationRun& run) {
 std::string name_of_key(const io::StudyResult& study, const std::string& key) {
   const std::string& label = io::label_of_key(study, key);
   const std::string unit = " [" + unit_of_key(key) + "]";
+  if (label == key) return io::words_of_key(key).name;
   return label.ends_with(unit) ? label.substr(0, label.size() - unit.size()) : label;
 }
 
@@ -87,7 +76,9 @@ std::string line_name(const io::StudyResult& study, const io::SimulationRun& run
   for (const std::string& other : table.keys) {
     if (other == key) continue;
     const std::string* value = io::swept_value(run, other);
-    name += fmt::format("{}{} {}", name.empty() ? "" : ", ", name_of_key(study, other), value ? *value : "–");
+    const std::string unit = unit_of_key(other);
+    name += fmt::format("{}{} {}{}{}", name.empty() ? "" : ", ", name_of_key(study, other), value ? *value : "–",
+                        unit.empty() ? "" : " ", unit);
   }
   return name.empty() ? "all runs" : name;
 }
@@ -158,7 +149,7 @@ bool has_history(const ChartView& view) {
 
 Table run_table(const io::StudyTable& table) {
   Table out{"runs", "Runs of the study", {{"run"}}};
-  for (const std::string& key : table.keys) out.columns.push_back({key});
+  for (const std::string& key : table.keys) out.columns.push_back({io::words_of_key(key).name, unit_of_key(key)});
   for (const io::NamedValue& quantity : table.quantities)
     out.columns.push_back({shown_name(quantity.name), shown_unit(quantity.name).name});
   out.columns.push_back({"status"});
@@ -265,7 +256,7 @@ Page sweep_page(const StudyOnDisk& disk) {
   for (const auto& [name, svg] : disk.pictures)
     pictures.blocks.emplace_back(Figure{"picture-" + name, name, PictureView{svg}});
   if (!pictures.blocks.empty()) page.sections.push_back(std::move(pictures));
-  page.sections.push_back(origin_section(origin_facts(disk.study)));
+  add_origin(page, disk.study);
   return page;
 }
 
@@ -317,6 +308,7 @@ StudyOnDisk read_study_folder(const fs::path& folder) {
       out.study.git = run.git;
       out.study.input_sha256 = run.input_sha256;
       out.study.title = run.title;
+      out.study.inputs = run.inputs;
     }
     out.study.runs.push_back({number, run.swept, label_of(run.swept), run.status, run.message, run.summary, store});
   }

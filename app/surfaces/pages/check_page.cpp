@@ -27,6 +27,7 @@ Section section_of(const CheckedInput& input, std::size_t number) {
   Section section{fmt::format("input-{}", number), input.file};
   if (!input.outcome.empty()) section.blocks.emplace_back(Paragraph{input.outcome});
   for (const std::string& note : input.notes) section.blocks.emplace_back(Banner{Banner::Kind::note, "Note:", note});
+  if (!input.inputs.empty()) section.blocks.emplace_back(Facts{input.inputs});
   for (const auto& [name, judgement] : input.profiles) {
     Facts facts{{{"profile", name}}};
     facts.entries.insert(facts.entries.end(), judgement.facts.begin(), judgement.facts.end());
@@ -42,7 +43,7 @@ Section section_of(const CheckedInput& input, std::size_t number) {
 }  // namespace
 
 Page check_page(const std::vector<CheckedInput>& inputs) {
-  Page page{"check", inputs.size() == 1 ? title_of({}, inputs.front().file) : "Check",
+  Page page{"check", inputs.size() == 1 ? title_of(inputs.front().title, inputs.front().file) : "Check",
             fmt::format("What was understood of {}", counted(inputs.size(), "file"))};
   Section overview{"overview", "Overview"};
   add_banners(inputs, overview);

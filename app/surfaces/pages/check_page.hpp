@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "treadmark/io/profiles/judge_profile.hpp"
+#include "treadmark/io/settings/key_words.hpp"
 #include "treadmark/report/page.hpp"
 
 namespace treadmark::app::pages {
@@ -14,6 +15,8 @@ namespace treadmark::app::pages {
 /// What `check` understood of one file.
 struct CheckedInput {
   std::string file;
+  std::string title = {};                                              ///< of a case file; may be empty
+  io::Inputs inputs = {};                                              ///< what it asks for
   std::string outcome;                                                 ///< "3 cases, no errors"; may be empty
   std::vector<std::string> notes;                                      ///< of the reader
   std::vector<std::string> doubts;                                     ///< about numbers of cases

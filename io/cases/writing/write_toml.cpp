@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 
@@ -20,21 +23,21 @@ struct Said {
   friend bool operator==(const Said&, const Said&) = default;
 };
 
-std::string value_of(const CaseKey& key, const Case& c, const std::filesystem::path& folder) {
-  return key.written ? key.written(c, folder) : key.text ? key.text(c) : std::string();
+/// Whether a file says something of cases of this kind by the key.
+bool says(const KeyInfo& key, bool patch) {
+  const KeyScope scope = patch ? KeyScope::patch : KeyScope::wheel_rail;
+  return (key.scope == KeyScope::any || key.scope == scope) && key.path != "case.steps" &&
+         key.path != "case.time_step_s";  // they make cases, which are made
 }
 
 /// What differs from a case without keys, in the order of the keys; of two units the shorter number.
 std::vector<Said> said_of(const Case& c, const std::filesystem::path& folder) {
   const bool patch = std::holds_alternative<BasicCase>(c.content);
   const Case fresh = case_without_keys(patch);
-  const KeyScope scope = patch ? KeyScope::patch : KeyScope::wheel_rail;
   std::vector<Said> all;
   for (const CaseKey& key : case_keys()) {
     const KeyInfo& info = key.info;
-    if ((info.scope != KeyScope::any && info.scope != scope) || info.path == "case.steps" ||
-        info.path == "case.time_step_s")
-      continue;  // the last two make cases, which are made
+    if (!says(info, patch)) continue;
     std::string value = value_of(key, c, folder);
     if (value.empty() || value == value_of(key, fresh, folder)) continue;
     const auto other = std::ranges::find_if(all, [&](const Said& s) {
@@ -107,6 +110,49 @@ std::string case_file_text(const CaseFile& file, const std::filesystem::path& fo
       if (!shared(bundle_of(*key.key))) out += fmt::format("{} = {}\n", key.key->path, key.value);
   }
   return out;
+}
+
+Inputs inputs_of(std::span<const Case> cases, const std::filesystem::path& folder) {
+  // Said even where they are as without their keys.
+  constexpr std::string_view kAlways[] = {"case.side",
+                                          "case.regime",
+                                          "friction.law",
+                                          "friction.coefficient",
+                                          "solver.normal_model",
+                                          "solver.tangential_model",
+                                          "track.gauge_mm",
+                                          "track.cant_deg",
+                                          "wheelset.nominal_radius_mm",
+                                          "wheelset.y_mm",
+                                          "wheelset.velocity_km_h",
+                                          "discretisation.dx_mm",
+                                          "discretisation.ds_mm"};
+  InputList inputs;
+  if (cases.empty()) return {};
+  const std::size_t kind = cases.front().content.index();
+  const bool patch = std::holds_alternative<BasicCase>(cases.front().content);
+  const Case fresh = case_without_keys(patch);
+  for (const CaseKey& key : case_keys()) {
+    if (!says(key.info, patch)) continue;
+    const bool always = std::ranges::find(kAlways, key.info.path) != std::end(kAlways);
+    // A number that its text says alone need not be written to be compared.
+    const bool plain = key.get && key.info.group.empty() && key.info.choices.empty();
+    const auto unusual = [&](const Case& c) { return c.content.index() == kind && key.get(c) != key.get(fresh); };
+    if (plain && !always && std::ranges::none_of(cases, unusual)) continue;
+    std::vector<std::string> values;
+    double last = kNaN;
+    for (const Case& c : cases) {
+      if (c.content.index() != kind) continue;
+      const double number = plain ? key.get(c) : kNaN;
+      if (number == last) continue;
+      values.push_back(value_of(key, c, folder));
+      last = number;
+    }
+    const std::string usual = value_of(key, fresh, folder);
+    if (always || std::ranges::any_of(values, [&](const std::string& value) { return value != usual; }))
+      inputs.add(key.info, key.info.path, values);
+  }
+  return inputs.words();
 }
 
 }  // namespace treadmark::io

@@ -163,6 +163,8 @@ export interface ChartView {
   id: string;
   /** Series are aligned with the steps; the cursor is the current step, click and drag move it. */
   linked: boolean;
+  /** A unit is as long upwards as across; of one panel. */
+  to_scale?: boolean;
   /** Of charts that are not linked (values may be []). */
   x: Axis | null;
   panels: Panel[];

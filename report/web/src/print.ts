@@ -90,29 +90,50 @@ export function onPaper(figure: HTMLElement, store: Store, pictures: (suffix: st
   });
 }
 
-/** Prints, and chooses the steps that come on paper. */
+/** A tick for each section that shall come on paper; with how many pages that may be. */
+function sectionTicks(): HTMLElement | null {
+  const sections = [...document.querySelectorAll<HTMLElement>("main > section")];
+  if (sections.length < 2) return null;
+  const box = document.createElement("fieldset");
+  const legend = document.createElement("legend");
+  const count = (): void => {
+    const high = sections.reduce((sum, one) => sum + (one.classList.contains("not-printed") ? 0 : one.offsetHeight), 0);
+    legend.textContent = `Sections, about ${Math.max(1, Math.ceil((0.85 * high) / PAPER_HEIGHT))} pages`;
+  };
+  box.append(legend);
+  for (const section of sections) {
+    const label = document.createElement("label");
+    const tick = document.createElement("input");
+    tick.type = "checkbox";
+    tick.checked = true;
+    tick.addEventListener("change", () => {
+      section.classList.toggle("not-printed", !tick.checked);
+      count();
+    });
+    label.append(tick, section.querySelector("h2")?.textContent ?? section.id);
+    box.append(label);
+  }
+  box.addEventListener("focusin", count);
+  count();
+  return box;
+}
+
+/** Prints, and chooses the sections and the steps that come on paper. */
 export function mountPrint(toolbar: HTMLElement, store: Store): void {
   const { timeline, blobs } = store.data;
-  if (!timeline || timeline.count < 2) return;
   const menu = document.createElement("details");
   menu.className = "print-menu";
   const summary = document.createElement("summary");
   summary.textContent = "Print";
   const form = document.createElement("form");
-  const label = document.createElement("label");
   const input = document.createElement("input");
-  input.placeholder = "the one shown";
-  input.size = 14;
-  input.title = `As 1-5, 8 or all; empty: the ${timeline.label} that is shown`;
-  label.append(`Which ${timeline.label}s, as 1-5, 8 or all`, input);
   const note = document.createElement("p");
   note.className = "print-note";
   note.setAttribute("role", "status");
   const button = document.createElement("button");
   button.textContent = "Print";
-  form.append(label, button, note);
-  menu.append(summary, form);
   const take = (): boolean => {
+    if (!timeline) return true;
     const steps = parseSteps(input.value, timeline.count, () => allSteps(timeline, blobs));
     const wrong = typeof steps === "string";
     store.paper = wrong ? [] : steps;
@@ -120,7 +141,19 @@ export function mountPrint(toolbar: HTMLElement, store: Store): void {
     input.setAttribute("aria-invalid", String(wrong));
     return !wrong;
   };
-  input.addEventListener("input", take);
+  if (timeline && timeline.count > 1) {
+    const label = document.createElement("label");
+    input.placeholder = "the one shown";
+    input.size = 14;
+    input.title = `As 1-5, 8 or all; empty: the ${timeline.label} that is shown`;
+    label.append(`Which ${timeline.label}s, as 1-5, 8 or all`, input);
+    input.addEventListener("input", take);
+    form.append(label);
+  }
+  const ticks = sectionTicks();
+  if (ticks) form.append(ticks);
+  form.append(button, note);
+  menu.append(summary, form);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     if (take()) window.print();

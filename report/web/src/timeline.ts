@@ -163,6 +163,20 @@ export function mountTimeline(bar: HTMLElement, store: Store): void {
     store.setStep(store.step + 1);
   });
   play.addEventListener("click", () => player.toggle());
+  const moves: Record<string, () => number> = {
+    ArrowLeft: () => store.step - 1,
+    ArrowRight: () => store.step + 1,
+    Home: () => 0,
+    End: () => count - 1,
+  };
+  // From the start, before the reader has gone to anything that has keys of its own.
+  document.addEventListener("keydown", (event) => {
+    const move = moves[event.key];
+    if (!move || event.defaultPrevented || event.altKey || event.ctrlKey || event.metaKey || event.shiftKey || document.activeElement !== document.body) return;
+    event.preventDefault();
+    player.stop();
+    store.setStep(move());
+  });
   document.addEventListener("visibilitychange", () => {
     if (document.hidden) player.stop();
   });

@@ -45,3 +45,37 @@ export function clipped(paper) {
   }
   return found;
 }
+
+/** Runs in a page whose views are drawn: charts without anything in them, words that lie on each other, columns that texts are squeezed into. */
+export function flaws(desktop) {
+  const MOST_COLUMNS = 18;  // more do not fit a window, and scroll beside the first one
+  const found = [];
+  const shown = (element) => element.checkVisibility({ checkVisibilityCSS: true });
+  const place = (element) => element.closest("[id]")?.id ?? element.tagName;
+  for (const chart of document.querySelectorAll("svg.chart"))
+    if (shown(chart) && !chart.querySelector(".line, .marks, .level")) found.push(`nothing in a chart of ${place(chart)}`);
+  for (const svg of document.querySelectorAll("figure.view svg")) {
+    if (!shown(svg)) continue;
+    const words = [...svg.querySelectorAll("text")]
+      .filter((text) => text.textContent.trim() && shown(text) && !/rotate/.test(text.getAttribute("transform") ?? ""))
+      .map((text) => ({ text: text.textContent, box: text.getBoundingClientRect() }));
+    words.forEach(({ text, box: a }, k) => {
+      for (const { text: other, box: b } of words.slice(k + 1)) {
+        const wide = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+        const high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+        // Boxes are higher than letters.
+        if (wide > 2 && high > 0.35 * Math.min(a.height, b.height)) found.push(`"${text}" on "${other}" in ${place(svg)}`);
+      }
+    });
+  }
+  for (const table of document.querySelectorAll("table.data")) {
+    if (!shown(table)) continue;
+    const frame = table.closest(".table-frame");
+    if (desktop && frame && table.rows[0].cells.length <= MOST_COLUMNS && frame.scrollWidth > frame.clientWidth + 1) found.push(`${table.id} is ${frame.scrollWidth} wide in ${frame.clientWidth}`);
+    for (const cell of table.querySelectorAll("tbody td")) {
+      const lines = cell.clientHeight / parseFloat(getComputedStyle(cell).lineHeight);
+      if (cell.textContent.length > 24 && lines > 5 && cell.clientWidth < 170) found.push(`"${cell.textContent.slice(0, 30)}" in a column of ${cell.clientWidth} px in ${table.id}`);
+    }
+  }
+  return found;
+}

@@ -247,12 +247,12 @@ test("numbers as readers see them", () => {
   assert.equal(brief(NaN), "–");
   assert.equal(brief(-8.81e-19), "0");
   assert.equal(brief(-3.5e-11), "−3.5·10⁻¹¹");
-  assert.deepEqual(numberName("pmax_MPa"), { label: "pₘₐₓ", unit: "MPa", factor: 1 });
+  assert.deepEqual(numberName("pmax_MPa"), { label: "largest pressure pₘₐₓ", unit: "MPa", factor: 1 });
   assert.deepEqual(numberName("area_mm2"), { label: "area", unit: "mm²", factor: 1 });
-  assert.deepEqual(numberName("xi"), { label: "ξ", unit: "", factor: 1 });
-  assert.deepEqual(numberName("fn_N"), { label: "Fₙ", unit: "kN", factor: 1e-3 });
+  assert.deepEqual(numberName("xi"), { label: "longitudinal creepage ξ", unit: "", factor: 1 });
+  assert.deepEqual(numberName("fn_N"), { label: "normal force Fₙ", unit: "kN", factor: 1e-3 });
   assert.equal(numberName("angle_rad").unit, "°");
-  assert.deepEqual(numberName("rail_curvature_1_per_m"), { label: "rail curvature 1", unit: "1/m", factor: 1 });
+  assert.deepEqual(numberName("rail_curvature_1_per_m"), { label: "rail, greater curvature", unit: "1/m", factor: 1 });
 });
 
 test("numbers below a colour bar touch neither each other nor what lies beyond its ends", () => {

@@ -13,7 +13,7 @@ import { pathToFileURL } from "node:url";
 import { unzipSync } from "fflate";
 import { chromium } from "playwright-core";
 
-import { clipped } from "./clipped.mjs";
+import { clipped, flaws } from "./clipped.mjs";
 import { Results } from "./results.mjs";
 
 const folder = resolve(process.env.OUT ?? "dist/reports");
@@ -31,6 +31,9 @@ before(async () => {
   });
 });
 after(() => browser?.close());
+
+/** Where the reader says which steps come on paper. */
+const STEPS_ON_PAPER = ".print-menu input:not([type='checkbox'])";
 
 const read = (name) => JSON.parse(readFileSync(join(folder, name), "utf8"));
 const near = (value, wanted, bound, what) => assert.ok(Math.abs(value - wanted) <= bound, `${what}: ${value}, not ${wanted}`);
@@ -164,7 +167,7 @@ async function readWhole(file, name, steps = "") {
     if (paper) {
       if (steps) {
         await page.locator(".print-menu summary").click();
-        await page.locator(".print-menu input").fill(steps);
+        await page.locator(STEPS_ON_PAPER).fill(steps);
         assert.equal(await page.locator(".print-note").textContent(), "");
       }
       await page.pdf({ path: join(pictures, `${name}.pdf`), format: "A4", preferCSSPageSize: true });
@@ -183,6 +186,7 @@ async function readWhole(file, name, steps = "") {
       assert.deepEqual(high, [], `higher than a page in ${name}`);
     }
     assert.deepEqual(await page.evaluate(clipped, paper), [], `cut off in ${name}, ${size}`);
+    assert.deepEqual(await page.evaluate(flaws, size === "desktop"), [], `flaws of ${name}, ${size}`);
     await screenshot(page, `${name}-${size}-whole`, { fullPage: true });
     await tab.close();
   }
@@ -232,7 +236,7 @@ test("paper has the chosen cases, each with its own picture, and the view in spa
   const tab = await Tab.open("run.html");
   const { page } = tab;
   await page.locator(".print-menu summary").click();
-  const input = page.locator(".print-menu input");
+  const input = page.locator(STEPS_ON_PAPER);
   await input.fill("3-99");
   assert.match(await page.locator(".print-note").textContent(), /“3-99” is not within 1 to 26/);
   await input.fill("1, 13-14");
@@ -629,7 +633,7 @@ test("two runs laid over each other", async () => {
   const sizes = differences.map(Math.abs);
   assert.equal(await tab.step(), sizes.indexOf(Math.max(...sizes)));
   const said = await page.locator("#table-differs tbody tr").allTextContents();
-  assert.ok(said.some((row) => /coefficient of friction.*0\.3.*0\.4/.test(row)), said.join("; "));
+  assert.ok(said.some((row) => /friction: coefficient.*0\.3.*0\.4/.test(row)), said.join("; "));
   // Both curves in every panel, in two colours and dashes.
   await page.locator("#forces").scrollIntoViewIfNeeded();
   const looks = await page.locator("#forces .sample path.line, #forces svg path.line").evaluateAll((paths) => paths.map((path) => `${path.style.stroke} ${path.getAttribute("stroke-dasharray")}`));
@@ -710,6 +714,41 @@ test("two simulations laid over each other", async () => {
   await readWhole(file, "overlay-simulations");
 });
 
+test("keys are heard from the start; tables are sorted, curves hidden, charts zoomed, themes and sections chosen", async () => {
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  for (const [key, step] of [["Home", 0], ["ArrowRight", 1], ["ArrowLeft", 0], ["End", 25]]) {
+    await page.keyboard.press(key);
+    await tab.waitForStep(step);
+  }
+  assert.equal(await page.locator("#table-cases tr.current").getAttribute("data-step"), "25");
+  const heading = page.locator("#table-cases th", { hasText: "p_max" });
+  const column = await heading.evaluate((cell) => cell.cellIndex);
+  const pressures = () => page.locator("#table-cases tbody tr").evaluateAll((rows, k) => rows.map((row) => Number(row.cells[k].dataset.value)), column);
+  const written = await pressures();
+  const rising = [...written].sort((a, b) => a - b);
+  for (const order of [rising, [...rising].reverse(), written]) {
+    await heading.locator("button").click();
+    assert.deepEqual(await pressures(), order);
+  }
+  await page.locator("#forces").scrollIntoViewIfNeeded();
+  await page.waitForSelector("#forces path.line", { state: "attached" });
+  const lines = await page.locator("#forces svg path.line").count();
+  await page.locator("#forces .legend button[aria-pressed]").first().click();
+  await page.waitForFunction((n) => document.querySelectorAll("#forces svg path.line").length < n, lines);
+  await page.locator("#forces .chart-buttons button[aria-label^='Zoom in']").click();
+  await page.waitForSelector("#forces .chart-buttons button[aria-label^='Show all']:not([hidden])");
+  for (const theme of ["light", "dark"]) {
+    await page.locator("button.theme").click();
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
+  }
+  await page.locator(".print-menu summary").click();
+  await page.locator(".print-menu fieldset label", { hasText: "Cases" }).click();
+  await page.emulateMedia({ media: "print" });
+  assert.deepEqual([await page.locator("#cases").isVisible(), await page.locator("#inputs").isVisible()], [false, true]);
+  await tab.close();
+});
+
 test("fixed pictures need no scripts", async () => {
   results.treadmark(["report", results.path("run"), "--static", "-o", results.path("static.html")]);
   const tab = await Tab.open("static.html", { scripts: false });
@@ -729,7 +768,7 @@ test("nothing stands in the way of readers who use other means, in both themes",
       const menu = page.locator(".print-menu summary");
       if (await menu.count()) {
         await menu.click();
-        await page.locator(".print-menu input").fill("0");  // with its complaint
+        await page.locator(STEPS_ON_PAPER).fill("0");  // with its complaint
       }
       await page.waitForTimeout(300);
       assert.deepEqual(await barriers(page), [], `${file}, ${theme}`);

@@ -132,7 +132,13 @@ export class Results {
     this.treadmark(["measure", "wheel", wheel, "--nominal", "S1002", "--report", this.path("measure.html")]);
     this.treadmark(["check", join(this.examples, "wheel-flat.toml"), "--report", this.path("check.html")]);
     this.treadmark(["assess", this.path("simulation"), "--report", this.path("assessment.html")]);
-    return ["geometry", "measure", "check", "assessment"];
+    const limits = this.path("limits.toml");
+    writeFileSync(limits, "[wheel]\nflange_height_mm = { min = 29 }\n");
+    this.treadmark(["measure", "wheel", wheel, "S1002", "--nominal", "S1002", "--limits", limits, "--report", this.path("fleet.html")], [0, 1]);
+    this.treadmark(["track", join(this.examples, "tracks", "gm-tt0088.toml"), "--report", this.path("track.html")]);
+    this.treadmark(["stability", join(this.examples, "curve.toml"), "--count", "4", "-o", this.path("stability")]);
+    this.treadmark(["report", this.path("stability"), "-o", this.path("stability.html")]);
+    return ["geometry", "measure", "check", "assessment", "fleet", "track", "stability"];
   }
 
   sweep() {

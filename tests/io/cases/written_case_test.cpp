@@ -62,6 +62,30 @@ TEST(WrittenCase, ARollingWheelStaysOne) {
   expect_same_cases(file, parse_case_text(text, "again.toml"));
 }
 
+TEST(WrittenCase, SaysInWordsWhatIsAskedFor) {
+  const CaseFile file = parse_case_text(
+      "rail.shape.standard = \"60E1\"\nwheel.shape.file = \"worn/w.csv\"\ntrack.cant = \"1:40\"\n[wheelset]\n"
+      "vertical_force_N = 1e5\nvelocity_km_h = 100\nrolling = \"nominal\"\n[[cases]]\nwheelset.y_mm = [-2, 0, 2]\n",
+      "rolling.toml");
+  const Inputs inputs = inputs_of(file.cases, file.path.parent_path());
+  const auto value = [&](const char* name) {
+    const auto found = std::ranges::find(inputs, name, &Inputs::value_type::first);
+    return found == inputs.end() ? std::string("nothing") : found->second;
+  };
+  EXPECT_EQ(value("wheelset: vertical force"), "100 kN");
+  EXPECT_EQ(value("wheelset: velocity"), "100 km/h");
+  EXPECT_EQ(value("wheelset: y"), "-2, 0, 2 mm");
+  EXPECT_EQ(value("wheelset: nominal radius"), "460 mm");  // these are as without their keys
+  EXPECT_EQ(value("track: gauge"), "1435 mm");
+  EXPECT_EQ(value("friction: coefficient"), "0.3");
+  EXPECT_EQ(value("discretisation: dx"), "auto");
+  EXPECT_EQ(value("solver: tangential model"), "full");
+  EXPECT_EQ(value("track: cant"), "1:40");
+  EXPECT_EQ(value("wheel shape: file"), "worn/w.csv");
+  EXPECT_EQ(value("rail shape: standard"), "60E1");
+  EXPECT_EQ(value("material: shear modulus"), "nothing");
+}
+
 TEST(WrittenCase, InputOfTheReferenceProgramReadsAsTheSame) {
   TREADMARK_REQUIRE_SHARED();
   const auto files = files_with(*shared / "data", ".inp");

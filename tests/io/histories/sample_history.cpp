@@ -20,6 +20,7 @@ io::SimulationResult sample_simulation(double speed, std::size_t rows) {
   result.input_file = "flat \"one\".toml";
   result.input_sha256 = "e3b0c442";
   result.geometry_sha256 = {{"wheel.prw", "11"}, {"rail.prr", "22"}};
+  result.inputs = {{"track: gauge", "1435 mm"}, {"track: cant", "1:40"}};
   result.settings = {"vehicle.speed=40", "grid.dx=0.5"};
   result.title = "flat <wheel> & rail, µ";
   result.status = "interrupted";

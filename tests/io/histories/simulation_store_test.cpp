@@ -48,6 +48,7 @@ TEST_F(SimulationStore, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.input_file, result_.input_file);
   EXPECT_EQ(read.input_sha256, result_.input_sha256);
   EXPECT_EQ(read.geometry_sha256, result_.geometry_sha256);
+  EXPECT_EQ(read.inputs, result_.inputs);
   EXPECT_EQ(read.settings, result_.settings);
   EXPECT_EQ(read.title, result_.title);
   EXPECT_EQ(read.status, result_.status);

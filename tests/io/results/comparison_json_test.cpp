@@ -131,6 +131,7 @@ TEST(ComparisonJson, TellsItsOriginInTheTextOfARun) {
   run.git = comparison.git;
   run.threads = comparison.threads;
   run.geometry_sha256 = comparison.geometry_sha256;
+  run.inputs = comparison.inputs;
   run.title = comparison.title;
   run.input_file = comparison.input_file;
   run.input_sha256 = comparison.input_sha256;

@@ -77,6 +77,7 @@ io::Comparison sample_comparison() {
   out.input_file = "flat \"one\".toml";
   out.input_sha256 = "e3b0c442";
   out.geometry_sha256 = {{"a.prr", "11"}, {"b.slcw", "22"}};
+  out.inputs = {{"track: gauge", "1435 mm"}, {"track: cant", "1:40"}};
   out.settings = {"resolution_mm=1", "bodies=both"};
   out.truth = "analytic <profiles> & flats";
 

@@ -186,6 +186,7 @@ void expect_same_run(const io::RunResult& read, const io::RunResult& written) {
   EXPECT_EQ(read.input_file, written.input_file);
   EXPECT_EQ(read.input_sha256, written.input_sha256);
   EXPECT_EQ(read.geometry_sha256, written.geometry_sha256);
+  EXPECT_EQ(read.inputs, written.inputs);
   EXPECT_EQ(read.settings, written.settings);
   EXPECT_EQ(read.complete, written.complete);
   EXPECT_EQ(read.cases_total, written.cases_total);

@@ -56,6 +56,7 @@ io::RunResult sample_run() {
   run.input_file = "flat \"one\".toml";
   run.input_sha256 = "e3b0c442";
   run.geometry_sha256 = {{"a.prr", "11"}, {"b.slcw", "22"}};
+  run.inputs = {{"track: gauge", "1435 mm"}, {"track: cant", "1:40"}};
   run.settings = {"wheel.backend=spline", "track.cant=0.05"};
   run.cases_total = 4;
 

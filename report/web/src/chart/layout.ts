@@ -18,6 +18,8 @@ export interface Layout {
 /** Between the plots of panels, and below the last one with its axis [px]. */
 const PANEL_GAP = 16;
 const AXIS = 48;
+/** Most height of a plot whose axes have one scale [px]. */
+const MOST_TO_SCALE = 520;
 /** Least height of a plot [px]. */
 const LEAST_HEIGHT = 60;
 
@@ -30,7 +32,7 @@ export function fit(count: number, most: number): boolean {
 export function layOut(plot: Plot, width: number, x: Domain, window: Domain | null, fixedY: (Domain | null)[], most = Infinity): Layout[] {
   const count = plot.panels.length;
   const wanted = (count === 1 ? 250 : count === 2 ? 190 : 150) * (most < Infinity ? 0.78 : width < 500 ? 0.85 : 1);
-  const plotHeight = Math.max(LEAST_HEIGHT, Math.min(wanted, Math.floor((most - AXIS) / count - PANEL_GAP)));
+  let plotHeight = Math.max(LEAST_HEIGHT, Math.min(wanted, Math.floor((most - AXIS) / count - PANEL_GAP)));
   const ranges = plot.panels.map((panel, p) => rangeY(panel, window, fixedY[p] ?? null));
   const labelWidth = Math.max(
     24,
@@ -39,7 +41,13 @@ export function layOut(plot: Plot, width: number, x: Domain, window: Domain | nu
     ),
   );
   const left = Math.ceil(labelWidth) + 14;
-  const right = 14;
+  let right = 14;
+  if (plot.toScale) {
+    const [low, high] = ranges[0]!;
+    const perUnit = Math.min((width - left - right) / (x[1] - x[0]), Math.min(most, MOST_TO_SCALE) / (high - low));
+    plotHeight = Math.max(1, perUnit * (high - low));
+    right = width - left - perUnit * (x[1] - x[0]);
+  }
   const perCategory = (width - left - right) / Math.max(1, x[1] - x[0]);
   const ticksHeight = plot.x.labels ? categoryLabels(plot.x.labels, perCategory).height : 22;
   const axisHeight = Math.ceil(ticksHeight) + (plot.x.label ? 20 : 2);

@@ -34,6 +34,7 @@ export interface PlotPanel {
 export interface Plot {
   x: { label: string; unit: string; log: boolean; labels: string[] | null; values: ArrayLike<number> };
   panels: PlotPanel[];
+  toScale: boolean;
 }
 
 /** Series that occur in several panels keep their colour; else each panel counts anew. */
@@ -96,7 +97,7 @@ export function plotOf(view: ChartView, store: Store, hidden: ReadonlySet<string
     };
   });
   const x = { label: axis?.label ?? "", unit: axis?.unit ?? "", log: axis?.scale === "log", labels: axis?.labels ?? null, values: common };
-  return { x, panels };
+  return { x, panels, toScale: view.to_scale ?? false };
 }
 
 const mostValuesToScan = 3e6;

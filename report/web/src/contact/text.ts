@@ -28,15 +28,25 @@ export function titled(label: string, unit: string): string {
   return unit === "" || unit === "1" ? label : `${label} [${unit}]`;
 }
 
-const symbols: Record<string, string> = {
-  fn: "Fₙ",
-  fx: "Fₓ",
-  fs: "Fₛ",
-  mn: "Mₙ",
-  pmax: "pₘₐₓ",
-  xi: "ξ",
-  eta: "η",
-  phi: "φ",
+const words: Record<string, string> = {
+  fn: "normal force Fₙ",
+  fx: "longitudinal force Fₓ",
+  fs: "lateral force Fₛ",
+  mn: "spin moment Mₙ",
+  pmax: "largest pressure pₘₐₓ",
+  xi: "longitudinal creepage ξ",
+  eta: "lateral creepage η",
+  phi: "spin φ",
+  dissipated: "friction power",
+  t_gamma: "wear number Tγ",
+  x_tr: "x in the track",
+  y_tr: "y in the track",
+  angle: "contact angle",
+  rail_curvature_1: "rail, greater curvature",
+  rail_curvature_2: "rail, lesser curvature",
+  wheel_curvature_1: "wheel, greater curvature",
+  wheel_curvature_2: "wheel, lesser curvature",
+  pmax_refinement: "pₘₐₓ, change by smaller elements",
 };
 
 /** Units of the data that tables show otherwise. */
@@ -45,7 +55,7 @@ const shownAs: Record<string, { unit: string; factor: number }> = {
   rad: { unit: "°", factor: 180 / Math.PI },
 };
 
-/** "pmax_MPa" as symbol and unit, and by what its value is multiplied for that unit. */
+/** "pmax_MPa" as words and unit, and by what its value is multiplied for that unit. */
 export function numberName(key: string): { label: string; unit: string; factor: number } {
   const match = /^(.+?)_(k?N|Nmm|Nm|mm2|mm_s|rad_mm|per_m|mm|um|MPa|GPa|Pa|J|W|rad_s|mrad|rad|deg|C|percent|s|kB|MB)$/.exec(key);
   const name = match?.[1] ?? key;
@@ -55,5 +65,5 @@ export function numberName(key: string): { label: string; unit: string; factor: 
     ] ??
     match?.[2] ??
     "";
-  return { label: symbols[name] ?? name.replace(/_/g, " "), ...(shownAs[unit] ?? { unit, factor: 1 }) };
+  return { label: words[name] ?? name.replace(/_/g, " "), ...(shownAs[unit] ?? { unit, factor: 1 }) };
 }

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cli/page_file.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iterator>
+#include <sstream>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/io/files/text.hpp"
+
+extern "C" char** environ;
+
+namespace treadmark::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Empty: there is none.
+fs::path find_browser() {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+      if (const fs::path file = fs::path(folder) / name; !folder.empty() && ::access(file.c_str(), X_OK) == 0)
+        return file;
+  return {};
+}
+
+std::string printed(const fs::path& file, const std::string& html) {
+  const fs::path folder = fs::absolute(file).parent_path(), page = folder / fmt::format(".page-{}.html", ::getpid()),
+                 pdf = folder / fmt::format(".page-{}.pdf", ::getpid());
+  write_file(page, html);
+  // Root gets no sandbox from it.
+  std::string words[] = {find_browser().string(),
+                         "--headless",
+                         "--disable-gpu",
+                         "--no-pdf-header-footer",
+                         "--virtual-time-budget=10000",
+                         ::geteuid() == 0 ? "--no-sandbox" : "--disable-extensions",
+                         "--print-to-pdf=" + pdf.string(),
+                         "file://" + page.string()};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_RDWR, 0);
+  pid_t process = 0;
+  if (::posix_spawn(&process, arguments.front(), &quiet, nullptr, arguments.data(), environ) == 0)
+    ::waitpid(process, nullptr, 0);
+  posix_spawn_file_actions_destroy(&quiet);
+  std::string bytes = fs::exists(pdf) ? io::profiles::read_text(pdf, "PDF", {}) : "";
+  fs::remove(page);
+  fs::remove(pdf);
+  if (!bytes.starts_with("%PDF"))
+    throw Error(ErrorKind::input_data, words[0] + " made no PDF", {file.string()},
+                "write the page as .html and print it from a browser");
+  return bytes;
+}
+
+}  // namespace
+
+void check_page_name(const fs::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending == ".pdf" && find_browser().empty())
+    throw Error(ErrorKind::configuration, "a page becomes a PDF by Chromium, which is not installed", {file.string()},
+                "install it, or write the page as .html and print it from a browser");
+  constexpr std::string_view kOthers[] = {".png", ".svg", ".jpg", ".jpeg", ".docx", ".odt", ".xlsx", ".json", ".csv"};
+  if (std::ranges::find(kOthers, ending) != std::end(kOthers))
+    throw Error(ErrorKind::configuration, "a report is a page (.html) or its print (.pdf)", {file.string()},
+                "name it so; single pictures are made by treadmark plot");
+}
+
+void write_page(const fs::path& file, const std::string& html) {
+  write_file(file, file.extension() == ".pdf" ? printed(file, html) : html);
+}
+
+}  // namespace treadmark::cli
