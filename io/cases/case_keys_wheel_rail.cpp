@@ -77,7 +77,8 @@ void add_track(KeyList& list) {
   CaseKey& inclined = list.add(ratio);
   inclined.written = [](const Case& c, const std::filesystem::path&) {
     const double cant = std::get<W>(c.content).track.cant, run = std::round(1.0 / std::tan(cant));
-    return run >= 1.0 && std::isfinite(run) && std::atan(1.0 / run) == cant ? fmt::format("\"1:{:.0f}\"", run) : std::string();
+    return run >= 1.0 && std::isfinite(run) && std::atan(1.0 / run) == cant ? fmt::format("\"1:{:.0f}\"", run)
+                                                                            : std::string();
   };
   inclined.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     const std::string& text = v.text();
