@@ -125,13 +125,6 @@ bool has_heat(const Case& c) {
   return std::visit([](const auto& content) { return content.thermal.has_value(); }, c.content);
 }
 
-/// Reading a number of thermal data makes them: only where there are some.
-void written_with_heat(CaseKey& key) {
-  key.written = [written = key.written](const Case& c, const std::filesystem::path& folder) {
-    return has_heat(c) ? written(c, folder) : std::string();
-  };
-}
-
 /// Behind the keys of heat, for it changes what they have made.
 void add_reference_ways(KeyList& list) {
   KeyInfo info =
@@ -170,7 +163,7 @@ void add_heat_keys(KeyList& list) {
       shared_number(list, fmt::format("heat.{}_{}", rail ? "rail" : "wheel", name), limits,
                     fmt::format("{} of body {}", doc, rail ? 1 : 2),
                     [body, member](auto& c) -> double& { return heat(c).*body.*member; });
-      written_with_heat(list.keys.back());
+      say_only_where(list.keys.back(), has_heat);
     };
     property("bulk_temperature_C", kAnyNumber, "temperature far from the contact",
              &ThermalProperties::bulk_temperature);
@@ -182,7 +175,7 @@ void add_heat_keys(KeyList& list) {
   shared_number(list, "heat.plastic_fraction", kShare,
                 "share of the plastic work of the interface layer that becomes heat",
                 [](auto& c) -> double& { return heat(c).plastic_fraction; });
-  written_with_heat(list.keys.back());
+  say_only_where(list.keys.back(), has_heat);
 
   KeyInfo compute = key_info("heat.compute", KeyType::flag,
                              "surface temperatures (steady rolling only); any other key of [heat] asks for them too");

@@ -225,6 +225,20 @@ rail_bulk_temperature_C = 30
   EXPECT_THAT(contact_input_text(f, "other/place"), HasSubstr("'../../folder/sub/wheel.slcw'"));
 }
 
+TEST(WrittenCase, AskingForTheNumbersOfKeysMakesNothing) {
+  for (const bool patch : {false, true}) {
+    Case c = case_without_keys(patch);
+    for (const CaseKey& key : case_keys()) {
+      if (!key.get || (key.info.scope != KeyScope::any && (key.info.scope == KeyScope::patch) != patch)) continue;
+      key.get(c);
+      const auto* rail = std::get_if<WheelRailCase>(&c.content);
+      EXPECT_FALSE(rail != nullptr && (rail->roller || rail->rail_springs || rail->damping)) << key.info.path;
+      EXPECT_FALSE(std::visit([](const auto& content) { return content.thermal.has_value(); }, c.content))
+          << key.info.path;
+    }
+  }
+}
+
 TEST(WrittenCase, OwnSettingsThatAreWrongAreNamedWithTheirPlace) {
   const std::string first = ContactWriter(1).str(), word = "%treadmark ";
   const auto error_with = [&](const std::string& setting) {
