@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/registry.hpp"
