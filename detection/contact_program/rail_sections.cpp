@@ -9,6 +9,7 @@
 
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/contact_program/natural_curve.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::detection {
 
@@ -79,6 +80,12 @@ std::vector<double> nodes_between(const Surface& surface, const std::vector<doub
 
 }  // namespace
 
+void rail_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C, std::span<double> rail_n) {
+  const bool on_sections = bodies.distance_mesh && bodies.distance_mesh->rail_sections &&
+                           !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, rail_n);
+  if (!on_sections) bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {rail_n, {}, {}});
+}
+
 double lowest_angle(const Pose& X_TW) { return -std::atan2(X_TW.rotation(0, 2), X_TW.rotation(0, 0)); }
 
 std::vector<double> mesh_lines(const Surface& wheel, double angle, double step) {
@@ -107,12 +114,18 @@ std::vector<double> mesh_lines(const Surface& wheel, double angle, double step, 
   }
 }
 
+ProfileLines profile_lines(const Surface& wheel, double angle) {
+  constexpr double kStep = 0.5e-3;  // where the wheel tells no data [m]
+  ProfileLines lines;
+  lines.y = mesh_lines(wheel, angle, kStep);
+  lines.radius.resize(lines.y.size()), lines.slope.resize(lines.y.size());
+  treadmark::section_heights(wheel, Body::wheel, angle, lines.y, {lines.radius, {}, lines.slope});
+  return lines;
+}
+
 std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y) {
-  std::vector<Vec2> points;
-  points.reserve(y.size());
-  for (const double at : y) points.emplace_back(0.0, at);
   std::vector<double> radius(y.size());
-  wheel.heights_at({Vec3::Zero(), rotation_y(angle)}, points, {radius, {}, {}});
+  treadmark::section_heights(wheel, Body::wheel, angle, y, {radius, {}, {}});
   return radius;
 }
 

@@ -13,9 +13,8 @@
 
 namespace treadmark::detection {
 
-/// A wheel as the search of the reference program (CONTACT) sees it: exact points of equally spaced cross-sections
-/// about the lowest point, joined by bilinear facets. Only for agreement with its results; Treadmark's own search needs
-/// no mesh.
+/// A wheel as CONTACT's search sees it: exact points of equally spaced cross-sections about the lowest point, joined by
+/// bilinear facets. The rail then has for all x the inclination of its section at x = 0 of T.
 struct WheelFacets {
   enum class Sections {
     angles,  ///< through the axle
@@ -70,14 +69,6 @@ class FacetWheel {
   int across_;
   int wanted_first_ = 0, wanted_last_ = 0;  ///< corners that the grid at hand needs
   std::vector<Section> sections_;
-};
-
-/// Both bodies as the search of the reference program (CONTACT) sees them. Only for agreement with its results.
-struct SearchMesh {
-  WheelFacets wheel;
-  /// The rail's inclination at a lateral position is taken from its section here for all positions along x [m], frame
-  /// T.
-  double rail_section_x = 0.0;
 };
 
 /// A place on a mesh of rows x columns corners: facet (k, j) and where in it.

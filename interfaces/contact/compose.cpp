@@ -18,7 +18,7 @@ Problem::Problem(int ire, int icp, int which) : element(ire), number(icp), modul
   m.shear_modulus_1 = m.shear_modulus_2 = 1e6;
   given.solver.max_coupling = 1;
   given.thermal = Thermal{};
-  given.thermal->reference_quirks = true;
+  given.thermal->conventions = Conventions::contact;
   given.rail_springs = RailSprings{};
   given.longitudinal_force = given.pitch_rate = given.roller_pitch_rate = 0.0;
   given.forward_velocity = 30.0;
@@ -92,7 +92,7 @@ void put_common(const Problem& p, Content& c) {
   c.influence.linear = p.flags[CNTC_ic_ifmeth] == 0;
   c.influence.variant = p.flags[CNTC_ic_ifvari];
   c.solver = p.given.solver;
-  c.solver.reference_quirks = true;
+  c.conventions = Conventions::contact;
   c.friction = p.given.friction.laws.front();
   c.sensitivities = p.flags[CNTC_ic_sens] >= 2;
   c.subsurface = {};
@@ -108,22 +108,6 @@ void put_common(const Problem& p, Content& c) {
     m.layer_flexibility = in.thickness / in.g3;
     if (in.yield > kNoYield) m.layer_yield = in.yield, m.layer_hardening = in.hardening;
   }
-}
-
-void put_discretisation(const Problem& p, io::WheelRailCase& c) {
-  constexpr int kAutomatic = 2, kSurfaceSlip = 3, kConformal = 4;
-  const int method = p.flags[CNTC_ic_discns];
-  using Reference = ReferenceSurface;
-  c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip
-                        : method == kConformal ? Reference::curved
-                                               : Reference::plane;
-  io::DiscretisationInput& d = c.discretisation;
-  d.method = method == kSurfaceSlip || method == kConformal ? kAutomatic : method;
-  d.max_elements = p.flags[CNTC_ic_npomax];
-  // Callers compare with the reference program's numbers.
-  const char* search = std::getenv("TREADMARK_CONTACT_SEARCH");
-  d.reference_search_mesh = search == nullptr || std::string_view(search) != "refined";
-  c.moments_about_grid_origin = c.long_steps = true;
 }
 
 io::WheelRailCase compose_rail(const Problem& p) {
@@ -148,14 +132,12 @@ io::WheelRailCase compose_rail(const Problem& p) {
   c.rail_springs.reset();
   if (force == kMasslessRail) c.rail_springs = g.rail_springs;
   put_common(p, c);
-  using Kind = io::FrictionVariation::Kind;
-  c.friction_variation = {};
-  if (g.friction.variation != 0)
-    c.friction_variation = {g.friction.variation == 1 ? Kind::inclination : Kind::along_track, g.friction.positions,
-                            g.friction.laws};
+  c.friction_variation = g.friction.by_place();
   c.damping.reset();
   if (p.damped) c.damping = p.material.damping;
-  put_discretisation(p, c);
+  io::put_discretisation(c, p.flags[CNTC_ic_discns], p.flags[CNTC_ic_npomax]);
+  const char* search = std::getenv("TREADMARK_CONTACT_SEARCH");
+  c.discretisation.conventions = Conventions{search == nullptr || std::string_view(search) != "refined"};
   return c;
 }
 

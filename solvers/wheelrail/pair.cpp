@@ -11,7 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/detection/sampled_profile.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/solvers/wheelrail/damping.hpp"
 #include "treadmark/solvers/wheelrail/force_iteration.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"

@@ -12,6 +12,7 @@
 
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/detection/contact_search.hpp"
+#include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"
@@ -69,9 +70,10 @@ bool PairStep::at_given_height() const {
   return !problem_.vertical_force && !(springs && springs->stiffness_z > 0.0);
 }
 
-/// The reference program has one creepage for all parts, strip theory one for every row.
+/// Conventions::contact has one creepage for all parts, strip theory one for every row.
 bool PairStep::parts_creep_apart() const {
-  return !problem_.solver.reference_quirks && problem_.tangential_model != kalker::TangentialModel::fastrip;
+  return problem_.solver.conventions != Conventions::contact &&
+         problem_.tangential_model != kalker::TangentialModel::fastrip;
 }
 
 /// Creepages, or slip of the surfaces.

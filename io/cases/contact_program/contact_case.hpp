@@ -29,6 +29,7 @@ struct ContactSequence {
     int variation = 0;                  ///< V digit it was read with
     std::vector<double> positions;      ///< V = 1, 2: [rad], [m]
     std::vector<FrictionLaw> laws{{}};  ///< V = 0: one
+    FrictionVariation by_place() const;
   } friction;
 
   bool has_material = false;
@@ -127,6 +128,9 @@ SurfaceSource read_profile(ContactReader& reader, std::string_view body);
 void read_track(ContactReader& reader);
 void read_wheelset(ContactReader& reader);
 void put_motion(ContactReader& reader, WheelRailCase& to);
+
+/// What a D digit asks for, in the conventions of such files.
+void put_discretisation(WheelRailCase& to, int digit, int max_elements);
 
 /// The body of one case after its control words.
 WheelRailCase read_wheel_rail(ContactReader& reader);
