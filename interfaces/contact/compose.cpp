@@ -71,12 +71,6 @@ void check_digits(const Problem& p) {
     throw Refusal{CNTC_err_input, "C3 (INFLCF) = 4 is not supported in module 3: its inclinations cannot be given"};
 }
 
-HistoryUse history_of(const Problem& p) {
-  using H = HistoryUse;
-  constexpr H kByDigit[] = {H::keep_going, H::normal_only, H::start, H::same_instant};
-  return p.previous ? kByDigit[p.flags[CNTC_ic_pvtime]] : H::start;
-}
-
 /// What both modules take of the settings in the same way.
 template <class Content>
 void put_common(const Problem& p, Content& c) {
@@ -84,7 +78,7 @@ void put_common(const Problem& p, Content& c) {
   constexpr double kNoYield = 1e-4;  // [Pa]
   const MaterialInput& in = p.material;
   c.regime = of_contact_digit(kRegimes, p.flags[CNTC_ic_tang]);
-  c.history = history_of(p);
+  c.history = p.previous ? io::kHistories[p.flags[CNTC_ic_pvtime]] : HistoryUse::start;
   c.normal_model = of_contact_digit(kNormalTheories, p.flags[CNTC_ic_bound]);
   c.tangential_model = of_contact_digit(kTangentialTheories, p.material_digit);
   c.fastsim = {in.k0, in.alpha, in.beta, in.flexibility, FastsimSettings::FirstStep::whole};

@@ -12,6 +12,8 @@ namespace treadmark::io {
 
 namespace {
 
+constexpr int kSurfaceSlip = 3, kConformal = 4;  // D digits
+
 void read_discretisation(ContactReader& r) {
   ContactText& text = r.text;
   text.begin_record("the discretisation line DX");
@@ -49,13 +51,18 @@ void put_friction(ContactReader& r, WheelRailCase& c) {
 }  // namespace
 
 FrictionVariation ContactSequence::Friction::by_place() const {
-  using Kind = FrictionVariation::Kind;
   if (variation == 0) return {};
-  return {variation == 1 ? Kind::inclination : Kind::along_track, positions, laws};
+  return {static_cast<FrictionVariation::Kind>(variation), positions, laws};
+}
+
+int discretisation_digit(const WheelRailCase& c) {
+  return c.reference_surface == ReferenceSurface::plane_surface_slip ? kSurfaceSlip
+         : c.reference_surface == ReferenceSurface::curved           ? kConformal
+                                                                     : c.discretisation.method;
 }
 
 void put_discretisation(WheelRailCase& c, int digit, int max_elements) {
-  constexpr int kAutomatic = 2, kSurfaceSlip = 3, kConformal = 4;
+  constexpr int kAutomatic = 2;
   using Reference = ReferenceSurface;
   c.reference_surface = digit == kSurfaceSlip ? Reference::plane_surface_slip
                         : digit == kConformal ? Reference::curved
