@@ -482,7 +482,7 @@ class InputWriter {
     const bool slip = !c.extra_slip_x.empty(), rolling = c.regime == Regime::transient || c.regime == Regime::steady;
     refuse_if(slip && c.spin_slip != SpinSlip::both, "extra slip of elements together with patch.spin_slip");
     const int extra = slip ? 9 : c.spin_slip == SpinSlip::longitudinal ? 2 : c.spin_slip == SpinSlip::lateral ? 3 : 0;
-    const FrictionLaw& law = c.friction_of_row.empty() ? c.friction : c.friction_of_row.front();
+    const FrictionLaw& first = c.friction_of_row.empty() ? c.friction : c.friction_of_row.front();
     const std::string closed = toml_text("closed");
     own_settings({{"case.sensitivities", "false"}, {"case.reference_ways", "true"}, {"patch.grid_border", closed}});
     fastsim_first_step(c, "patch.fastsim_first_step");
@@ -493,7 +493,7 @@ class InputWriter {
                                                                 : 0,
                                                 c.subsurface.blocks.empty() ? 0 : 3)));
     put(Record().add("V-L-D-C-M-Z-E", fmt::format("{}{}2{}{}2{}", c.friction_of_row.empty() ? 0 : 3,
-                                                  kLawDigits[static_cast<int>(law.kind)],
+                                                  kLawDigits[static_cast<int>(first.kind)],
                                                   theory(c.influence.kind).digit.value, kind, extra)));
     third_word(c);
     kinematics(c);
