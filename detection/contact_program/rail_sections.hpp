@@ -28,11 +28,11 @@ struct LateralInterval {
 };
 
 /// Lateral positions in the wheel's frame, increasing, at which CONTACT puts the corners of its meshes [m]: where the
-/// data of the wheel's surface lie if it tells, in equal steps not longer than step otherwise. angle: of the section
+/// data of the wheel's surface lie if it tells, in equal steps of at most 0.5 mm otherwise. angle: of the section
 /// that tells y over v [rad].
-std::vector<double> mesh_lines(const Surface& wheel, double angle, double step);
+std::vector<double> mesh_lines(const Surface& wheel, double angle);
 /// Those over a part of the wheel, with at least as many more on either side as there are, up to `beside`.
-std::vector<double> mesh_lines(const Surface& wheel, double angle, double step, const LateralInterval& y, int beside);
+std::vector<double> mesh_lines(const Surface& wheel, double angle, const LateralInterval& y, int beside);
 
 /// Radii of a wheel over its mesh_lines(), and their slopes; NaN where it has none. Immutable.
 struct ProfileLines {

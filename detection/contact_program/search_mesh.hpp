@@ -20,10 +20,9 @@ struct WheelFacets {
     angles,  ///< through the axle
     planes,  ///< of one x in the wheel's frame; a round wheel only
   } kind = Sections::angles;
-  double half_range = 0.2;         ///< sections from -half_range to +half_range about the lowest point [rad] or [m]
-  int sections = 0;                ///< >= 2
-  double lateral_step = 0.5e-3;    ///< of corners where the wheel itself has none
-  std::vector<double> lines = {};  ///< mesh_lines() of the wheel with this step, made once; empty: made when needed
+  double half_range = 0.2;    ///< sections from -half_range to +half_range about the lowest point [rad] or [m]
+  int sections = 0;           ///< >= 2
+  std::vector<double> lines;  ///< y of corners in the wheel's frame, mesh_lines()
 };
 
 /// Least and greatest x in T of the sections' points [m], over the whole width of the wheel.
@@ -63,9 +62,7 @@ class FacetWheel {
   const Surface& wheel_;
   Pose X_TW_;
   WheelFacets facets_;
-  double lowest_;          ///< angle of the lowest section
-  std::vector<double> y_;  ///< of corners, in the wheel's frame
-  double widest_ = 0.0;    ///< distance of corners
+  double widest_ = 0.0;  ///< distance of corners
   int across_;
   int wanted_first_ = 0, wanted_last_ = 0;  ///< corners that the grid at hand needs
   std::vector<Section> sections_;

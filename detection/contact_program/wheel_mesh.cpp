@@ -118,7 +118,6 @@ Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, cons
 }
 
 Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Elements& e) {
-  constexpr double kLateralStep = 0.5e-3;
   constexpr int kMargin = 3;
   const Grid2& g = e.grid;
   const Reach r = reach_of(X_TU, X_TC, e);
@@ -127,8 +126,7 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   int rows = to_whole<int>(std::round((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
   if (rows % 2 == 0) ++rows;
 
-  const std::vector<double> all =
-      mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep, {r.y_min, r.y_max}, kMargin);
+  const std::vector<double> all = mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), {r.y_min, r.y_max}, kMargin);
   auto first = static_cast<std::size_t>(std::ranges::lower_bound(all, r.y_min) - all.begin());
   auto last = static_cast<std::size_t>(std::ranges::upper_bound(all, r.y_max) - all.begin());
   first -= std::min<std::size_t>(first, kMargin);

@@ -24,7 +24,7 @@ Grid2 reference_grid(const Geometry& geometry, const Problem& p, const Placement
     facets.half_range = kHalfAngle;
     facets.sections = odd(checked_count(std::round(2.0 * kHalfAngle * radius / (4.0 * d.dx) + 2.0)));
   }
-  facets.lines = detection::mesh_lines(*geometry.wheel, detection::lowest_angle(placed.X_TA), facets.lateral_step);
+  facets.lines = detection::mesh_lines(*geometry.wheel, detection::lowest_angle(placed.X_TA));
   const detection::LongitudinalRange range = detection::facet_range(*geometry.wheel, placed.X_TA, facets);
   grid.nx = facets.sections;
   grid.dx = (range.x_max - range.x_min) / (grid.nx - 1);
