@@ -27,13 +27,13 @@ constexpr double kDeepestOfRadius = 0.02;
 }  // namespace
 
 PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous,
-                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, RoundWheel round_wheel)
+                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies)
     : geometry_(geometry),
-      round_wheel_(std::move(round_wheel)),
       problem_(problem),
       previous_(previous),
       solvers_(solvers),
       times_(times),
+      bodies_(std::move(bodies)),
       tangential_share_(previous.shares),
       elements_(geometry, problem) {}
 
@@ -50,8 +50,8 @@ bool PairStep::place(double rail_dy) {
   if (moved.vertical_force) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
   start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
-  bodies_ = {geometry_.rail.get(),    geometry_.wheel.get(), start_.X_TS,       start_.X_TA,
-             distance_mesh(problem_), round_wheel_.profile,  round_wheel_.lines};
+  bodies_.X_TR = start_.X_TS, bodies_.X_TW = start_.X_TA;
+  bodies_.distance_mesh = distance_mesh(problem_);
   const Stopwatch watch(times_.search_s);
   const detection::SearchSettings settings = search_settings(geometry_, moved, start_);
   const std::string& detector = problem_.discretisation.detector;
