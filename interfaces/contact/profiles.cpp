@@ -83,7 +83,7 @@ void give_file(Problem& p, const std::string& name, std::span<const int> ints, s
   io::GeometryFile file;
   file.file = io::resolve_name(folders().work, name);
   file.options = options_of(p, ints, reals);
-  file.open_seam = io::is_slices_file(file.file);  // as in the reference program
+  file.open_seam = io::is_slices_file(file.file);  // as .inp files have it
   io::SurfaceSource source;
   const Body body = body_of_file(file.file, ints);
   source.geometry = std::move(file);

@@ -136,20 +136,18 @@ void add_reference_ways(KeyList& list) {
   CaseKey& key = list.add(info);
   key.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     std::visit(
-        [&](auto& content) {
-          if (content.thermal) content.thermal->reference_quirks = v.flag();
+        [ways = Conventions{v.flag()}](auto& content) {
+          if (content.thermal) content.thermal->conventions = ways;
+          content.conventions = ways;
         },
         c.content);
-    if (auto* rail = std::get_if<WheelRailCase>(&c.content))
-      rail->moments_about_grid_origin = rail->long_steps = v.flag();
-    else
-      std::get<BasicCase>(c.content).solver.reference_quirks = v.flag();
   };
   key.text = [](const Case& c) {
-    const auto* rail = std::get_if<WheelRailCase>(&c.content);
-    const bool heat = std::visit([](auto& one) { return one.thermal && one.thermal->reference_quirks; }, c.content);
-    const bool ways = rail != nullptr ? rail->long_steps : std::get<BasicCase>(c.content).solver.reference_quirks;
-    return std::string(ways || heat ? "true" : "false");
+    const auto ways = [](auto& content) {
+      return content.conventions == Conventions::contact ||
+             (content.thermal && content.thermal->conventions == Conventions::contact);
+    };
+    return std::string(std::visit(ways, c.content) ? "true" : "false");
   };
 }
 

@@ -241,7 +241,8 @@ void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes)
       const auto step = rolled_step(*previous->second, c);
       const std::string complaint = notes != nullptr ? doubt_about_history(*previous->second, c) : std::string();
       const auto* rail = std::get_if<WheelRailCase>(&c.content);
-      check.require(complaint.empty() || !step || !step->too_long() || (rail != nullptr && rail->long_steps), complaint,
+      const bool long_steps = rail != nullptr && rail->conventions == Conventions::contact;
+      check.require(complaint.empty() || !step || !step->too_long() || long_steps, complaint,
                     "more and shorter steps (case.steps, case.time_step_s)");
       if (!complaint.empty() && !std::exchange(told, true))
         notes->push_back(fmt::format("case {}: {}", c.number, complaint));

@@ -177,7 +177,7 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
   measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};
   scale_to_metres(section);
   measured::Understanding& seen = source.understood;
-  points.y = section.y, points.z = section.z;  // the reference program's rule does not ask for the unit
+  points.y = section.y, points.z = section.z;  // Placement::reference judges them whatever their unit is
   seen = measured::understand(section, words_of(options, points, body, radii));
   source.mirrored_y = source.mirrored_y != seen.mirrored_y;
   source.mirrored_z = source.mirrored_z != seen.mirrored_z;

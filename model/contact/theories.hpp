@@ -14,7 +14,7 @@ namespace treadmark {
 /// settings and `treadmark list solvers` read these tables; a new theory is an enumerator, a row and its
 /// implementation.
 
-/// How the input of the reference program (CONTACT) asks for a theory.
+/// How an input file of CONTACT (.inp) asks for a theory.
 struct ContactDigit {
   int value = -1;                                ///< -1: no digit of its own
   std::string_view on_rail = {}, of_patch = {};  ///< what it needs in module 1 and 3; empty: nothing

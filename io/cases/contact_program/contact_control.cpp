@@ -132,9 +132,7 @@ void ContactReader::read_solver() {
 }
 
 HistoryUse ContactReader::history() const {
-  using H = HistoryUse;
-  constexpr H kByDigit[] = {H::keep_going, H::normal_only, H::start, H::same_instant};
-  return kept.has_history ? kByDigit[(*problem)["PVTIME"]] : H::start;
+  return kept.has_history ? kHistories[(*problem)["PVTIME"]] : HistoryUse::start;
 }
 
 }  // namespace treadmark::io

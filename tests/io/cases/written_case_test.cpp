@@ -217,8 +217,9 @@ rail_bulk_temperature_C = 30
   const CaseFile again = parse_contact_input(text, "folder/case.inp");
   expect_same_cases(f, again);
   const WheelRailCase& c = std::get<WheelRailCase>(again.cases.at(0).content);
-  EXPECT_FALSE(c.discretisation.reference_search_mesh || c.discretisation.prune || c.long_steps ||
-               c.moments_about_grid_origin || c.thermal->reference_quirks);
+  EXPECT_FALSE(c.discretisation.prune);
+  for (const Conventions kept : {c.discretisation.conventions, c.conventions, c.thermal->conventions})
+    EXPECT_EQ(kept, Conventions::treadmark);
   EXPECT_FALSE(std::get<GeometryFile>(c.wheel.geometry).open_seam);
   EXPECT_EQ(std::get<GeometryFile>(c.wheel.geometry).file, fs::path("folder/sub/wheel.slcw"));
   // Elsewhere the files are still those.
