@@ -45,7 +45,10 @@ TEST(ReportCommand, OfAFolderEqualsThatOfTheRun) {
 TEST(ReportCommand, FoldersWithoutAPageOfTheirOwnHaveNumbersPicturesAndTables) {
   const SampleInput input;
   const std::string folder = (input.folder() / "geometry").string();
-  ASSERT_EQ(run_program({"geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "-o", folder}).status, 0);
+  ASSERT_EQ(run_program({"geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauge-mm", "1435", "-o",
+                         folder})
+                .status,
+            0);
   const ProgramResult made = run_program({"report", folder});
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string html = input.read("geometry/report.html");
