@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -16,7 +14,6 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
@@ -25,14 +22,6 @@
 namespace treadmark::app {
 
 namespace {
-
-void require_cloud_file(const std::filesystem::path& cloud) {
-  constexpr std::array<std::string_view, 6> kWritten{".ply", ".xyz", ".asc", ".txt", ".csv", ".las"};
-  const std::string extension = io::extension_of(cloud);
-  if (std::find(kWritten.begin(), kWritten.end(), extension) == kWritten.end())
-    throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension),
-                {cloud.string()}, "use .ply, .las, .xyz, .asc, .txt or .csv");
-}
 
 std::string vector_text(const Vec3& v, double factor, int digits) {
   return fmt::format("({:.{}f}, {:.{}f}, {:.{}f})", factor * v.x(), digits, factor * v.y(), digits, factor * v.z(),
@@ -43,7 +32,7 @@ std::string vector_text(const Vec3& v, double factor, int digits) {
 
 Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem::path& cloud,
                      const ScanRequest& request, const Progress& progress) {
-  require_cloud_file(cloud);
+  io::require_written_scan(cloud);
   const CancellationScope scope(progress.stop);
   check_cancelled();
   const NaturalSurface natural = named_surface(surface, request.surface);

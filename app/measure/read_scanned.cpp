@@ -13,7 +13,7 @@
 #include "treadmark/app/measure/read_measured.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::app {
@@ -42,10 +42,8 @@ class ScratchFolder {
 }  // namespace
 
 bool is_only_scan(const std::string& name) {
-  const std::string extension = io::extension_of(name);
-  for (const char* known : {".xyz", ".las", ".laz", ".pcd", ".e57", ".pts", ".ptx"})
-    if (extension == known) return true;
-  return false;
+  const auto row = io::shape_extension(name);
+  return row && row->kinds == io::kPointFile;
 }
 
 ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <utility>
 
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/points/binary_values.hpp"
@@ -71,6 +72,40 @@ void write_columns(const std::filesystem::path& file, const PointCloud& cloud, L
 
 }  // namespace scans
 
+namespace {
+
+using Writer = void (*)(const std::filesystem::path&, const PointCloud&, LengthUnit);
+
+template <char separator>
+void write_separated(const std::filesystem::path& file, const PointCloud& cloud, LengthUnit unit) {
+  scans::write_columns(file, cloud, unit, separator);
+}
+
+constexpr std::pair<std::string_view, Writer> kWriters[] = {
+    {".ply", scans::write_ply},     {".las", scans::write_las},     {".xyz", write_separated<' '>},
+    {".asc", write_separated<' '>}, {".txt", write_separated<' '>}, {".csv", write_separated<','>}};
+
+Writer writer_of(const std::filesystem::path& file) {
+  const std::string extension = extension_of(file);
+  for (const auto& [known, writer] : kWriters)
+    if (known == extension) return writer;
+  return nullptr;
+}
+
+}  // namespace
+
+std::string written_scan_extensions() {
+  std::string out;
+  for (const auto& [extension, writer] : kWriters) out.append(out.empty() ? "" : " ").append(extension);
+  return out;
+}
+
+void require_written_scan(const std::filesystem::path& file) {
+  if (writer_of(file) == nullptr)
+    throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension_of(file)),
+                {file.string()}, "use one of " + written_scan_extensions());
+}
+
 void write_scan(const std::filesystem::path& file, const PointCloud& cloud, LengthUnit unit) {
   const auto refuse = [&](const std::string& why, const std::string& advice) {
     throw Error(ErrorKind::configuration, fmt::format("cannot write {}: {}", file.string(), why), {}, advice);
@@ -82,13 +117,8 @@ void write_scan(const std::filesystem::path& file, const PointCloud& cloud, Leng
   for (const Vec3& p : cloud.points)
     if (!p.allFinite()) refuse("a point is not finite", "leave it out");
 
-  const std::string extension = extension_of(file);
-  if (extension == ".ply") return scans::write_ply(file, cloud, unit);
-  if (extension == ".las") return scans::write_las(file, cloud, unit);
-  if (extension == ".csv") return scans::write_columns(file, cloud, unit, ',');
-  if (extension == ".xyz" || extension == ".asc" || extension == ".txt")
-    return scans::write_columns(file, cloud, unit, ' ');
-  refuse("points are written by the extension", "known are .ply, .xyz, .asc, .txt, .csv and .las");
+  require_written_scan(file);
+  writer_of(file)(file, cloud, unit);
 }
 
 }  // namespace treadmark::io
