@@ -23,7 +23,10 @@ namespace treadmark::testing {
 namespace {
 
 using nlohmann::json;
+using ::testing::Contains;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 std::string written(const fs::path& file, const std::string& text) {
@@ -102,9 +105,8 @@ TEST(Measure, FolderSkipsNoFileThatMayBeOfThisBody) {
   EXPECT_EQ(names.size(), ours);
   for (const char* end :
        {".pts", ".ptx", ".xyzrgb", ".xyzn", ".asc", ".laz", ".csv", ".wheel", ".slcw", ".ply", ".vdb"})
-    EXPECT_THAT(names, testing::Contains(testing::EndsWith(end)));
-  for (const char* end : {".prr", ".slcs", ".md"})
-    EXPECT_THAT(names, testing::Not(testing::Contains(testing::EndsWith(end))));
+    EXPECT_THAT(names, Contains(EndsWith(end)));
+  for (const char* end : {".prr", ".slcs", ".md"}) EXPECT_THAT(names, Not(Contains(EndsWith(end))));
 }
 
 TEST(Measure, ManyFilesAndOneThatIsBad) {
