@@ -12,6 +12,7 @@
 
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/detection/contact_search.hpp"
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"
@@ -71,7 +72,7 @@ bool PairStep::at_given_height() const {
 
 /// The reference program has one creepage for all parts, strip theory one for every row.
 bool PairStep::parts_creep_apart() const {
-  return !problem_.solver.reference_quirks && problem_.tangential_model != kalker::TangentialModel::fastrip;
+  return !problem_.solver.reference_quirks && !theory(problem_.tangential_model).limits.strips;
 }
 
 /// Creepages, or slip of the surfaces.

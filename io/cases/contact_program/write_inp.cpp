@@ -78,7 +78,7 @@ class InputWriter {
 
   template <class Content>
   void fastsim_first_step(const Content& c, std::string_view path) {
-    if (!on_half_spaces(c.tangential_model)) own_settings({{path, toml_text("whole")}});
+    if (theory(c.tangential_model).limits.springs) own_settings({{path, toml_text("whole")}});
   }
 
   template <class Content>
