@@ -13,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/cleaning/pass_steps.hpp"
@@ -205,7 +206,7 @@ namespace {
 /// The unit that was given, that of the file, that of such files, or that which makes the size that of the body.
 LengthUnit find_unit(const Clouds& clouds, const io::ImportSettings& settings, Body body,
                      const scans::RoughPlace& rough, io::ImportReport& report) {
-  const char* const what = body == Body::wheel ? "wheel" : "rail";
+  const char* const what = body_name(body);
   if (settings.scan.unit != "auto") {
     report.unit_from = "given";
     return *length_unit(settings.scan.unit);

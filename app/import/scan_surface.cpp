@@ -18,6 +18,7 @@
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/io/tables/number.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 
@@ -53,11 +54,10 @@ Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem
 
 std::string summary(const Scanned& scanned) {
   const scans::ScannerTruth& truth = scanned.scan.truth;
-  std::string text = fmt::format("{}: {} points of a {} in {}, {:.4g} mm apart on {:.6g} mm^2, {} {}, seed {}\n",
-                                 scanned.cloud.string(), scanned.scan.cloud.points.size(),
-                                 scanned.settings.body == Body::wheel ? "wheel" : "rail", symbol(scanned.unit),
-                                 kMilli * truth.spacing, kMicro * truth.area, truth.passes.size(),
-                                 truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
+  std::string text = fmt::format(
+      "{}: {} points of a {} in {}, {:.4g} mm apart on {:.6g} mm^2, {} {}, seed {}\n", scanned.cloud.string(),
+      scanned.scan.cloud.points.size(), body_name(scanned.settings.body), symbol(scanned.unit), kMilli * truth.spacing,
+      kMicro * truth.area, truth.passes.size(), truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
   text += fmt::format("on the surface {}, outliers {}; lost: {} in holes, {} dropped out, {} too steep\n",
                       truth.on_surface, truth.outliers, truth.lost_holes, truth.lost_drop_outs, truth.lost_occlusion);
   const Mat3& R = truth.X_CS.rotation;

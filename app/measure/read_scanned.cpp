@@ -15,6 +15,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -52,7 +53,7 @@ ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request
   ImportRequest import;
   import.scans = {name};
   import.outputs = {slices};
-  import.settings.scan.body = request.body == Body::wheel ? "wheel" : "rail";
+  import.settings.scan.body = body_name(request.body);
   if (!request.nominal.empty()) import.settings.placement.nominal = request.nominal;
   import.settings.placement.nominal_radius_mm = 1e3 * request.nominal_radius;
   import.settings.placement.zero = "scan";

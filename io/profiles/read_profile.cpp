@@ -18,6 +18,7 @@
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -112,8 +113,8 @@ void check_length(const RawPoints& points, Body body, double asked_scale) {
     advice = asked_scale == 1.0 ? "is the file in micrometres? use a scale of 0.001"
                                 : "is a file in mm scaled like one in metres? use a scale of 1";
   throw Error(ErrorKind::input_data,
-              fmt::format("the {} profile is {:.4g} mm long, outside {:g} to {:g} mm",
-                          body == Body::rail ? "rail" : "wheel", length, kShortest_mm, kLongest_mm),
+              fmt::format("the {} profile is {:.4g} mm long, outside {:g} to {:g} mm", body_name(body), length,
+                          kShortest_mm, kLongest_mm),
               {points.file, 0, 0}, advice);
 }
 
@@ -286,7 +287,7 @@ void check_file(const std::filesystem::path& file, Body body, const SourcePositi
   if (const std::optional<Body> named = body_by_extension(file); named && *named != body)
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for a {}, a {} profile is expected", file.string(),
-                            *named == Body::rail ? "rail" : "wheel", body == Body::rail ? "rail" : "wheel"),
+                            body_name(*named), body_name(body)),
                 where, "exchange the files");
 }
 

@@ -15,6 +15,7 @@
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/record_reader.hpp"
 #include "treadmark/io/profiles/slice_sum.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -249,7 +250,7 @@ SliceSet read_slices(const std::filesystem::path& file, Body body, const Profile
   if (is_slices_file(file) && body_by_extension(file) != body)
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for {} slices, a {} is expected", file.string(),
-                            body == Body::rail ? "wheel" : "rail", body == Body::rail ? "rail" : "wheel"),
+                            body == Body::rail ? "wheel" : "rail", body_name(body)),
                 referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from,
                 "exchange the files");
   const std::string text = profiles::read_text(file, "slices", referenced_from);
