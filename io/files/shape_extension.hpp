@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io {
@@ -29,46 +30,38 @@ struct ShapeExtension {
 };
 
 /// One row for each extension. Whatever depends on what a file's name ends with asks this table.
+// clang-format off
 inline constexpr ShapeExtension kShapeExtensions[] = {
-    {".csv", kProfileFile | kPointFile},
-    {".txt", kProfileFile | kPointFile},
-    {".asc", kProfileFile | kPointFile},
-    {".dat", kProfileFile},
-    {".mpt", kProfileFile},
-    {".prr", kProfileFile, Body::rail},
-    {".prw", kProfileFile, Body::wheel},
-    {".ban", kProfileFile, Body::rail},
-    {".whl", kProfileFile, Body::wheel},
-    {".wheel", kProfileFile, Body::wheel},
-    {".rail", kProfileFile, Body::rail, false},
-    {".slcs", kSlicesFile, Body::rail},
-    {".slcw", kSlicesFile, Body::wheel},
-    {".ply", kTriangleFile | kPointFile},
-    {".stl", kTriangleFile | kPointFile},
-    {".obj", kTriangleFile | kPointFile},
-    {".off", kTriangleFile | kPointFile},
-    {".xml", kSplineFile},
-    {".step", kCadFile},
-    {".stp", kCadFile},
-    {".iges", kCadFile},
-    {".igs", kCadFile},
-    {".vdb", kOffsetFile},
-    {".las", kPointFile},
-    {".laz", kPointFile, {}, false},
-    {".pcd", kPointFile},
-    {".e57", kPointFile},
-    {".ptx", kPointFile},
-    {".pts", kPointFile},
-    {".xyz", kPointFile},
-    {".xyzrgb", kPointFile},
-    {".xyzn", kPointFile},
-};
+    {".csv", kProfileFile | kPointFile}, {".txt", kProfileFile | kPointFile}, {".asc", kProfileFile | kPointFile},
+    {".dat", kProfileFile}, {".mpt", kProfileFile},
+    {".prr", kProfileFile, Body::rail}, {".ban", kProfileFile, Body::rail}, {".rail", kProfileFile, Body::rail, false},
+    {".prw", kProfileFile, Body::wheel}, {".whl", kProfileFile, Body::wheel}, {".wheel", kProfileFile, Body::wheel},
+    {".slcs", kSlicesFile, Body::rail}, {".slcw", kSlicesFile, Body::wheel},
+    {".ply", kTriangleFile | kPointFile}, {".stl", kTriangleFile | kPointFile},
+    {".obj", kTriangleFile | kPointFile}, {".off", kTriangleFile | kPointFile},
+    {".xml", kSplineFile}, {".vdb", kOffsetFile},
+    {".step", kCadFile}, {".stp", kCadFile}, {".iges", kCadFile}, {".igs", kCadFile},
+    {".las", kPointFile}, {".laz", kPointFile, {}, false}, {".pcd", kPointFile}, {".e57", kPointFile},
+    {".ptx", kPointFile}, {".pts", kPointFile}, {".xyz", kPointFile}, {".xyzrgb", kPointFile}, {".xyzn", kPointFile}};
+// clang-format on
 
 /// Nothing for a file whose name ends otherwise.
-std::optional<ShapeExtension> shape_extension(const std::filesystem::path& file);
+inline std::optional<ShapeExtension> shape_extension(const std::filesystem::path& file) {
+  for (const ShapeExtension& row : kShapeExtensions)
+    if (row.extension == extension_of(file)) return row;
+  return std::nullopt;
+}
+
 /// Whether the file can hold one of these kinds.
-bool can_hold(const std::filesystem::path& file, unsigned kinds);
+inline bool can_hold(const std::filesystem::path& file, unsigned kinds) {
+  const auto row = shape_extension(file);
+  return row && (row->kinds & kinds) != 0;
+}
+
 /// The body that the name of a file stands for.
-std::optional<Body> body_by_extension(const std::filesystem::path& file);
+inline std::optional<Body> body_by_extension(const std::filesystem::path& file) {
+  const auto row = shape_extension(file);
+  return row ? row->body : std::nullopt;
+}
 
 }  // namespace treadmark::io

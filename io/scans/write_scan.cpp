@@ -75,22 +75,11 @@ void write_columns(const std::filesystem::path& file, const PointCloud& cloud, L
 namespace {
 
 using Writer = void (*)(const std::filesystem::path&, const PointCloud&, LengthUnit);
-
-template <char separator>
-void write_separated(const std::filesystem::path& file, const PointCloud& cloud, LengthUnit unit) {
-  scans::write_columns(file, cloud, unit, separator);
-}
-
-constexpr std::pair<std::string_view, Writer> kWriters[] = {
-    {".ply", scans::write_ply},     {".las", scans::write_las},     {".xyz", write_separated<' '>},
-    {".asc", write_separated<' '>}, {".txt", write_separated<' '>}, {".csv", write_separated<','>}};
-
-Writer writer_of(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
-  for (const auto& [known, writer] : kWriters)
-    if (known == extension) return writer;
-  return nullptr;
-}
+constexpr Writer kByBlanks = [](auto&file, auto&cloud, auto unit) { scans::write_columns(file, cloud, unit, ' '); },
+                 kByCommas = [](auto&file, auto&cloud, auto unit) { scans::write_columns(file, cloud, unit, ','); };
+constexpr std::pair<std::string_view, Writer> kWriters[] = {{".ply", scans::write_ply}, {".las", scans::write_las},
+                                                            {".xyz", kByBlanks},        {".asc", kByBlanks},
+                                                            {".txt", kByBlanks},        {".csv", kByCommas}};
 
 }  // namespace
 
@@ -101,9 +90,10 @@ std::string written_scan_extensions() {
 }
 
 void require_written_scan(const std::filesystem::path& file) {
-  if (writer_of(file) == nullptr)
-    throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension_of(file)),
-                {file.string()}, "use one of " + written_scan_extensions());
+  for (const auto& [extension, writer] : kWriters)
+    if (extension == extension_of(file)) return;
+  throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension_of(file)),
+              {file.string()}, "use one of " + written_scan_extensions());
 }
 
 void write_scan(const std::filesystem::path& file, const PointCloud& cloud, LengthUnit unit) {
@@ -118,7 +108,8 @@ void write_scan(const std::filesystem::path& file, const PointCloud& cloud, Leng
     if (!p.allFinite()) refuse("a point is not finite", "leave it out");
 
   require_written_scan(file);
-  writer_of(file)(file, cloud, unit);
+  for (const auto& [extension, writer] : kWriters)
+    if (extension == extension_of(file)) writer(file, cloud, unit);
 }
 
 }  // namespace treadmark::io
