@@ -20,6 +20,7 @@
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 
 namespace treadmark::contact {
@@ -122,13 +123,13 @@ void give_profile(Problem& p, Body body, const io::SurfaceSource& source) {
     return app::read_surface(source, body, radius);
   });
   p.profile(body).source = source;
-  log(Detail::calls, fmt::format("read the {} profile {}", body == Body::wheel ? "wheel" : "rail", file.string()));
+  log(Detail::calls, fmt::format("read the {} profile {}", body_name(body), file.string()));
 }
 
 wheelrail::Geometry surfaces(Problem& p, const io::WheelRailCase& input) {
   for (const Body body : {Body::rail, Body::wheel}) {
     GivenProfile& slot = p.profile(body);
-    const char* word = body == Body::wheel ? "wheel" : "rail";
+    const char* word = body_name(body);
     if (slot.code != kGood)
       throw Refusal{CNTC_err_profil, slot.name.empty()
                                          ? fmt::format("there is no {} profile", word)

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/combination_rules.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 
@@ -25,7 +26,7 @@ class Checker {
   }
 
   void surface(const SurfaceSource& s, Body which, double nominal_radius) const {
-    const std::string body = which == Body::rail ? "rail" : "wheel";
+    const std::string body = body_name(which);
     const OffsetsInput& o = s.offsets;
     require(!o.file.empty() || (!o.unit && !o.deviation_unit && !o.angles_deg),
             body + ".offsets says how a table is meant, but names none", body + ".offsets.file is missing");

@@ -194,7 +194,7 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
 }
 
 void ContactSolver::Workspace::solve_once(const ContactProblem& problem, ContactSolution& solution) {
-  if (!on_half_spaces(problem.tangential_model))
+  if (theory(problem.tangential_model).limits.springs)
     solve_fastsim(problem, solution, previous);
   else if (tangential.couples(problem))
     solve_in_turns(problem, solution);

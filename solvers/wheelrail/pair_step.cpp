@@ -12,6 +12,7 @@
 
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/detection/contact_search.hpp"
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
@@ -72,8 +73,7 @@ bool PairStep::at_given_height() const {
 
 /// Conventions::contact has one creepage for all parts, strip theory one for every row.
 bool PairStep::parts_creep_apart() const {
-  return problem_.solver.conventions != Conventions::contact &&
-         problem_.tangential_model != kalker::TangentialModel::fastrip;
+  return problem_.solver.conventions != Conventions::contact && !theory(problem_.tangential_model).limits.strips;
 }
 
 /// Creepages, or slip of the surfaces.

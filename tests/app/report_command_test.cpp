@@ -99,6 +99,7 @@ TEST(ReportCommand, BadInputIsNamed) {
   const ProgramResult empty = run_program({"report", folder});
   EXPECT_EQ(empty.status, 3);
   EXPECT_THAT(empty.err, HasSubstr("holds no results"));
+  EXPECT_THAT(empty.err, HasSubstr("track.json (how a track gives way)"));
   input.write("fields.h5", "this is no HDF5 file");
   EXPECT_EQ(run_program({"report", folder}).status, 3);
   const ProgramResult several =

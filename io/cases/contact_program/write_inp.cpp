@@ -14,7 +14,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/contact_program/contact_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/model/contact/theories.hpp"
@@ -79,7 +79,7 @@ class InputWriter {
 
   template <class Content>
   void fastsim_first_step(const Content& c, std::string_view path) {
-    if (!on_half_spaces(c.tangential_model)) own_settings({{path, toml_text("whole")}});
+    if (theory(c.tangential_model).limits.springs) own_settings({{path, toml_text("whole")}});
   }
 
   template <class Content>
@@ -274,9 +274,9 @@ class InputWriter {
     refuse_if(!s.offsets.file.empty(), fmt::format("a table of deviations ({}.offsets)", body), advice);
     const auto* file = std::get_if<GeometryFile>(&s.geometry);
     refuse_if(file == nullptr, fmt::format("the shape of the {} by formula ({}.shape)", body, body), advice);
-    const std::string extension = extension_of(file->file);
-    for (const std::string_view surface : {".ply", ".stl", ".obj", ".off", ".vdb"})
-      refuse_if(extension == surface, fmt::format("the {} as {}", body, surface), advice);
+    if (const auto row = shape_extension(file->file))
+      refuse_if((row->kinds & (kTriangleFile | kSplineFile | kCadFile | kOffsetFile)) != 0,
+                fmt::format("the {} as {}", body, row->extension), advice);
 
     const ProfileOptions& o = file->options;
     const SmoothingOptions usual;

@@ -266,6 +266,8 @@ TEST_P(RefusedInput, IsNamed) {
 INSTANTIATE_TEST_SUITE_P(Settings, RefusedInput,
                          ::testing::Values(Refused{"rail.shape.standard=60E1", "rail.shape"},
                                            Refused{"wheel.shape.file=a.ply", "the wheel as .ply"},
+                                           Refused{"wheel.shape.file=a.step", "the wheel as .step"},
+                                           Refused{"rail.shape.file=a.xml", "the rail as .xml"},
                                            Refused{"rail.shape.crossing=nose", "rail.shape.crossing"},
                                            Refused{"wheel.flats=[{length_mm=40, depth_mm=0.1}]", "wheel.flats"},
                                            Refused{"rail.shape.file=\"it's.prr\"", "for its quote"},
