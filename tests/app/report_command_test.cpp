@@ -135,7 +135,7 @@ TEST(ReportCommand, TwoRunsHaveTheNumbersOfTheirFiles) {
   EXPECT_EQ(made.out, folder + "/before/overlay.html\n");
   const std::string html = input.read("before/overlay.html");
   EXPECT_LT(html.size(), 8'000'000u);
-  EXPECT_THAT(html, HasSubstr("<td>set: wheelset.vertical_force_N</td><td>as in the input</td><td>100e3</td>"));
+  EXPECT_THAT(html, HasSubstr("<td>wheelset: vertical force</td><td>80 kN</td><td>100 kN</td>"));
   const auto json = [&](const char* which) {
     return nlohmann::json::parse(input.read(which + std::string("/result.json")));
   };
