@@ -90,15 +90,19 @@ std::vector<double> column_values(const SimulationResult& result, std::size_t in
 /// The columns of the history, a line an instant.
 void write_history_csv(const std::filesystem::path& path, const SimulationResult& result);
 
+/// A line an event.
 void write_events_csv(const std::filesystem::path& path, const SimulationResult& result);
+/// A line a mode.
 void write_modes_csv(const std::filesystem::path& path, const SimulationResult& result);
 
 }  // namespace treadmark::io
 
 namespace treadmark {
 
+/// What is known of an event.
 template <>
 std::span<const Column<io::HistoryEvent>> columns();
+/// What is known of a mode.
 template <>
 std::span<const Column<io::ModeRow>> columns();
 
