@@ -49,8 +49,8 @@ double limit_of(const io::BandMap& map) {
 void add_mark(std::vector<MapView::Mark>& marks, const Points& points, const std::string& label, const io::BandMap& map,
               double round_mm) {
   const double low = kMilli * map.a_min, high = kMilli * map.a_max;
-  for (const double turn : {0.0, -round_mm, round_mm}) {
-    if (turn != 0.0 && round_mm == 0.0) continue;
+  const std::vector<double> turns = round_mm > 0.0 ? std::vector{0.0, -round_mm, round_mm} : std::vector{0.0};
+  for (const double turn : turns) {
     MapView::Mark mark{label, {}};
     bool inside = false;
     for (const auto& [a, s] : points) {

@@ -4,7 +4,7 @@ import { linearTicks } from "../chart/scale";
 import type { Box } from "./fields";
 import type { Layout, PanelPlace } from "./layout";
 import type { ToPixels } from "./lines";
-import { fitted, put, say, show, svg } from "./svg";
+import { fitted, put, say, show, svg, textWidth } from "./svg";
 
 /** What a panel shows; paths are in pixels of the drawing. */
 export interface PanelContent {
@@ -140,6 +140,7 @@ export class PanelNodes {
     }
     say(this.note, content.note);
     show(this.origin, content.note === "");
+    show(this.axes, textWidth(content.note) < width); // else the note would lie on their numbers
   }
 }
 
