@@ -49,7 +49,7 @@ export function layOut(plot: Plot, width: number, x: Domain, window: Domain | nu
     right = width - left - perUnit * (x[1] - x[0]);
   }
   const perCategory = (width - left - right) / Math.max(1, x[1] - x[0]);
-  const ticksHeight = plot.x.labels ? categoryLabels(plot.x.labels, perCategory).height : 22;
+  const ticksHeight = plot.x.labels ? categoryLabels(plot.x.labels, perCategory, left).height : 22;
   const axisHeight = Math.ceil(ticksHeight) + (plot.x.label ? 20 : 2);
   return plot.panels.map((panel, p) => {
     const last = p === count - 1;

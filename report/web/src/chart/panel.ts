@@ -26,11 +26,17 @@ let clips = 0;
 
 const px = (v: number): string => v.toFixed(1);
 
-/** How the labels of categories fit: beside each other, or turned. */
-export function categoryLabels(labels: readonly string[], perCategory: number): { turned: boolean; texts: string[]; height: number } {
+const TURN = 34; // [deg]
+
+/** How the labels of categories fit: beside each other, or turned and as long as there is room before them. left: of the first category. */
+export function categoryLabels(labels: readonly string[], perCategory: number, left: number): { turned: boolean; texts: string[]; height: number } {
   const longest = Math.max(0, ...labels.map((label) => textWidth(label)));
   if (longest <= perCategory - 6) return { turned: false, texts: [...labels], height: 20 };
-  const texts = labels.map((label) => (label.length > 26 ? `${label.slice(0, 25)}…` : label));
+  const texts = labels.map((label, k) => {
+    const room = (left + (k + 0.5) * perCategory) / Math.cos((TURN * Math.PI) / 180);
+    const most = Math.max(8, Math.min(26, Math.floor(room / textWidth("m"))));
+    return label.length > most ? `${label.slice(0, most - 1)}…` : label;
+  });
   const turnedLongest = Math.max(0, ...texts.map((label) => textWidth(label)));
   return { turned: true, texts, height: 18 + 0.6 * turnedLongest };
 }
@@ -39,7 +45,7 @@ function xTicks(plot: Plot, scale: Scale, g: Geometry): Tick[] {
   const { labels } = plot.x;
   const width = g.width - g.left - g.right;
   if (!labels) return scale.ticks(Math.max(2, Math.floor(width / 85)));
-  const fit = categoryLabels(labels, width / Math.max(1, scale.domain[1] - scale.domain[0]));
+  const fit = categoryLabels(labels, width / Math.max(1, scale.domain[1] - scale.domain[0]), g.left);
   return fit.texts.map((label, value) => ({ value, label })).filter(({ value }) => value >= scale.domain[0] && value <= scale.domain[1]);
 }
 
@@ -62,7 +68,7 @@ function drawAxes(parent: SVGElement, plot: Plot, scales: PanelScales, g: Geomet
   const bottom = g.height - g.bottom;
   const yt = thinned(scales.y.ticks(Math.max(2, Math.floor((bottom - g.top) / 42))), (tick) => scales.y(tick.value), () => 14);
   const xt = xTicks(plot, scales.x, g);
-  const turned = plot.x.labels !== null && categoryLabels(plot.x.labels, (right - g.left) / (scales.x.domain[1] - scales.x.domain[0])).turned;
+  const turned = plot.x.labels !== null && categoryLabels(plot.x.labels, (right - g.left) / (scales.x.domain[1] - scales.x.domain[0]), g.left).turned;
   const xLabelled = turned ? xt : thinned(xt, (tick) => scales.x(tick.value), (tick) => textWidth(tick.label) + 8);
   const grid = [
     ...yt.filter((tick) => tick.label).map((tick) => `M${g.left} ${px(scales.y(tick.value))}H${right}`),
@@ -83,7 +89,7 @@ function drawAxes(parent: SVGElement, plot: Plot, scales: PanelScales, g: Geomet
     if (!tick.label) continue;
     const x = scales.x(tick.value);
     const place = turned
-      ? { transform: `translate(${px(x + 3)} ${bottom + 14}) rotate(-34)`, "text-anchor": "end" }
+      ? { transform: `translate(${px(x + 3)} ${bottom + 14}) rotate(${-TURN})`, "text-anchor": "end" }
       : { x: px(x), y: bottom + 18, "text-anchor": "middle" };
     parent.append(el("text", place, tick.label));
   }
