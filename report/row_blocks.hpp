@@ -30,17 +30,18 @@ void add_facts(Facts& facts, const Row& row) {
     if (io::said(row, column)) facts.entries.emplace_back(column.label, io::text_of(row, column));
 }
 
-/// A line a row, of the columns that people read.
+/// A line a row, of the columns that people read; numbers have so many digits, whole ones all.
 template <class Row>
-Table table_of(std::string id, std::string caption, const std::vector<Row>& rows) {
+Table table_of(std::string id, std::string caption, const std::vector<Row>& rows, int digits = Number{}.digits) {
   Table table{std::move(id), std::move(caption), {}};
   table.rows.resize(rows.size());
   for (const treadmark::Column<Row>& column : columns<Row>()) {
     if (column.label.empty()) continue;
     table.columns.push_back({std::string(column.label), column.unit.name == "1" ? "" : std::string(column.unit.name)});
     for (std::size_t i = 0; i < rows.size(); ++i)
-      table.rows[i].cells.push_back(column.access.word != nullptr ? Cell(column.access.word(rows[i]))
-                                                                  : Cell(Number{column.in_file(rows[i])}));
+      table.rows[i].cells.push_back(column.access.word != nullptr
+                                        ? Cell(column.access.word(rows[i]))
+                                        : Cell(Number{column.in_file(rows[i]), column.access.whole ? 12 : digits}));
   }
   return table;
 }

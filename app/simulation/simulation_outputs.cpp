@@ -14,7 +14,7 @@
 #include "treadmark/core/pose.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/report/pictures/histories/history_svg.hpp"
 #include "treadmark/report/pictures/pressure_svg.hpp"
 
@@ -165,12 +165,8 @@ std::string to_json(const io::SimulationResult& r, const SimulationTimes& t, con
   out["message"] = r.message;
   out["static"] = named(r.statics);
   out["summary"] = named(r.summary);
-  out["modes"] = Json::array();
-  for (const io::ModeRow& m : r.modes)
-    out["modes"].push_back({{"frequency_Hz", m.frequency_Hz}, {"damping_ratio", m.damping_ratio}, {"shape", m.shape}});
-  out["events"] = Json::array();
-  for (const io::HistoryEvent& e : r.events)
-    out["events"].push_back({{"t_s", e.time}, {"x_m", e.position}, {"wheel", e.wheel}, {"kind", e.kind}});
+  out["modes"] = io::json_of(r.modes, Digits::all);
+  out["events"] = io::json_of(r.events, Digits::all);
   if (assessed) out["assessment"] = Json::parse(assessment_json(std::span(assessed, 1))).at("runs").at(0);
   out["rows"] = r.rows();
   out["timing"] = {{"build_s", t.build_s},

@@ -73,13 +73,29 @@ py::list named_values(const std::vector<io::NamedValue>& values) {
   return list;
 }
 
+/// Rows as dictionaries in SI, by the names that stores have.
+template <class Row>
+py::list records_of(const std::vector<Row>& rows) {
+  py::list list;
+  for (const Row& row : rows) {
+    py::dict record;
+    for (const Column<Row>& column : columns<Row>()) {
+      const py::str name{std::string(column.stored)};
+      if (column.access.word != nullptr)
+        record[name] = column.access.word(row);
+      else
+        record[name] = column.access.get(row);
+    }
+    list.append(record);
+  }
+  return list;
+}
+
 py::dict content_of(const Simulated& simulated) {
   const io::SimulationResult& r = *simulated.result;
   const py::object owner = owner_of(simulated.result);
-  py::list columns, events, modes;
+  py::list columns;
   for (const io::HistoryColumn& c : r.columns) columns.append(py::make_tuple(c.name, c.unit, c.description));
-  for (const io::HistoryEvent& e : r.events) events.append(py::make_tuple(e.time, e.position, e.wheel, e.kind));
-  for (const io::ModeRow& m : r.modes) modes.append(py::make_tuple(m.frequency_Hz, m.damping_ratio, m.shape));
   py::dict d;
   d["title"] = r.title;
   d["status"] = r.status;
@@ -91,10 +107,10 @@ py::dict content_of(const Simulated& simulated) {
   d["columns"] = columns;
   d["values"] =
       view(r.values, 'd', {static_cast<py::ssize_t>(r.rows()), static_cast<py::ssize_t>(r.columns.size())}, owner);
-  d["events"] = events;
+  d["events"] = records_of(r.events);
   d["summary"] = named_values(r.summary);
   d["statics"] = named_values(r.statics);
-  d["modes"] = modes;
+  d["modes"] = records_of(r.modes);
   d["snapshots"] = to_python(simulated.result, r.snapshots.cases);
   d["snapshot_times"] = r.snapshot_times;
   return d;

@@ -10,6 +10,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/tables/csv_of.hpp"
 
 namespace treadmark::io {
 
@@ -81,18 +82,39 @@ void write_history_csv(const std::filesystem::path& path, const SimulationResult
 }
 
 void write_events_csv(const std::filesystem::path& path, const SimulationResult& result) {
-  std::string out = "t_s,x_m,wheel,kind\n";
-  for (const HistoryEvent& event : result.events)
-    out += csv_number(event.time) + ',' + csv_number(event.position) + ',' + csv_cell(event.wheel) + ',' +
-           csv_cell(event.kind) + '\n';
-  write_file(path, out);
+  write_file(path, csv_of(result.events, Digits::all));
 }
 
 void write_modes_csv(const std::filesystem::path& path, const SimulationResult& result) {
-  std::string out = "frequency_Hz,damping_ratio,shape\n";
-  for (const ModeRow& mode : result.modes)
-    out += csv_number(mode.frequency_Hz) + ',' + csv_number(mode.damping_ratio) + ',' + csv_cell(mode.shape) + '\n';
-  write_file(path, out);
+  write_file(path, csv_of(result.modes, Digits::all));
 }
 
 }  // namespace treadmark::io
+
+namespace treadmark {
+namespace {
+
+using access::of;
+using Event = io::HistoryEvent;
+using Mode = io::ModeRow;
+
+// A row of a table stays a row: clang-format would give each column a line.
+// clang-format off
+constexpr Column<Event> kEvents[] = {
+    {"t_s", {"s"}, "time", of<&Event::time>(), "instant", 0, "t"},
+    {"x_m", unit::kM, "position", of<&Event::position>(), "along the track", 0, "x"},
+    {"wheel", unit::kOne, "wheel", of<&Event::wheel>(), "name of the wheel", 0, "wheel"},
+    {"kind", unit::kOne, "kind", of<&Event::kind>(), "what happened", 0, "event"}};
+
+constexpr Column<Mode> kModes[] = {
+    {"frequency_Hz", {"Hz"}, "frequency", of<&Mode::frequency_Hz>(), "of the mode", 0, "frequency"},
+    {"damping_ratio", unit::kOne, "damping_ratio", of<&Mode::damping_ratio>(), "over critical damping", 0, "damping ratio"},
+    {"shape", unit::kOne, "shape", of<&Mode::shape>(), "what moves", 0, "shape"}};
+
+}  // namespace
+
+template <> std::span<const Column<Event>> columns() { return kEvents; }
+template <> std::span<const Column<Mode>> columns() { return kModes; }
+// clang-format on
+
+}  // namespace treadmark

@@ -11,6 +11,7 @@
 #include "treadmark/core/grid.hpp"
 #include "treadmark/io/results/result_model.hpp"
 #include "treadmark/model/origin.hpp"
+#include "treadmark/model/rows.hpp"
 
 namespace treadmark::io {
 
@@ -89,10 +90,16 @@ std::vector<double> column_values(const SimulationResult& result, std::size_t in
 /// The columns of the history, a line an instant.
 void write_history_csv(const std::filesystem::path& path, const SimulationResult& result);
 
-/// t_s,x_m,wheel,kind
 void write_events_csv(const std::filesystem::path& path, const SimulationResult& result);
-
-/// frequency_Hz,damping_ratio,shape
 void write_modes_csv(const std::filesystem::path& path, const SimulationResult& result);
 
 }  // namespace treadmark::io
+
+namespace treadmark {
+
+template <>
+std::span<const Column<io::HistoryEvent>> columns();
+template <>
+std::span<const Column<io::ModeRow>> columns();
+
+}  // namespace treadmark

@@ -7,6 +7,7 @@
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/io/tables/hdf5_origin.hpp"
+#include "treadmark/io/tables/hdf5_rows.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -74,27 +75,6 @@ std::vector<NamedValue> read_named(const Store& store, const char* where) {
   return out;
 }
 
-std::vector<HistoryEvent> read_events(const Store& store) {
-  const Hdf5GroupReader group = store.root().open_group("events");
-  const auto times = group.numbers("time"), positions = group.numbers("position");
-  const auto wheels = group.strings("wheel"), kinds = group.strings("kind");
-  store.require(positions.size() == times.size() && wheels.size() == times.size() && kinds.size() == times.size(),
-                "events");
-  std::vector<HistoryEvent> out;
-  for (std::size_t i = 0; i < times.size(); ++i) out.push_back({times[i], positions[i], wheels[i], kinds[i]});
-  return out;
-}
-
-std::vector<ModeRow> read_modes(const Store& store) {
-  const Hdf5GroupReader group = store.root().open_group("modes");
-  const auto frequencies = group.numbers("frequency"), damping = group.numbers("damping_ratio");
-  const auto shapes = group.strings("shape");
-  store.require(damping.size() == frequencies.size() && shapes.size() == frequencies.size(), "modes");
-  std::vector<ModeRow> out;
-  for (std::size_t i = 0; i < frequencies.size(); ++i) out.push_back({frequencies[i], damping[i], shapes[i]});
-  return out;
-}
-
 std::vector<std::byte> read_bytes(const Store& store) {
   std::vector<std::byte> out;
   if (!store.root().has(kCheckpoint)) return out;
@@ -110,10 +90,10 @@ SimulationResult read_head(const Store& store) {
   result.message = root.text("message");
   result.swept = pairs(store, "swept_keys", "swept_values");
   result.columns = read_columns(store);
-  result.events = read_events(store);
+  result.events = read_rows<HistoryEvent>(root.open_group("events"));
   result.statics = read_named(store, "static");
   result.summary = read_named(store, "summary");
-  result.modes = read_modes(store);
+  result.modes = read_rows<ModeRow>(root.open_group("modes"));
   return result;
 }
 

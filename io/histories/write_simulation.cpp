@@ -6,6 +6,7 @@
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/tables/hdf5_origin.hpp"
+#include "treadmark/io/tables/hdf5_rows.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -53,30 +54,6 @@ void write_named(const Hdf5GroupWriter& root, const char* name, const std::vecto
   for (const NamedValue& one : list) group.write({one.name, {}, one.unit, one.description}, {&one.value, 1});
 }
 
-/// Writes one member of each row as a dataset.
-template <class Row, class Value>
-void write_member(const Hdf5GroupWriter& group, const std::vector<Row>& rows, Value Row::*member, Hdf5Dataset what) {
-  std::vector<Value> values;
-  for (const Row& row : rows) values.push_back(row.*member);
-  what.shape = {values.size()};
-  group.write(what, values);
-}
-
-void write_events(const Hdf5GroupWriter& root, const std::vector<HistoryEvent>& events) {
-  const Hdf5GroupWriter group = root.make_group("events");
-  write_member(group, events, &HistoryEvent::time, {"time", {}, "s", "instant"});
-  write_member(group, events, &HistoryEvent::position, {"position", {}, "m", "along the track"});
-  write_member(group, events, &HistoryEvent::wheel, {"wheel", {}, "1", "name of the wheel"});
-  write_member(group, events, &HistoryEvent::kind, {"kind", {}, "1", "what happened"});
-}
-
-void write_modes(const Hdf5GroupWriter& root, const std::vector<ModeRow>& modes) {
-  const Hdf5GroupWriter group = root.make_group("modes");
-  write_member(group, modes, &ModeRow::frequency_Hz, {"frequency", {}, "Hz", "of the mode"});
-  write_member(group, modes, &ModeRow::damping_ratio, {"damping_ratio", {}, "1", "over critical damping"});
-  write_member(group, modes, &ModeRow::shape, {"shape", {}, "1", "what moves"});
-}
-
 void write_snapshots(const Hdf5GroupWriter& root, const SimulationResult& result) {
   const Hdf5GroupWriter fields = root.make_group(kFields);
   for (std::size_t i = 0; i < result.snapshots.cases.size(); ++i) {
@@ -106,10 +83,10 @@ void write_simulation(const std::filesystem::path& path, const SimulationResult&
   const Hdf5GroupWriter& root = file.root();
   root.add(attributes_of(result));
   write_history(root, result);
-  write_events(root, result.events);
+  write_rows(root.make_group("events"), result.events);
   write_named(root, "static", result.statics);
   write_named(root, "summary", result.summary);
-  write_modes(root, result.modes);
+  write_rows(root.make_group("modes"), result.modes);
   write_snapshots(root, result);
   write_bytes(root, result.checkpoint);
   file.commit();

@@ -19,6 +19,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/report/html_text.hpp"
+#include "treadmark/report/row_blocks.hpp"
 
 namespace treadmark::app::pages {
 
@@ -183,10 +184,15 @@ Table named_table(const char* id, const char* caption, const Simulations& all, c
 }
 
 Table event_table(const Simulations& all) {
-  Table table{"events", "Loss of contact.", {{"simulation"}, {"t", "s"}, {"x", "m"}, {"wheel"}, {"event"}}};
-  for (const auto& [name, simulation, input] : all)
-    for (const io::HistoryEvent& e : simulation.events)
-      table.rows.push_back({{name, Number{e.time, 6}, Number{e.position, 6}, e.wheel, e.kind}});
+  Table table{"events", "Loss of contact.", {{"simulation"}}};
+  for (const auto& [name, simulation, input] : all) {
+    Table own = report::table_of("", "", simulation.events, 6);
+    if (table.columns.size() == 1) std::ranges::copy(own.columns, std::back_inserter(table.columns));
+    for (Table::Row& row : own.rows) {
+      row.cells.insert(row.cells.begin(), name);
+      table.rows.push_back(std::move(row));
+    }
+  }
   return table;
 }
 

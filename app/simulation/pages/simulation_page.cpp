@@ -12,6 +12,7 @@
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/app/simulation/pages/history_panels.hpp"
 #include "treadmark/report/html_text.hpp"
+#include "treadmark/report/row_blocks.hpp"
 
 namespace treadmark::app::pages {
 
@@ -140,18 +141,10 @@ Section tables(const Result& result) {
   Section section{"tables", "Tables"};
   section.blocks.emplace_back(named_table("summary", "Summary", result.summary));
   section.blocks.emplace_back(named_table("static", "Static equilibrium at the start", result.statics));
-  if (!result.events.empty()) {
-    Table events{"events", "Loss of contact", {{"t", "s"}, {"x", "m"}, {"wheel"}, {"event"}}};
-    for (const io::HistoryEvent& e : result.events)
-      events.rows.push_back({{Number{e.time, 6}, Number{e.position, 6}, e.wheel, e.kind}});
-    section.blocks.emplace_back(std::move(events));
-  }
-  Table modes{"modes",
-              "Modes of the vehicle on the track about its equilibrium",
-              {{"frequency", "Hz"}, {"damping ratio"}, {"shape"}}};
-  for (const io::ModeRow& mode : result.modes)
-    modes.rows.push_back({{Number{mode.frequency_Hz}, Number{mode.damping_ratio}, mode.shape}});
-  if (!modes.rows.empty()) section.blocks.emplace_back(std::move(modes));
+  if (!result.events.empty()) section.blocks.emplace_back(report::table_of("events", "Loss of contact", result.events, 6));
+  if (!result.modes.empty())
+    section.blocks.emplace_back(
+        report::table_of("modes", "Modes of the vehicle on the track about its equilibrium", result.modes));
   return section;
 }
 

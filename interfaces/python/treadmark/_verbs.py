@@ -409,8 +409,8 @@ class Simulation:
 def _simulation_of(held: _treadmark.Simulated) -> Simulation:
     raw = held.content()
     raw["columns"] = [Column(*c) for c in raw["columns"]]
-    raw["events"] = [Event(*e) for e in raw["events"]]
-    raw["modes"] = [Mode(*m) for m in raw["modes"]]
+    raw["events"] = [Event(**e) for e in raw["events"]]
+    raw["modes"] = [Mode(**m) for m in raw["modes"]]
     for name in ("summary", "statics"):
         raw[name] = {v[0]: Value(*v) for v in raw[name]}
     raw["snapshots"] = [case_of(c) for c in raw["snapshots"]]
