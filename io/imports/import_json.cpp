@@ -10,12 +10,13 @@
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/json/json_tree.hpp"
-#include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/read_json.hpp"
 
 namespace treadmark::io {
 namespace {
 
-constexpr double kMilli2 = 1e6, kMilli3 = 1e9;
+constexpr double kMilli2 = 1e6;
 constexpr double kDegrees = 180.0 / kPi;
 
 Json in_full(std::initializer_list<double> values) { return numbers(values, Digits::all); }
@@ -39,6 +40,10 @@ struct ImportWriter {
   template <class Vector>
   void exact_vector(const char* key, const Vector& v, double factor) const {
     out[key] = in_full({factor * v.x(), factor * v.y(), factor * v.z()});
+  }
+  template <class Row>
+  void row(const Row& row) const {
+    add_all(out, row);
   }
   template <class Fields>
   void object(const char* key, Fields fields) const {
@@ -64,7 +69,6 @@ struct ImportReader {
   void value(const char* key, std::string& value) const { value = in.text(key); }
   void value(const char* key, bool& value) const { value = in.flag(key); }
   void value(const char* key, std::size_t& value) const { value = in.count(key); }
-  void value(const char* key, int& value) const { value = in.at(key).integer(); }
   void value(const char* key, std::vector<std::string>& value) const { value = in.at(key).texts(); }
   void value(const char* key, std::vector<std::size_t>& value) const {
     for (const JsonTree& item : in.at(key).items()) value.push_back(item.count());
@@ -84,6 +88,10 @@ struct ImportReader {
   void exact_vector(const char* key, Vector&& v, double factor) const {
     vector(key, v, factor);
   }
+  template <class Row>
+  void row(Row& row) const {
+    read_json(in, row);
+  }
   template <class Fields>
   void object(const char* key, Fields fields) const {
     fields(ImportReader{in.at(key)});
@@ -93,6 +101,9 @@ struct ImportReader {
     for (const JsonTree& node : in.at(key).items()) fields(ImportReader{node}, items.emplace_back());
   }
 };
+
+/// What rows of a table say of a part by themselves.
+constexpr auto kRows = [](const auto& file, auto& part) { file.row(part); };
 
 /// Place along the band: u_deg of a wheel, u_mm of a rail.
 template <class File, class Part>
@@ -133,8 +144,7 @@ void frame(const File& file, Report& report) {
   file.value("turned", report.turned);
   file.value("zero", report.zero);
   file.list("passes", report.passes, [](const File& node, auto& pass) {
-    node.value("pass", pass.pass);
-    node.value("points", pass.points);
+    node.row(pass);
     node.vector("shift_mm", pass.shift_S, kMilli);
     node.vector("turn_mrad", pass.turn_S, kMilli);
   });
@@ -152,21 +162,8 @@ void coverage(const File& file, Report& report) {
   file.number("hole_limit_mm", report.hole_limit, kMilli);
   file.list("holes", report.holes, [&](const File& node, auto& hole) {
     place(node, report.body, hole);
-    node.number("diameter_mm", hole.diameter, kMilli);
-    node.number("area_mm2", hole.area, kMilli2);
-    node.value("filled", hole.filled);
+    node.row(hole);
   });
-}
-
-template <class File, class Sections>
-void sections(const File& file, Sections& kept) {
-  file.value("count", kept.count);
-  file.value("fewest_points", kept.fewest_points);
-  file.value("most_points", kept.most_points);
-  file.number("least_gap_mm", kept.least_gap, kMilli);
-  file.number("widest_gap_mm", kept.widest_gap, kMilli);
-  file.number("spread_mm", kept.spread, kMilli);
-  file.number("smoothing_lambda_mm3", kept.smoothing, kMilli3);
 }
 
 /// An object that may be null, or missing in older files.
@@ -182,15 +179,6 @@ void optional(const File& file, const char* key, Part& part, Fields fields) {
   file.object(key, [&](const File& node) { fields(node, *part); });
 }
 
-template <class File, class Distances>
-void distances(const File& file, Distances& d) {
-  file.number("mean_um", d.mean, kMicro);
-  file.number("rms_um", d.rms, kMicro);
-  file.number("largest_um", d.largest, kMicro);
-  file.number("within_95_um", d.within_95, kMicro);
-  file.number("within_99_um", d.within_99, kMicro);
-}
-
 template <class File, class Truth>
 void truth(const File& file, Body body, Truth& truth) {
   file.value("file", truth.file);
@@ -198,8 +186,8 @@ void truth(const File& file, Body body, Truth& truth) {
   file.value("from_scan", truth.from_scan);
   file.value("places", truth.places);
   file.value("beside", truth.beside);
-  file.object("placed", [&](const File& node) { distances(node, truth.placed); });
-  file.object("shape", [&](const File& node) { distances(node, truth.shape); });
+  file.object("placed", [&](const File& node) { node.row(truth.placed); });
+  file.object("shape", [&](const File& node) { node.row(truth.shape); });
   if (body == Body::wheel)
     file.number("along_deg", truth.along, kDegrees);
   else
@@ -211,14 +199,8 @@ void truth(const File& file, Body body, Truth& truth) {
 
 template <class File, class Report>
 void fit(const File& file, Report& report) {
-  optional(file, "kept_sections", report.sections, [](const File& node, auto& kept) { sections(node, kept); });
-  file.list("levels", report.levels, [](const File& node, auto& level) {
-    node.number("knot_a_mm", level.knot_a, kMilli);
-    node.number("knot_s_mm", level.knot_s, kMilli);
-    node.value("functions", level.functions);
-    node.value("used", level.used);
-    node.value("iterations", level.iterations);
-  });
+  optional(file, "kept_sections", report.sections, kRows);
+  file.list("levels", report.levels, kRows);
   file.value("fitted_points", report.fitted_points);
   file.value("held_out_points", report.held_out_points);
   file.number("held_out_rms_mm", report.held_out_rms, kMilli);
@@ -226,7 +208,7 @@ void fit(const File& file, Report& report) {
   file.number("histogram_range_mm", report.residual_range, kMilli);
   file.value("histogram", report.residual_histogram);
   optional(file, "residuals", report.residuals, [](const File& node, auto& residuals) {
-    distances(node, residuals.distances);
+    node.row(residuals.distances);
     node.value("below", residuals.below);
     node.value("above", residuals.above);
   });
@@ -278,13 +260,7 @@ void audit(const File& file, Report& report) {
     file.value("input", report.inputs.empty() ? "" : report.inputs.front().file);
     file.value("sha256", report.inputs.empty() ? "" : report.inputs.front().sha256);
   }
-  file.list("inputs", report.inputs, [](const File& node, auto& input) {
-    node.value("file", input.file);
-    node.value("sha256", input.sha256);
-    node.value("format", input.format);
-    node.value("points", input.points);
-    node.value("not_finite", input.not_finite);
-  });
+  file.list("inputs", report.inputs, kRows);
   file.value("unit", report.unit);
   file.value("unit_from", report.unit_from);
   file.value("points_read", report.points_read);
@@ -303,31 +279,17 @@ void audit(const File& file, Report& report) {
   file.number("damage_threshold_mm", report.damage_threshold, kMilli);
   file.list("damage", report.damage, [&](const File& node, auto& part) {
     place(node, report.body, part);
-    node.number("length_mm", part.length, kMilli);
-    node.number("width_mm", part.width, kMilli);
-    node.number("depth_mm", part.depth, kMilli);
-    node.number("volume_mm3", part.volume, kMilli3);
+    node.row(part);
   });
   file.object("range", [&](const File& node) { range(node, report); });
   optional(file, "truth", report.truth, [&](const File& node, auto& known) { truth(node, report.body, known); });
-  file.list("outputs", report.outputs, [](const File& node, auto& output) {
-    node.value("file", output.file);
-    node.value("kind", output.kind);
-    node.value("sha256", output.sha256);
-    node.value("bytes", output.bytes);
-    node.value("details", output.details);
-    node.number("height_max_um", output.height_max, kMicro);
-    node.number("height_rms_um", output.height_rms, kMicro);
-  });
+  file.list("outputs", report.outputs, kRows);
   file.value("settings_toml", report.settings_toml);
 }
 
 template <class File, class Report>
 void times(const File& file, Report& report) {
-  file.list("steps", report.steps, [](const File& node, auto& step) {
-    node.value("step", step.name);
-    node.number("seconds", step.seconds, 1.0);
-  });
+  file.list("steps", report.steps, kRows);
 }
 
 Json seconds(const ImportReport& report) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
+#include "treadmark/model/rows.hpp"
 #include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::io {
@@ -186,3 +187,27 @@ std::string import_summary(const ImportReport& report);
 ImportReport read_import_report(const std::filesystem::path& folder);
 
 }  // namespace treadmark::io
+
+namespace treadmark {
+
+// Of holes and damage what does not depend on the body, which has angles or lengths along it.
+template <>
+std::span<const Column<io::ImportReport::Input>> columns();
+template <>
+std::span<const Column<io::ImportReport::Pass>> columns();
+template <>
+std::span<const Column<io::ImportReport::Hole>> columns();
+template <>
+std::span<const Column<io::ImportReport::Damage>> columns();
+template <>
+std::span<const Column<io::ImportReport::Level>> columns();
+template <>
+std::span<const Column<io::ImportReport::Output>> columns();
+template <>
+std::span<const Column<io::ImportReport::Step>> columns();
+template <>
+std::span<const Column<io::ImportReport::Distances>> columns();
+template <>
+std::span<const Column<io::ImportReport::Sections>> columns();
+
+}  // namespace treadmark

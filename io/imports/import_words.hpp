@@ -34,7 +34,6 @@ struct PictureUnit {
 };
 PictureUnit picture_unit(double metres);
 
-
 /// Place along a band: "123.45 deg" of a wheel, "1234.5 mm" of a rail.
 std::string place_text(const ImportReport& report, double u, std::string_view degree = " deg");
 

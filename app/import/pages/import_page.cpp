@@ -14,6 +14,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/report/html_text.hpp"
+#include "treadmark/report/row_blocks.hpp"
 
 namespace treadmark::app::pages {
 
@@ -233,29 +234,29 @@ Page import_page(const std::filesystem::path& folder) {
 
 namespace {
 
-constexpr double kSquare = 1e6, kCube = 1e9;  // m^2 to mm^2, m^3 to mm^3
-
-Number whole(std::size_t count) { return {static_cast<double>(count), 12}; }
-
-/// A number in the unit of its factor, with the digits of report.json.
-Number shown_in(double factor, double value, int digits = 4) { return {in_file(factor * value), digits}; }
-Number length_in(double value, int digits = 4) { return shown_in(kMilli, value, digits); }
-
 /// Place along the band: degrees of a wheel, mm of a rail.
 report::Column along_column(const io::ImportReport& report) {
   return report.body == Body::wheel ? report::Column{"angle", "°"} : report::Column{"x", "mm"};
 }
-Number along(const io::ImportReport& report, double u) {
-  return shown_in(report.body == Body::wheel ? 180.0 / kPi : kMilli, u, 6);
+
+/// Parts of the band: where they are, and what their rows say.
+template <class Part>
+Table placed_table(const io::ImportReport& report, Table own, const std::vector<Part>& parts) {
+  const double factor = report.body == Body::wheel ? 180.0 / kPi : kMilli;
+  const std::vector<report::Column> place{along_column(report), {"y", "mm"}, {"s", "mm"}};
+  own.columns.insert(own.columns.begin(), place.begin(), place.end());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::vector<Cell> cells{Number{in_file(factor * parts[i].u), 6}, Number{in_file(kMilli * parts[i].y)},
+                                  Number{in_file(kMilli * parts[i].s)}};
+    own.rows[i].cells.insert(own.rows[i].cells.begin(), cells.begin(), cells.end());
+  }
+  return own;
 }
 
 }  // namespace
 
 Table input_table(const io::ImportReport& report) {
-  Table table{"inputs", "Files that were read.", {{"file"}, {"format"}, {"points"}, {"not finite"}, {"SHA-256"}}};
-  for (const auto& input : report.inputs)
-    table.rows.push_back({{input.file, input.format, whole(input.points), whole(input.not_finite), input.sha256}});
-  return table;
+  return report::table_of("inputs", "Files that were read.", report.inputs);
 }
 
 Table removed_table(const io::ImportReport& report) {
@@ -271,85 +272,41 @@ Table removed_table(const io::ImportReport& report) {
 }
 
 Table hole_table(const io::ImportReport& report) {
-  Table table{"holes",
-              "Places without points, largest first.",
-              {along_column(report), {"y", "mm"}, {"s", "mm"}, {"diameter", "mm"}, {"area", "mm²"}, {"filled"}}};
-  for (const auto& hole : report.holes)
-    table.rows.push_back({{along(report, hole.u), length_in(hole.y), length_in(hole.s), length_in(hole.diameter, 3),
-                           shown_in(kSquare, hole.area, 3), std::string(hole.filled ? "by the fit" : "stays open")}});
-  return table;
+  return placed_table(report, report::table_of("holes", "Places without points, largest first.", report.holes, 3),
+                      report.holes);
 }
 
 Table damage_table(const io::ImportReport& report) {
-  Table table{"damage",
-              "Damage, largest first. Negative depths and volumes stand out of the surface.",
-              {{"number"},
-               along_column(report),
-               {"y", "mm"},
-               {"s", "mm"},
-               {"length", "mm"},
-               {"width", "mm"},
-               {"depth", "mm"},
-               {"missing volume", "mm³"}}};
-  for (const auto& part : report.damage)
-    table.rows.push_back({{Number{static_cast<double>(table.rows.size() + 1)}, along(report, part.u), length_in(part.y),
-                           length_in(part.s), length_in(part.length), length_in(part.width), length_in(part.depth),
-                           shown_in(kCube, part.volume)}});
+  Table table = placed_table(
+      report,
+      report::table_of("damage", "Damage, largest first. Negative depths and volumes stand out of the surface.",
+                       report.damage),
+      report.damage);
+  table.columns.insert(table.columns.begin(), {"number"});
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    table.rows[i].cells.insert(table.rows[i].cells.begin(), Number{static_cast<double>(i + 1)});
   return table;
 }
 
 Table pass_table(const io::ImportReport& report) {
-  Table table{"passes",
-              "Passes and what they were moved by, in the axes of the surface.",
-              {{"pass"},
-               {"points"},
-               {"shift x", "mm"},
-               {"shift y", "mm"},
-               {"shift z", "mm"},
-               {"turn x", "mrad"},
-               {"turn y", "mrad"},
-               {"turn z", "mrad"}}};
-  for (const auto& pass : report.passes) {
-    Table::Row row{{Number{static_cast<double>(pass.pass), 12}, whole(pass.points)}};
-    for (const Vec3& vector : {pass.shift_S, pass.turn_S})
-      for (const double value : vector) row.cells.emplace_back(length_in(value, 3));  // or mrad
-    table.rows.push_back(std::move(row));
-  }
-  return table;
+  return report::table_of("passes", "Passes and what they were moved by, in the axes of the surface.", report.passes,
+                          3);
 }
 
 Table level_table(const io::ImportReport& report) {
-  Table table{"levels",
-              "The sum of splines, from coarse to fine along and across. Functions are used only where the points call "
-              "for them.",
-              {{"knots along", "mm"}, {"knots across", "mm"}, {"functions"}, {"used"}, {"iterations"}}};
-  for (const auto& level : report.levels)
-    table.rows.push_back({{length_in(level.knot_a), length_in(level.knot_s), whole(level.functions), whole(level.used),
-                           Number{static_cast<double>(level.iterations), 12}}});
-  return table;
+  return report::table_of("levels",
+                          "The sum of splines, from coarse to fine along and across. Functions are used only where the "
+                          "points call for them.",
+                          report.levels);
 }
 
 Table output_table(const io::ImportReport& report) {
-  Table table{"outputs",
-              "Surfaces that were written, read back and compared with the fitted one.",
-              {{"file"},
-               {"kind"},
-               {"content"},
-               {"size", "bytes"},
-               {"largest distance", "µm"},
-               {"rms distance", "µm"},
-               {"SHA-256"}}};
-  for (const auto& output : report.outputs)
-    table.rows.push_back(
-        {{output.file, output.kind, output.details, whole(output.bytes), shown_in(kMicro, output.height_max, 3),
-          shown_in(kMicro, output.height_rms, 3), output.sha256}});
-  return table;
+  return report::table_of("outputs", "Surfaces that were written, read back and compared with the fitted one.",
+                          report.outputs, 3);
 }
 
 Table step_table(const io::ImportReport& report) {
-  Table table{"steps", "Steps and their wall-clock times.", {{"step"}, {"time", "s"}}};
-  for (const auto& step : report.steps) table.rows.push_back({{step.name, shown_in(1.0, step.seconds, 3)}});
-  return table;
+  return report::table_of("steps", "Steps and their wall-clock times.", report.steps, 3);
 }
 
 }  // namespace treadmark::app::pages

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/imports/import_report.hpp"
+
+namespace treadmark {
+namespace {
+
+using access::flag;
+using access::of;
+using access::part;
+using unit::kMm;
+using unit::kMm3;
+using unit::kOne;
+using Input = io::ImportReport::Input;
+using Pass = io::ImportReport::Pass;
+using Hole = io::ImportReport::Hole;
+using Damage = io::ImportReport::Damage;
+using Level = io::ImportReport::Level;
+using Output = io::ImportReport::Output;
+using Step = io::ImportReport::Step;
+using Distances = io::ImportReport::Distances;
+using Kept = io::ImportReport::Sections;
+
+constexpr FileUnit kUm{"\u00b5m", 1e6, "m"}, kMm2{"mm\u00b2", 1e6, "m2"}, kCubicMm{"mm\u00b3", 1e9, "m3"},
+    kMrad{"mrad", 1e3, "rad"};
+
+// A row of a table stays a row: clang-format would give each column a line.
+// clang-format off
+constexpr Column<Input> kInputs[] = {
+    {"file", kOne, "", of<&Input::file>(), "", 0, "file"},
+    {"sha256", kOne, "", of<&Input::sha256>()},
+    {"format", kOne, "", of<&Input::format>(), "", 0, "format"},
+    {"points", kOne, "", of<&Input::points>(), "", 0, "points"},
+    {"not_finite", kOne, "", of<&Input::not_finite>(), "", 0, "not finite"},
+    {"", kOne, "", of<&Input::sha256>(), "", 0, "SHA-256"}};  // people read it last
+
+constexpr Column<Pass> kPasses[] = {
+    {"pass", kOne, "", of<&Pass::pass>(), "", 0, "pass"},
+    {"points", kOne, "", of<&Pass::points>(), "", 0, "points"},
+    {"", kMm, "", part<&Pass::shift_S, 0>(), "", 0, "shift x"},
+    {"", kMm, "", part<&Pass::shift_S, 1>(), "", 0, "shift y"},
+    {"", kMm, "", part<&Pass::shift_S, 2>(), "", 0, "shift z"},
+    {"", kMrad, "", part<&Pass::turn_S, 0>(), "", 0, "turn x"},
+    {"", kMrad, "", part<&Pass::turn_S, 1>(), "", 0, "turn y"},
+    {"", kMrad, "", part<&Pass::turn_S, 2>(), "", 0, "turn z"}};
+
+constexpr Column<Hole> kHoles[] = {
+    {"diameter_mm", kMm, "", of<&Hole::diameter>(), "", 0, "diameter"},
+    {"area_mm2", kMm2, "", of<&Hole::area>(), "", 0, "area"},
+    {"filled", kOne, "", flag<&Hole::filled>()},
+    {"", kOne, "", access::word(+[](const Hole& hole) { return std::string(hole.filled ? "by the fit" : "stays open"); }), "", 0, "filled"}};
+
+constexpr Column<Damage> kDamage[] = {
+    {"length_mm", kMm, "", of<&Damage::length>(), "", 0, "length"},
+    {"width_mm", kMm, "", of<&Damage::width>(), "", 0, "width"},
+    {"depth_mm", kMm, "", of<&Damage::depth>(), "", 0, "depth"},
+    {"volume_mm3", kCubicMm, "", of<&Damage::volume>(), "", 0, "missing volume"}};
+
+constexpr Column<Level> kLevels[] = {
+    {"knot_a_mm", kMm, "", of<&Level::knot_a>(), "", 0, "knots along"},
+    {"knot_s_mm", kMm, "", of<&Level::knot_s>(), "", 0, "knots across"},
+    {"functions", kOne, "", of<&Level::functions>(), "", 0, "functions"},
+    {"used", kOne, "", of<&Level::used>(), "", 0, "used"},
+    {"iterations", kOne, "", of<&Level::iterations>(), "", 0, "iterations"}};
+
+constexpr Column<Output> kOutputs[] = {
+    {"file", kOne, "", of<&Output::file>(), "", 0, "file"},
+    {"kind", kOne, "", of<&Output::kind>(), "", 0, "kind"},
+    {"", kOne, "", of<&Output::details>(), "", 0, "content"},
+    {"sha256", kOne, "", of<&Output::sha256>()},
+    {"bytes", {"bytes"}, "", of<&Output::bytes>(), "", 0, "size"},
+    {"details", kOne, "", of<&Output::details>()},
+    {"height_max_um", kUm, "", of<&Output::height_max>(), "", 0, "largest distance"},
+    {"height_rms_um", kUm, "", of<&Output::height_rms>(), "", 0, "rms distance"},
+    {"", kOne, "", of<&Output::sha256>(), "", 0, "SHA-256"}};
+
+constexpr Column<Step> kSteps[] = {
+    {"step", kOne, "", of<&Step::name>(), "", 0, "step"},
+    {"seconds", {"s"}, "", of<&Step::seconds>(), "", 0, "time"}};
+
+constexpr Column<Distances> kDistances[] = {
+    {"mean_um", kUm, "", of<&Distances::mean>()},
+    {"rms_um", kUm, "", of<&Distances::rms>()},
+    {"largest_um", kUm, "", of<&Distances::largest>()},
+    {"within_95_um", kUm, "", of<&Distances::within_95>()},
+    {"within_99_um", kUm, "", of<&Distances::within_99>()}};
+
+constexpr Column<Kept> kKept[] = {
+    {"count", kOne, "", of<&Kept::count>()},
+    {"fewest_points", kOne, "", of<&Kept::fewest_points>()},
+    {"most_points", kOne, "", of<&Kept::most_points>()},
+    {"least_gap_mm", kMm, "", of<&Kept::least_gap>()},
+    {"widest_gap_mm", kMm, "", of<&Kept::widest_gap>()},
+    {"spread_mm", kMm, "", of<&Kept::spread>()},
+    {"smoothing_lambda_mm3", kMm3, "", of<&Kept::smoothing>()}};
+
+}  // namespace
+
+template <> std::span<const Column<Input>> columns() { return kInputs; }
+template <> std::span<const Column<Pass>> columns() { return kPasses; }
+template <> std::span<const Column<Hole>> columns() { return kHoles; }
+template <> std::span<const Column<Damage>> columns() { return kDamage; }
+template <> std::span<const Column<Level>> columns() { return kLevels; }
+template <> std::span<const Column<Output>> columns() { return kOutputs; }
+template <> std::span<const Column<Step>> columns() { return kSteps; }
+template <> std::span<const Column<Distances>> columns() { return kDistances; }
+template <> std::span<const Column<Kept>> columns() { return kKept; }
+// clang-format on
+
+}  // namespace treadmark
