@@ -7,6 +7,7 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/list_files.hpp"
+#include "treadmark/app/cli/setting_options.hpp"
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -20,46 +21,20 @@ namespace {
 struct MeasureOptions {
   std::string body;
   std::vector<std::string> files;
-  std::string nominal, limits, json, csv, hdf5, report, alignment, mate;  ///< empty = none; JSON "-" = stdout
-  double nominal_radius_mm = 0.0, scale = 1.0, line_mm = 0.0, line_step_mm = 1.0;
-  int stations = 36;
-  bool as_in_file = false;
-  std::vector<std::string> overrides;
+  io::GivenSettings given;
+  std::string json, csv, hdf5, report;  ///< empty = none; JSON "-" = stdout
 };
 
-app::MeasureRequest measure_request(const MeasureOptions& options) {
-  app::MeasureRequest request;
-  request.body = options.body == "wheel" ? Body::wheel : Body::rail;
-  request.nominal = options.nominal;
-  request.nominal_radius = 1e-3 * options.nominal_radius_mm;
-  request.scale_to_mm = options.scale;
-  request.from_flange_back = !options.as_in_file;
-  request.line = 1e-3 * options.line_mm;
-  request.line_step = 1e-3 * options.line_step_mm;
-  request.stations = options.stations;
-  request.mate = options.mate;
-  request.overrides = options.overrides;
-  for (const measures::RailAlignment a :
-       {measures::RailAlignment::unworn, measures::RailAlignment::top, measures::RailAlignment::none})
-    if (options.alignment == measures::name_of(a)) request.alignment = a;
-  if (request.alignment && request.body == Body::wheel)
-    throw Error(ErrorKind::configuration, "--alignment belongs to rails", {}, "wheels count from the flange back");
-  if (options.as_in_file && request.body == Body::rail)
-    throw Error(ErrorKind::configuration, "--as-in-file belongs to wheels", {}, "say --alignment none");
-  if (!options.limits.empty()) request.limits = app::read_limits(options.limits);
-  return request;
-}
-
 int measure_command(const MeasureOptions& options, const CommonOptions& common) {
-  const app::MeasureRequest request = measure_request(options);
+  const app::MeasureRequest request =
+      app::measure_request(options.body == "wheel" ? Body::wheel : Body::rail, options.given);
   const std::vector<std::string> names = app::measured_names(options.files, request.body);
   const ListFiles outputs{options.csv, options.hdf5, options.report};
   for (const std::string& name : names) refuse_output_as_input(name);  // a file that fails is but a row without numbers
   const ThreadLimit limit(common.threads);
   // Several were asked for, even if a folder holds one only.
   const bool one = names.size() == 1 && names == options.files;
-  if (!options.mate.empty() && (!one || request.body == Body::rail))
-    throw Error(ErrorKind::configuration, "--mate is the other wheel of one wheel");
+  if (!request.mate.empty() && !one) throw Error(ErrorKind::configuration, "mate is the other wheel of one wheel");
   if (one) {
     catch_interrupt();
     const CancellationScope scope(&interrupted());
@@ -95,11 +70,7 @@ Command add_measure(CLI::App& verb) {
           "Profile, slices, triangles, offsets, scan, case file or a name of 'treadmark list profiles'; folders, and "
           "@LIST of a file a line, for many")
       ->required();
-  verb.add_option("--nominal", options->nominal,
-                  "Profile that wear is counted against: a name of 'treadmark list profiles' or a file")
-      ->type_name("NAME");
-  verb.add_option("--limits", options->limits, "TOML file of limits: tables [wheel], [rail] and [roughness]")
-      ->type_name("FILE");
+  add_settings(verb, app::measure_keys().infos, options->given.settings);
   verb.add_option("--json", options->json, "Write all of it here (JSON); - for standard output instead of the table")
       ->check(is_output())
       ->type_name("FILE");
@@ -108,31 +79,7 @@ Command add_measure(CLI::App& verb) {
       ->type_name("FILE");
   add_hdf5_file(verb, options->hdf5);
   add_report_file(verb, options->report);
-  verb.add_option("--nominal-radius", options->nominal_radius_mm, "Wheel radius at profile z = 0 [mm]")
-      ->check(CLI::PositiveNumber)
-      ->type_name("MM");
-  verb.add_option("--alignment", options->alignment,
-                  "Of a rail upon its nominal section: unworn (field side, underside, web, foot), top, none; default "
-                  "unworn for profiles, none for surfaces and scans")
-      ->check(CLI::IsMember({"unworn", "top", "none"}));
-  verb.add_option("--mate", options->mate, "Profile of the other wheel of the axle, in the same axes: back to back")
-      ->type_name("FILE");
-  verb.add_flag("--as-in-file", options->as_in_file,
-                "y = 0 of a wheel's file is the tape line, wherever the flange back is");
-  verb.add_option("--scale", options->scale, "From the numbers of profile and triangle files to mm")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  verb.add_option("--stations", options->stations, "Sections along a rail or round a wheel")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 100000));
-  verb.add_option("--line", options->line_mm, "y of the line along a rail whose roughness is told [mm]")
-      ->capture_default_str()
-      ->type_name("MM");
-  verb.add_option("--line-step", options->line_step_mm, "Distance of its samples [mm]")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber)
-      ->type_name("MM");
-  add_overrides(verb, options->overrides);
+  add_overrides(verb, options->given.overrides);
   return command(options, measure_command);
 }
 

@@ -42,13 +42,15 @@ Json json_load(const geometry::LoadedFunctions& f) {
 
 }  // namespace
 
-std::string geometry_json(const GeometryResult& result, const GaugeSweep* sweep) {
+std::string geometry_json(const GeometryResult& result) {
   const geometry::Analysis& a = result.analysis;
   const geometry::ContactFunctions& f = a.functions;
   const GeometryRequest& r = result.request;
   const geometry::WheelsetOnTrack wheelset =
       geometry::place(result.right, result.left, result.placement, r.settings.roll, r.settings.yaw);
   Json g = io::json_of(result);
+  for (const io::SettingKey<GeometryRequest>& key : geometry_keys().rows)
+    if ((key.factors & kEchoed) != 0) g["method"][key.info.path] = io::number(key.get(r));
   std::vector<FunctionRow> rows;
   for (const geometry::Position& position : f.rows) rows.push_back({position, wheelset});
   io::add_lists(g["functions"], rows);
@@ -66,7 +68,7 @@ std::string geometry_json(const GeometryResult& result, const GaugeSweep* sweep)
                      {"equilibrium_y_mm", io::number(kMilli * fresh->equilibrium.value_or(kNaN))},
                      {"conicity", lists_of(conicity_rows(*fresh, nullptr))},
                      {"conicity_3mm", io::number(fresh->at_3mm.tan_gamma)}};
-  if (sweep != nullptr) g["gauge_sweep"] = json_sweep(*sweep);
+  if (result.sweep) g["gauge_sweep"] = json_sweep(*result.sweep);
   Json out;
   out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
   out["geometry"] = std::move(g);

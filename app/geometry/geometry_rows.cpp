@@ -27,8 +27,7 @@ using unit::kMPa;
 using unit::kN;
 using unit::kOne;
 
-constexpr FileUnit kRad{"rad"}, kMrad{"mrad", 1e3, "rad"}, kDeg{"deg", 180.0 / kPi, "rad"}, kPerM{"1/m"},
-    kPerMm{"1/mm", 1e-3, "1/m"};
+constexpr FileUnit kRad{"rad"}, kPerM{"1/m"}, kPerMm{"1/mm", 1e-3, "1/m"};
 constexpr unsigned kTableAndCards = kInTable | kInCards;
 
 std::string side(bool right) { return right ? "right" : "left"; }
@@ -121,11 +120,7 @@ constexpr Column<app::GeometryResult> kGeometry[] = {
     {"wheelset.diameter_right_mm", kMm, "", {[](R r) { return 2.0 * r.analysis.radius_right; }}, "at the tape line", 0, "diameter, right", 2},
     {"wheelset.diameter_left_mm", kMm, "", {[](R r) { return 2.0 * r.analysis.radius_left; }}, "", 0, "diameter, left", 2},
     {"method.roll", kOne, "", word(+[](R r) { return std::string(r.request.settings.roll == geometry::Roll::none ? "none" : "free"); }), "", 0, "roll"},
-    {"method.yaw_mrad", kMrad, "", {[](R r) { return r.request.settings.yaw; }}},
-    {"method.step_mm", kMm, "", {[](R r) { return r.request.settings.step; }}},
     {"method.smoothing_mm", kMm, "", {[](R) { return 0.0; }}},
-    {"method.pitch_deg", kDeg, "", {[](R r) { return r.request.pitch; }}},
-    {"method.position_mm", kMm, "", {[](R r) { return r.request.x; }}},
     {"equilibrium_y_mm", kMm, "", because(+[](R r) { return r.analysis.equilibrium.value_or(kNaN); }, +[](R r) { return r.analysis.no_equilibrium; }), "shift with equal rolling radii", kTableAndCards, "equilibrium", 3, "equilibrium_y_mm"},
     {"equilibrium_reason", kOne, "", word_or_null(+[](R r) { return r.analysis.no_equilibrium; })},
     {"conicity_at.amplitude_mm", kMm, "", {[](R r) { return r.analysis.single.amplitude; }}, "", 0, "amplitude", -1, "amplitude_mm"},

@@ -164,12 +164,12 @@ double parse_cant(const std::string& text) {
   return std::atan(tangent);
 }
 
-std::vector<double> parse_lengths_mm(const std::string& text) {
+std::vector<double> parse_numbers(const std::string& text) {
   const auto refuse = [&](const char* why) {
     throw Error(ErrorKind::configuration, fmt::format("'{}': {}", text, why), {},
                 "write 3, or 1,2,3, or 1:7.5:0.1 (from:to:step)");
   };
-  std::vector<double> out, numbers;
+  std::vector<double> numbers;
   const char between = text.find(':') != std::string::npos ? ':' : ',';
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(between, at), text.size());
@@ -178,17 +178,14 @@ std::vector<double> parse_lengths_mm(const std::string& text) {
     numbers.push_back(*number);
     at = end + 1;
   }
-  if (between == ',') {
-    for (const double mm : numbers) out.push_back(kMillimetre * mm);
-  } else {
-    if (numbers.size() != 3 || !(numbers[2] > 0.0) || !(numbers[1] >= numbers[0])) refuse("not from:to:step");
-    constexpr double kMost = 10000.0;
-    const double count = std::floor((numbers[1] - numbers[0]) / numbers[2] + 1e-6);
-    if (count > kMost) refuse("too many values");
-    for (int k = 0; k <= static_cast<int>(count); ++k)
-      out.push_back(kMillimetre * std::round(1e9 * (numbers[0] + k * numbers[2])) / 1e9);
-  }
-  return out;
+  if (between == ',') return numbers;
+  if (numbers.size() != 3 || !(numbers[2] > 0.0) || !(numbers[1] >= numbers[0])) refuse("not from:to:step");
+  constexpr double kMost = 10000.0;
+  const double from = numbers[0], step = numbers[2], count = std::floor((numbers[1] - from) / step + 1e-6);
+  if (count > kMost) refuse("too many values");
+  numbers.clear();
+  for (int k = 0; k <= static_cast<int>(count); ++k) numbers.push_back(std::round(1e9 * (from + k * step)) / 1e9);
+  return numbers;
 }
 
 std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest& request, const std::string& name,
@@ -256,11 +253,15 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
     out.material = first->material;
     if (file.cases.size() > 1) out.notes.emplace_back("the first case of a wheel on a rail counts");
   } else {
-    for (const auto& [name, what] : {std::pair{&r.wheel, "--wheel"}, std::pair{&r.rail, "--rail"}})
-      if (name->empty()) throw Error(ErrorKind::configuration, fmt::format("no profile: {} is missing", what));
+    for (const auto& [name, what] : {std::pair{&r.wheel, "wheel"}, std::pair{&r.rail, "rail"}})
+      if (name->empty())
+        throw Error(ErrorKind::configuration, fmt::format("no profile: {} is missing", what), {},
+                    "name a file or a profile that is built in");
     if (!r.gauge && !r.rail_origins)
       throw Error(ErrorKind::configuration, "where the rails are is not said", {},
-                  "give --gauge-mm with --cant, or --rail-origins-mm");
+                  "give the gauge with the cant, or the distance of the rails' origins");
+    if (!r.overrides.empty())
+      throw Error(ErrorKind::configuration, "there is no case whose keys could change", {}, "name its file as case");
   }
   for (const std::optional<double>& diameter : {r.diameter, r.diameter_left})
     if (diameter) require_wheel_radius(0.5 * *diameter);
@@ -268,7 +269,7 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
     throw Error(ErrorKind::configuration, fmt::format("no track has a gauge of {:g} m", *r.gauge), {},
                 "is it in the unit that is asked for?");
   if (r.gauge && r.rail_origins)
-    throw Error(ErrorKind::configuration, "--gauge-mm and --rail-origins-mm say the same thing twice", {},
+    throw Error(ErrorKind::configuration, "gauge and distance of the rails' origins say the same thing twice", {},
                 "give one of them");
   if (r.gauge) placement.gauge = r.gauge;
   if (r.rail_origins) placement.gauge.reset(), placement.rail_origins = *r.rail_origins;
@@ -326,6 +327,30 @@ std::optional<ConicityNoise> noise_of_conicity(const GeometryResult& result, Sec
   return out;
 }
 
+GaugeSweep sweep_gauges(const GeometryResult& base) {
+  const std::vector<double>& gauges = base.request.gauges;
+  GaugeSweep out;
+  out.gauges = gauges;
+  out.conicity.resize(gauges.size());
+  out.at_3mm.resize(gauges.size());
+  out.trouble.resize(gauges.size());
+  geometry::AnalysisSettings settings = base.request.settings;
+  settings.second = 0.0;
+  settings.harmonic = false;
+  parallel_for(gauges.size(), [&](std::size_t i) {
+    geometry::PairPlacement placement = base.placement;
+    placement.gauge = gauges[i];
+    try {
+      geometry::Analysis a = geometry::analyse(base.right, base.left, placement, settings);
+      out.conicity[i] = std::move(a.conicity);
+      out.at_3mm[i] = a.at_3mm;
+    } catch (const Error& error) {
+      out.trouble[i] = error.message();
+    }
+  });
+  return out;
+}
+
 }  // namespace
 
 GeometryResult run_geometry(const GeometryRequest& request, SectionStore& store) {
@@ -349,6 +374,7 @@ GeometryResult run_geometry(const GeometryRequest& request, SectionStore& store)
     const GeometryResult placed = read_geometry(fresh, store);
     out.with_new = geometry::analyse(placed.right, placed.left, placed.placement, placed.request.settings);
   }
+  if (!request.gauges.empty()) out.sweep = sweep_gauges(out);
   return out;
 }
 
@@ -375,40 +401,17 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request) {
   return out;
 }
 
-void write_geometry_folder(const std::filesystem::path& folder, const GeometryResult& result, const GaugeSweep* sweep) {
+void write_geometry_folder(const std::filesystem::path& folder, const GeometryResult& result) {
   make_folder(folder);
   write_file(folder / "functions.csv", functions_csv(result));
   write_file(folder / "conicity.csv", conicity_csv(result));
   write_file(folder / "charts.svg", geometry_charts_svg(result));
   write_file(folder / "contact_points.svg", contact_points_svg(result));
-  if (sweep != nullptr) {
-    write_file(folder / "gauges.csv", sweep_csv(*sweep));
-    write_file(folder / "gauges.svg", gauge_sweep_svg(*sweep));
+  if (result.sweep) {
+    write_file(folder / "gauges.csv", sweep_csv(*result.sweep));
+    write_file(folder / "gauges.svg", gauge_sweep_svg(*result.sweep));
   }
-  write_file(folder / "geometry.json", geometry_json(result, sweep));
-}
-
-GaugeSweep sweep_gauge(const GeometryResult& base, const std::vector<double>& gauges) {
-  GaugeSweep out;
-  out.gauges = gauges;
-  out.conicity.resize(gauges.size());
-  out.at_3mm.resize(gauges.size());
-  out.trouble.resize(gauges.size());
-  geometry::AnalysisSettings settings = base.request.settings;
-  settings.second = 0.0;
-  settings.harmonic = false;
-  parallel_for(gauges.size(), [&](std::size_t i) {
-    geometry::PairPlacement placement = base.placement;
-    placement.gauge = gauges[i];
-    try {
-      geometry::Analysis a = geometry::analyse(base.right, base.left, placement, settings);
-      out.conicity[i] = std::move(a.conicity);
-      out.at_3mm[i] = a.at_3mm;
-    } catch (const Error& error) {
-      out.trouble[i] = error.message();
-    }
-  });
-  return out;
+  write_file(folder / "geometry.json", geometry_json(result));
 }
 
 }  // namespace treadmark::app

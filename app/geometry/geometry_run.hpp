@@ -17,6 +17,7 @@
 #include "treadmark/app/lists/result_list.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/settings/given_settings.hpp"
 #include "treadmark/model/rows.hpp"
 
 namespace treadmark::app {
@@ -37,9 +38,18 @@ struct GeometryRequest {
   double resolution = 0.0;                            ///< [m]; 0: the backend's
   std::vector<std::string> overrides;                 ///< of the case
   std::optional<double> axle_load;                    ///< what both wheels carry [N]; none: geometry alone
+  std::vector<double> gauges;                         ///< at which the conicity is wanted too [m]
   int draw = 0;                                       ///< of the errors that noise may have left; 0: none
   geometry::AnalysisSettings settings;
 };
+
+/// The settings of `treadmark geometry`. Immutable.
+const io::KeyTable<GeometryRequest>& geometry_keys();
+/// Marks of keys: a list of pairs may have a column of it, of files at that; results repeat it.
+inline constexpr unsigned kOfPair = io::kFirstFactor, kFileOfPair = 3 * io::kFirstFactor,
+                          kEchoed = 4 * io::kFirstFactor;
+/// What was asked for. Errors: Error(configuration) for what are no keys and no values of them.
+GeometryRequest geometry_request(const io::GivenSettings& given);
 
 inline constexpr double kUsualDiameter = 0.92;  ///< where none is given [m]
 
@@ -68,6 +78,14 @@ class SectionStore {
   std::map<std::string, std::shared_ptr<const geometry::Section>> sections_;
 };
 
+/// Conicity at several gauges.
+struct GaugeSweep {
+  std::vector<double> gauges;                             ///< [m]
+  std::vector<std::vector<geometry::Conicity>> conicity;  ///< of each gauge at the amplitudes asked for
+  std::vector<geometry::Conicity> at_3mm;                 ///< of each gauge
+  std::vector<std::string> trouble;                       ///< of each gauge; empty: none
+};
+
 /// A wheelset on its track with the answers.
 struct GeometryResult {
   GeometryRequest request;
@@ -78,32 +96,23 @@ struct GeometryResult {
   std::optional<geometry::Analysis> with_new;     ///< the same with new profiles, where they were named
   std::optional<geometry::LoadedFunctions> load;  ///< where a load was given
   std::optional<ConicityNoise> noise;             ///< where a profile was smoothed by its noise
+  std::optional<GaugeSweep> sweep;                ///< where gauges were asked for
   std::vector<std::string> notes;
 };
 
 /// Where wheels and rails of a case are.
 geometry::PairPlacement placement_of(const io::WheelRailCase& input);
 
-/// Reads what is named. Errors: those of SectionStore and of cases; Error(configuration) for what is missing;
-/// Error(input_data) for a wheel without its tape line.
+/// Reads what is named. Errors: those of SectionStore and of cases; Error(configuration) for what is missing or does
+/// not go together; Error(input_data) for a wheel without its tape line.
 GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store);
-/// The same with the answers; errors also those of geometry::analyse and geometry::loaded.
+/// The same with the answers; errors also those of geometry::analyse and geometry::loaded. Parallel over the gauges;
+/// the result does not depend on the number of threads.
 GeometryResult run_geometry(const GeometryRequest& request, SectionStore& store);
 
-/// Conicity at several gauges.
-struct GaugeSweep {
-  std::vector<double> gauges;                             ///< [m]
-  std::vector<std::vector<geometry::Conicity>> conicity;  ///< of each gauge at the amplitudes asked for
-  std::vector<geometry::Conicity> at_3mm;                 ///< of each gauge
-  std::vector<std::string> trouble;                       ///< of each gauge; empty: none
-};
-/// Parallel; the result does not depend on the number of threads.
-GaugeSweep sweep_gauge(const GeometryResult& base, const std::vector<double>& gauges);
-
-/// Reads a list of pairs: text with commas, whose first line names the columns: any of name, wheel, wheel_left, rail,
-/// rail_left, diameter_mm, diameter_left_mm, gauge_mm, cant, rail_origins_mm, wheel_origins_mm. An empty cell is as in
-/// `usual`; files count from the folder of the list. Errors: Error(input_data) with the line for what cannot be
-/// understood.
+/// Reads a list of pairs: text with commas, whose first line names the columns: name, and keys that are marked kOfPair.
+/// An empty cell is as in `usual`; files count from the folder of the list. Errors with the line: Error(input_data) for
+/// what cannot be understood, Error(configuration) for values that make no sense.
 std::vector<GeometryRequest> read_pair_list(const std::string& file, const GeometryRequest& usual);
 
 /// All pairs; one that fails says why in its row. Finished rows are kept in a file while that goes on (make_rows).
@@ -112,16 +121,15 @@ ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::fi
 
 /// "1:40", "0.025" (as tangent), "0"; [rad]. Errors: Error(configuration).
 double parse_cant(const std::string& text);
-/// "3", "1,2,3", "1:7.5:0.1" (from, to, step) in mm; [m]. Errors: Error(configuration).
-std::vector<double> parse_lengths_mm(const std::string& text);
+/// "3", "1,2,3", "1:7.5:0.1" (from, to, step). Errors: Error(configuration).
+std::vector<double> parse_numbers(const std::string& text);
 
 /// What is doubtful about profiles that are files. Thread-safe.
 std::vector<std::string> profile_doubts(const GeometryRequest& request);
 
 // What is written. All of them thread-safe.
 std::string geometry_text(const GeometryResult& result);  ///< for a terminal
-std::string sweep_text(const GaugeSweep& sweep);
-std::string geometry_json(const GeometryResult& result, const GaugeSweep* sweep);  ///< docs/geometry.schema.json
+std::string geometry_json(const GeometryResult& result);  ///< docs/geometry.schema.json
 std::string functions_csv(const GeometryResult& result);
 std::string conicity_csv(const GeometryResult& result);
 std::string sweep_csv(const GaugeSweep& sweep);
@@ -130,7 +138,7 @@ std::string contact_points_svg(const GeometryResult& result);   ///< both sectio
 std::string gauge_sweep_svg(const GaugeSweep& sweep);
 
 /// All of it into a folder: tables, pictures and, last, geometry.json. Errors: those of core/output_file.hpp.
-void write_geometry_folder(const std::filesystem::path& folder, const GeometryResult& result, const GaugeSweep* sweep);
+void write_geometry_folder(const std::filesystem::path& folder, const GeometryResult& result);
 
 /// A row of the contact functions.
 struct FunctionRow {

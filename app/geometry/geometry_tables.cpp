@@ -22,6 +22,15 @@ std::string load_text(const geometry::LoadedFunctions& f) {
          io::text_line("  left", kLabels, io::phrase_of(f.at_middle.left));
 }
 
+std::string sweep_text(const GaugeSweep& sweep) {
+  std::string out = fmt::format("{:>12}{:>14}\n", "gauge mm", "at 3 mm");
+  for (std::size_t g = 0; g < sweep.gauges.size(); ++g)
+    out += fmt::format("{:>12.6g}{:>14}{}\n", kMilli * sweep.gauges[g],
+                       sweep.trouble[g].empty() ? io::shown_number(sweep.at_3mm[g].tan_gamma, 4) : "-",
+                       sweep.trouble[g].empty() ? "" : "  " + sweep.trouble[g]);
+  return out;
+}
+
 }  // namespace
 
 std::string functions_csv(const GeometryResult& result) {
@@ -56,15 +65,6 @@ std::string sweep_csv(const GaugeSweep& sweep) {
   return out;
 }
 
-std::string sweep_text(const GaugeSweep& sweep) {
-  std::string out = fmt::format("{:>12}{:>14}\n", "gauge mm", "at 3 mm");
-  for (std::size_t g = 0; g < sweep.gauges.size(); ++g)
-    out += fmt::format("{:>12.6g}{:>14}{}\n", kMilli * sweep.gauges[g],
-                       sweep.trouble[g].empty() ? io::shown_number(sweep.at_3mm[g].tan_gamma, 4) : "-",
-                       sweep.trouble[g].empty() ? "" : "  " + sweep.trouble[g]);
-  return out;
-}
-
 std::string geometry_text(const GeometryResult& result) {
   const geometry::ContactFunctions& f = result.analysis.functions;
   const auto end = [](const char* name, const geometry::ShiftLimit& limit) {
@@ -83,6 +83,7 @@ std::string geometry_text(const GeometryResult& result) {
   if (result.load) out += load_text(*result.load);
   if (!f.jumps.empty()) out += "jumps of contact points\n" + io::table_of(f.jumps);
   if (!result.analysis.conicity.empty()) out += "conicity\n" + io::table_of(conicity_rows(result.analysis, &result));
+  if (result.sweep) out += sweep_text(*result.sweep);
   return out;
 }
 

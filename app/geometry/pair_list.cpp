@@ -14,26 +14,20 @@
 namespace treadmark::app {
 namespace {
 
-/// A column of a list: its name, and the member that it sets.
-struct InputColumn {
-  const char* name;
-  std::string GeometryRequest::*text = nullptr;
-  std::optional<double> GeometryRequest::*length = nullptr;  ///< in mm there
-  bool is_file = false;
-};
-constexpr InputColumn kInputColumns[] = {
-    {"name", &GeometryRequest::label},
-    {"wheel", &GeometryRequest::wheel, nullptr, true},
-    {"wheel_left", &GeometryRequest::wheel_left, nullptr, true},
-    {"rail", &GeometryRequest::rail, nullptr, true},
-    {"rail_left", &GeometryRequest::rail_left, nullptr, true},
-    {"diameter_mm", nullptr, &GeometryRequest::diameter},
-    {"diameter_left_mm", nullptr, &GeometryRequest::diameter_left},
-    {"gauge_mm", nullptr, &GeometryRequest::gauge},
-    {"rail_origins_mm", nullptr, &GeometryRequest::rail_origins},
-    {"wheel_origins_mm", nullptr, &GeometryRequest::wheel_origins},
-    {"cant"},
-};
+using PairKey = io::SettingKey<GeometryRequest>;
+
+/// The key of a column; nullptr: the name of the pair.
+const PairKey* key_of(const std::string& column, const SourcePosition& where) {
+  if (column == "name") return nullptr;
+  std::string names = "name";
+  for (const PairKey& key : geometry_keys().rows) {
+    if ((key.factors & kOfPair) == 0) continue;
+    if (key.info.path == column) return &key;
+    names += ", " + key.info.path;
+  }
+  throw Error(ErrorKind::input_data, fmt::format("'{}' is no column of a list of pairs", column), where,
+              "the first line names the columns: " + names);
+}
 
 /// The cells of a line; a quoted cell may hold commas and doubled quotes (RFC 4180), not line ends.
 std::vector<std::string> cells_of(std::string_view line) {
@@ -63,24 +57,26 @@ std::string resolved(const std::filesystem::path& folder, const std::string& cel
   return !file.is_absolute() && std::filesystem::exists(folder / file) ? (folder / file).string() : cell;
 }
 
-void set_cell(GeometryRequest& request, const InputColumn& column, const std::string& cell,
+void set_cell(GeometryRequest& request, const PairKey* key, const std::string& cell,
               const std::filesystem::path& folder, const SourcePosition& where) {
-  if (column.text != nullptr) {
-    request.*column.text = column.is_file ? resolved(folder, cell) : cell;
+  if (key == nullptr) {
+    request.label = cell;
     return;
   }
-  if (column.length == nullptr) {
-    request.cant = parse_cant(cell);
-    return;
+  io::CaseValue value{where, (key->factors & kFileOfPair) == kFileOfPair ? resolved(folder, cell) : cell};
+  if (key->info.type == io::KeyType::number) {
+    double number = 0.0;
+    const auto [end, trouble] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    if (trouble != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number))
+      throw Error(ErrorKind::input_data, fmt::format("'{}' is no number for {}", cell, key->info.path), where);
+    value.data = number;
   }
-  double value = 0.0;
-  const auto [end, trouble] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (trouble != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-    throw Error(ErrorKind::input_data, fmt::format("'{}' is no number for {}", cell, column.name), where);
-  request.*column.length = kMillimetre * value;
+  io::check_value(key->info, value);
   // one of the two places the rails
-  if (column.length == &GeometryRequest::gauge) request.rail_origins.reset();
-  if (column.length == &GeometryRequest::rail_origins) request.gauge.reset();
+  const void* member = key->member(request);
+  if (member == &request.gauge) request.rail_origins.reset();
+  if (member == &request.rail_origins) request.gauge.reset();
+  key->set(request, value, {});
 }
 
 }  // namespace
@@ -88,7 +84,7 @@ void set_cell(GeometryRequest& request, const InputColumn& column, const std::st
 std::vector<GeometryRequest> read_pair_list(const std::string& file, const GeometryRequest& usual) {
   const std::string text = io::profiles::read_text(file, "list of pairs", {});
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
-  std::vector<const InputColumn*> columns;
+  std::vector<const PairKey*> columns;
   std::vector<GeometryRequest> out;
   int number = 0;
   for (std::size_t at = 0; at < text.size();) {
@@ -100,17 +96,7 @@ std::vector<GeometryRequest> read_pair_list(const std::string& file, const Geome
     const std::vector<std::string> cells = cells_of(line);
     const SourcePosition where{file, number, 0};
     if (columns.empty()) {
-      for (const std::string& cell : cells) {
-        const auto* known =
-            std::ranges::find(kInputColumns, cell, [](const InputColumn& c) { return std::string(c.name); });
-        if (known == std::end(kInputColumns)) {
-          std::string names;
-          for (const InputColumn& c : kInputColumns) names += fmt::format("{}{}", names.empty() ? "" : ", ", c.name);
-          throw Error(ErrorKind::input_data, fmt::format("'{}' is no column of a list of pairs", cell), where,
-                      "the first line names the columns: " + names);
-        }
-        columns.push_back(known);
-      }
+      for (const std::string& cell : cells) columns.push_back(key_of(cell, where));
       continue;
     }
     if (cells.size() > columns.size())
@@ -118,30 +104,13 @@ std::vector<GeometryRequest> read_pair_list(const std::string& file, const Geome
                   fmt::format("{} cells where there are {} columns", cells.size(), columns.size()), where);
     GeometryRequest request = usual;
     for (std::size_t k = 0; k < cells.size(); ++k)
-      if (!cells[k].empty()) set_cell(request, *columns[k], cells[k], folder, where);
+      if (!cells[k].empty()) set_cell(request, columns[k], cells[k], folder, where);
     if (request.label.empty()) request.label = fmt::format("{}", out.size() + 1);
     out.push_back(std::move(request));
   }
   if (out.empty()) throw Error(ErrorKind::input_data, "there are no pairs in the list", {file});
   return out;
 }
-
-namespace {
-
-/// All numbers that a pair depends on.
-std::string numbers_of(const GeometryRequest& r) {
-  const geometry::AnalysisSettings& s = r.settings;
-  std::string out;
-  for (const std::optional<double>& v : {r.diameter, r.diameter_left, r.cant, r.gauge, r.gauge_height, r.rail_origins,
-                                         r.wheel_origins, s.wanted_amplitude})
-    out += v ? fmt::format("{},", *v) : std::string("-,");
-  out += fmt::format("{},{},{},{},{},{},{},{}", r.pitch, r.x, r.scale_to_mm, r.backend, r.resolution, s.yaw, s.step,
-                     s.roll == geometry::Roll::free);
-  for (const double a : s.amplitudes) out += fmt::format(",{}", a);
-  return out;
-}
-
-}  // namespace
 
 ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::filesystem::path& kept,
                      const Progress& progress) {
@@ -153,8 +122,7 @@ ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::fi
     if (!column.listed.empty()) list.numbers.push_back({std::string(column.listed), (column.shown & kInTable) != 0});
   if (!requests.empty()) {
     const geometry::AnalysisSettings& s = requests.front().settings;
-    list.settings =
-        fmt::format("roll {}, step {:g} mm", s.roll == geometry::Roll::free ? "free" : "none", kMilli * s.step);
+    list.settings = io::settings_text(geometry_keys(), requests.front(), geometry_request({}), kOfPair);
     for (const double a : s.amplitudes)
       list.numbers.push_back({fmt::format("tan_gamma_e_at_{:g}mm", kMilli * a), false});
   }
@@ -164,7 +132,8 @@ ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::fi
   work.name = [&](std::size_t i) { return requests[i].label; };
   work.sources = [&](std::size_t i) {
     const GeometryRequest& r = requests[i];
-    return std::vector<std::string>{r.label, r.wheel, r.wheel_left, r.rail, r.rail_left, numbers_of(r)};
+    return std::vector<std::string>{r.label, r.wheel,     r.wheel_left,
+                                    r.rail,  r.rail_left, io::written_lines(geometry_keys(), r)};
   };
   work.make = [&](std::size_t i) {
     GeometryRequest request = requests[i];

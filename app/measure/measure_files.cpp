@@ -124,7 +124,7 @@ class WheelFile {
  private:
   WheelNumbers section_numbers(const Section& section) const {
     measures::WheelGauge gauge;
-    gauge.from_flange_back = request_.from_flange_back;
+    gauge.from_flange_back = !request_.as_in_file;
     gauge.placed = read_.placed;
     gauge.back = read_.flange_back;
     WheelNumbers n;
@@ -557,15 +557,7 @@ namespace {
 
 /// What the numbers of a list depend on beside its files.
 std::string settings_of(const MeasureRequest& request) {
-  const auto exact = [](double value) { return io::csv_number(io::rounded(value)); };
-  std::string out =
-      fmt::format("nominal {}, radius {}, scale {}, alignment {}, tape line from {}, {} stations",
-                  request.nominal.empty() ? "none" : request.nominal,
-                  request.nominal_radius > 0.0 ? exact(1e3 * request.nominal_radius) + " mm" : "of the file",
-                  exact(request.scale_to_mm), request.alignment ? name_of(*request.alignment) : "usual",
-                  request.from_flange_back ? "flange back" : "file", request.stations);
-  if (request.body == Body::rail)
-    out += fmt::format(", line at {} mm every {} mm", exact(1e3 * request.line), exact(1e3 * request.line_step));
+  std::string out = io::settings_text(measure_keys(), request, MeasureRequest{});
   for (const std::string& key : request.overrides) out += ", " + key;
   const Limits& limits = request.limits;
   for (const Limit& limit : request.body == Body::wheel ? limits.wheel : limits.rail)

@@ -13,6 +13,7 @@
 #include "treadmark/app/measure/limits.hpp"
 #include "treadmark/app/measure/numbers.hpp"
 #include "treadmark/core/progress.hpp"
+#include "treadmark/io/settings/given_settings.hpp"
 #include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::app {
@@ -24,7 +25,7 @@ struct MeasureRequest {
   double nominal_radius = 0.0;                       ///< of wheels [m]; 0: what the file says
   double scale_to_mm = 1.0;                          ///< of profile and triangle files
   std::optional<measures::RailAlignment> alignment;  ///< nothing: by the unworn parts for profiles, else as it lies
-  bool from_flange_back = true;                      ///< see measures::WheelGauge
+  bool as_in_file = false;                           ///< y = 0 of a wheel's file is the tape line
   double line = 0.0;                                 ///< y of the line along a rail that roughness is taken from [m]
   double line_step = 1e-3;                           ///< [m]
   int stations = 36;                                 ///< sections along or round a surface
@@ -32,6 +33,12 @@ struct MeasureRequest {
   std::vector<std::string> overrides;  ///< of a case
   std::string mate;  ///< profile of the other wheel of the axle, in the same axes (y from the middle); empty: none
 };
+
+/// The settings of `treadmark measure`. Immutable.
+const io::KeyTable<MeasureRequest>& measure_keys();
+/// What was asked for. Errors: Error(configuration) for what are no keys and no values of them, and for what belongs to
+/// the other body; those of read_limits.
+MeasureRequest measure_request(Body body, const io::GivenSettings& given);
 
 /// One section of a rail or wheel that has several.
 template <class Numbers>

@@ -47,7 +47,7 @@ ReadMeasured read_points(const std::string& name, const MeasureRequest& request)
   io::ProfileOptions options;
   options.scale = request.scale_to_mm;
   // two wheels of an axle are measured in its axes
-  if (!request.from_flange_back || !request.mate.empty()) options.placement = io::ProfileOptions::Placement::as_in_file;
+  if (request.as_in_file || !request.mate.empty()) options.placement = io::ProfileOptions::Placement::as_in_file;
   options.smoothing = {};  // sections do that
   io::SourcedProfile read = io::read_sourced_profile(name, request.body, options);
   ReadMeasured out;

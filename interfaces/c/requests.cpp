@@ -2,20 +2,30 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <string>
 
+#include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
-#include "treadmark/interfaces/c/request_settings.hpp"
 #include "treadmark/interfaces/c/surfaces.hpp"
 
 using namespace treadmark;
 using namespace treadmark::c;
+
+namespace {
+
+io::GivenSettings given_by(const char* const* settings, size_t n) {
+  return io::given_settings(texts_of(settings, n, "settings must be n texts"));
+}
+
+}  // namespace
 
 extern "C" {
 
 tm_status tm_geometry(const char* const* settings, size_t n, char** json) {
   if (json != nullptr) *json = nullptr;
   return guarded([&] {
-    const GeometryAnswer answer = answer_geometry(geometry_asked(texts_of(settings, n, "settings must be n texts")));
-    if (json != nullptr) *json = lasting(answer.json());
+    app::SectionStore store;
+    const app::GeometryResult result = app::run_geometry(app::geometry_request(given_by(settings, n)), store);
+    if (json != nullptr) *json = lasting(app::geometry_json(result));
   });
 }
 
@@ -23,7 +33,7 @@ tm_status tm_measure(tm_body body, const char* file, const char* const* settings
   if (json != nullptr) *json = nullptr;
   return guarded([&] {
     require(file != nullptr, "file must not be null");
-    const app::MeasureRequest request = measure_asked(body_of(body), texts_of(settings, n, "settings must be n texts"));
+    const app::MeasureRequest request = app::measure_request(body_of(body), given_by(settings, n));
     const app::MeasuredFile measured = app::measure_file(file, request);
     if (json != nullptr) *json = lasting(app::measure_json(measured, request));
   });

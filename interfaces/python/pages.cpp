@@ -20,8 +20,7 @@ void add_pages(py::module_& module) {
   });
   module.def("report_geometry", [](const FoundGeometry& found, const std::filesystem::path& file) {
     const py::gil_scoped_release free;
-    const auto& sweep = found.answer->sweep;
-    write_file(file, report::to_html(app::geometry_page(found.answer->result, sweep ? &*sweep : nullptr)));
+    write_file(file, report::to_html(app::geometry_page(*found.result)));
   });
   module.def("report_measures", [](const FoundMeasures& found, const std::filesystem::path& file) {
     const py::gil_scoped_release free;

@@ -20,9 +20,11 @@ namespace {
 FoundGeometry geometry(const Strings& settings, const py::object& progress, int threads) {
   return with_progress(progress, threads, [&](const Progress& told) {
     const CancellationScope scope(told.stop);
-    auto answer = std::make_shared<const c::GeometryAnswer>(c::answer_geometry(c::geometry_asked(settings)));
-    FoundGeometry found{answer, answer->result.notes};
-    for (std::string& doubt : app::profile_doubts(answer->result.request)) found.notes.push_back(std::move(doubt));
+    app::SectionStore store;
+    auto result = std::make_shared<const app::GeometryResult>(
+        app::run_geometry(app::geometry_request(io::given_settings(settings)), store));
+    FoundGeometry found{result, result->notes};
+    for (std::string& doubt : app::profile_doubts(result->request)) found.notes.push_back(std::move(doubt));
     if (told.report) told.report(1, 1, "geometry");
     return found;
   });
@@ -30,8 +32,7 @@ FoundGeometry geometry(const Strings& settings, const py::object& progress, int 
 
 void write_geometry_folder(const FoundGeometry& found, const std::filesystem::path& folder) {
   const py::gil_scoped_release free;
-  const auto& sweep = found.answer->sweep;
-  app::write_geometry_folder(folder, found.answer->result, sweep ? &*sweep : nullptr);
+  app::write_geometry_folder(folder, *found.result);
 }
 
 Body measured_body(const std::string& name) {
@@ -47,7 +48,7 @@ FoundMeasures measure(const std::string& body, const std::string& file, const St
                       const py::object& progress, int threads) {
   return with_progress(progress, threads, [&](const Progress& told) {
     const CancellationScope scope(told.stop);
-    const app::MeasureRequest request = c::measure_asked(measured_body(body), settings);
+    const app::MeasureRequest request = app::measure_request(measured_body(body), io::given_settings(settings));
     FoundMeasures found = found_measures(app::measure_file(file, request), request);
     if (told.report) told.report(1, 1, file);
     return found;
@@ -58,7 +59,7 @@ FoundMeasures measure(const std::string& body, const std::string& file, const St
 std::vector<FoundMeasures> measure_files(const std::string& body, const Strings& files, const Strings& settings,
                                          const py::object& progress, int threads) {
   return with_progress(progress, threads, [&](const Progress& told) {
-    const app::MeasureRequest request = c::measure_asked(measured_body(body), settings);
+    const app::MeasureRequest request = app::measure_request(measured_body(body), io::given_settings(settings));
     if (!request.mate.empty()) throw Error(ErrorKind::configuration, "mate is the other wheel of one wheel");
     const Strings names = app::measured_names(files, request.body);
     std::vector<FoundMeasures> found(names.size());
@@ -107,18 +108,22 @@ std::string profile_body(const std::string& name) {
   return !body ? "" : *body == Body::wheel ? "wheel" : "rail";
 }
 
-/// Names of settings and the factors from their numbers to SI, and (key, meaning) of measures.
+/// Settings as (key, name without its unit, factor to SI, unit there, meaning), and (key, meaning) of measures.
 py::dict request_tables() {
-  const auto keys = [](const std::vector<c::RequestKey>& all) {
+  const auto keys = [](const io::TableKeys& all) {
     py::list rows;
-    for (const c::RequestKey& key : all) rows.append(py::make_tuple(key.name, key.si));
+    for (const io::KeyInfo& key : all) {
+      const io::KeyUnit unit = io::unit_at_end(key.path);
+      rows.append(py::make_tuple(key.path, key.path.substr(0, key.path.size() - unit.ending.size()), unit.si,
+                                 std::string(unit.si_name), key.doc));
+    }
     return rows;
   };
   py::list measures;
   for (const auto& row : app::number_rows(app::WheelNumbers{})) measures.append(py::make_tuple(row.key, row.label));
   for (const auto& row : app::number_rows(app::RailNumbers{})) measures.append(py::make_tuple(row.key, row.label));
   using namespace py::literals;
-  return py::dict("geometry"_a = keys(c::geometry_keys()), "measure"_a = keys(c::measure_keys()),
+  return py::dict("geometry"_a = keys(app::geometry_keys().infos), "measure"_a = keys(app::measure_keys().infos),
                   "measures"_a = measures);
 }
 
@@ -128,14 +133,11 @@ void add_requests(py::module_& module) {
   using Found = FoundGeometry;
   py::class_<Found>(module, "Geometry")
       .def_property_readonly("notes", [](const Found& g) { return g.notes; })
-      .def("json", [](const Found& g) { return g.answer->json(); })
-      .def("summary",
-           [](const Found& g) {
-             return app::geometry_text(g.answer->result) + (g.answer->sweep ? app::sweep_text(*g.answer->sweep) : "");
-           })
-      .def("charts_svg", [](const Found& g) { return app::geometry_charts_svg(g.answer->result); })
-      .def("points_svg", [](const Found& g) { return app::contact_points_svg(g.answer->result); })
-      .def("gauges_svg", [](const Found& g) { return g.answer->sweep ? app::gauge_sweep_svg(*g.answer->sweep) : ""; })
+      .def("json", [](const Found& g) { return app::geometry_json(*g.result); })
+      .def("summary", [](const Found& g) { return app::geometry_text(*g.result); })
+      .def("charts_svg", [](const Found& g) { return app::geometry_charts_svg(*g.result); })
+      .def("points_svg", [](const Found& g) { return app::contact_points_svg(*g.result); })
+      .def("gauges_svg", [](const Found& g) { return g.result->sweep ? app::gauge_sweep_svg(*g.result->sweep) : ""; })
       .def("write_folder", write_geometry_folder);
   using Measured = FoundMeasures;
   py::class_<Measured>(module, "Measured")

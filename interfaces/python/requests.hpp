@@ -4,14 +4,15 @@
 
 #include <memory>
 
-#include "treadmark/interfaces/c/request_settings.hpp"
+#include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 
 namespace treadmark::python {
 
 /// A wheelset on its track, for its files and pictures.
 struct FoundGeometry {
-  std::shared_ptr<const c::GeometryAnswer> answer;
+  std::shared_ptr<const app::GeometryResult> result;
   Strings notes;
 };
 

@@ -42,8 +42,10 @@ constexpr KeyUnit kUnits[] = {{"_mm_per_MPa", 1e-9, "m/Pa"},
                               {"_GPa", 1e9, "Pa"},
                               {"_MPa", 1e6, "Pa"},
                               {"_deg", kDegree, "rad"},
+                              {"_mrad", 1e-3, "rad"},
                               {"_rad", 1.0, "rad"},
                               {"_mm", 1e-3, "m"},
+                              {"_kN", 1e3, "N"},
                               {"_N", 1.0, "N"}};
 
 }  // namespace

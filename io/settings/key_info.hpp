@@ -49,6 +49,7 @@ struct KeyInfo {
   KeyScope scope = KeyScope::any;
   bool required = false;          ///< not of a case file but in its lists of tables
   std::string missing;            ///< what to do where it is not there but should be
+  std::string option;             ///< of a setting of a verb: "--cant 1:N"; empty: made from path
   std::vector<KeyInfo> elements;  ///< keys of a table or of the tables of a table_list
 };
 

@@ -57,6 +57,11 @@ class KeyRows : private SettingKeys<Root> {
       key.info.default_text = std::move(default_text);
       return *this;
     }
+    /// Of a setting of a verb: name and value on the command line, where they do not follow from the key.
+    Row option(std::string words) const {
+      key.info.option = std::move(words);
+      return *this;
+    }
     Row written(std::function<std::string(const Root&)> text) const {
       key.text = std::move(text);
       key.written = {};
@@ -212,14 +217,17 @@ void scale(const KeyTable<Root>& keys, Root& root, unsigned factor, double by) {
       for (double& number : key.numbers(root)) number *= by;
 }
 
-/// The lines of a table that make this Root, but for what its readers take apart.
+/// The line that makes a member of this Root; empty where the key says nothing, or its reader takes it apart.
+template <class Root>
+std::string written_line(const SettingKey<Root>& key, const Root& root) {
+  const std::string value = key.written ? key.written(root, {}) : key.text ? key.text(root) : std::string();
+  return value.empty() ? value : fmt::format("{} = {}", key.info.path, value);
+}
 template <class Root>
 std::string written_lines(const KeyTable<Root>& keys, const Root& root) {
   std::string lines;
-  for (const SettingKey<Root>& key : keys.rows) {
-    const std::string value = key.written ? key.written(root, {}) : key.text ? key.text(root) : std::string();
-    if (!value.empty()) lines += fmt::format("{} = {}\n", key.info.path, value);
-  }
+  for (const SettingKey<Root>& key : keys.rows)
+    if (const std::string line = written_line(key, root); !line.empty()) lines += line + '\n';
   return lines;
 }
 

@@ -145,7 +145,7 @@ ChartView sweep_view(const GaugeSweep& sweep) {
 
 }  // namespace
 
-report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep) {
+report::Page geometry_page(const GeometryResult& result) {
   const geometry::Analysis& a = result.analysis;
   const GeometryRequest& r = result.request;
   const auto file = [](const std::string& name) { return std::filesystem::path(name).filename().string(); };
@@ -189,12 +189,12 @@ report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep
   if (!a.conicity.empty())
     conicity.blocks.emplace_back(
         Figure{"conicity-chart", "Equivalent conicity over the amplitude", conicity_view(a, result.with_new)});
-  if (sweep != nullptr)
-    conicity.blocks.emplace_back(Figure{"gauges", "Equivalent conicity over the gauge", sweep_view(*sweep)});
+  if (result.sweep)
+    conicity.blocks.emplace_back(Figure{"gauges", "Equivalent conicity over the gauge", sweep_view(*result.sweep)});
   if (!a.functions.jumps.empty())
     conicity.blocks.emplace_back(report::table_of("jumps", "Jumps of contact points", a.functions.jumps));
   if (!conicity.blocks.empty()) page.sections.push_back(std::move(conicity));
-  page.document = geometry_json(result, sweep);
+  page.document = geometry_json(result);
   return page;
 }
 

@@ -9,6 +9,6 @@ namespace treadmark::app {
 
 /// Report of a wheelset on its track: both sides in contact, moved by the shift, with all functions of it, conicity
 /// and, where there is one, the map over the gauge. Thread-safe.
-report::Page geometry_page(const GeometryResult& result, const GaugeSweep* sweep);
+report::Page geometry_page(const GeometryResult& result);
 
 }  // namespace treadmark::app

@@ -3,11 +3,13 @@
 """Contact geometry of a wheelset on its track, and measures of wheels and rails."""
 from __future__ import annotations
 
+import difflib
+import inspect
 import json
 import math
 import os
 import pathlib
-from typing import TYPE_CHECKING, Any, Iterable, Mapping, NamedTuple, Sequence, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, NamedTuple, TypeVar, Union
 
 import numpy as np
 
@@ -48,17 +50,48 @@ def _number(value: Any, factor: float = 1.0) -> float:
     return math.nan if value is None else float(factor * value)
 
 
-_keys = {verb: {in_si(key)[0]: (key, factor) for key, factor in rows} for verb, rows in _treadmark.request_tables().items() if verb != "measures"}
-_meanings: dict[str, str] = dict(_treadmark.request_tables()["measures"])
+class Setting(NamedTuple):
+    """A setting of a verb of the program: its key, the keyword, the factor from one to the other, the unit in SI and the meaning."""
+
+    key: str
+    name: str
+    factor: float
+    unit: str
+    meaning: str
+
+
+_settings_of = {verb: {row[1]: Setting(*row) for row in _treadmark.request_tables()[verb]} for verb in ("geometry", "measure")}
+_meanings: dict[str, str] = {key: meaning for key, meaning in _treadmark.request_tables()["measures"]}
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def _takes_settings(verb: str, *but: str) -> Callable[[_Function], _Function]:
+    """Says in signature and help of a function what settings its **settings are."""
+
+    def told(function: _Function) -> _Function:
+        own = inspect.signature(function)
+        settings = [one for name, one in _settings_of[verb].items() if name not in own.parameters and name not in but]
+        keywords = [inspect.Parameter(one.name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=Any) for one in settings]
+        parameters = [one for one in own.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
+        at = next((i for i, one in enumerate(parameters) if one.kind is inspect.Parameter.KEYWORD_ONLY), len(parameters))
+        setattr(function, "__signature__", own.replace(parameters=[*parameters[:at], *keywords, *parameters[at:]]))
+        lines = [f"    {one.name}{'' if one.unit == '1' else f' [{one.unit}]'}: {one.meaning}" for one in settings]
+        function.__doc__ = (function.__doc__ or "").replace("    SETTINGS", "\n".join(lines))
+        return function
+
+    return told
 
 
 def _settings(verb: str, values: Mapping[str, Any], changes: Changes = None) -> list[str]:
     """Keywords in SI as "key=value" with the units of the program's options."""
     made = []
     for name, value in values.items():
+        if name not in _settings_of[verb]:
+            near = difflib.get_close_matches(name, _settings_of[verb], 1)
+            raise TypeError(f"there is no keyword {name!r}" + (f": did you mean {near[0]!r}?" if near else f" of {', '.join(_settings_of[verb])}"))
         if value is None:
             continue
-        key, factor = _keys[verb][name]
+        key, factor = _settings_of[verb][name].key, _settings_of[verb][name].factor
         if isinstance(value, Mapping):
             raise TypeError(f"{name} cannot be a dictionary: name a file")
         if factor != 1.0 and not isinstance(value, (str, os.PathLike)):
@@ -246,32 +279,23 @@ class Geometry(_Document):
         return self.svg() + html_table(rows, f"{self!r}, SI units")
 
 
-def geometry(wheel: Path | None = None, rail: Path | None = None, *, wheel_left: Path | None = None, rail_left: Path | None = None,
-             new_wheel: Path | None = None, new_rail: Path | None = None, case: Path | None = None, diameter: float | None = None, diameter_left: float | None = None, gauge: float | None = None,
-             gauge_height: float | None = None, cant: str | float | None = None, rail_origins: float | None = None,
-             wheel_origins: float | None = None, amplitudes: Sequence[float] | str | None = None, amplitude: float | None = None,
-             gauges: Sequence[float] | str | None = None, roll: str | None = None, axle_load: float | None = None, yaw: float | None = None,
-             step: float | None = None, second: float | None = None, pitch: float | None = None, position: float | None = None,
-             scale: float | None = None, backend: str | None = None, resolution: float | None = None, set: Changes = None,
-             progress: Progress = None, threads: int = 0) -> Geometry:
+@_takes_settings("geometry")
+def geometry(wheel: Path | None = None, rail: Path | None = None, *, set: Changes = None, progress: Progress = None, threads: int = 0,
+             **settings: Any) -> Geometry:
     """Contact of a wheelset with its rails at every lateral shift, without forces, and its equivalent conicity, as ``treadmark geometry``.
 
-    wheel, rail: files or names of ``profiles()``, of both sides or of the right one; left ones as for the right-hand side; new_wheel, new_rail:
-    in place of both sides, for the effect of wear (``document``, "with_new"). case: a case
-    file, whose wheel, rail and track hold where nothing else is given; set: changes of its keys. diameter [m]: at the tape lines, 0.92 unless
-    given. gauge [m] (down to gauge_height [m] below the rails' tops) with cant ("1:40", or its tangent), or rail_origins [m]: distance of
-    the origins of the rails' profiles. wheel_origins [m]: the same of the wheels. amplitudes, gauges [m], or in mm as "from:to:step": of the
-    conicity; amplitude [m]: of the single value. roll: "none" (each side by itself, EN 15302) or "free"; axle_load [N]: forces and
-    pressures too; yaw [rad]; step [m]: of the shift; second [m]: gap up to which further contacts are listed; pitch [rad], position [m]: which
-    section of a wheel that is not round, of a rail that varies; scale: from numbers of profile files to mm; backend, resolution [m]: of all
-    surfaces. Errors: InputError for what cannot be read or placed, NumericalError for wheelsets that cannot stand on their rails.
+    wheel, rail: files or names of ``profiles()``, of both sides or of the right one. set: changes of keys of the case. In SI:
+
+    SETTINGS
+
+    Lists of lengths may be text in mm, "from:to:step". Errors: InputError for what cannot be read or placed, NumericalError for wheelsets
+    that cannot stand on their rails.
 
     >>> found = geometry("S1002", "60E1", gauge=1.435, cant="1:40")
     >>> round(float(found.conicity.tan_gamma_e[20]), 2), len(found.jumps) > 0
     (0.17, True)
     """
-    given = {name: value for name, value in locals().items() if name in _keys["geometry"]}
-    return Geometry(_treadmark.geometry(_settings("geometry", given, set), progress, threads))
+    return Geometry(_treadmark.geometry(_settings("geometry", {"wheel": wheel, "rail": rail, **settings}, set), progress, threads))
 
 
 class Measure(NamedTuple):
@@ -369,38 +393,33 @@ def _measured_in(key: str) -> tuple[str, float, str]:
     return name, factor, unit or ("%" if key.endswith("_percent") else "dB" if key.endswith("_db") else "")
 
 
-def measure(body: str, file: Path, *, nominal: Path | None = None, nominal_radius: float | None = None, limits: Path | None = None,
-            alignment: str | None = None, mate: Path | None = None, as_in_file: bool = False, stations: int = 36, line: float = 0.0,
-            line_step: float = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None, threads: int = 0) -> Measured:
+@_takes_settings("measure")
+def measure(body: str, file: Path, *, set: Changes = None, progress: Progress = None, threads: int = 0, **settings: Any) -> Measured:
     """Measures a "wheel" or "rail" from a profile, slices, triangles, offsets, a scan, a case file or a name of ``profiles()``, as
-    ``treadmark measure`` does.
+    ``treadmark measure`` does. set: changes of a case's keys. In SI:
 
-    nominal: what wear is counted against, a name of ``profiles()`` or a file; nominal_radius [m]: of a wheel, where the file does not have it;
-    limits: a TOML file; alignment: of a rail upon its nominal section, "unworn", "top" or "none"; mate: the other wheel of the axle, in the
-    same axes; as_in_file: y = 0 is a wheel's tape line wherever its flange back is; stations: sections along a rail or round a wheel; line: y
-    of the line along a rail whose roughness is told, line_step: of its samples [m]; scale: from numbers of profile files to mm; set: changes
-    of a case's keys.
+    SETTINGS
+
     Errors: InputError naming the file. Limits that do not hold are no errors: see ``verdict``.
 
     >>> round(1e3 * measure("wheel", "S1002").numbers["flange_height"].value, 2)
     28.0
     """
-    given = {name: value for name, value in locals().items() if name in _keys["measure"]}
-    return Measured(_treadmark.measure(body, os.fspath(file), _settings("measure", given, set), progress, threads))
+    return Measured(_treadmark.measure(body, os.fspath(file), _settings("measure", settings, set), progress, threads))
 
 
-def measure_files(body: str, files: Union[Path, Iterable[Path]], *, nominal: Path | None = None, nominal_radius: float | None = None,
-                  limits: Path | None = None, alignment: str | None = None, as_in_file: bool = False, stations: int = 36, line: float = 0.0,
-                  line_step: float = 1e-3, scale: float | None = None, set: Changes = None, progress: Progress = None,
-                  threads: int = 0) -> list[Measured]:
+@_takes_settings("measure", "mate")
+def measure_files(body: str, files: Union[Path, Iterable[Path]], *, set: Changes = None, progress: Progress = None, threads: int = 0,
+                  **settings: Any) -> list[Measured]:
     """The same of many on all cores, in their order. Folders stand for the files in them, "@LIST" for those that a text file names.
 
-    What fails has its ``error`` and does not stop the rest, also what was not measured before progress returned False.
+    What fails has its ``error`` and does not stop the rest, also what was not measured before progress returned False. In SI:
+
+    SETTINGS
     """
-    given = {name: value for name, value in locals().items() if name in _keys["measure"]}
     named = [files] if isinstance(files, (str, os.PathLike)) else list(files)
-    settings = _settings("measure", given, set)
-    return [Measured(held) for held in _treadmark.measure_files(body, [os.fspath(file) for file in named], settings, progress, threads)]
+    made = _settings("measure", settings, set)
+    return [Measured(held) for held in _treadmark.measure_files(body, [os.fspath(file) for file in named], made, progress, threads)]
 
 
 def measures_to_pandas(measured: Iterable[Measured]) -> "pandas.DataFrame":

@@ -73,7 +73,7 @@ TEST(GeometryCommand, ANumberIsTheSameEverywhere) {
   request.settings.amplitudes = {2e-3, 3e-3};
   SectionStore store;
   const GeometryResult result = run_geometry(request, store);
-  const json g = json::parse(geometry_json(result, nullptr)).at("geometry");
+  const json g = json::parse(geometry_json(result)).at("geometry");
   EXPECT_NEAR(g.at("track").at("clearance_mm").get<double>(),
               1e3 * (result.analysis.gauge - result.analysis.active_faces), 1e-9);
   EXPECT_EQ(g.at("equilibrium_reason"), nullptr);
@@ -83,8 +83,9 @@ TEST(GeometryCommand, ANumberIsTheSameEverywhere) {
               HasSubstr(fmt::format("clearance               {:.3f} mm\n", g["track"]["clearance_mm"].get<double>())));
   EXPECT_THAT(
       text, HasSubstr(fmt::format("equivalent conicity     {:.4f}\n", g["conicity_at"]["tan_gamma_e"].get<double>())));
-  EXPECT_EQ(geometry_page(result, nullptr).sections.front().blocks.size(), 2u);
+  EXPECT_EQ(geometry_page(result).sections.front().blocks.size(), 2u);
   const ResultList list = run_pairs({request});
+  EXPECT_EQ(list.settings, "amplitudes_mm = [2, 3]") << "what is other than usual";
   const auto listed = [&](const char* name) {
     const auto at = std::ranges::find(list.numbers, name, &ListColumn::name);
     return list.rows[0].numbers.at(static_cast<std::size_t>(at - list.numbers.begin()));
@@ -183,8 +184,29 @@ TEST(GeometryCommand, SaysWhatIsWrongWithAList) {
   };
   EXPECT_THAT(error_of("wheel,rial\n"), HasSubstr("list.csv:1: 'rial' is no column"));
   EXPECT_THAT(error_of("wheel,gauge_mm\nS1002,wide\n"), HasSubstr("list.csv:2: 'wide' is no number for gauge_mm"));
+  EXPECT_THAT(error_of("wheel,gauge_mm\nS1002,-1435\n"),
+              HasSubstr("list.csv:2: gauge_mm = -1435 must be greater than 0"));
+  EXPECT_THAT(error_of("wheel,axle_load_kN\n"), HasSubstr("'axle_load_kN' is no column"));
   EXPECT_THAT(error_of("wheel\nS1002,60E1\n"), HasSubstr("2 cells where there are 1 columns"));
   EXPECT_THAT(error_of("wheel,rail\n"), HasSubstr("no pairs"));
+}
+
+// Options are made from the keys: limits, units, words and defaults.
+TEST(GeometryCommand, OptionsAreThoseOfTheKeys) {
+  const std::string help = run_program({"geometry", "--help"}).out;
+  for (const io::KeyInfo& key : geometry_keys().infos) EXPECT_THAT(help, HasSubstr(key.doc.substr(0, 20))) << key.path;
+  EXPECT_THAT(help, HasSubstr("--gauge-height-mm MM"));
+  EXPECT_THAT(help, HasSubstr("--cant 1:N"));
+  EXPECT_EQ(run_program(with(kPair, {"--step-mm", "3"})).status, 2);
+  EXPECT_EQ(run_program(with(kPair, {"--roll", "some"})).status, 2);
+  EXPECT_EQ(run_program(with(kPair, {"--set", "track.gauge_mm=1434"})).status, 2) << "there is no case";
+  const auto echo = [](const std::vector<std::string>& more) {
+    return json::parse(run_program(with(kPair, more)).out)["geometry"]["method"];
+  };
+  const json method =
+      echo({"--yaw-mrad", "-2", "--step-mm", "0.2", "--pitch-deg", "5", "--roll", "free", "--json", "-"});
+  EXPECT_EQ(method, json::parse(R"({"roll": "free", "smoothing_mm": 0.0, "yaw_mrad": -2.0, "step_mm": 0.2,
+                                    "pitch_deg": 5.0, "position_mm": 0.0})"));
 }
 
 TEST(GeometryCommand, ExitStatuses) {

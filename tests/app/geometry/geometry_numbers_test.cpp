@@ -217,7 +217,7 @@ TEST(GeometryNumbers, EveryKeyHasItsOwnNumber) {
   ASSERT_FALSE(result.analysis.functions.jumps.empty());
   ASSERT_FALSE(result.analysis.functions.others.empty());
   Numbers found;
-  flatten(json::parse(geometry_json(result, nullptr))["geometry"], "", found);
+  flatten(json::parse(geometry_json(result))["geometry"], "", found);
   const Numbers expected = expected_of(result);
   EXPECT_GT(expected.size(), 1000u);
   for (const auto& [path, value] : found) {
@@ -234,12 +234,13 @@ TEST(GeometryNumbers, EveryKeyHasItsOwnNumber) {
 }
 
 TEST(GeometryNumbers, OfSweepsOverTheGauge) {
-  GaugeSweep sweep;
+  GeometryResult result = uneven();
+  GaugeSweep& sweep = result.sweep.emplace();
   sweep.gauges = {1.434, 1.435};
   sweep.trouble = {"", "too wide"};
   sweep.at_3mm = {{3e-3, 0.11, -3e-3, 3e-3, {}}, {}};
   sweep.conicity = {{{1e-3, 0.12, -1e-3, 1e-3, {}}, {2e-3, 0.13, -2e-3, 2e-3, {}}}, {}};
-  const json s = json::parse(geometry_json(uneven(), &sweep))["geometry"]["gauge_sweep"];
+  const json s = json::parse(geometry_json(result))["geometry"]["gauge_sweep"];
   EXPECT_EQ(s["gauge_mm"], json({1434.0, 1435.0}));
   EXPECT_EQ(s["tan_gamma_e_3mm"], json({0.11, nullptr}));
   EXPECT_EQ(s["amplitude_mm"], json({1.0, 2.0}));

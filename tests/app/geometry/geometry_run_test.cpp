@@ -30,7 +30,7 @@ GeometryRequest standard_pair(const std::string& wheel, const std::string& rail,
   r.rail = rail;
   r.cant = std::atan(cant);
   r.gauge = 1e-3 * gauge_mm;
-  r.settings.amplitudes = parse_lengths_mm("1:6:1");
+  r.settings.amplitudes = {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3};
   return r;
 }
 
@@ -303,11 +303,11 @@ TEST(GeometryRun, WordsOfOptions) {
   EXPECT_EQ(parse_cant("0"), 0.0);
   for (const char* wrong : {"1:0", "forty", "1:", "2", ""})
     EXPECT_THAT(treadmark::testing::error_of([&] { parse_cant(wrong); }), HasSubstr("no inclination")) << wrong;
-  EXPECT_EQ(parse_lengths_mm("1:7.5:0.1").size(), 66u);
-  EXPECT_NEAR(parse_lengths_mm("1:7.5:0.1").back(), 7.5e-3, 1e-15);
-  EXPECT_THAT(parse_lengths_mm("3"), ::testing::ElementsAre(3e-3));
+  EXPECT_EQ(parse_numbers("1:7.5:0.1").size(), 66u);
+  EXPECT_EQ(parse_numbers("1:7.5:0.1").back(), 7.5);
+  EXPECT_THAT(parse_numbers("3"), ::testing::ElementsAre(3.0));
   for (const char* wrong : {"", "1:2", "2:1:0.1", "1:2:0", "1,,2", "a"})
-    EXPECT_NE(treadmark::testing::error_of([&] { parse_lengths_mm(wrong); }), "") << wrong;
+    EXPECT_NE(treadmark::testing::error_of([&] { parse_numbers(wrong); }), "") << wrong;
 }
 
 }  // namespace

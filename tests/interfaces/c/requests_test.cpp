@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <thread>
 #include <vector>
@@ -63,14 +64,14 @@ TEST(CRequests, GeometryIsThatOfTheLibrary) {
   request.settings.roll = geometry::Roll::free;
   request.settings.yaw = 2e-3;
   request.settings.step = 0.2e-3;
+  request.gauges = {1.433, 1.4345};
   app::SectionStore store;
   const app::GeometryResult expected = app::run_geometry(request, store);
-  const app::GaugeSweep sweep = app::sweep_gauge(expected, {1.433, 1.4345});
   const std::string text =
       text_of_geometry(with(kPair, {"wheel_left=cone 1:20", "diameter_mm=919.2", "diameter_left_mm=919.1",
                                     "gauge_mm=1435.2", "wheel_origins_mm=1499", "amplitudes_mm=[1, 2.5]", "roll=free",
                                     "yaw_mrad=2", "step_mm=0.2", "gauges_mm=1433,1434.5"}));
-  EXPECT_EQ(json::parse(text), json::parse(app::geometry_json(expected, &sweep)));
+  EXPECT_EQ(json::parse(text), json::parse(app::geometry_json(expected)));
   const json schema = schema_of("geometry");
   EXPECT_EQ(first_violation(json::parse(text), schema, schema), "");
 }
@@ -97,6 +98,13 @@ TEST(CRequests, EverySettingOfGeometryCounts) {
             text_of_geometry({"wheel=S1002", "rail=60E1", "cant=1:40", "rail_origins_mm=1508", "amplitudes_mm=3"}));
   EXPECT_NE(text_of_geometry(with(kPair, {"amplitudes_mm=3", "backend=spline", "resolution_mm=2"})),
             text_of_geometry(with(kPair, {"amplitudes_mm=3", "backend=spline", "resolution_mm=0.25"})));
+}
+
+TEST(CRequests, DocumentsNameEverySetting) {
+  std::ifstream in(std::string(TREADMARK_SOURCE_DIR) + "/docs/c-interface.md");
+  const std::string page(std::istreambuf_iterator<char>(in), {});
+  for (const auto* keys : {&app::geometry_keys().infos, &app::measure_keys().infos})
+    for (const io::KeyInfo& key : *keys) EXPECT_THAT(page, HasSubstr('`' + key.path + '`'));
 }
 
 TEST(CRequests, AConeIsACone) {

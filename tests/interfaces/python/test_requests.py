@@ -357,12 +357,19 @@ def test_profiles_of_the_library(program):
 
 
 def test_keywords_are_those_of_the_settings():
-    """What the library takes is a keyword, and the reverse."""
+    """What the library takes is a keyword, with its meaning in the help."""
     import inspect
 
-    from treadmark._requests import _keys
-
-    beside = {"set", "progress", "threads"}
-    assert set(inspect.signature(tm.geometry).parameters) - beside == set(_keys["geometry"])
-    assert set(inspect.signature(tm.measure).parameters) - beside - {"body", "file"} == set(_keys["measure"])
-    assert set(inspect.signature(tm.measure_files).parameters) - beside - {"body", "files"} == set(_keys["measure"]) - {"mate"}
+    keys = native.request_tables()
+    for function, verb, but in ((tm.geometry, "geometry", set()), (tm.measure, "measure", set()), (tm.measure_files, "measure", {"mate"})):
+        names = {row[1] for row in keys[verb]} - but
+        assert names < set(inspect.signature(function).parameters)
+        for key, name, factor, unit, meaning in keys[verb]:
+            if name in names - {"wheel", "rail"}:
+                assert (f"{name} [{unit}]: {meaning}" if unit != "1" else f"{name}: {meaning}") in function.__doc__
+    assert ("axle_load_kN", "axle_load", 1e3, "N") in [row[:4] for row in keys["geometry"]]
+    assert "SETTINGS" not in tm.geometry.__doc__ + tm.measure.__doc__ + tm.measure_files.__doc__
+    with pytest.raises(TypeError, match="did you mean 'gauge'"):
+        tm.geometry("S1002", "60E1", gage=1.435)
+    with pytest.raises(TypeError, match="no keyword 'colour' of case, wheel"):
+        tm.geometry("S1002", "60E1", colour="red")
