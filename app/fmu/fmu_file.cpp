@@ -11,6 +11,7 @@
 
 #include "treadmark/app/fmu/resources.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/modules.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
@@ -33,14 +34,8 @@ void add_folder(const fs::path& folder, const std::string& as, Files& files) {
 /// The folder with the shared library and what goes with it.
 fs::path library_folder() {
   std::error_code failed;
-  std::vector<fs::path> places;
-  if (const fs::path program = fs::read_symlink("/proc/self/exe", failed); !failed)
-    for (const char* libraries : {"lib", TREADMARK_LIBRARIES})
-      places.push_back(program.parent_path().parent_path() / libraries / "treadmark" / "fmu");
-  places.emplace_back(TREADMARK_BUILT_FMU);
-  places.emplace_back(TREADMARK_INSTALLED_FMU);
-  for (const fs::path& place : places)
-    if (fs::exists(place / kLibraries, failed)) return place;
+  for (const fs::path& place : module_folders())
+    if (fs::exists(place / "fmu" / kLibraries, failed)) return place / "fmu";
   throw Error(ErrorKind::configuration, "there is no library for FMUs beside this program", {},
               "install Treadmark again");
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -74,6 +75,22 @@ TEST(LeftOut, BackendsAreRefusedByName) {
                                HasSubstr(left_out_advice(part))));
     }
   }
+}
+
+/// Parts that packages of their own bring: what is built need not be installed.
+TEST(LeftOut, ModulesThatAreNotInstalledAreNamed) {
+  const SampleInput input;
+  const std::string inp = input.inp().string(), step = TREADMARK_SOURCE_DIR "/tests/io/cad/data/rail.step";
+  setenv("TREADMARK_MODULES", "/nowhere", 1);
+  for (const auto& [part, arguments] :
+       {std::pair{"openvdb", std::vector<std::string>{"run", inp, "--rail-backend", "offset", "--resolution", "2"}},
+        std::pair{"cad", std::vector<std::string>{"check", step}}}) {
+    if (!has_part(part)) continue;
+    const ProgramResult r = run_program(arguments);
+    EXPECT_EQ(r.status, 2) << part;
+    EXPECT_THAT(r.err, HasSubstr(std::string("install the Debian package treadmark-") + part));
+  }
+  unsetenv("TREADMARK_MODULES");
 }
 
 TEST(LeftOut, SimulationsAreCheckedOrRefused) {
