@@ -113,7 +113,7 @@ def bill_of(control, root, build, rows):
     if plain == "treadmark-doc":
         for what, package, licence in SITE:
             bill.debian("CONTAINS", package, licence, what, debian_text(package))
-    for package in re.findall(r"(?:^|, )([a-z0-9][a-z0-9+.-]+)", control.get("Depends", "")):
+    for package in dict.fromkeys(re.findall(r"(?:^|, )([a-z0-9][a-z0-9+.-]+)", control.get("Depends", ""))):
         if OWN.match(package):
             bill.add("DEPENDS_ON", package, control["Version"], "GPL-3.0-or-later" if package.endswith("-gpl") else "Apache-2.0")
         else:
