@@ -7,7 +7,6 @@ debug information, debug information in packages whose names apt takes, and byte
 usage: finish_packages.py BUILD FOLDER    BUILD/*.deb and *.ddeb, finished in FOLDER; $SOURCE_DATE_EPOCH is their time
 """
 import base64
-import datetime
 import hashlib
 import json
 import os
@@ -17,19 +16,18 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import urllib.parse
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-WEB = ROOT / "report" / "web" / "package-lock.json"
-OWN = re.compile(r"^(lib|python3-)?treadmark")
-# Headers that are compiled into what the packages hold, and the Debian packages that they come from.
-HEADERS = {"Eigen": "libeigen3-dev", "JSON for Modern C++": "nlohmann-json3-dev", "CLI11": "libcli11-dev", "nanoflann": "libnanoflann-dev",
-           "CGAL": "libcgal-dev", "Boost": "libboost-dev", "OpenVDB": "libopenvdb-dev"}
-ONLY_IN = {"CLI11": {"treadmark"}, "OpenVDB": {"treadmark-openvdb"}, "Boost": {"treadmark-openvdb"}}
-SITE = [("Furo", "furo", "MIT"), ("Sphinx", "sphinx-common", "BSD-2-Clause")]  # style sheets and scripts of the documents
+# Headers that are compiled into what the packages hold, the Debian packages that they come from, and which of ours hold them: what is
+# linked with all of Treadmark (None), or one.
+HEADERS = {"Eigen": ("libeigen3-dev", None), "JSON for Modern C++": ("nlohmann-json3-dev", None), "CLI11": ("libcli11-dev", "treadmark"),
+           "nanoflann": ("libnanoflann-dev", None), "CGAL": ("libcgal-dev", None), "OpenVDB": ("libopenvdb-dev", "treadmark-openvdb")}
+SITE = {"Furo": ("furo", "MIT"), "Sphinx": ("sphinx-common", "BSD-2-Clause")}  # style sheets and scripts of the documents
 # By source package, beside those of the libraries in the program's own list.
 LICENCES = {"glibc": "LGPL-2.1-or-later", "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1", "numpy": "BSD-3-Clause",
-            "python3-defaults": "PSF-2.0", "boost-defaults": "BSL-1.0", "hwloc": "BSD-3-Clause"}
+            "python3-defaults": "PSF-2.0", "hwloc": "BSD-3-Clause"}
 
 
 def output(*command):
@@ -41,131 +39,109 @@ def installed(package):
     return output("dpkg-query", "-W", "-f", "${source:Package}\t${Version}", package).split("\t")
 
 
-def libraries(build):
-    """The rows of app/version.cpp: name, version, licence, shared library, whether it is a script."""
-    rows = re.findall(r'\{"(.*?)", "(.*?)", "(.*?)", "(.*?)"(, true)?\}', (build / "app" / "version.cpp").read_text())
-    for name, _, licence, shared, script in rows:
-        owner = output("dpkg-query", "-S", f"*/{shared}.so*").split(":")[0] if shared else HEADERS.get(name)
-        if owner and not script:
-            LICENCES.setdefault(installed(owner)[0], licence)
-    return rows
-
-
 class Bill:
-    """SPDX 2.3 of one package, and the texts that go with what it holds."""
+    """SPDX 2.3 of one package of ours, and its file of licences."""
 
-    def __init__(self, name, version, licence):
-        self.texts, self.packages, self.relations = [], [], []
-        self.add("DESCRIBES", name, version, licence, copyright="Copyright Treadmark contributors")
-        self.packages[0]["licenseDeclared"] = "Apache-2.0"
+    def __init__(self, name, version):
+        self.gpl = name.endswith("-gpl")
+        self.packages, self.relations, self.texts = [], [], []
+        self.add("DESCRIBES", name, version, "GPL-3.0-or-later" if self.gpl else "Apache-2.0")
 
-    def add(self, relation, name, version, licence, purl=None, digest=None, text=None, copyright="NOASSERTION"):
+    def add(self, relation, name, version, licence, purl=None, digest=None, text=""):
         own = {"SPDXID": "SPDXRef-" + re.sub("[^A-Za-z0-9.]", "-", name), "name": name, "versionInfo": version, "downloadLocation": "NOASSERTION",
-               "filesAnalyzed": False, "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": copyright}
+               "filesAnalyzed": False, "licenseConcluded": licence, "licenseDeclared": licence, "copyrightText": "NOASSERTION"}
         if purl:
             own["externalRefs"] = [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": purl}]
         if digest:
             own["checksums"] = [{"algorithm": "SHA512", "checksumValue": digest}]
-        self.relations.append({"spdxElementId": self.packages[0]["SPDXID"] if self.packages else "SPDXRef-DOCUMENT",
-                               "relationshipType": relation, "relatedSpdxElement": own["SPDXID"]})
         self.packages.append(own)
+        self.relations.append({"spdxElementId": "SPDXRef-DOCUMENT" if relation == "DESCRIBES" else self.packages[0]["SPDXID"],
+                               "relationshipType": relation, "relatedSpdxElement": own["SPDXID"]})
         if relation == "CONTAINS":
             self.texts.append((f"{name} {version} ({licence})", text))
 
     def debian(self, relation, package, licence=None, name=None, text=None):
         source, version = installed(package)
+        if relation == "CONTAINS" and text is None:
+            text = pathlib.Path(f"/usr/share/doc/{package}/copyright").read_text(encoding="utf-8")
         self.add(relation, name or package, version, licence or LICENCES.get(source, "NOASSERTION"),
                  f"pkg:deb/debian/{package}@{urllib.parse.quote(version, safe='')}", text=text)
 
-    def json(self, time):
-        first = self.packages[0]
-        name = f"{first['name']}-{first['versionInfo']}"
+    def json(self, epoch):
+        name = "{name}-{versionInfo}".format(**self.packages[0])
         return json.dumps({"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": name,
-                           "documentNamespace": f"https://treadmark.invalid/spdx/{name}",
-                           "creationInfo": {"created": time.strftime("%Y-%m-%dT%H:%M:%SZ"), "creators": ["Organization: Treadmark contributors"]},
+                           "documentNamespace": f"https://treadmark.invalid/spdx/{name}-{epoch}",
+                           "creationInfo": {"created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(epoch)), "creators": ["Tool: finish_packages.py"]},
                            "packages": self.packages, "relationships": self.relations}, indent=1) + "\n"
 
+    def licences(self):
+        text = "Copyright Treadmark contributors\n\nLicensed under the Apache License, Version 2.0: /usr/share/common-licenses/Apache-2.0.\n"
+        if self.gpl:
+            text += ("\nThis package as a whole is under the GNU General Public License, version 3 or later: /usr/share/common-licenses/GPL-3. It is\n"
+                     "linked with FFTW or holds parts of CGAL.\n")
+        text += "\nIt holds parts of\n" * bool(self.texts) + "".join(f"  {what}\n" for what, _ in self.texts)
+        return text + "".join(f"\n{'-' * 78}\n{what}\n\n{licence.strip()}\n" for what, licence in self.texts)
 
-def debian_text(package):
-    return pathlib.Path(f"/usr/share/doc/{package}/copyright").read_text(encoding="utf-8")
 
-
-def bill_of(control, root, build, rows):
+def bill_of(control, root, build):
     name, plain = control["Package"], control["Package"].removesuffix("-gpl")
-    bill = Bill(name, control["Version"], "GPL-3.0-or-later" if plain != name else "Apache-2.0")
-    whole = not plain.startswith("treadmark-")  # neither documents nor a module
-    has_scripts = whole and any(b"three.js" in path.read_bytes() for path in root.rglob("*") if path.suffix in ("", ".a", ".so") and path.is_file())
-    locked = json.loads(WEB.read_text())["packages"]
-    for row, version, licence, shared, script in rows:
-        if script:
-            if has_scripts:
-                folder = build / "report" / "web" / "node_modules" / row
-                (text,) = [path for path in folder.iterdir() if re.match(r"licen[cs]e(\.|$)", path.name, re.I)]
-                digest = base64.b64decode(locked[f"node_modules/{row}"]["integrity"].removeprefix("sha512-")).hex()
-                bill.add("CONTAINS", row, version, licence, f"pkg:npm/{row}@{version}", digest, text.read_text(encoding="utf-8"))
-        elif row in HEADERS and (plain in ONLY_IN[row] if row in ONLY_IN else whole):
-            bill.debian("CONTAINS", HEADERS[row], licence, row, None if row == "Boost" else debian_text(HEADERS[row]))  # Boost asks for none in programs
-    fmu = root / "usr" / "lib" / "treadmark" / "fmu" / "licenses"
-    if fmu.exists():
-        bill.add("CONTAINS", "Functional Mock-up Interface", "3.0", "BSD-2-Clause", text=(fmu / "LICENSE-FMI.txt").read_text())
-        for path in sorted(fmu.glob("lib*.txt")):
-            bill.debian("CONTAINS", path.stem, name=f"{path.stem} in FMUs", text=f"See /{path.relative_to(root)}.\n")
-    if plain == "treadmark-doc":
-        for what, package, licence in SITE:
-            bill.debian("CONTAINS", package, licence, what, debian_text(package))
+    bill, all_of_it = Bill(name, control["Version"]), not plain.startswith("treadmark-")
+    # What report/pages hold stands in them uncompressed.
+    scripts = all_of_it and any(b"three.js" in path.read_bytes() for path in root.rglob("*") if path.is_file() and path.suffix in ("", ".a", ".so"))
+    locked = json.loads((ROOT / "report" / "web" / "package-lock.json").read_text())["packages"]
+    for row, version, licence, shared, script in re.findall(r'\{"(.*?)", "(.*?)", "(.*?)", "(.*?)"(, true)?\}', (build / "app" / "version.cpp").read_text()):
+        package, only_in = HEADERS.get(row, (None, None))
+        if script and scripts:
+            (text,) = [path for path in (build / "report" / "web" / "node_modules" / row).iterdir() if re.match(r"licen[cs]e(\.|$)", path.name, re.I)]
+            digest = base64.b64decode(locked[f"node_modules/{row}"]["integrity"].removeprefix("sha512-")).hex()
+            bill.add("CONTAINS", row, version, licence, f"pkg:npm/{row}@{version}", digest, text.read_text(encoding="utf-8"))
+        elif package and (plain == only_in if only_in else all_of_it):
+            bill.debian("CONTAINS", package, licence, row)
+        if owner := output("dpkg-query", "-S", f"*/{shared}.so*").split(":")[0] if shared else package:
+            LICENCES.setdefault(installed(owner)[0], licence)
+    for path in sorted(root.glob("usr/lib/treadmark/fmu/licenses/*.txt")):
+        if path.stem == "LICENSE-FMI":
+            bill.add("CONTAINS", "Functional Mock-up Interface", "3.0", "BSD-2-Clause", text=path.read_text())
+        else:
+            bill.debian("CONTAINS", path.stem, name=f"{path.stem} in FMUs", text=f"See /{path.relative_to(root)}.")
+    for what, (package, licence) in SITE.items() if plain == "treadmark-doc" else ():
+        bill.debian("CONTAINS", package, licence, what)
     for package in dict.fromkeys(re.findall(r"(?:^|, )([a-z0-9][a-z0-9+.-]+)", control.get("Depends", ""))):
-        if OWN.match(package):
+        if re.match(r"(lib|python3-)?treadmark", package):
             bill.add("DEPENDS_ON", package, control["Version"], "GPL-3.0-or-later" if package.endswith("-gpl") else "Apache-2.0")
         else:
-            bill.debian("DYNAMIC_LINK" if re.match(r"lib.*\d", package) and not package.endswith("-dev") else "DEPENDS_ON", package)
+            bill.debian("DYNAMIC_LINK" if re.match(r"lib.*(?<!-dev)$", package) else "DEPENDS_ON", package)
     return bill
 
 
-def copyright_of(name, bill):
-    text = f"{name}: Copyright Treadmark contributors\n\nLicensed under the Apache License, Version 2.0: /usr/share/common-licenses/Apache-2.0.\n"
-    if name.endswith("-gpl"):
-        text += ("\nThis package as a whole is under the GNU General Public License, version 3 or later (/usr/share/common-licenses/GPL-3), for it is\n"
-                 "linked with FFTW or holds parts of CGAL.\n")
-    if bill.texts:
-        text += "\nIt holds parts of\n" + "".join(f"  {what}\n" for what, _ in bill.texts)
-    return text + "".join(f"\n{'-' * 78}\n{what}\n\n{licence.strip()}\n" for what, licence in bill.texts if licence)
-
-
-def finish(deb, folder, build, rows, time):
-    with tempfile.TemporaryDirectory() as work:
-        root = pathlib.Path(work) / "root"
-        output("dpkg-deb", "-R", deb, root)
-        control_file = root / "DEBIAN" / "control"
-        control = dict(re.findall(r"^(\S+): (.*)$", control_file.read_text(), re.M))
-        name = control["Package"]
-        for archive in root.rglob("*.a"):
-            output("strip", "--strip-debug", "--enable-deterministic-archives", archive)
-        if not name.endswith("-dbgsym"):
-            bill, place = bill_of(control, root, build, rows), root / "usr" / "share" / "doc" / name
-            place.mkdir(parents=True, exist_ok=True)
-            (place / f"{name}.spdx.json").write_text(bill.json(time))
-            (place / "copyright").write_text(copyright_of(name, bill), encoding="utf-8")
-        files = sorted(path for path in (root / "usr").rglob("*") if path.is_file() and not path.is_symlink())
-        sums = "".join(f"{hashlib.md5(path.read_bytes()).hexdigest()}  {path.relative_to(root)}\n" for path in files)
-        (root / "DEBIAN" / "md5sums").write_text(sums)
-        size = sum(-(-path.stat().st_size // 1024) for path in files)
-        control_file.write_text(re.sub(r"^Installed-Size: .*$", f"Installed-Size: {size}", control_file.read_text(), flags=re.M))
-        for path in root.rglob("*"):
-            if not path.is_symlink():
-                path.chmod(0o755 if path.is_dir() or (path.stat().st_mode & 0o100 and not name.endswith("-dbgsym")) else 0o644)
-                os.utime(path, (time.timestamp(), time.timestamp()))
-        output("dpkg-deb", "--root-owner-group", "-Zxz", "--threads-max=1", "-b", root, folder / f"{deb.stem}.deb")
+def finish(deb, root, build, target, epoch):
+    output("dpkg-deb", "-R", deb, root)
+    control_file = root / "DEBIAN" / "control"
+    control = dict(re.findall(r"^(\S+): (.*)$", control_file.read_text(), re.M))
+    name, debug = control["Package"], control["Package"].endswith("-dbgsym")
+    for archive in root.rglob("*.a"):
+        output("strip", "--strip-debug", "--enable-deterministic-archives", archive)
+    if not debug:
+        bill, place = bill_of(control, root, build), root / "usr" / "share" / "doc" / name
+        (place / f"{name}.spdx.json").write_text(bill.json(epoch))
+        (place / "copyright").write_text(bill.licences(), encoding="utf-8")
+    files = sorted(path for path in (root / "usr").rglob("*") if path.is_file() and not path.is_symlink())
+    (root / "DEBIAN" / "md5sums").write_text("".join(f"{hashlib.md5(path.read_bytes()).hexdigest()}  {path.relative_to(root)}\n" for path in files))
+    size = sum(-(-path.stat().st_size // 1024) for path in files)
+    control_file.write_text(re.sub(r"^Installed-Size: .*$", f"Installed-Size: {size}", control_file.read_text(), flags=re.M))
+    for path in root.rglob("*"):
+        if not path.is_symlink():
+            path.chmod(0o755 if path.is_dir() or (path.stat().st_mode & 0o100 and not debug) else 0o644)
+    output("dpkg-deb", "--root-owner-group", "-Zxz", "--threads-max=1", "-b", root, target / f"{deb.stem}.deb")
 
 
 def main():
-    build, folder = (pathlib.Path(name).resolve() for name in sys.argv[1:])
-    time = datetime.datetime.fromtimestamp(int(os.environ["SOURCE_DATE_EPOCH"]), datetime.timezone.utc)
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    rows = libraries(build)
+    build, target = (pathlib.Path(name).resolve() for name in sys.argv[1:])
+    shutil.rmtree(target, ignore_errors=True)
+    target.mkdir(parents=True)
     for deb in sorted([*build.glob("*.deb"), *build.glob("*.ddeb")]):
-        finish(deb, folder, build, rows, time)
-        deb.unlink()
+        with tempfile.TemporaryDirectory() as work:
+            finish(deb, pathlib.Path(work) / "root", build, target, int(os.environ["SOURCE_DATE_EPOCH"]))
 
 
 if __name__ == "__main__":
