@@ -67,6 +67,7 @@ add_custom_target(site COMMAND /usr/bin/python3 -m sphinx -q -W --keep-going -d 
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" VERBATIM)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/site/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/html" COMPONENT documents OPTIONAL
   PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE)
+install(DIRECTORY "${PROJECT_BINARY_DIR}/api/html/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/html/api" COMPONENT documents OPTIONAL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME treadmark)

@@ -4,7 +4,8 @@
 # usage: packages.sh [FOLDER [OPTIONS OF CMAKE]]
 # Makes the packages for Debian in FOLDER (out/packages unless told), checks them and prints their SHA-256: builds the preset `packages` in
 # build/packages and the documents as pages, and has cmake/finish_packages.py add licences and bills of materials. The same commit gives the
-# same bytes on any day and in any folder, with the same Debian packages installed (scripts/reproducible.sh).
+# same bytes on any day and in any folder, with the same Debian packages installed (scripts/reproducible.sh). Needs what
+# scripts/install-packages.sh --tests installs.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 folder=$(realpath -m "${1:-out/packages}")
@@ -14,10 +15,10 @@ export SOURCE_DATE_EPOCH
 
 cmake --preset packages "${@:2}"
 cmake --build build/packages
-cmake --build build/packages --target site
+cmake --build build/packages --target site api
 rm -f build/packages/*.deb build/packages/*.ddeb
 (cd build/packages && cpack -G DEB >&2)
 python3 -B cmake/finish_packages.py build/packages "$folder"
 python3 -B tests/packages/check_debs.py "$folder" "$PWD"
-python3 -B tests/readme/site_test.py . build/packages/site
+/usr/bin/python3 -B tests/readme/site_test.py . build/packages/site
 (cd "$folder" && sha256sum -- *.deb)
