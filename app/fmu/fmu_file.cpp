@@ -14,7 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/modules.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/core/parts.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
 namespace treadmark::fmi {
@@ -33,9 +33,9 @@ void add_folder(const fs::path& folder, const std::string& as, Files& files) {
       files[as + '/' + entry.path().lexically_relative(folder).generic_string()] = io::read_text(entry.path());
 }
 
-/// The folder with the shared library and what goes with it. triangles: whether it must know those.
-fs::path library_folder(bool triangles) {
-  const char* const name = triangles || !has_part("embree") ? "fmu" : "fmu-without-embree";
+/// The folder with the shared library and what goes with it. small: one that knows neither triangles nor vehicles.
+fs::path library_folder(bool small) {
+  const char* const name = small ? "fmu-pair" : "fmu";
   std::error_code failed;
   for (const fs::path& place : module_folders())
     if (fs::exists(place / name / kLibraries, failed)) return place / name;
@@ -109,7 +109,8 @@ WrittenFmu write_fmu(const FmuContent& content) {
   about.token = token_of(stage.path());
   const std::size_t triangles_before = mesh::surfaces_made();
   const auto model = open_model(stage.path());
-  const fs::path library = library_folder(mesh::surfaces_made() > triangles_before);
+  const bool triangles = mesh::surfaces_made() > triangles_before;
+  const fs::path library = library_folder(!triangles && !io::is_simulation_file(content.input));
 
   Files files;
   add_folder(stage.path(), "resources", files);

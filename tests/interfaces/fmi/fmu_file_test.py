@@ -109,7 +109,7 @@ class FmuFiles(unittest.TestCase):
         force = float(re.search(r'"fz_tr_N": *([-+.e\d]+)', solved.stdout).group(1))
         self.assertAlmostEqual(float(host.stdout.split()[2]) / -force, 1.0, delta=1e-9)
 
-    def test_embree_travels_where_there_are_triangles(self):
+    def test_pairs_without_triangles_are_small(self):
         def libraries(fmu):
             with zipfile.ZipFile(fmu) as archive:
                 return " ".join(archive.namelist())
