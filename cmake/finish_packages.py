@@ -27,7 +27,7 @@ HEADERS = {"Eigen": ("libeigen3-dev", None), "JSON for Modern C++": ("nlohmann-j
 SITE = {"Furo": ("furo", "MIT"), "Sphinx": ("sphinx-common", "BSD-2-Clause")}  # style sheets and scripts of the documents
 # By source package, beside those of the libraries in the program's own list.
 LICENCES = {"glibc": "LGPL-2.1-or-later", "gcc-12": "GPL-3.0-or-later WITH GCC-exception-3.1", "numpy": "BSD-3-Clause",
-            "python3-defaults": "PSF-2.0", "hwloc": "BSD-3-Clause"}
+            "python3-defaults": "PSF-2.0", "imath": "BSD-3-Clause"}
 
 
 def output(*command):

@@ -16,7 +16,7 @@ import tempfile
 
 # What each may weigh [MB], and what it must hold below usr/; of others neither is asked.
 NEEDED = {"treadmark": (40, ["bin/treadmark", "share/man/man1/treadmark.1", "share/doc/treadmark/examples/wheel-flat.toml"]),
-          "libtreadmark0": (6, []),
+          "libtreadmark0": (10, []),
           "libtreadmark-dev": (20, ["include/treadmark.h", "lib/pkgconfig/treadmark.pc", "lib/cmake/Treadmark/TreadmarkConfig.cmake"])}
 # What no other package may need.
 APART = {"treadmark-cad": "libocct-", "treadmark-openvdb": "libopenvdb|libboost-iostreams", "GPL": "libfftw3|libgmp|libmpfr|libcgal"}
