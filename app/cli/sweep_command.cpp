@@ -12,6 +12,7 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/slurm_jobs.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
@@ -86,6 +87,7 @@ void print_table(const io::StudyResult& study) {
 }
 
 int sweep_command(const SweepOptions& options, const CommonOptions& common) {
+  require_file(options.file, "study file", ErrorKind::configuration);
   if (!io::is_study_file(options.file))
     throw Error(ErrorKind::configuration, options.file + " is not a study: it has no table [study]", {},
                 "treadmark simulate runs one simulation");

@@ -94,7 +94,7 @@ std::string comparison_table(const Comparison& comparison) {
   for (const ComparisonCandidate& candidate : comparison.candidates)
     lines.push_back(candidate_line(candidate, &candidate == comparison.candidates.data()));
 
-  std::string out = table_text(lines);
+  std::string out = table_text(lines, {2, 6, 11});
   if (const std::vector<int> cases = cases_without_limit(comparison); !cases.empty())
     out += fmt::format(
         "case {}: the largest pressure has no limit (edge_pressure) and tells nothing of representations; force, mean "

@@ -59,13 +59,22 @@ void add_column(std::vector<std::string>& lines, const std::vector<std::string>&
     lines[i] += gap + (texts ? fmt::format("{:<{}}", cells[i], width) : fmt::format("{:>{}}", cells[i], width));
 }
 
-std::string table_text(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::string> out(lines.size()), cells(lines.size());
-  for (std::size_t column = 0; column < lines.front().size(); ++column) {
-    for (std::size_t i = 0; i < lines.size(); ++i) cells[i] = lines[i][column];
-    add_column(out, cells, column == 0);
+std::string table_text(const std::vector<std::vector<std::string>>& lines, const std::vector<std::size_t>& blocks) {
+  std::vector<std::string> cells(lines.size());
+  const auto add = [&](std::vector<std::string>& to, std::size_t column, std::size_t end) {
+    for (; column < end; ++column) {
+      for (std::size_t i = 0; i < lines.size(); ++i) cells[i] = lines[i][column];
+      add_column(to, cells, column == 0);
+    }
+  };
+  std::string text;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    std::vector<std::string> block(lines.size());
+    add(block, 0, blocks.front());
+    add(block, blocks[k], k + 1 < blocks.size() ? blocks[k + 1] : lines.front().size());
+    text += (k > 0 ? "\n" : "") + joined_lines(block);
   }
-  return joined_lines(out);
+  return text;
 }
 
 std::string joined_lines(const std::vector<std::string>& lines) {
