@@ -77,7 +77,7 @@ TEST(ComparisonTable, ColumnsAreAligned) {
     for (const std::size_t i : {1, 3, 4, 5, 6, 7})
       EXPECT_EQ(lines[block + i].size(), lines[block].size()) << lines[block + i];
   EXPECT_EQ(lines[2 * kBlock + 2].find("[MB]"), lines[2 * kBlock].find("memory") + 2);  // no cases, and no blanks
-  comparison.candidates[2].name = "müsh";                         // five bytes, four characters
+  comparison.candidates[2].name = "müsh";                                               // five bytes, four characters
   const auto longer = lines_of(io::comparison_table(comparison));
   EXPECT_EQ(longer[5].size(), longer[4].size() + 1);
 }
