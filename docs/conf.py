@@ -38,5 +38,13 @@ def add_navigation(app, name, source):
     source[0] = re.sub(r'<img [^>]*>', lambda image: re.sub(r'(alt="[^"]*)"', lambda alt: alt[0].replace(": ", " – "), image[0]), source[0])
 
 
+def add_front(app, error):
+    """The first page where servers and people look for it."""
+    page = f"{root_doc}.html"
+    front = f'<!DOCTYPE html><meta charset="utf-8"><title>Treadmark</title><meta http-equiv="refresh" content="0; url={page}"><a href="{page}">Treadmark</a>\n'
+    pathlib.Path(app.outdir, "index.html").write_text(front, encoding="utf-8")
+
+
 def setup(app):
     app.connect("source-read", add_navigation)
+    app.connect("build-finished", add_front)

@@ -69,7 +69,7 @@ with tempfile.TemporaryDirectory() as name:
     made = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", root / "docs", root, site], capture_output=True, text=True)
     assert made.returncode == 0, made.stdout + made.stderr
     pages = {path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
-    assert len(pages) > 40, len(pages)
+    assert len(pages) > 40 and pages[site / "index.html"].links == ["docs/index.html"], len(pages)
     wrong = []
     for path, page in pages.items():
         wrong += [f"{path.relative_to(site)} loads {load}" for load in page.loads if urllib.parse.urlparse(load).scheme in ("http", "https")]
