@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -60,21 +61,27 @@ void add_column(std::vector<std::string>& lines, const std::vector<std::string>&
 }
 
 std::string table_text(const std::vector<std::vector<std::string>>& lines, const std::vector<std::size_t>& blocks) {
-  std::vector<std::string> cells(lines.size());
-  const auto add = [&](std::vector<std::string>& to, std::size_t column, std::size_t end) {
-    for (; column < end; ++column) {
-      for (std::size_t i = 0; i < lines.size(); ++i) cells[i] = lines[i][column];
-      add_column(to, cells, column == 0);
-    }
+  constexpr std::size_t kWidest = 80;
+  const auto with = [&](std::vector<std::string> block, std::size_t column) {
+    std::vector<std::string> cells;
+    cells.reserve(lines.size());
+    for (const std::vector<std::string>& line : lines) cells.push_back(line[column]);
+    add_column(block, cells, column == 0);
+    return block;
   };
+  std::vector<std::string> keys(lines.size());
+  for (std::size_t column = 0; column < blocks.front(); ++column) keys = with(keys, column);
   std::string text;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    std::vector<std::string> block(lines.size());
-    add(block, 0, blocks.front());
-    add(block, blocks[k], k + 1 < blocks.size() ? blocks[k + 1] : lines.front().size());
-    text += (k > 0 ? "\n" : "") + joined_lines(block);
+  std::vector<std::string> block = keys;
+  for (std::size_t column = blocks.front(); column < lines.front().size(); ++column) {
+    std::vector<std::string> wider = with(block, column);
+    if (column > blocks.front() && (std::ranges::count(blocks, column) > 0 || width_of(wider.front()) > kWidest)) {
+      text += joined_lines(block) + '\n';
+      wider = with(keys, column);
+    }
+    block = std::move(wider);
   }
-  return text;
+  return text + joined_lines(block);
 }
 
 std::string joined_lines(const std::vector<std::string>& lines) {

@@ -59,7 +59,7 @@ class Sweep : public ::testing::Test {
     together.insert(together.end(), each.begin(), each.end());
     const ProgramResult r = RunningProgram(together).wait();
     ASSERT_EQ(r.status, 0) << r.err;
-    EXPECT_EQ(std::ranges::count(r.out, '\n'), runs) << "one process prints the table: " << r.out;
+    EXPECT_EQ(std::ranges::count(r.out, '\n'), runs + 1) << "one process prints the table: " << r.out;
     expect_same("alone", "together");
   }
   SampleSimulation input;
@@ -68,7 +68,7 @@ class Sweep : public ::testing::Test {
 TEST_F(Sweep, WritesTableStoreAndFigures) {
   const ProgramResult r = run("out");
   ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_EQ(std::ranges::count(r.out, '\n'), 4) << r.out;
+  EXPECT_EQ(std::ranges::count(r.out, '\n'), 5) << r.out;
   EXPECT_THAT(r.out, HasSubstr("40, 0.9"));
   const std::string table = input.read("out/sweep.csv");
   EXPECT_THAT(table, StartsWith("simulation.speed_m_s,wheel.flats.0.depth_mm,"));
