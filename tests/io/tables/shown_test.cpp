@@ -18,8 +18,8 @@ TEST(TableText, GoesOnBelowWhere80CharactersAreFull) {
   EXPECT_EQ(table_text(lines, {1}), "name    a" + wide + "  b" + wide + "\nMüller" + std::string(36, ' ') + "1" +
                                         std::string(36, ' ') + "1\n\nname    c" + wide + "\nMüller" +
                                         std::string(36, ' ') + "1\n");
-  lines[0][1] += "__";  // one character more than there is room for
-  EXPECT_THAT(table_text(lines, {1}), ::testing::StartsWith("name    a" + wide + "__\n"));
+  lines[0][1] += "_";  // one character more than there is room for
+  EXPECT_THAT(table_text(lines, {1}), ::testing::StartsWith("name    a" + wide + "_\n"));
   EXPECT_EQ(table_text({{"n", "x", "y"}, {"a", "1", "2"}}, {1, 2}), "n  x\na  1\n\nn  y\na  2\n") << "asked for";
 }
 
