@@ -15,7 +15,7 @@ using geometry::Conicity;
 using geometry::Position;
 using geometry::WheelsetOnTrack;
 
-constexpr std::size_t kLabels = 26;  // room for them on the terminal
+constexpr std::size_t kLabels = 24;  // room for them on the terminal
 
 std::string load_text(const geometry::LoadedFunctions& f) {
   return io::lines_of(f, kLabels) + io::text_line("  right", kLabels, io::phrase_of(f.at_middle.right)) +
