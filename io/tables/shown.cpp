@@ -72,16 +72,22 @@ std::string table_text(const std::vector<std::vector<std::string>>& lines, const
   std::vector<std::string> keys(lines.size());
   for (std::size_t column = 0; column < blocks.front(); ++column) keys = with(keys, column);
   std::string text;
+  const auto written = [&](std::vector<std::string> block) {
+    std::erase_if(block, [](const std::string& line) { return line.find_first_not_of(' ') == std::string::npos; });
+    text += joined_lines(block);
+  };
   std::vector<std::string> block = keys;
   for (std::size_t column = blocks.front(); column < lines.front().size(); ++column) {
     std::vector<std::string> wider = with(block, column);
     if (column > blocks.front() && (std::ranges::count(blocks, column) > 0 || width_of(wider.front()) > kWidest)) {
-      text += joined_lines(block) + '\n';
+      written(block);
+      text += '\n';
       wider = with(keys, column);
     }
     block = std::move(wider);
   }
-  return text + joined_lines(block);
+  written(block);
+  return text;
 }
 
 std::string joined_lines(const std::vector<std::string>& lines) {

@@ -20,7 +20,9 @@ TEST(TableText, GoesOnBelowWhere80CharactersAreFull) {
                                         std::string(36, ' ') + "1\n");
   lines[0][1] += "_";  // one character more than there is room for
   EXPECT_THAT(table_text(lines, {1}), ::testing::StartsWith("name    a" + wide + "_\n"));
-  EXPECT_EQ(table_text({{"n", "x", "y"}, {"a", "1", "2"}}, {1, 2}), "n  x\na  1\n\nn  y\na  2\n") << "asked for";
+  EXPECT_EQ(table_text({{"n", "x", "y"}, {"", "", "[m]"}, {"a", "1", "2"}}, {1, 2}),
+            "n  x\na  1\n\nn    y\n   [m]\na    2\n")
+      << "where it is asked for";
 }
 
 }  // namespace
