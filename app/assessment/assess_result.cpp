@@ -107,7 +107,7 @@ void add_doubts(AssessedRun& run) {
       if (count++ == 0) example = fmt::format("{} of {} in {}", one.quantity, one.place, one.section);
     }
   for (const auto& [status, found] : counts)
-    run.doubts.push_back(fmt::format("{} of {} quantities have no value, for {} ({}): the first {}", found.first,
+    run.doubts.push_back(fmt::format("{} of {} quantities have no value: {} ({}); the first is {}", found.first,
                                      run.quantities.size(), measures::reason_of(status), measures::name_of(status),
                                      found.second));
 }
