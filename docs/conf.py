@@ -13,6 +13,7 @@ include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md",
 exclude_patterns = ["build*", "out*", "shared", "**/node_modules", ".*"]
 html_title = "Treadmark"
 html_copy_source = False
+html_scaled_image_link = False  # thumbnails lead to their sections
 html_static_path = ["site"]
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]

@@ -110,7 +110,7 @@ def _settings(verb: str, values: Mapping[str, Any], changes: Changes = None) -> 
             value = file_of(value, name)
         elif setting.factor != 1.0 and not isinstance(value, str):
             value = np.asarray(value, dtype=np.float64) / setting.factor
-        made.append(f"{key}={toml_value(value)}")
+        made.append(f"{setting.key}={toml_value(value)}")
     return made + assignments(changes)
 
 
