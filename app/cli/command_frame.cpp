@@ -19,6 +19,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/report/write_page.hpp"
 
@@ -188,7 +189,7 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
   constexpr double kCells = 20.0;
   const double share = static_cast<double>(finished) / static_cast<double>(total);
   std::string line =
-      fmt::format("[{:.<20}] {}/{} ({:.0f} %) {}", std::string(static_cast<std::size_t>(kCells * share), '#'), finished,
+      fmt::format("[{:.<20}] {}/{} ({:.0f} %) {}", std::string(to_whole<std::size_t>(kCells * share), '#'), finished,
                   total, 100.0 * share, what);
   if (finished > 0)
     line += fmt::format(", {:.1f} s left",

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/solvers/wheelrail/element_choice.hpp"
 
@@ -75,7 +76,7 @@ std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRa
   constexpr double kMostRows = 1e5;
   const double step = 0.3 * p.discretisation.ds, rows = std::ceil((rail.y_max - rail.y_min) / step) + 1.0;
   if (!(rows < kMostRows)) return std::nullopt;
-  return detection::LocusRows{rail.y_min, step, static_cast<int>(rows), p.wheelset.nominal_radius,
+  return detection::LocusRows{rail.y_min, step, to_whole<int>(rows), p.wheelset.nominal_radius,
                               p.roller ? p.roller->nominal_radius : 0.0};
 }
 

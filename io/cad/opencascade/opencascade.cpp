@@ -250,7 +250,7 @@ class Shape {
   std::size_t strip(double y) const {
     const double low = kMillimetres * low_[1], high = kMillimetres * high_[1];
     const double share = high > low ? (y - low) / (high - low) : 0.0;
-    return static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * (kStrips - 1));
+    return to_whole<std::size_t>(share * (kStrips - 1), 0.0, kStrips - 1.0);
   }
   std::vector<std::vector<std::size_t>> strips_;  ///< boxes that reach into each
 };
