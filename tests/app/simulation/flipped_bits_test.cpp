@@ -84,7 +84,7 @@ void flip_in_file(const fs::path& file, const Places& without_content, const std
   });
 }
 
-bool nowhere(std::size_t) { return false; }
+bool no_place(std::size_t) { return false; }
 
 Answer answer_of(const std::function<void()>& read) {
   try {
@@ -168,7 +168,7 @@ TEST_F(FlippedBits, OfFilesAreRefused) {
     if (entry.path().parent_path().filename().string().starts_with("rail-")) slice = entry.path();
   ASSERT_FALSE(slice.empty());
   const auto read_all = [&] { return answer_of([&] { io::read_slices(index, Body::rail, {}); }); };
-  flip_in_file(slice, nowhere, read_all);
+  flip_in_file(slice, no_place, read_all);
   const std::size_t sum = content_of(index).find(": ", content_of(index).find("SHA-256"));
   flip_in_file(
       index, [&](std::size_t at) { return at < sum + 2; }, read_all);
@@ -179,7 +179,7 @@ TEST_F(FlippedBits, OfTablesThatAreKeptAreAsIfThereWereNone) {
   const std::string key = "what decides it", text(5000, 'x');
   const auto content = std::as_bytes(std::span(text));
   cache.keep(key, content);
-  flip_in_file(cache.file_of(key), nowhere, [&] {
+  flip_in_file(cache.file_of(key), no_place, [&] {
     const auto found = cache.find(key);
     if (!found) return Answer::refused;
     return std::ranges::equal(*found, content) ? Answer::same : Answer::other;
@@ -193,7 +193,7 @@ TEST(FlippedBitsOfStates, AreRefused) {
   wheelrail::write(pair.save(), saved);
   std::vector<std::byte> bytes = saved.bytes();
   flip(
-      "state of a pair", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), nowhere,
+      "state of a pair", std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), no_place,
       [&] {
         return answer_of([&] {
           ByteReader in(bytes);
