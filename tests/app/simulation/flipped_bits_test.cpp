@@ -27,7 +27,6 @@
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/core/byte_archive.hpp"
-#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/content_cache.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -39,6 +38,7 @@
 #include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
 #include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/mutation.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -124,16 +124,16 @@ TEST_F(FlippedBits, OfFilesAreRefused) {
   input_.write("evolve.toml",
                "[evolve]\nbase = \"case.toml\"\ndistance_km = 100\nupdates = 1\n[evolve.wheel]\n[evolve.wheel.law]\n"
                "theory = \"archard\"\nsource = \"assumed\"\nhardness_GPa = 3.0\nk = [1e-4]\n");
-  const auto at = [&](const char* name) { return input_.path(name); };
-  run({"run", at("case.toml"), "-o", at("run")});
-  run({"compare", at("case.toml"), "--resolutions", "8", "--bodies", "rail", "--backends", "spline", "-o",
-       at("compare")});
-  run({"simulate", at("simulation.toml"), "-o", at("simulate")});
-  run({"sweep", at("study.toml"), "-o", at("sweep")});
-  run({"evolve", at("evolve.toml"), "-o", at("evolve")});
-  run({"measure", "wheel", "S1002", "1:40", "--hdf5", at("list.h5")});
+  const auto path = [&](const char* name) { return input_.path(name); };
+  run({"run", path("case.toml"), "-o", path("run")});
+  run({"compare", path("case.toml"), "--resolutions", "8", "--bodies", "rail", "--backends", "spline", "-o",
+       path("compare")});
+  run({"simulate", path("simulation.toml"), "-o", path("simulate")});
+  run({"sweep", path("study.toml"), "-o", path("sweep")});
+  run({"evolve", path("evolve.toml"), "-o", path("evolve")});
+  run({"measure", "wheel", "S1002", "1:40", "--hdf5", path("list.h5")});
   for (const char* name : {"rail.vdb", "rail.ply", "rail.stl", "rail.slcs"})
-    run({"convert", at("rail.prr"), at(name), "--resolution", "8", "--range-mm=-24,24"});
+    run({"convert", path("rail.prr"), path(name), "--resolution", "8", "--range-mm=-24,24"});
   stop_at_a_checkpoint();
 
   // Before the end stand the name of the check sum and the sum: without the name nothing is checked.
@@ -162,7 +162,7 @@ TEST_F(FlippedBits, OfFilesAreRefused) {
   EXPECT_THAT(seen, ::testing::IsSupersetOf({"fields.h5", "simulation.h5", "sweep.h5", "unfinished.h5", "list.h5",
                                              "rail.vdb", "rail.ply", "rail.stl"}));
 
-  const fs::path index = at("rail.slcs");
+  const fs::path index = path("rail.slcs");
   fs::path slice;
   for (const auto& entry : fs::recursive_directory_iterator(input_.folder()))
     if (entry.path().parent_path().filename().string().starts_with("rail-")) slice = entry.path();
