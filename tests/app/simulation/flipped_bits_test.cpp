@@ -165,7 +165,7 @@ TEST_F(FlippedBits, OfFilesAreRefused) {
   const fs::path index = path("rail.slcs");
   fs::path slice;
   for (const auto& entry : fs::recursive_directory_iterator(input_.folder()))
-    if (entry.path().parent_path().filename().string().starts_with("rail-")) slice = entry.path();
+    if (entry.path().parent_path().filename().string().starts_with("rail.slcs-")) slice = entry.path();
   ASSERT_FALSE(slice.empty());
   const auto read_all = [&] { return answer_of([&] { io::read_slices(index, Body::rail, {}); }); };
   flip_in_file(slice, no_place, read_all);
