@@ -20,6 +20,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/cad_process.hpp"
+#include "treadmark/io/cad/step_text.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -588,6 +589,7 @@ CadSurface read_cad(const std::filesystem::path& file, Body body, double nominal
   if (size > kMostBytes)
     throw Error(ErrorKind::input_data, fmt::format("the CAD file has {} bytes, more than {}", size, kMostBytes),
                 {file.string()}, "export the running surface alone");
+  if (is_step_file(file)) cad::require_step_numbers(file);
   const cad::CadShape shape(cad::start_opencascade(file.string()), file, !is_step_file(file));
   return cad::running_surface(shape, body, nominal_radius, file);
 }

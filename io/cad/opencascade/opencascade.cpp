@@ -383,6 +383,15 @@ class FaceTriangles {
     const auto length = [&](int a, int b) {
       return points_[static_cast<std::size_t>(a)].SquareDistance(points_[static_cast<std::size_t>(b)]);
     };
+    double area = 0.0;
+    for (const auto& [a, b, c] : triangles_) {
+      const auto side = [&](int to) {
+        return points_[static_cast<std::size_t>(to)].XYZ() - points_[static_cast<std::size_t>(a)].XYZ();
+      };
+      area += 0.5 * side(b).Crossed(side(c)).Modulus();
+    }
+    // of equal sides at best
+    if (area > 0.25 * std::sqrt(3.0) * longest * longest * static_cast<double>(most)) return false;
     for (;;) {
       std::unordered_map<std::uint64_t, int> middles;
       for (const auto& t : triangles_) {
