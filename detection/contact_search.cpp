@@ -17,16 +17,6 @@ namespace {
 
 constexpr double kMaxSearchPoints = 4e7;
 
-// What rows and parabolas of the reference program's locus may miss of a gap [m].
-constexpr double kSlight = 3e-6;
-
-// Less of a gap than that is where its curve leaves the wheel [m].
-constexpr double kInvented = 30e-6;
-
-// Over what is as high as this and as far ahead or behind no wheel rolls, shares of its radius: such parts of a surface
-// are artefacts between sections.
-constexpr double kStep = 0.02, kAhead = 0.05;
-
 // The first grid may miss a shallow region between its points: its minima below this are looked at more closely.
 double grazing_gap(const Grid2& g) {
   constexpr double kSharpestRadius = 0.005;  // lateral curvature radius of the sharpest corner that matters [m]
@@ -71,14 +61,6 @@ ContactPatch to_patch(const GapField& field, double wheel_dz, const Region& r, b
   return p;
 }
 
-/// [m]; NaN where a surface is missing.
-double gap_over(const BodyPair& bodies, const Vec2& place) {
-  double rail = 0.0, wheel = 0.0;
-  bodies.rail->heights_at(bodies.X_TR.inverse(), {&place, 1}, {{&rail, 1}, {}, {}});
-  bodies.wheel->heights_at(bodies.X_TW.inverse(), {&place, 1}, {{&wheel, 1}, {}, {}});
-  return rail - wheel;
-}
-
 bool overlap(const Rectangle& a, const Rectangle& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
@@ -94,7 +76,7 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
   if ((settings.method == SearchMethod::locus && !settings.locus_rows &&
-       (settings.mesh || !ContactLocus::applies(bodies))) ||
+       (settings.facets || !ContactLocus::applies(bodies))) ||
       (settings.locus_rows && !bodies.wheel->constant_profile()))
     throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel",
                 {}, "use the grid method");
@@ -102,19 +84,19 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     reference_locus_.emplace(bodies, *settings.locus_rows);
     if (!ContactLocus::applies(bodies) && settings.locus_rows->roller_radius == 0.0) {
       gap_.emplace(bodies, g, std::nullopt, false);
-      const double least = reference_locus_->least(),
-                   touching = std::isnan(least) ? gap_->least() + 2.0 * kSlight : least + kSlight;
-      if (is_wrong(touching, reference_locus_->at(touching, 0.0, settings.weight, false).patches)) {
+      locus_check_.emplace(bodies, settings.locus_rows->nominal_radius);
+      if (locus_check_->is_wrong_at_first(*reference_locus_, settings.weight, *gap_)) {
         reference_locus_.reset();
         settings_.method = SearchMethod::pruned_grid;
       }
     }
-  } else if (settings.method == SearchMethod::locus || (settings.method == SearchMethod::automatic && !settings.mesh &&
-                                                        settings.refine && ContactLocus::applies_over(bodies, g))) {
+  } else if (settings.method == SearchMethod::locus ||
+             (settings.method == SearchMethod::automatic && !settings.facets && settings.refine &&
+              ContactLocus::applies_over(bodies, g))) {
     locus_.emplace(bodies, g);
   } else {
     if (settings_.method == SearchMethod::automatic) settings_.method = SearchMethod::pruned_grid;
-    gap_.emplace(bodies, g, settings.mesh, settings_.method == SearchMethod::full_grid);
+    gap_.emplace(bodies, g, settings.facets, settings_.method == SearchMethod::full_grid);
   }
 }
 
@@ -128,7 +110,8 @@ SearchResult ContactSearch::at(double wheel_dz) {
   const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
   if (reference_locus_) {
     ContactLocus::Found found = reference_locus_->at(wheel_dz, s.rules.near_miss, s.weight, s.reference_at_deepest);
-    if (!is_wrong(wheel_dz, found.patches)) return found_on_locus(std::move(found));
+    if (!locus_check_ || !locus_check_->is_wrong(wheel_dz, found.patches, *gap_))
+      return found_on_locus(std::move(found));
   }
   if (locus_ && std::isnan(locus_->least())) return {{}, locus_->least(), locus_->least()};
   if (locus_)
@@ -141,44 +124,6 @@ SearchResult ContactSearch::at(double wheel_dz) {
 SearchResult ContactSearch::found_on_locus(ContactLocus::Found found) const {
   return {combine_patches(std::move(found.patches), found.near_misses, settings_.rules), found.least_gap,
           found.closest};
-}
-
-/// Whether what the reference's locus has found is not the contact that the grid shows, where there is one.
-bool ContactSearch::is_wrong(double wheel_dz, const std::vector<ContactPatch>& found) {
-  wrong_.reset();
-  if (!gap_ || wheel_dz <= agreed_) return false;
-  const Grid2& g = settings_.grid_T;
-  const double deep = wheel_dz - kSlight;
-  gap_->reveal(deep);
-  for (const Region& r : find_regions(gap_->field(), deep, std::nullopt, 0.0)) {
-    const auto covers_row = [&](const ContactPatch& p, double y) {
-      return y > p.extent.box.y_min - g.dy && y < p.extent.box.y_max + g.dy;
-    };
-    const double x = g.x(r.ix_deepest), y = g.y(r.iy_deepest), z = gap_->field().rail_z(r.ix_deepest, r.iy_deepest);
-    const bool seen = std::ranges::any_of(found, [&](const ContactPatch& p) {
-      return covers_row(p, y) && x > p.extent.box.x_min - g.dx && x < p.extent.box.x_max + g.dx &&
-             p.least_gap < r.least_gap;
-    });
-    // Without guard rows.
-    int low = seen ? r.iy_max : r.iy_deepest, high = seen ? r.iy_min : r.iy_deepest;
-    for (int iy = r.iy_min + 1; iy < r.iy_max; ++iy) {
-      if (seen && std::ranges::any_of(found, [&](const ContactPatch& p) { return covers_row(p, g.y(iy)); })) continue;
-      low = std::min(low, iy), high = std::max(high, iy);
-    }
-    if (low > high) continue;
-    const double radius = settings_.locus_rows->nominal_radius;
-    const bool obstacle = -r.least_gap > kStep * radius && std::abs(x - bodies_.X_TW.origin.x()) > kAhead * radius;
-    wrong_ = {Vec3(x, g.y(low), z), Vec3(x, g.y(high), z), !obstacle};
-    if (wrong_->grid_decides) return true;
-  }
-  if (wrong_) return false;
-  for (const ContactPatch& p : found) {
-    if (!(gap_over(bodies_, {p.deepest_T.x(), p.deepest_T.y()}) - wheel_dz > p.least_gap + kInvented)) continue;
-    wrong_ = {p.deepest_T, p.deepest_T, true};
-    return true;
-  }
-  agreed_ = wheel_dz;
-  return false;
 }
 
 SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/contact_program/reference_locus.hpp"
 #include "treadmark/detection/detector.hpp"
@@ -31,14 +30,13 @@ class ContactSearch final : public Detector {
 
   double least_gap() override;  ///< on the first grid
   SearchResult at(double wheel_dz) override;
-  std::optional<WrongLocus> wrong_locus() const override { return wrong_; }
+  std::optional<WrongLocus> wrong_locus() const override { return locus_check_ ? locus_check_->wrong() : std::nullopt; }
 
   /// Points of the first grid whose heights were asked for so far.
   std::size_t points_evaluated() const { return gap_ ? gap_->points_known() : 0; }
 
  private:
   SearchResult found_on_locus(ContactLocus::Found found) const;
-  bool is_wrong(double wheel_dz, const std::vector<ContactPatch>& found);
   SearchResult on_grid(double wheel_dz, double look_below);
   const GapField& refined(const Region& region);
   double closest_on_grid();
@@ -48,9 +46,8 @@ class ContactSearch final : public Detector {
   std::optional<ContactLocus> locus_;
   std::optional<ReferenceLocus> reference_locus_;
   std::optional<PrunedGap> gap_;
-  double agreed_ = -kInfinity;  ///< greatest wheel_dz at which locus and grid show the same contact
-  std::optional<WrongLocus> wrong_;
-  std::optional<double> closest_;  ///< at the position given at construction [m]; found out when needed
+  std::optional<LocusCheck> locus_check_;  ///< against gap_
+  std::optional<double> closest_;          ///< at the position given at construction [m]; found out when needed
   struct Refined {
     Grid2 grid;
     GapField field;

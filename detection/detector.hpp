@@ -30,10 +30,10 @@ struct SearchSettings {
   bool refine = true;
   int refined_points = 64;                    ///< see refine
   double refined_dx = 0.0, refined_dy = 0.0;  ///< see refine [m]
-  /// On the first grid, for agreement with the reference program; refined grids are always exact.
-  std::optional<SearchMesh> mesh;
-  /// The locus on these rows instead of Treadmark's own, for agreement with that program; needs a round wheel. On a
-  /// rail that changes along the track the grid decides instead where it shows other contact than the locus.
+  /// On the first grid (Conventions::contact); refined grids are always exact.
+  std::optional<WheelFacets> facets;
+  /// The locus on these rows instead of Treadmark's own (Conventions::contact); needs a round wheel. On a rail that
+  /// changes along the track the grid decides instead where it shows other contact than the locus.
   std::optional<LocusRows> locus_rows;
   /// The contact reference is the point of deepest penetration instead of the weighted centre.
   bool reference_at_deepest = false;
@@ -44,16 +44,9 @@ struct SearchResult {
   std::vector<ContactPatch> patches;  ///< field side first
   /// Least gap over the search grid [m]: negative with contact, NaN where the bodies nowhere face each other.
   double least_gap = 0.0;
-  /// The same between the points of the grid as well: exact to a nanometre unless the mesh or the grid of the reference
-  /// program is asked for, and without jumps where contact comes and goes [m].
+  /// The same between the points of the grid as well: exact to a nanometre where the search refines, and without jumps
+  /// where contact comes and goes [m].
   double closest = 0.0;
-};
-
-/// Rows between two points in T in which the locus of the reference program missed contact, or found some where there
-/// is none.
-struct WrongLocus {
-  Vec3 low, high;     ///< deepest points of the outermost rows [m]
-  bool grid_decides;  ///< false: no wheel could roll over what was missed
 };
 
 /// The bodies with the wheel moved by wheel_dz [m] along z of T.
@@ -75,7 +68,7 @@ class Detector {
   /// results do not depend on the questions before, but for rounding.
   virtual SearchResult at(double wheel_dz) = 0;
 
-  /// What the last at() found wrong with the locus of the reference program, where that is used.
+  /// What the last at() found wrong with a locus on rows.
   virtual std::optional<WrongLocus> wrong_locus() const { return std::nullopt; }
 };
 

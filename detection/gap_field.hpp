@@ -17,11 +17,10 @@ namespace treadmark::detection {
 struct SampledProfile;
 struct ProfileLines;
 
-/// Undeformed distances are to be found with a mesh of the wheel and sections of the rail, as in the reference program
-/// (CONTACT).
+/// Undeformed distances are to be found with a mesh of the wheel and sections of the rail (Conventions::contact).
 struct DistanceMesh {
   double nominal_radius = 0.0;  ///< of the wheel [m]
-  bool rail_sections = true;    ///< false for rollers, whose one profile that program only bends
+  bool rail_sections = true;    ///< false for rollers, whose one profile is only bent
 };
 
 /// Two surfaces placed in one common frame T (for a wheelset on track: the track frame). The surfaces must outlive

@@ -31,12 +31,9 @@ struct GapSource::Patch {
   std::vector<GapField::Tile*> tiles;
 };
 
-GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh)
+GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets)
     : bodies_(bodies), X_RT_(bodies.X_TR.inverse()), X_WT_(bodies.X_TW.inverse()), grid_(grid_T) {
-  if (mesh) {
-    facets_.emplace(*bodies.wheel, bodies.X_TW, mesh->wheel);
-    section_x_ = mesh->rail_section_x;
-  }
+  if (facets) facets_.emplace(*bodies.wheel, bodies.X_TW, *facets);
   const Grid2& g = grid_T;
   const int n = (g.ny - 1) / kRowsPerLean + 1;
   lean_.resize(static_cast<std::size_t>(n));
@@ -138,18 +135,15 @@ void GapSource::fill_patch(const Patch& patch) {
   GapField::Tile& first = *patch.tiles.front();
   const std::span<double> wheel_z = array(0, first.gap), rail_z = array(1, first.rail_z),
                           slope = array(2, first.rail_slope);
-  if (section_x_) {
-    bodies_.rail->heights({X_RT_, part}, {rail_z, {}, {}});
+  bodies_.rail->heights({X_RT_, part}, {rail_z, {}, facets_ ? std::span<double>() : slope});
+  if (facets_) {
     std::vector<double> of_section(static_cast<std::size_t>(part.ny));
-    bodies_.rail->heights({X_RT_, {*section_x_, part.y0, 1.0, part.dy, 1, part.ny}}, {{}, {}, of_section});
+    bodies_.rail->heights({X_RT_, {0.0, part.y0, 1.0, part.dy, 1, part.ny}}, {{}, {}, of_section});
     for (std::size_t i = 0; i < n; ++i) slope[i] = of_section[i / static_cast<std::size_t>(part.nx)];
-  } else {
-    bodies_.rail->heights({X_RT_, part}, {rail_z, {}, slope});
-  }
-  if (facets_)
     facets_->heights(part, wheel_z);
-  else
+  } else {
     bodies_.wheel->heights({X_WT_, part}, {wheel_z, {}, {}});
+  }
 
   if (alone) {
     for (std::size_t i = 0; i < n; ++i) first.gap[i] = first.rail_z[i] - first.gap[i];

@@ -19,10 +19,10 @@ struct GapBounds {
   HeightBounds rail, wheel;
 };
 
-/// Where the gaps on a grid come from: the two surfaces, or what the reference program's search makes of them.
+/// Where the gaps on a grid come from: the two surfaces, or what WheelFacets makes of them.
 class GapSource {
  public:
-  GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh);
+  GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets);
 
   /// Conservative bounds over the rectangle that the points of a box span.
   GapBounds bounds(const IndexBox& box) const;
@@ -46,7 +46,6 @@ class GapSource {
   Grid2 grid_;
   std::vector<double> lean_;  ///< slope of the rail in the middle of the grid, every few rows
   std::optional<FacetWheel> facets_;
-  std::optional<double> section_x_;  ///< where the rail's inclination is taken; everywhere its own if empty
 };
 
 }  // namespace treadmark::detection

@@ -24,9 +24,9 @@ constexpr double kRounding = 1e-10;
 
 }  // namespace
 
-PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh,
+PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets,
                      bool everything)
-    : source_(bodies, grid_T, mesh),
+    : source_(bodies, grid_T, facets),
       field_(everything ? GapField(grid_T, kLogEverything, kLogEverything) : GapField(grid_T, kLogX, kLogY)),
       least_known_(kInfinity) {
   if (everything)

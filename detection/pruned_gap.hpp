@@ -17,7 +17,7 @@ namespace treadmark::detection {
 class PrunedGap {
  public:
   /// everything: all of the grid at once, without bounds.
-  PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh, bool everything);
+  PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets, bool everything);
 
   const GapField& field() const { return field_; }
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/detection/contact_program/rail_sections.hpp"
 
 namespace treadmark::detection {
 
@@ -41,17 +40,6 @@ std::shared_ptr<const SampledProfile> whole_profile(const Surface& wheel) {
   const double width = box.max.y() - box.min.y();
   const int count = 2 + std::clamp(to_whole<int>(width / kStep), 14, 19998);
   return std::make_shared<SampledProfile>(sample_profile(wheel, *angle, box.min.y(), width / (count - 1), count));
-}
-
-ProfileLines profile_lines(const Surface& wheel, double angle) {
-  constexpr double kStep = 0.5e-3;  // where the wheel tells no data [m]
-  ProfileLines lines;
-  lines.y = mesh_lines(wheel, angle, kStep);
-  std::vector<Vec2> section;
-  for (const double at : lines.y) section.emplace_back(0.0, at);
-  lines.radius.resize(section.size()), lines.slope.resize(section.size());
-  wheel.heights_at({Vec3::Zero(), rotation_y(angle)}, section, {lines.radius, {}, lines.slope});
-  return lines;
 }
 
 }  // namespace treadmark::detection

@@ -19,18 +19,10 @@ struct SampledProfile {
   double y(std::size_t i) const { return first + static_cast<double>(i) * step; }
 };
 
-/// The same where the reference program (CONTACT) has the corners of its meshes: see mesh_lines. Immutable.
-struct ProfileLines {
-  std::vector<double> y, radius, slope;
-};
-
 /// At an angle [rad], from y = first on.
 SampledProfile sample_profile(const Surface& wheel, double angle, double first, double step, int count);
 
 /// The profile of a wheel that is round, or round but for some defects, as the contact locus wants it; null for others.
 std::shared_ptr<const SampledProfile> whole_profile(const Surface& wheel);
-
-/// Of the section of a wheel at an angle [rad].
-ProfileLines profile_lines(const Surface& wheel, double angle);
 
 }  // namespace treadmark::detection

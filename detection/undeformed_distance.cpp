@@ -3,8 +3,6 @@
 
 #include "treadmark/detection/undeformed_distance.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -13,15 +11,6 @@
 #include "treadmark/detection/contact_program/wheel_mesh.hpp"
 
 namespace treadmark::detection {
-namespace {
-
-void rail_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C, std::span<double> rail_n) {
-  const bool on_sections = bodies.distance_mesh && bodies.distance_mesh->rail_sections &&
-                           !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, rail_n);
-  if (!on_sections) bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {rail_n, {}, {}});
-}
-
-}  // namespace
 
 UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C) {
   std::vector<double> rail_n(grid_C.size()), wheel_n(grid_C.size());
@@ -64,31 +53,6 @@ FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const G
     bodies.wheel->heights({X_WC * X_CL, row}, {{surfaces.wheel.data() + first, width}, {}, {}});
   }
   return surfaces;
-}
-
-UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
-                                      const ReferenceRows& reference) {
-  const auto width = static_cast<std::size_t>(grid.nx);
-  std::vector<double> rail(grid.size()), wheel(grid.size()), rows_s;
-  Grid2 centred = grid;
-  centred.x0 -= reference.reference_C.x();
-  for (int iy = 0; iy < grid.ny; ++iy) {
-    rows_s.push_back(reference.rows[static_cast<std::size_t>(iy)].y);
-    const Grid2 line{centred.x0, rows_s.back(), grid.dx, grid.dy, grid.nx, 1};
-    rail_heights(bodies, X_TC, line, {rail.data() + grid.index(0, iy), width});
-    if (!bodies.distance_mesh)
-      bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, line}, {{wheel.data() + grid.index(0, iy), width}, {}, {}});
-  }
-  if (bodies.distance_mesh) mesh_heights(bodies, X_TC, centred, rows_s, rail, wheel);
-  for (int iy = 0; iy < grid.ny; ++iy) {
-    const double across = std::cos(reference.rows[static_cast<std::size_t>(iy)].angle);
-    for (int ix = 0; ix < grid.nx; ++ix) {
-      const std::size_t i = grid.index(ix, iy);
-      rail[i] = across * (rail[i] - wheel[i]);
-    }
-  }
-  std::ranges::fill(wheel, 0.0);
-  return undeformed_distance(std::move(rail), wheel);
 }
 
 UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) {

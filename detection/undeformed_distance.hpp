@@ -37,10 +37,4 @@ FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const G
 /// Their distance along the local normals.
 UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces);
 
-/// The distance as the reference program (CONTACT) has it: in the contact plane at the places of the rows, on its mesh
-/// of the wheel (BodyPair::distance_mesh), times the cosine of the row's inclination. Only for agreement with that
-/// program's results.
-UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
-                                      const ReferenceRows& reference);
-
 }  // namespace treadmark::detection

@@ -12,7 +12,8 @@
 namespace treadmark {
 
 /// What can be doubtful about a contact result although it was found. A new kind is an enumerator, a row and the place
-/// that finds it (solvers/kalker/plausibility.hpp for a patch, solvers/wheelrail/plausibility.hpp for a pair).
+/// that finds it: what follows from a solved patch or pair in solvers/{kalker,wheelrail}/plausibility.hpp, the rest
+/// where it is seen (`git grep RemarkKind::`).
 enum class RemarkKind : std::uint8_t {
   grid_cuts_contact,
   grid_touches_contact,

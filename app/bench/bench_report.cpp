@@ -10,6 +10,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/tables/csv_of.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark {
 namespace {
@@ -28,7 +29,7 @@ constexpr Column<B> kRows[] = {
     {"resolution_mm", kMm, "",
      {[](const B& b) { return b.resolution > 0.0 ? b.resolution : B::kNone; },
       [](B& b, double v) { b.resolution = std::isnan(v) ? 0.0 : v; }}},
-    {"body", kOne, "", access::word(+[](const B& b) { return std::string(b.body == Body::rail ? "rail" : "wheel"); })},
+    {"body", kOne, "", access::word(+[](const B& b) { return std::string(body_name(b.body)); })},
     {"agrees", kOne, "", access::flag<&B::agrees>()},
     {"reason", kOne, "", of<&B::reason>()},
     {"difference_um", kUm, "", of<&B::difference>(), "", kInTable, "differs"},

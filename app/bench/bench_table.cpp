@@ -9,6 +9,7 @@
 
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/io/tables/shown.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -26,7 +27,7 @@ const std::array<Line, 3> kHead{{
 Line cells(const BenchRow& row) {
   Line line{row.backend,
             row.resolution > 0.0 ? io::in_short(1e3 * row.resolution) : "-",
-            row.body == Body::rail ? "rail" : "wheel",
+            body_name(row.body),
             row.difference < 1e-9 ? "0" : io::in_short(1e6 * row.difference),  // less is rounding
             io::in_short(1e3 * row.build),
             row.memory_bytes > 0 ? io::in_short(1e-6 * static_cast<double>(row.memory_bytes)) : "-",
@@ -44,7 +45,7 @@ Line cells(const BenchRow& row) {
 
 std::string row_label(const BenchRow& row) {
   return fmt::format("{}{}, {}", row.backend, row.resolution > 0.0 ? fmt::format(" {:g} mm", 1e3 * row.resolution) : "",
-                     row.body == Body::rail ? "rail" : "wheel");
+                     body_name(row.body));
 }
 
 std::string origin(const BenchReport& report) {

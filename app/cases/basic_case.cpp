@@ -109,6 +109,7 @@ PosedProblem pose(const io::BasicCase& input) {
   p.tangential_model = input.tangential_model;
   p.fastsim = input.fastsim;
   p.settings = input.solver;
+  p.settings.conventions = input.conventions;
   p.influence = to_influence(input.influence);
   p.history = input.history;
   p.friction_of_row = input.friction_of_row;

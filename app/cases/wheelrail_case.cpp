@@ -11,7 +11,7 @@ constexpr int kGrid = 5, kSteepGrid = 6;  // of DiscretisationInput::method
 
 Discretisation::SearchGrid search_grid(const io::DiscretisationInput& d, bool round_wheel) {
   using Grid = Discretisation::SearchGrid;
-  if (!d.reference_search_mesh) return Grid::refined;
+  if (d.conventions != Conventions::contact) return Grid::refined;
   if (d.method == kSteepGrid) return Grid::reference_steep;
   if (d.method == kGrid || !round_wheel) return Grid::reference_mesh;
   return d.prune ? Grid::reference_locus : Grid::refined;
@@ -37,7 +37,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool round_wheel) 
   p.damping = input.damping;
   p.regime = input.regime;
   p.history = input.history;
-  p.enforce_step_rule = !input.long_steps;
+  p.enforce_step_rule = input.conventions != Conventions::contact;
   p.reference_surface = input.reference_surface;
 
   const io::DiscretisationInput& d = input.discretisation;
@@ -47,7 +47,6 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool round_wheel) 
   p.discretisation.search = search_grid(d, round_wheel);
   p.discretisation.search_method = search_method(d);
   p.discretisation.detector = d.detector;
-  p.discretisation.distance_on_mesh = d.reference_search_mesh;
 
   p.material = input.material;
   p.friction = input.friction;
@@ -63,7 +62,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool round_wheel) 
   p.fastsim = input.fastsim;
   p.influence = to_influence(input.influence);
   p.solver = input.solver;
-  p.solver.reference_quirks = d.reference_search_mesh;
+  p.solver.conventions = d.conventions;
   p.max_force_iterations = input.solver.max_force;
   p.thermal = input.thermal;
   p.sensitivities = input.sensitivities;

@@ -66,7 +66,7 @@ void put_resultant(const io::WheelRailCase& input, const wheelrail::PatchSolutio
     r.fn = patch.force_C.z();
   }
   const bool aligned = patch.reference_C != Vec2::Zero();
-  if (curved || (aligned && !input.moments_about_grid_origin)) r.mn = patch.moment_C.z();
+  if (curved || (aligned && input.conventions != Conventions::contact)) r.mn = patch.moment_C.z();
 }
 
 void put_kinematics(const io::WheelRailCase& input, const wheelrail::PatchSolution& patch, io::PatchResult& r) {

@@ -21,6 +21,7 @@
 #include "treadmark/model/damage/flow_law.hpp"
 #include "treadmark/model/damage/wear_law.hpp"
 #include "treadmark/model/remarks.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/defects.hpp"
 
 namespace treadmark::cli {
@@ -40,8 +41,8 @@ void print_profiles() {
     return value > 0.0 ? fmt::format("{:.{}f}", value / unit, digits) : std::string("-");
   };
   for (const LibraryProfile& p : profile_library())
-    print(fmt::format(kRow, p.name, p.body == Body::wheel ? "wheel" : "rail", number(p.height, 1e-3, 1),
-                      number(p.width, 1e-3, 1), number(p.area, 1e-4, 2), number(p.mass_per_m, 1.0, 2),
+    print(fmt::format(kRow, p.name, body_name(p.body), number(p.height, 1e-3, 1), number(p.width, 1e-3, 1),
+                      number(p.area, 1e-4, 2), number(p.mass_per_m, 1.0, 2),
                       fmt::format("{}; {}{}{}", p.source, p.shape, p.also.empty() ? "" : "; ", p.also)));
 }
 

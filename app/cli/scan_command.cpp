@@ -9,6 +9,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -96,7 +97,7 @@ Command add_scan(CLI::App& verb) {
   verb.add_option("SURFACE", options->surface,
                   "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")
       ->required();
-  verb.add_option("-o,--output", options->cloud, "File of points: .ply .las .xyz .asc .txt .csv")
+  verb.add_option("-o,--output", options->cloud, "File of points: " + io::written_scan_extensions())
       ->check(is_output())
       ->required()
       ->type_name("FILE");

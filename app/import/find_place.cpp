@@ -11,8 +11,9 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/cleaning/pass_steps.hpp"
@@ -127,11 +128,8 @@ scans::PlaceSettings place_settings(const PlacedScan& scan, const io::ImportSett
 
 Body body_of(const ImportRequest& request) {
   if (request.settings.scan.body != "auto") return request.settings.scan.body == "wheel" ? Body::wheel : Body::rail;
-  for (const auto& output : request.outputs) {
-    const std::string extension = io::extension_of(output);
-    if (extension == ".slcw") return Body::wheel;
-    if (extension == ".slcs") return Body::rail;
-  }
+  for (const auto& output : request.outputs)
+    if (const auto named = io::body_by_extension(output)) return *named;
   throw Error(ErrorKind::configuration, "nothing says whether the scan is that of a wheel or a rail",
               {request.scans.front().string()}, "say --body wheel or --body rail");
 }
@@ -208,7 +206,7 @@ namespace {
 /// The unit that was given, that of the file, that of such files, or that which makes the size that of the body.
 LengthUnit find_unit(const Clouds& clouds, const io::ImportSettings& settings, Body body,
                      const scans::RoughPlace& rough, io::ImportReport& report) {
-  const char* const what = body == Body::wheel ? "wheel" : "rail";
+  const char* const what = body_name(body);
   if (settings.scan.unit != "auto") {
     report.unit_from = "given";
     return *length_unit(settings.scan.unit);

@@ -21,6 +21,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
 #include "treadmark/scans/fit/section_levels.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
@@ -139,8 +140,7 @@ std::optional<scans::MeasuredSections> sections_to_keep(const PlacedScan& scan, 
 /// Lines about the import that the surface file itself carries.
 std::vector<std::string> summary_lines(const io::ImportReport& report) {
   std::vector<std::string> out;
-  out.push_back(fmt::format("scanned {}, imported by Treadmark {}", report.body == Body::wheel ? "wheel" : "rail",
-                            report.version));
+  out.push_back(fmt::format("scanned {}, imported by Treadmark {}", body_name(report.body), report.version));
   for (const auto& input : report.inputs) out.push_back(fmt::format("from {} (SHA-256 {})", input.file, input.sha256));
   out.push_back(fmt::format("unit of the scan: {} (from {}); this file: millimetres", report.unit, report.unit_from));
   out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; error of the surface by points held out {}",

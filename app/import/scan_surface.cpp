@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -16,23 +14,15 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/io/tables/number.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 
 namespace {
-
-void require_cloud_file(const std::filesystem::path& cloud) {
-  constexpr std::array<std::string_view, 6> kWritten{".ply", ".xyz", ".asc", ".txt", ".csv", ".las"};
-  const std::string extension = io::extension_of(cloud);
-  if (std::find(kWritten.begin(), kWritten.end(), extension) == kWritten.end())
-    throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension),
-                {cloud.string()}, "use .ply, .las, .xyz, .asc, .txt or .csv");
-}
 
 std::string vector_text(const Vec3& v, double factor, int digits) {
   return fmt::format("({:.{}f}, {:.{}f}, {:.{}f})", factor * v.x(), digits, factor * v.y(), digits, factor * v.z(),
@@ -43,7 +33,7 @@ std::string vector_text(const Vec3& v, double factor, int digits) {
 
 Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem::path& cloud,
                      const ScanRequest& request, const Progress& progress) {
-  require_cloud_file(cloud);
+  io::require_written_scan(cloud);
   const CancellationScope scope(progress.stop);
   check_cancelled();
   const NaturalSurface natural = named_surface(surface, request.surface);
@@ -64,11 +54,10 @@ Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem
 
 std::string summary(const Scanned& scanned) {
   const scans::ScannerTruth& truth = scanned.scan.truth;
-  std::string text = fmt::format("{}: {} points of a {} in {}, {:.4g} mm apart on {:.6g} mm^2, {} {}, seed {}\n",
-                                 scanned.cloud.string(), scanned.scan.cloud.points.size(),
-                                 scanned.settings.body == Body::wheel ? "wheel" : "rail", symbol(scanned.unit),
-                                 kMilli * truth.spacing, kMicro * truth.area, truth.passes.size(),
-                                 truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
+  std::string text = fmt::format(
+      "{}: {} points of a {} in {}, {:.4g} mm apart on {:.6g} mm^2, {} {}, seed {}\n", scanned.cloud.string(),
+      scanned.scan.cloud.points.size(), body_name(scanned.settings.body), symbol(scanned.unit), kMilli * truth.spacing,
+      kMicro * truth.area, truth.passes.size(), truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
   text += fmt::format("on the surface {}, outliers {}; lost: {} in holes, {} dropped out, {} too steep\n",
                       truth.on_surface, truth.outliers, truth.lost_holes, truth.lost_drop_outs, truth.lost_occlusion);
   const Mat3& R = truth.X_CS.rotation;

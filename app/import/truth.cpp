@@ -23,6 +23,7 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
@@ -414,11 +415,7 @@ Truth read_truth(const Path& file, Body body, double nominal_radius) {
     throw MissingFile(
         ErrorKind::configuration, "there is no such file of the reference", {file.string()},
         advice_on_missing(file, "name what treadmark scan --truth wrote, or the file of the true surface"));
-  const std::string extension = io::extension_of(file);
-  for (const char* known : {".slcw", ".prw", ".whl"})
-    if (extension == known) require_body(file, Body::wheel, body);
-  for (const char* known : {".slcs", ".prr", ".ban"})
-    if (extension == known) require_body(file, Body::rail, body);
+  if (const auto named = io::body_by_extension(file)) require_body(file, *named, body);
   if (library) require_body(file, *library, body);
   NamedSurface how;
   if (!is_offset_file(file)) {

@@ -24,6 +24,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/scans/cgal/free_mesh.hpp"
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
@@ -287,7 +288,7 @@ void check_outputs(const ImportRequest& request) {
           "use .slcs (rail) or .slcw (wheel) for splines, .ply, .stl, .obj or .off for triangles, .vdb for offsets");
     if (io::is_slices_file(file) && extension != (body == Body::wheel ? ".slcw" : ".slcs"))
       throw Error(ErrorKind::configuration,
-                  fmt::format("slices of a {} are written to a file *{}", body == Body::wheel ? "wheel" : "rail",
+                  fmt::format("slices of a {} are written to a file *{}", body_name(body),
                               body == Body::wheel ? ".slcw" : ".slcs"),
                   {file.string()});
     for (const auto& scan : request.scans)

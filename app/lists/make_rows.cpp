@@ -16,6 +16,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/tables/number.hpp"
 
@@ -93,8 +94,7 @@ std::string key_of(const ResultList& list, const ListWork& work, std::size_t i) 
   std::string all = fmt::format("{} {}\n{}\n{}\n", version(), git_revision(), list.title, list.settings);
   for (const std::string& source : work.sources(i)) {
     const std::string extension = io::extension_of(source);
-    for (const char* names_others : {".toml", ".inp", ".slcs", ".slcw"})
-      if (extension == names_others) return {};
+    if (extension == ".toml" || extension == ".inp" || io::can_hold(source, io::kSlicesFile)) return {};
     std::error_code ignored;
     all += source + (fs::is_regular_file(source, ignored) ? ' ' + io::sha256_file(source) : std::string()) + '\n';
   }

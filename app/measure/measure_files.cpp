@@ -17,7 +17,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/to_whole.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
@@ -482,16 +482,10 @@ MeasuredFile measure_with(const std::string& name, const MeasureRequest& request
   return out;
 }
 
-bool known_extension(const fs::path& file, Body body) {
-  const std::string extension = io::extension_of(file);
-  constexpr const char* kBoth[] = {".csv", ".txt", ".dat", ".mpt", ".ply", ".stl", ".obj",
-                                   ".off", ".vdb", ".xyz", ".las", ".pcd", ".e57"};
-  constexpr const char* kWheels[] = {".whl", ".prw", ".slcw", ".wheel"};
-  constexpr const char* kRails[] = {".ban", ".prr", ".slcs"};
-  const auto in = [&](const auto& list) {
-    return std::any_of(std::begin(list), std::end(list), [&](const char* known) { return extension == known; });
-  };
-  return in(kBoth) || (body == Body::wheel ? in(kWheels) : in(kRails));
+/// Of what read_measured reads.
+bool can_be_measured(const fs::path& file, Body body) {
+  const auto row = io::shape_extension(file);
+  return row && (row->kinds & ~(io::kCadFile | io::kSplineFile)) != 0 && row->body.value_or(body) == body;
 }
 
 }  // namespace
@@ -537,7 +531,7 @@ std::vector<std::string> measured_names(const std::vector<std::string>& given, B
     } else if (fs::is_directory(name)) {
       std::vector<std::string> inside;
       for (const fs::directory_entry& entry : fs::directory_iterator(name))
-        if (entry.is_regular_file() && known_extension(entry.path(), body)) inside.push_back(entry.path().string());
+        if (entry.is_regular_file() && can_be_measured(entry.path(), body)) inside.push_back(entry.path().string());
       std::sort(inside.begin(), inside.end());
       if (inside.empty())
         throw Error(ErrorKind::input_data, "there are no files in the folder that can be measured", {name, 0, 0});

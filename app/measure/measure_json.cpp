@@ -8,6 +8,7 @@
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -150,7 +151,7 @@ Json file_json(const MeasuredFile& file) {
 Json head(const MeasureRequest& request) {
   Json out;
   out["treadmark"] = {{"version", version()}};
-  out["body"] = request.body == Body::wheel ? "wheel" : "rail";
+  out["body"] = body_name(request.body);
   out["nominal"] = text_or_null(request.nominal);
   out["limits_file"] = text_or_null(request.limits.file);
   return out;

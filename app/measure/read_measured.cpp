@@ -17,6 +17,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -27,9 +28,7 @@ constexpr double kLibraryStep = 0.1e-3;  // [m]
 
 Profile library_points(const std::string& name, Body body) {
   const Body of = *library_body(name);
-  if (of != body)
-    throw Error(ErrorKind::configuration, name + " is a " + (of == Body::wheel ? "wheel" : "rail") + ", not a " +
-                                              (body == Body::wheel ? "wheel" : "rail"));
+  if (of != body) throw Error(ErrorKind::configuration, name + " is a " + body_name(of) + ", not a " + body_name(body));
   Profile points;
   points.body = body;
   points.name = name;

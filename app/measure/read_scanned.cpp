@@ -13,8 +13,9 @@
 #include "treadmark/app/measure/read_measured.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -42,10 +43,8 @@ class ScratchFolder {
 }  // namespace
 
 bool is_only_scan(const std::string& name) {
-  const std::string extension = io::extension_of(name);
-  for (const char* known : {".xyz", ".las", ".laz", ".pcd", ".e57", ".pts", ".ptx"})
-    if (extension == known) return true;
-  return false;
+  const auto row = io::shape_extension(name);
+  return row && row->kinds == io::kPointFile;
 }
 
 ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request) {
@@ -54,7 +53,7 @@ ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request
   ImportRequest import;
   import.scans = {name};
   import.outputs = {slices};
-  import.settings.scan.body = request.body == Body::wheel ? "wheel" : "rail";
+  import.settings.scan.body = body_name(request.body);
   if (!request.nominal.empty()) import.settings.placement.nominal = request.nominal;
   import.settings.placement.nominal_radius_mm = 1e3 * request.nominal_radius;
   import.settings.placement.zero = "scan";

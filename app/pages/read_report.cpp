@@ -64,32 +64,48 @@ Page simulation_in(const fs::path& store) {
   return simulation_page(result, {}, assessed ? &*assessed : nullptr);
 }
 
-enum class Kind { run, compare, bench, import, evolution, sweep, simulation, plain };
-
-/// By which file a folder is known to hold results. simulation.h5: of a simulation that ended, be it by Ctrl-C;
-/// unfinished.h5: what a killed one left at its last checkpoint.
-struct KindRow {
-  Kind kind;
-  const char *file, *words;
-};
-constexpr KindRow kKinds[] = {{Kind::compare, "compare.json", "a comparison"},
-                              {Kind::bench, "bench.json", "a bench"},
-                              {Kind::import, "report.json", "an import"},
-                              {Kind::evolution, io::kEvolutionIdentity, "an evolution"},
-                              {Kind::sweep, "study.id", "a sweep"},
-                              {Kind::simulation, "simulation.h5", "a simulation"},
-                              {Kind::simulation, "unfinished.h5", "a simulation"},
-                              {Kind::run, "fields.h5", "a run"},
-                              {Kind::plain, "geometry.json", "the geometry of a wheelset on its track"},
-                              {Kind::plain, "track.json", "how a track gives way"},
-                              {Kind::plain, "stability.json", "the stability of a vehicle"},
-                              {Kind::plain, "assessment.json", "an assessment"}};
+struct KindRow;
 
 struct Found {
   const KindRow* row = nullptr;
   fs::path folder;
-  fs::path store() const { return folder / row->file; }
+  fs::path store() const;
 };
+
+Page overlaid_runs(const std::vector<Found>& found);
+Page overlaid_simulations(const std::vector<Found>& found);
+Page plain(const Found& found);
+
+/// By which file a folder is known to hold results, and their pages. simulation.h5: of a simulation that ended, be it
+/// by Ctrl-C; unfinished.h5: what a killed one left at its last checkpoint.
+struct KindRow {
+  const char *file, *words;
+  Page (*page)(const Found&);
+  Page (*overlaid)(const std::vector<Found>&) = nullptr;  ///< nullptr: they cannot be laid over each other
+};
+constexpr KindRow kKinds[] = {
+    {"compare.json", "a comparison", [](const Found& f) { return compare_page(f.folder); }},
+    {"bench.json", "a bench", [](const Found& f) { return bench_page(f.folder); }},
+    {"report.json", "an import", [](const Found& f) { return import_page(f.folder); }},
+    {io::kEvolutionIdentity, "an evolution", [](const Found& f) { return evolution_page(f.folder); }},
+    {"study.id", "a sweep", [](const Found& f) { return sweep_page(read_study_folder(f.folder)); }},
+    {"simulation.h5", "a simulation", [](const Found& f) { return simulation_in(f.store()); }, overlaid_simulations},
+    {"unfinished.h5", "a simulation", [](const Found& f) { return simulation_in(f.store()); }, overlaid_simulations},
+    {"fields.h5", "a run", [](const Found& f) { return run_in(f.folder); }, overlaid_runs},
+    {"geometry.json", "the geometry of a wheelset on its track", plain},
+    {"track.json", "how a track gives way", plain},
+    {"stability.json", "the stability of a vehicle", plain},
+    {"assessment.json", "an assessment", plain}};
+
+fs::path Found::store() const { return folder / row->file; }
+
+Page plain(const Found& found) { return plain_page(found.folder, found.row->file, found.row->words); }
+
+std::string known_results() {
+  std::string text;
+  for (const KindRow& row : kKinds) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", row.file, row.words);
+  return text;
+}
 
 /// What a folder holds, or the folder of a file.
 Found find_results(const fs::path& given) {
@@ -102,10 +118,8 @@ Found find_results(const fs::path& given) {
   const auto row =
       std::ranges::find_if(kKinds, [&](const KindRow& one) { return fs::exists(folder / one.file, unknown); });
   if (row == std::end(kKinds))
-    throw Error(
-        ErrorKind::input_data, "the folder holds no results", {folder.string()},
-        "results are fields.h5 (run), compare.json, bench.json, report.json (import --report), simulation.h5, "
-        "study.id (sweep), evolution.id (evolve), geometry.json, track.json, stability.json and assessment.json");
+    throw Error(ErrorKind::input_data, "the folder holds no results", {folder.string()},
+                "results are known by one of the files " + known_results());
   return {&*row, folder};
 }
 
@@ -155,29 +169,16 @@ std::vector<Overlaid<Result>> read_all(const std::vector<Found>& found, Result (
   return out;
 }
 
+Page overlaid_runs(const std::vector<Found>& found) { return run_overlay_page(read_all(found, io::read_hdf5)); }
+Page overlaid_simulations(const std::vector<Found>& found) {
+  return simulation_overlay_page(read_all(found, read_histories));
+}
+
 }  // namespace
 
 Page read_report(const fs::path& given) {
   const Found found = find_results(given);
-  switch (found.row->kind) {
-    case Kind::compare:
-      return compare_page(found.folder);
-    case Kind::bench:
-      return bench_page(found.folder);
-    case Kind::import:
-      return import_page(found.folder);
-    case Kind::evolution:
-      return evolution_page(found.folder);
-    case Kind::sweep:
-      return sweep_page(read_study_folder(found.folder));
-    case Kind::simulation:
-      return simulation_in(found.store());
-    case Kind::plain:
-      return plain_page(found.folder, found.row->file, found.row->words);
-    case Kind::run:
-      break;
-  }
-  return run_in(found.folder);
+  return found.row->page(found);
 }
 
 Page read_overlay(const std::vector<fs::path>& given) {
@@ -195,17 +196,16 @@ Page read_overlay(const std::vector<fs::path>& given) {
     if (file && one.extension() == ".h5" && one.filename() != row.file)
       throw Error(ErrorKind::input_data, fmt::format("overlaid results are known by their folder or its {}", row.file),
                   {one.string()}, "put the file into a folder of its own under that name");
-    if (row.kind != Kind::run && row.kind != Kind::simulation)
+    if (row.overlaid == nullptr)
       throw Error(ErrorKind::input_data, fmt::format("the folder holds {}", row.words), {one.string()},
                   "runs (treadmark run) and simulations (treadmark simulate) can be overlaid");
-    if (row.kind != found.front().row->kind)
+    if (row.overlaid != found.front().row->overlaid)
       throw Error(
           ErrorKind::input_data,
           fmt::format("the folder holds {}, {} holds {}", row.words, given.front().string(), found.front().row->words),
           {one.string()}, "only results of one kind can be overlaid");
   }
-  Page page = found.front().row->kind == Kind::run ? run_overlay_page(read_all(found, io::read_hdf5))
-                                                   : simulation_overlay_page(read_all(found, read_histories));
+  Page page = found.front().row->overlaid(found);
   std::set<fs::path> folders;
   for (const Found& one : found)
     if (!folders.insert(fs::weakly_canonical(one.folder)).second)

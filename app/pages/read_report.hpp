@@ -10,8 +10,8 @@
 
 namespace treadmark::app::pages {
 
-/// The report of whatever lies in a result folder: of treadmark run, compare, bench, import (its report folder),
-/// simulate or sweep, finished or not. A file in such a folder stands for the folder. Errors: Error(input_data) for
+/// The report of whatever lies in a result folder (a row of kKinds in read_report.cpp), finished or not. A file in such
+/// a folder stands for the folder. Errors: Error(input_data) for
 /// folders without results and broken files. Not to be called from two threads at once.
 report::Page read_report(const std::filesystem::path& folder);
 

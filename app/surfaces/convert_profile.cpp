@@ -17,6 +17,7 @@
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -103,7 +104,7 @@ void write_checked_points(const std::filesystem::path& output, const Profile& pr
 }
 
 std::string in_words(const Profile& profile, bool smoothed) {
-  return fmt::format("{} profile, {} points{}", profile.body == Body::wheel ? "wheel" : "rail", profile.y.size(),
+  return fmt::format("{} profile, {} points{}", body_name(profile.body), profile.y.size(),
                      smoothed ? ", smoothed" : "");
 }
 

@@ -28,6 +28,7 @@
 #include "treadmark/io/profiles/write_slices.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -49,7 +50,7 @@ io::CadContent to_cad(const NaturalSurface& natural, const Representation& wante
     out.swept = part ? std::pair{r.u_min, r.u_max} : std::pair{0.0, 2.0 * kPi};
   }
   out.description = fmt::format(
-      "{} as one B-spline face, {}", body == Body::wheel ? "wheel" : "rail",
+      "{} as one B-spline face, {}", body_name(body),
       fit.deviation > 0.0
           ? fmt::format("at most {:.2g} um off what it was made of, as far as was looked", 1e6 * fit.deviation)
           : "with the coefficients that it was given with");

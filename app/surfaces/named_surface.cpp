@@ -16,6 +16,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/model/magnitudes.hpp"
@@ -26,11 +27,7 @@ namespace {
 
 Body body_of(const std::filesystem::path& input, const std::optional<Body>& asked) {
   if (asked) return *asked;
-  const std::string extension = io::extension_of(input);
-  for (const char* wheel : {".slcw", ".prw", ".whl"})
-    if (extension == wheel) return Body::wheel;
-  for (const char* rail : {".slcs", ".prr", ".ban"})
-    if (extension == rail) return Body::rail;
+  if (const auto named = io::body_by_extension(io::profile_file(input))) return *named;
   throw Error(ErrorKind::configuration, "the file does not say whether it is a wheel or a rail", {input.string()},
               "say --body wheel or --body rail");
 }

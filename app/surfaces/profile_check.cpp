@@ -19,11 +19,8 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
-#include "treadmark/io/cad/read_cad.hpp"
-#include "treadmark/io/files/extension.hpp"
-#include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
-#include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
@@ -251,9 +248,7 @@ void collect(const io::SurfaceSource& source, Body body, const io::ExpectedProfi
   for (const io::SurfaceSource& part : source.parts) collect(part, body, expected, uses);
   const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
   if (!source.parts.empty() || file == nullptr) return;
-  if (is_offset_file(file->file) || io::is_mesh_file(file->file) || io::is_cad_file(file->file) ||
-      io::is_slices_file(file->file) || io::is_spline_file(file->file))
-    return;
+  if (io::can_hold(file->file, ~(io::kProfileFile | io::kPointFile))) return;
   ProfileUse use{*file, body, expected, source.where};
   if (std::none_of(uses.begin(), uses.end(), [&](const ProfileUse& u) { return same_use(u, use); }))
     uses.push_back(std::move(use));
@@ -285,11 +280,7 @@ ProfilesOfRun checked_uses(const io::CaseFile& file, Nearest nearest) {
 }  // namespace
 
 bool is_profile_file(const std::filesystem::path& file) {
-  if (io::profile_body(file) || io::profile_format(file) != io::ProfileFormat::two_column) return true;
-  const std::string extension = io::extension_of(file);
-  for (const char* known : {".csv", ".txt", ".dat", ".asc", ".rail"})
-    if (extension == known) return true;
-  return false;
+  return io::can_hold(io::profile_file(file), io::kProfileFile);
 }
 
 CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body,

@@ -15,6 +15,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/to_whole.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::app {
@@ -235,7 +236,7 @@ io::SampledSurface sample_body(const UsedBody& b, const std::vector<double>& con
 
   constexpr int kPlaces = 30, kDeviations = 33;  // powers of 1/2 [m]
   io::SampledSurface out;
-  out.body = b.body == Body::wheel ? "wheel" : "rail";
+  out.body = body_name(b.body);
   out.nu = static_cast<int>(u.size());
   out.nv = static_cast<int>(ny);
   out.closed = is_closed(b);

@@ -18,9 +18,9 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
-#include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
@@ -32,10 +32,7 @@ constexpr double kAxleAbove = 0.25;  // what lies farther from its origin is a w
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-bool is_built(const std::filesystem::path& file) {
-  return io::is_mesh_file(file) || io::is_cad_file(file) || io::is_spline_file(file) || io::is_slices_file(file) ||
-         is_offset_file(file);
-}
+bool is_built(const std::filesystem::path& file) { return io::can_hold(file, ~(io::kProfileFile | io::kPointFile)); }
 
 std::string range_text(double low, double high, const char* unit, double factor) {
   if (!std::isfinite(low) && !std::isfinite(high)) return "without ends";
@@ -169,7 +166,7 @@ NaturalSurface read_as(const io::SurfaceSource& source, Body body) {
 }
 
 std::optional<Body> body_said(const std::filesystem::path& file) {
-  if (io::is_slices_file(file)) return file.extension().string().ends_with('w') ? Body::wheel : Body::rail;
+  if (io::is_slices_file(file)) return io::body_by_extension(file);
   if (is_offset_file(file)) return offset::read_vdb(file).base.body;
   return std::nullopt;
 }

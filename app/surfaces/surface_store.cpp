@@ -11,13 +11,14 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
 
 /// Everything that tells one geometry from another but its defects.
 std::string key_of(const io::SurfaceSource& source, Body body, double radius) {
-  std::string key = fmt::format("{} {:.17g}", body == Body::rail ? "rail" : "wheel", radius);
+  std::string key = fmt::format("{} {:.17g}", body_name(body), radius);
   const io::CrossingInput& c = source.crossing;
   if (c.part != io::CrossingInput::Part::none)
     key += fmt::format(" crossing {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", static_cast<int>(c.part), c.x,
@@ -142,9 +143,9 @@ std::vector<io::SurfaceUse> SurfaceStore::uses() {
       entry->fit = fit_error(*s.natural, s.represented);
       entry->fit_known = true;
     }
-    uses.push_back({s.body() == Body::wheel ? "wheel" : "rail", std::string(s.represented.surface->backend()),
-                    s.represented.resolution, s.represented.build_seconds, s.represented.surface->memory_bytes(),
-                    entry->fit, s.represented.note});
+    uses.push_back({body_name(s.body()), std::string(s.represented.surface->backend()), s.represented.resolution,
+                    s.represented.build_seconds, s.represented.surface->memory_bytes(), entry->fit,
+                    s.represented.note});
   }
   return uses;
 }

@@ -9,6 +9,7 @@
 
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/contact_program/natural_curve.hpp"
+#include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::detection {
 
@@ -32,8 +33,9 @@ bool section_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, s
 
 namespace {
 
-std::vector<double> equal_steps(double low, double high, double step) {
-  const int n = 1 + to_whole<int>(std::floor((high - low) / step));
+std::vector<double> equal_steps(double low, double high) {
+  constexpr double kLongest = 0.5e-3;  // [m]
+  const int n = 1 + to_whole<int>(std::floor((high - low) / kLongest));
   std::vector<double> y;
   for (int i = 0; i <= n; ++i) y.push_back(low + (high - low) * i / n);
   return y;
@@ -79,20 +81,26 @@ std::vector<double> nodes_between(const Surface& surface, const std::vector<doub
 
 }  // namespace
 
-double lowest_angle(const Pose& X_TW) { return -std::atan2(X_TW.rotation(0, 2), X_TW.rotation(0, 0)); }
-
-std::vector<double> mesh_lines(const Surface& wheel, double angle, double step) {
-  const Box3 box = wheel.bounds();
-  return mesh_lines(wheel, angle, step, {box.min.y(), box.max.y()}, 0);
+void rail_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C, std::span<double> rail_n) {
+  const bool on_sections = bodies.distance_mesh && bodies.distance_mesh->rail_sections &&
+                           !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, rail_n);
+  if (!on_sections) bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {rail_n, {}, {}});
 }
 
-std::vector<double> mesh_lines(const Surface& wheel, double angle, double step, const LateralInterval& y, int beside) {
+double lowest_angle(const Pose& X_TW) { return -std::atan2(X_TW.rotation(0, 2), X_TW.rotation(0, 0)); }
+
+std::vector<double> mesh_lines(const Surface& wheel, double angle) {
+  const Box3 box = wheel.bounds();
+  return mesh_lines(wheel, angle, {box.min.y(), box.max.y()}, 0);
+}
+
+std::vector<double> mesh_lines(const Surface& wheel, double angle, const LateralInterval& y, int beside) {
   constexpr std::size_t kFewest = 4;
   constexpr double kFirstMargin = 2e-3;  // [m]
   const Box3 box = wheel.bounds();
   const Lattice lattice({box.min.y(), box.max.y()});
   const std::vector<double> data_v = wheel.data_v();
-  if (data_v.empty()) return equal_steps(box.min.y(), box.max.y(), step);
+  if (data_v.empty()) return equal_steps(box.min.y(), box.max.y());
   for (double margin = beside > 0 ? kFirstMargin : 0.0;; margin *= 2.0) {
     const int first = std::max(0, lattice.below(y.low - margin) - 1),
               last = std::min(lattice.steps, lattice.below(y.high + margin) + 2);
@@ -103,16 +111,20 @@ std::vector<double> mesh_lines(const Surface& wheel, double angle, double step, 
     const bool whole = first == 0 && last == lattice.steps;
     if (!whole && !((first == 0 || low >= beside) && (last == lattice.steps || high >= beside))) continue;
     if (found.size() >= kFewest) return found;
-    if (whole) return equal_steps(box.min.y(), box.max.y(), step);
+    if (whole) return equal_steps(box.min.y(), box.max.y());
   }
 }
 
+ProfileLines profile_lines(const Surface& wheel, double angle) {
+  ProfileLines lines{mesh_lines(wheel, angle), {}, {}};
+  lines.radius.resize(lines.y.size()), lines.slope.resize(lines.y.size());
+  treadmark::section_heights(wheel, Body::wheel, angle, lines.y, {lines.radius, {}, lines.slope});
+  return lines;
+}
+
 std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y) {
-  std::vector<Vec2> points;
-  points.reserve(y.size());
-  for (const double at : y) points.emplace_back(0.0, at);
   std::vector<double> radius(y.size());
-  wheel.heights_at({Vec3::Zero(), rotation_y(angle)}, points, {radius, {}, {}});
+  treadmark::section_heights(wheel, Body::wheel, angle, y, {radius, {}, {}});
   return radius;
 }
 

@@ -9,15 +9,35 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/detection/contact_program/wheel_locus.hpp"
+#include "treadmark/detection/interpenetration.hpp"
+#include "treadmark/detection/pruned_gap.hpp"
 
 namespace treadmark::detection {
 namespace {
+
+// What rows and parabolas of the locus may miss of a gap [m].
+constexpr double kSlight = 3e-6;
+
+// Less of a gap than that is where its curve leaves the wheel [m].
+constexpr double kInvented = 30e-6;
+
+// Over what is as high as this and as far ahead or behind no wheel rolls, shares of its radius: such parts of a surface
+// are artefacts between sections.
+constexpr double kStep = 0.02, kAhead = 0.05;
 
 /// Integral over x of c - a x^2, or of its square, where it is positive.
 double parabola_weight(PenetrationWeight weight, double c, double a) {
   const double t = std::sqrt(c / a);
   if (weight == PenetrationWeight::linear) return 2.0 * c * t - 2.0 / 3.0 * a * t * t * t;
   return 2.0 * c * c * t - 4.0 / 3.0 * a * c * t * t * t + 2.0 / 5.0 * a * a * t * t * t * t * t;
+}
+
+/// [m]; NaN where a surface is missing.
+double gap_over(const BodyPair& bodies, const Vec2& place) {
+  double rail = 0.0, wheel = 0.0;
+  bodies.rail->heights_at(bodies.X_TR.inverse(), {&place, 1}, {{&rail, 1}, {}, {}});
+  bodies.wheel->heights_at(bodies.X_TW.inverse(), {&place, 1}, {{&wheel, 1}, {}, {}});
+  return rail - wheel;
 }
 
 }  // namespace
@@ -148,6 +168,48 @@ ContactLocus::Found ReferenceLocus::at(double wheel_dz, double near_miss_gap, Pe
   if (found.near_misses.size() > kMaxNearMisses) found.near_misses.resize(kMaxNearMisses);
   found.closest = found.least_gap = least_ - wheel_dz;
   return found;
+}
+
+bool LocusCheck::is_wrong_at_first(const ReferenceLocus& locus, PenetrationWeight weight, PrunedGap& gap) {
+  const double least = locus.least(), touching = std::isnan(least) ? gap.least() + 2.0 * kSlight : least + kSlight;
+  return is_wrong(touching, locus.at(touching, 0.0, weight, false).patches, gap);
+}
+
+bool LocusCheck::is_wrong(double wheel_dz, const std::vector<ContactPatch>& found, PrunedGap& gap) {
+  wrong_.reset();
+  if (wheel_dz <= agreed_) return false;
+  const Grid2& g = gap.field().grid();
+  const double deep = wheel_dz - kSlight;
+  gap.reveal(deep);
+  for (const Region& r : find_regions(gap.field(), deep, std::nullopt, 0.0)) {
+    const auto covers_row = [&](const ContactPatch& p, double y) {
+      return y > p.extent.box.y_min - g.dy && y < p.extent.box.y_max + g.dy;
+    };
+    const double x = g.x(r.ix_deepest), y = g.y(r.iy_deepest), z = gap.field().rail_z(r.ix_deepest, r.iy_deepest);
+    const bool seen = std::ranges::any_of(found, [&](const ContactPatch& p) {
+      return covers_row(p, y) && x > p.extent.box.x_min - g.dx && x < p.extent.box.x_max + g.dx &&
+             p.least_gap < r.least_gap;
+    });
+    // Without guard rows.
+    int low = seen ? r.iy_max : r.iy_deepest, high = seen ? r.iy_min : r.iy_deepest;
+    for (int iy = r.iy_min + 1; iy < r.iy_max; ++iy) {
+      if (seen && std::ranges::any_of(found, [&](const ContactPatch& p) { return covers_row(p, g.y(iy)); })) continue;
+      low = std::min(low, iy), high = std::max(high, iy);
+    }
+    if (low > high) continue;
+    const bool obstacle =
+        -r.least_gap > kStep * nominal_radius_ && std::abs(x - bodies_.X_TW.origin.x()) > kAhead * nominal_radius_;
+    wrong_ = {Vec3(x, g.y(low), z), Vec3(x, g.y(high), z), !obstacle};
+    if (wrong_->grid_decides) return true;
+  }
+  if (wrong_) return false;
+  for (const ContactPatch& p : found) {
+    if (!(gap_over(bodies_, {p.deepest_T.x(), p.deepest_T.y()}) - wheel_dz > p.least_gap + kInvented)) continue;
+    wrong_ = {p.deepest_T, p.deepest_T, true};
+    return true;
+  }
+  agreed_ = wheel_dz;
+  return false;
 }
 
 }  // namespace treadmark::detection

@@ -33,17 +33,12 @@ std::vector<Vec3> section(const Surface& wheel, const Pose& X_TW, const WheelFac
   return points;
 }
 
-std::vector<double> lines_of(const Surface& wheel, double angle, const WheelFacets& facets) {
-  return facets.lines.empty() ? mesh_lines(wheel, angle, facets.lateral_step) : facets.lines;
-}
-
 }  // namespace
 
 LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets) {
-  const std::vector<double> y = lines_of(wheel, lowest_angle(X_TW), facets);
   LongitudinalRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double side : {-1.0, 1.0})
-    for (const Vec3& p : section(wheel, X_TW, facets, side * facets.half_range, y)) {
+    for (const Vec3& p : section(wheel, X_TW, facets, side * facets.half_range, facets.lines)) {
       if (std::isnan(p.x())) continue;
       range.x_min = std::min(range.x_min, p.x());
       range.x_max = std::max(range.x_max, p.x());
@@ -52,24 +47,27 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
 }
 
 FacetWheel::FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets)
-    : wheel_(wheel), X_TW_(X_TW), facets_(facets), lowest_(lowest_angle(X_TW)), y_(lines_of(wheel, lowest_, facets)) {
-  for (std::size_t j = 0; j + 1 < y_.size(); ++j) widest_ = std::max(widest_, y_[j + 1] - y_[j]);
-  across_ = static_cast<int>(y_.size());
+    : wheel_(wheel), X_TW_(X_TW), facets_(facets) {
+  const std::vector<double>& y = facets_.lines;
+  for (std::size_t j = 0; j + 1 < y.size(); ++j) widest_ = std::max(widest_, y[j + 1] - y[j]);
+  across_ = static_cast<int>(y.size());
   sections_.resize(static_cast<std::size_t>(facets.sections));
 }
 
 double FacetWheel::corner_near(double y) const {
+  const std::vector<double>& lines = facets_.lines;
   const double at = y - X_TW_.origin.y();
-  const auto above = std::ranges::lower_bound(y_, at);
-  if (above == y_.begin()) return 0.0;
-  if (above == y_.end()) return across_ - 1.0;
-  const auto j = static_cast<std::size_t>(above - y_.begin()) - 1;
-  return static_cast<double>(j) + (at - y_[j]) / (y_[j + 1] - y_[j]);
+  const auto above = std::ranges::lower_bound(lines, at);
+  if (above == lines.begin()) return 0.0;
+  if (above == lines.end()) return across_ - 1.0;
+  const auto j = static_cast<std::size_t>(above - lines.begin()) - 1;
+  return static_cast<double>(j) + (at - lines[j]) / (lines[j + 1] - lines[j]);
 }
 
 std::vector<Vec3> FacetWheel::corners(int k, int first, int last) const {
-  return section(wheel_, X_TW_, facets_, offset_of(facets_, k),
-                 std::span(y_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1)));
+  return section(
+      wheel_, X_TW_, facets_, offset_of(facets_, k),
+      std::span(facets_.lines).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1)));
 }
 
 Rectangle FacetWheel::reach(const Rectangle& r) const {

@@ -13,18 +13,16 @@
 
 namespace treadmark::detection {
 
-/// A wheel as the search of the reference program (CONTACT) sees it: exact points of equally spaced cross-sections
-/// about the lowest point, joined by bilinear facets. Only for agreement with its results; Treadmark's own search needs
-/// no mesh.
+/// A wheel as CONTACT's search sees it: exact points of equally spaced cross-sections about the lowest point, joined by
+/// bilinear facets. The rail then has for all x the inclination of its section at x = 0 of T.
 struct WheelFacets {
   enum class Sections {
     angles,  ///< through the axle
     planes,  ///< of one x in the wheel's frame; a round wheel only
   } kind = Sections::angles;
-  double half_range = 0.2;         ///< sections from -half_range to +half_range about the lowest point [rad] or [m]
-  int sections = 0;                ///< >= 2
-  double lateral_step = 0.5e-3;    ///< of corners where the wheel itself has none
-  std::vector<double> lines = {};  ///< mesh_lines() of the wheel with this step, made once; empty: made when needed
+  double half_range = 0.2;    ///< sections from -half_range to +half_range about the lowest point [rad] or [m]
+  int sections = 0;           ///< >= 2
+  std::vector<double> lines;  ///< y of corners in the wheel's frame, mesh_lines()
 };
 
 /// Least and greatest x in T of the sections' points [m], over the whole width of the wheel.
@@ -64,20 +62,10 @@ class FacetWheel {
   const Surface& wheel_;
   Pose X_TW_;
   WheelFacets facets_;
-  double lowest_;          ///< angle of the lowest section
-  std::vector<double> y_;  ///< of corners, in the wheel's frame
-  double widest_ = 0.0;    ///< distance of corners
+  double widest_ = 0.0;  ///< distance of corners
   int across_;
   int wanted_first_ = 0, wanted_last_ = 0;  ///< corners that the grid at hand needs
   std::vector<Section> sections_;
-};
-
-/// Both bodies as the search of the reference program (CONTACT) sees them. Only for agreement with its results.
-struct SearchMesh {
-  WheelFacets wheel;
-  /// The rail's inclination at a lateral position is taken from its section here for all positions along x [m], frame
-  /// T.
-  double rail_section_x = 0.0;
 };
 
 /// A place on a mesh of rows x columns corners: facet (k, j) and where in it.

@@ -14,7 +14,6 @@
 #include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/contact_program/natural_curve.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
-#include "treadmark/detection/sampled_profile.hpp"
 
 namespace treadmark::detection {
 namespace {

@@ -8,10 +8,10 @@
 
 namespace treadmark::detection {
 
-/// Points of a round wheel's circles that are closest to a rail along x of T, as the reference program (CONTACT) has
-/// them: a point for every lateral datum of the profile (Li 2002, to first order in the yaw angle; where the rail is
-/// not prismatic, both slopes along x are the same there), a natural cubic spline over the profile's arc length between
-/// them, broken at kinks. Where the curve folds back over y, seen from its middle, it ends.
+/// Points of a round wheel's circles that are closest to a rail along x of T, as CONTACT has them: a point for every
+/// lateral datum of the profile (Li 2002, to first order in the yaw angle; where the rail is not prismatic, both slopes
+/// along x are the same there), a natural cubic spline over the profile's arc length between them, broken at kinks.
+/// Where the curve folds back over y, seen from its middle, it ends.
 class WheelLocus {
  public:
   /// nominal_radius [m]: of the wheel.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
@@ -117,7 +118,6 @@ Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, cons
 }
 
 Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Elements& e) {
-  constexpr double kLateralStep = 0.5e-3;
   constexpr int kMargin = 3;
   const Grid2& g = e.grid;
   const Reach r = reach_of(X_TU, X_TC, e);
@@ -126,8 +126,7 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   int rows = to_whole<int>(std::round((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
   if (rows % 2 == 0) ++rows;
 
-  const std::vector<double> all =
-      mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep, {r.y_min, r.y_max}, kMargin);
+  const std::vector<double> all = mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), {r.y_min, r.y_max}, kMargin);
   auto first = static_cast<std::size_t>(std::ranges::lower_bound(all, r.y_min) - all.begin());
   auto last = static_cast<std::size_t>(std::ranges::upper_bound(all, r.y_max) - all.begin());
   first -= std::min<std::size_t>(first, kMargin);
@@ -245,6 +244,31 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
       wheel_n[g.index(ix, iy)] = round ? bilinear(mesh, place) : bicubic(mesh, place);
     }
   }
+}
+
+UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
+                                      const ReferenceRows& reference) {
+  const auto width = static_cast<std::size_t>(grid.nx);
+  std::vector<double> rail(grid.size()), wheel(grid.size()), rows_s;
+  Grid2 centred = grid;
+  centred.x0 -= reference.reference_C.x();
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    rows_s.push_back(reference.rows[static_cast<std::size_t>(iy)].y);
+    const Grid2 line{centred.x0, rows_s.back(), grid.dx, grid.dy, grid.nx, 1};
+    rail_heights(bodies, X_TC, line, {rail.data() + grid.index(0, iy), width});
+    if (!bodies.distance_mesh)
+      bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, line}, {{wheel.data() + grid.index(0, iy), width}, {}, {}});
+  }
+  if (bodies.distance_mesh) mesh_heights(bodies, X_TC, centred, rows_s, rail, wheel);
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const double across = std::cos(reference.rows[static_cast<std::size_t>(iy)].angle);
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      rail[i] = across * (rail[i] - wheel[i]);
+    }
+  }
+  std::ranges::fill(wheel, 0.0);
+  return undeformed_distance(std::move(rail), wheel);
 }
 
 }  // namespace treadmark::detection

@@ -12,6 +12,7 @@
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
 #include "treadmark/interfaces/c/surfaces.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::c {
 namespace {
@@ -56,7 +57,7 @@ extern "C" tm_status tm_surface_from_scan(const char* const* files, size_t n_fil
     require(!request.scans.empty(), "there must be a file at least");
     for (const std::string& setting : texts_of(settings, n_settings, "settings must be n texts"))
       io::set_import_setting(request.settings, setting);
-    request.settings.scan.body = which == Body::wheel ? "wheel" : "rail";
+    request.settings.scan.body = body_name(which);
     const PassingFolder folder;
     request.outputs = {folder.path() / (which == Body::wheel ? "scan.slcw" : "scan.slcs")};
     const io::ImportReport report = app::import_scan(request, callers_progress());

@@ -18,7 +18,7 @@ Problem::Problem(int ire, int icp, int which) : element(ire), number(icp), modul
   m.shear_modulus_1 = m.shear_modulus_2 = 1e6;
   given.solver.max_coupling = 1;
   given.thermal = Thermal{};
-  given.thermal->reference_quirks = true;
+  given.thermal->conventions = Conventions::contact;
   given.rail_springs = RailSprings{};
   given.longitudinal_force = given.pitch_rate = given.roller_pitch_rate = 0.0;
   given.forward_velocity = 30.0;
@@ -71,12 +71,6 @@ void check_digits(const Problem& p) {
     throw Refusal{CNTC_err_input, "C3 (INFLCF) = 4 is not supported in module 3: its inclinations cannot be given"};
 }
 
-HistoryUse history_of(const Problem& p) {
-  using H = HistoryUse;
-  constexpr H kByDigit[] = {H::keep_going, H::normal_only, H::start, H::same_instant};
-  return p.previous ? kByDigit[p.flags[CNTC_ic_pvtime]] : H::start;
-}
-
 /// What both modules take of the settings in the same way.
 template <class Content>
 void put_common(const Problem& p, Content& c) {
@@ -84,7 +78,7 @@ void put_common(const Problem& p, Content& c) {
   constexpr double kNoYield = 1e-4;  // [Pa]
   const MaterialInput& in = p.material;
   c.regime = of_contact_digit(kRegimes, p.flags[CNTC_ic_tang]);
-  c.history = history_of(p);
+  c.history = p.previous ? io::kHistories[p.flags[CNTC_ic_pvtime]] : HistoryUse::start;
   c.normal_model = of_contact_digit(kNormalTheories, p.flags[CNTC_ic_bound]);
   c.tangential_model = of_contact_digit(kTangentialTheories, p.material_digit);
   c.fastsim = {in.k0, in.alpha, in.beta, in.flexibility, FastsimSettings::FirstStep::whole};
@@ -92,7 +86,7 @@ void put_common(const Problem& p, Content& c) {
   c.influence.linear = p.flags[CNTC_ic_ifmeth] == 0;
   c.influence.variant = p.flags[CNTC_ic_ifvari];
   c.solver = p.given.solver;
-  c.solver.reference_quirks = true;
+  c.conventions = Conventions::contact;
   c.friction = p.given.friction.laws.front();
   c.sensitivities = p.flags[CNTC_ic_sens] >= 2;
   c.subsurface = {};
@@ -108,22 +102,6 @@ void put_common(const Problem& p, Content& c) {
     m.layer_flexibility = in.thickness / in.g3;
     if (in.yield > kNoYield) m.layer_yield = in.yield, m.layer_hardening = in.hardening;
   }
-}
-
-void put_discretisation(const Problem& p, io::WheelRailCase& c) {
-  constexpr int kAutomatic = 2, kSurfaceSlip = 3, kConformal = 4;
-  const int method = p.flags[CNTC_ic_discns];
-  using Reference = ReferenceSurface;
-  c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip
-                        : method == kConformal ? Reference::curved
-                                               : Reference::plane;
-  io::DiscretisationInput& d = c.discretisation;
-  d.method = method == kSurfaceSlip || method == kConformal ? kAutomatic : method;
-  d.max_elements = p.flags[CNTC_ic_npomax];
-  // Callers compare with the reference program's numbers.
-  const char* search = std::getenv("TREADMARK_CONTACT_SEARCH");
-  d.reference_search_mesh = search == nullptr || std::string_view(search) != "refined";
-  c.moments_about_grid_origin = c.long_steps = true;
 }
 
 io::WheelRailCase compose_rail(const Problem& p) {
@@ -148,14 +126,12 @@ io::WheelRailCase compose_rail(const Problem& p) {
   c.rail_springs.reset();
   if (force == kMasslessRail) c.rail_springs = g.rail_springs;
   put_common(p, c);
-  using Kind = io::FrictionVariation::Kind;
-  c.friction_variation = {};
-  if (g.friction.variation != 0)
-    c.friction_variation = {g.friction.variation == 1 ? Kind::inclination : Kind::along_track, g.friction.positions,
-                            g.friction.laws};
+  c.friction_variation = g.friction.by_place();
   c.damping.reset();
   if (p.damped) c.damping = p.material.damping;
-  put_discretisation(p, c);
+  io::put_discretisation(c, p.flags[CNTC_ic_discns], p.flags[CNTC_ic_npomax]);
+  const char* search = std::getenv("TREADMARK_CONTACT_SEARCH");
+  c.discretisation.conventions = Conventions{search == nullptr || std::string_view(search) != "refined"};
   return c;
 }
 

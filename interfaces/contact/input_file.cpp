@@ -12,6 +12,7 @@
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::contact {
 namespace {
@@ -41,7 +42,7 @@ io::SurfaceSource written_source(const Problem& p, Body body, const std::string&
   const GivenProfile& given = body == Body::wheel ? p.wheel : p.rail;
   io::SurfaceSource source = given.source;
   if (given.points.empty()) return source;
-  const std::string name = fmt::format("{}_re{:03}_{}.txt", stem, p.element, body == Body::wheel ? "wheel" : "rail");
+  const std::string name = fmt::format("{}_re{:03}_{}.txt", stem, p.element, body_name(body));
   write_text(InputHandle(std::fopen(name.c_str(), "w")).get(), name, given.points);
   std::get<io::GeometryFile>(source.geometry).file = name;
   return source;

@@ -119,7 +119,7 @@ void set_heat(Problem& p, int digit, Values v) {
   require_count(v, 9, "H (HEAT)", digit);
   require_finite(v, "rparam");
   Thermal heat;
-  heat.reference_quirks = true;  // callers compare with the reference program's numbers
+  heat.conventions = Conventions::contact;
   for (ThermalProperties* body : {&heat.body_1, &heat.body_2}) {
     *body = {v[0], v[1], v[2] * p.units.conductivity(), v[3] * p.units.density()};
     v = v.subspan(4);

@@ -20,6 +20,7 @@
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 
 namespace treadmark::contact {
@@ -83,7 +84,7 @@ void give_file(Problem& p, const std::string& name, std::span<const int> ints, s
   io::GeometryFile file;
   file.file = io::resolve_name(folders().work, name);
   file.options = options_of(p, ints, reals);
-  file.open_seam = io::is_slices_file(file.file);  // as in the reference program
+  file.open_seam = io::is_slices_file(file.file);  // as .inp files have it
   io::SurfaceSource source;
   const Body body = body_of_file(file.file, ints);
   source.geometry = std::move(file);
@@ -122,13 +123,13 @@ void give_profile(Problem& p, Body body, const io::SurfaceSource& source) {
     return app::read_surface(source, body, radius);
   });
   p.profile(body).source = source;
-  log(Detail::calls, fmt::format("read the {} profile {}", body == Body::wheel ? "wheel" : "rail", file.string()));
+  log(Detail::calls, fmt::format("read the {} profile {}", body_name(body), file.string()));
 }
 
 wheelrail::Geometry surfaces(Problem& p, const io::WheelRailCase& input) {
   for (const Body body : {Body::rail, Body::wheel}) {
     GivenProfile& slot = p.profile(body);
-    const char* word = body == Body::wheel ? "wheel" : "rail";
+    const char* word = body_name(body);
     if (slot.code != kGood)
       throw Refusal{CNTC_err_profil, slot.name.empty()
                                          ? fmt::format("there is no {} profile", word)

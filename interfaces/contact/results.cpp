@@ -178,7 +178,7 @@ Field field(const Problem& p, const io::PatchResult& r, int code) {
       return {f.temperature_1, 1.0};
     case CNTC_fld_temp2:
       return {f.temperature_2, 1.0};
-    case CNTC_fld_wx:  // the reference program tells it with the opposite sign of slip and creepages
+    case CNTC_fld_wx:  // callers expect the opposite sign of slip and creepages
       return {rigid_slip(p, r, false), -slip};
     case CNTC_fld_wy:
       return {rigid_slip(p, r, true), -slip};

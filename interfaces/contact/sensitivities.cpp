@@ -31,6 +31,7 @@ io::BasicCase patch_alone(const Problem& p, const io::PatchResult& r) {
     b.material = c.material;
     b.friction = app::friction_of(c, r.angle);
     b.solver = c.solver;
+    b.conventions = c.conventions;
     b.thermal = c.thermal;
     b.influence.kind = c.influence.kind;
     b.normal_force_prescribed = false;

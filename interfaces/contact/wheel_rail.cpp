@@ -135,13 +135,6 @@ int digit_of(Id id) {
   return std::max(0, theory(id).digit.value);
 }
 
-int discretisation_digit_of(const io::WheelRailCase& c) {
-  constexpr int kSurfaceSlip = 3, kConformal = 4;
-  return c.reference_surface == ReferenceSurface::curved               ? kConformal
-         : c.reference_surface == ReferenceSurface::plane_surface_slip ? kSurfaceSlip
-                                                                       : c.discretisation.method;
-}
-
 void keep_material(Problem& p, const io::WheelRailCase& c) {
   const Material& m = c.material;
   MaterialInput& in = p.material;
@@ -167,13 +160,9 @@ void keep_material(Problem& p, const io::WheelRailCase& c) {
 }
 
 void keep_friction(Problem& p, const io::WheelRailCase& c) {
-  using Variation = io::FrictionVariation::Kind;
   io::ContactSequence::Friction f;
-  constexpr int kByKind[] = {0, 2, 3, 4, 6};
-  f.law = kByKind[static_cast<int>(c.friction.kind)];
-  f.variation = c.friction_variation.kind == Variation::none          ? 0
-                : c.friction_variation.kind == Variation::inclination ? 1
-                                                                      : 2;
+  f.law = io::kLawDigits[static_cast<int>(c.friction.kind)];
+  f.variation = static_cast<int>(c.friction_variation.kind);
   f.positions = c.friction_variation.positions;
   f.laws = f.variation == 0 ? std::vector{c.friction} : c.friction_variation.laws;
   p.friction_digit = f.law;
@@ -184,15 +173,12 @@ void keep_friction(Problem& p, const io::WheelRailCase& c) {
 void keep(Problem& p, const io::WheelRailCase& c) {
   Flags& f = p.flags;
   f.at(CNTC_ic_config) = (c.side == Side::right ? 1 : 0) + (c.roller ? 4 : 0);
-  f.at(CNTC_ic_pvtime) = c.history == HistoryUse::keep_going    ? 0
-                         : c.history == HistoryUse::normal_only ? 1
-                         : c.history == HistoryUse::start       ? 2
-                                                                : 3;
+  f.at(CNTC_ic_pvtime) = io::kHistoryDigits[static_cast<int>(c.history)];
   f.at(CNTC_ic_norm) = c.vertical_force_prescribed ? 1 : 0;
   f.at(CNTC_ic_force) = c.longitudinal_force ? 1 : c.rail_springs ? 3 : 0;
   f.at(CNTC_ic_tang) = digit_of(c.regime);
   f.at(CNTC_ic_bound) = digit_of(c.normal_model);
-  f.at(CNTC_ic_discns) = discretisation_digit_of(c);
+  f.at(CNTC_ic_discns) = io::discretisation_digit(c);
   f.at(CNTC_ic_inflcf) = std::max(2, digit_of(c.influence.kind));
   f.at(CNTC_ic_ifmeth) = c.influence.linear ? 0 : 1;
   f.at(CNTC_ic_ifvari) = c.influence.variant;

@@ -18,6 +18,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/model/magnitudes.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::python {
@@ -319,8 +320,7 @@ void add_surfaces(py::module_& module) {
       .def("evaluate", evaluate_at)
       .def("trace", trace)
       .def("bounds", bounds)
-      .def_property_readonly("body",
-                             [](const tm_surface& s) { return s.natural->spec.body == Body::wheel ? "wheel" : "rail"; })
+      .def_property_readonly("body", [](const tm_surface& s) { return body_name(s.natural->spec.body); })
       .def_property_readonly("nominal_radius", [](const tm_surface& s) { return s.natural->spec.nominal_radius; })
       .def_property_readonly("backend",
                              [](const tm_surface& s) { return std::string(s.represented.surface->backend()); })

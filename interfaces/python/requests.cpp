@@ -13,6 +13,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/interfaces/python/requests.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::python {
 namespace {
@@ -97,15 +98,15 @@ py::list profile_rows() {
   py::list rows;
   const auto known = [](double value) { return value > 0.0 ? value : std::numeric_limits<double>::quiet_NaN(); };
   for (const LibraryProfile& p : profile_library())
-    rows.append(py::make_tuple(p.name, p.body == Body::wheel ? "wheel" : "rail", known(p.height), known(p.width),
-                               known(p.area), known(p.mass_per_m), p.source, p.shape, p.also, p.family));
+    rows.append(py::make_tuple(p.name, body_name(p.body), known(p.height), known(p.width), known(p.area),
+                               known(p.mass_per_m), p.source, p.shape, p.also, p.family));
   return rows;
 }
 
 /// "rail" or "wheel"; empty where the library has no such profile.
 std::string profile_body(const std::string& name) {
   const std::optional<Body> body = library_body(name);
-  return !body ? "" : *body == Body::wheel ? "wheel" : "rail";
+  return body ? body_name(*body) : "";
 }
 
 const char* kind_of(const io::KeyInfo& key) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 
 namespace treadmark::io {
 
@@ -10,9 +11,6 @@ bool is_step_file(const std::filesystem::path& file) {
   return extension == ".step" || extension == ".stp";
 }
 
-bool is_cad_file(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
-  return is_step_file(file) || extension == ".iges" || extension == ".igs";
-}
+bool is_cad_file(const std::filesystem::path& file) { return can_hold(file, kCadFile); }
 
 }  // namespace treadmark::io

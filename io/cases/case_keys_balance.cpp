@@ -38,10 +38,7 @@ template <class Part>
 void add_number(KeyList& list, const std::string& path, KeyLimits limits, const std::string& doc,
                 std::optional<Part> W::*part, double Part::*member) {
   list.number<W>(path, limits, doc, [part, member](W& c) -> double& { return made(c.*part).*member; });
-  CaseKey& key = list.keys.back();
-  key.written = [part, written = key.written](const Case& c, const std::filesystem::path& folder) {
-    return std::get<W>(c.content).*part ? written(c, folder) : std::string();
-  };
+  say_only_where(list.keys.back(), [part](const Case& c) { return (std::get<W>(c.content).*part).has_value(); });
 }
 
 void add_roller(KeyList& list) {

@@ -125,13 +125,6 @@ bool has_heat(const Case& c) {
   return std::visit([](const auto& content) { return content.thermal.has_value(); }, c.content);
 }
 
-/// Reading a number of thermal data makes them: only where there are some.
-void written_with_heat(CaseKey& key) {
-  key.written = [written = key.written](const Case& c, const std::filesystem::path& folder) {
-    return has_heat(c) ? written(c, folder) : std::string();
-  };
-}
-
 /// Behind the keys of heat, for it changes what they have made.
 void add_reference_ways(KeyList& list) {
   KeyInfo info =
@@ -143,20 +136,18 @@ void add_reference_ways(KeyList& list) {
   CaseKey& key = list.add(info);
   key.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     std::visit(
-        [&](auto& content) {
-          if (content.thermal) content.thermal->reference_quirks = v.flag();
+        [ways = Conventions{v.flag()}](auto& content) {
+          if (content.thermal) content.thermal->conventions = ways;
+          content.conventions = ways;
         },
         c.content);
-    if (auto* rail = std::get_if<WheelRailCase>(&c.content))
-      rail->moments_about_grid_origin = rail->long_steps = v.flag();
-    else
-      std::get<BasicCase>(c.content).solver.reference_quirks = v.flag();
   };
   key.text = [](const Case& c) {
-    const auto* rail = std::get_if<WheelRailCase>(&c.content);
-    const bool heat = std::visit([](auto& one) { return one.thermal && one.thermal->reference_quirks; }, c.content);
-    const bool ways = rail != nullptr ? rail->long_steps : std::get<BasicCase>(c.content).solver.reference_quirks;
-    return std::string(ways || heat ? "true" : "false");
+    const auto ways = [](auto& content) {
+      return content.conventions == Conventions::contact ||
+             (content.thermal && content.thermal->conventions == Conventions::contact);
+    };
+    return std::string(std::visit(ways, c.content) ? "true" : "false");
   };
 }
 
@@ -170,7 +161,7 @@ void add_heat_keys(KeyList& list) {
       shared_number(list, fmt::format("heat.{}_{}", rail ? "rail" : "wheel", name), limits,
                     fmt::format("{} of body {}", doc, rail ? 1 : 2),
                     [body, member](auto& c) -> double& { return heat(c).*body.*member; });
-      written_with_heat(list.keys.back());
+      say_only_where(list.keys.back(), has_heat);
     };
     property("bulk_temperature_C", kAnyNumber, "temperature far from the contact",
              &ThermalProperties::bulk_temperature);
@@ -182,7 +173,7 @@ void add_heat_keys(KeyList& list) {
   shared_number(list, "heat.plastic_fraction", kShare,
                 "share of the plastic work of the interface layer that becomes heat",
                 [](auto& c) -> double& { return heat(c).plastic_fraction; });
-  written_with_heat(list.keys.back());
+  say_only_where(list.keys.back(), has_heat);
 
   KeyInfo compute = key_info("heat.compute", KeyType::flag,
                              "surface temperatures (steady rolling only); any other key of [heat] asks for them too");

@@ -77,7 +77,8 @@ void add_track(KeyList& list) {
   CaseKey& inclined = list.add(ratio);
   inclined.written = [](const Case& c, const std::filesystem::path&) {
     const double cant = std::get<W>(c.content).track.cant, run = std::round(1.0 / std::tan(cant));
-    return run >= 1.0 && std::isfinite(run) && std::atan(1.0 / run) == cant ? fmt::format("\"1:{:.0f}\"", run) : std::string();
+    return run >= 1.0 && std::isfinite(run) && std::atan(1.0 / run) == cant ? fmt::format("\"1:{:.0f}\"", run)
+                                                                            : std::string();
   };
   inclined.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     const std::string& text = v.text();
@@ -306,13 +307,13 @@ void add_discretisation(KeyList& list) {
                "locus of constant profiles too");
   prune.scope = KeyScope::wheel_rail;
   prune.default_text = "true";
-  const auto add_flag = [&](const KeyInfo& info, bool DiscretisationInput::*member) {
+  const auto add_flag = [&]<class Flag>(const KeyInfo& info, Flag DiscretisationInput::*member) {
     CaseKey& key = list.add(info);
     key.set = [member](Case& c, const CaseValue& v, const std::filesystem::path&) {
-      content_of<W>(c).discretisation.*member = v.flag();
+      content_of<W>(c).discretisation.*member = Flag{v.flag()};
     };
     key.text = [member](const Case& c) {
-      return std::string(std::get<W>(c.content).discretisation.*member ? "true" : "false");
+      return std::string(std::get<W>(c.content).discretisation.*member == Flag{true} ? "true" : "false");
     };
   };
   add_flag(prune, &DiscretisationInput::prune);
@@ -332,7 +333,7 @@ void add_discretisation(KeyList& list) {
                           "search on the coarse mesh of the reference program (for comparison)");
   mesh.scope = KeyScope::wheel_rail;
   mesh.default_text = "false";
-  add_flag(mesh, &DiscretisationInput::reference_search_mesh);
+  add_flag(mesh, &DiscretisationInput::conventions);
 }
 
 }  // namespace

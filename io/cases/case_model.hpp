@@ -28,7 +28,7 @@ struct ProfileOptions {
   enum class Placement {
     automatic,   ///< the points: the tape line by the back of the flange, the tread at z = 0, the flange's side
     as_in_file,  ///< the file; only which way z points may be decided from the points
-    reference,   ///< the file and the rules of the reference program, which takes z by the ends of the profile
+    reference,   ///< the file; only which way z points is decided, by the ends of the profile (Conventions::contact)
   };
   int mirror_y = 0;  ///< 1 = negate y, -1 = no, 0 = decide from the data (automatic placement alone)
   int mirror_z = 0;  ///< 1 = negate z, -1 = no, 0 = decide from the data
@@ -90,8 +90,7 @@ struct SurfaceSource {
 struct DiscretisationInput : ElementGrid {
   /// 2 automatic (locus for constant profiles), 5 grid, 6 grid for steep slopes, 7 initial contact point.
   int method = 2;
-  /// Search mesh as in the reference program (coarse, tied to dx, ds), instead of Treadmark's refined one.
-  bool reference_search_mesh = false;
+  Conventions conventions = Conventions::treadmark;  ///< of search, distances and parts of patches
   /// Grids: heights only where contact cannot be ruled out; false = everywhere (brute force).
   bool prune = true;
   std::string detector;  ///< of the registry of detectors; empty: as method and prune say
@@ -164,11 +163,9 @@ struct WheelRailCase {
   InfluenceInput influence;
   std::optional<Thermal> thermal;
   std::optional<Damping> damping;
-  bool sensitivities = false;  ///< derivatives of forces are wanted
-  SubsurfaceInput subsurface;  ///< element numbers that a patch does not have are passed over
-  /// As the reference program: the spin moment of grids that are aligned in time is about their origin instead of the
-  /// contact reference, and steps of transient rolling may be longer than dt = 2 dx / V.
-  bool moments_about_grid_origin = false, long_steps = false;
+  bool sensitivities = false;                        ///< derivatives of forces are wanted
+  SubsurfaceInput subsurface;                        ///< element numbers that a patch does not have are passed over
+  Conventions conventions = Conventions::treadmark;  ///< of spin moments and steps in time
 };
 
 /// Pitch rate at which the nominal radius passes neither rail nor roller too fast or too slowly [rad/s].
@@ -240,6 +237,7 @@ struct BasicCase {
   PlanformInput planform;
   std::vector<FrictionLaw> friction_of_row;        ///< empty, or one for each row
   std::vector<double> extra_slip_x, extra_slip_y;  ///< empty, or one for each element [-]; shift: [m]
+  Conventions conventions = Conventions::treadmark;
   std::optional<Thermal> thermal;
   bool sensitivities = false;  ///< derivatives of forces are wanted
   SubsurfaceInput subsurface;

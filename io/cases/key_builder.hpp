@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/model/backend_name.hpp"
 #include "treadmark/model/contact/theories.hpp"
@@ -49,6 +50,15 @@ void add_simplified_theory(KeyList& list, const std::string& prefix) {
                                   "FASTSIM: from the leading edge to the middle of the first element: half an element, "
                                   "or a whole one as CONTACT (and .inp) has it, of first order",
                                   [](Content& c) -> FirstStep& { return c.fastsim.first_step; });
+}
+
+/// The number of a part that a case need not have, and that asking for the number would make: without the part the key
+/// says nothing.
+inline void say_only_where(CaseKey& key, std::function<bool(const Case&)> has) {
+  key.get = [has, get = key.get](const Case& c) { return has(c) ? get(c) : kNaN; };
+  key.written = [has, written = key.written](const Case& c, const std::filesystem::path& folder) {
+    return has(c) ? written(c, folder) : std::string();
+  };
 }
 
 /// Keys by subject; see the .cpp of the same name.

@@ -10,6 +10,7 @@
 #include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -17,14 +18,11 @@ namespace treadmark::io {
 namespace {
 
 /// What to do with a file that holds no case.
-std::string advice_on_kind(std::string_view extension) {
+std::string advice_on_kind(const std::filesystem::path& file) {
   for (const std::string_view result : {".json", ".h5", ".html", ".svg"})
-    if (extension == result) return "treadmark report and treadmark plot show results";
-  for (const std::string_view surface :
-       {".csv", ".txt", ".dat",  ".asc", ".prr",  ".prw", ".ban", ".whl", ".rail", ".slcs", ".slcw", ".ply", ".stl",
-        ".obj", ".off", ".step", ".stp", ".iges", ".igs", ".xml", ".vdb", ".xyz",  ".pts",  ".pcd",  ".e57", ".las"})
-    if (extension == surface)
-      return "a case names its wheel and rail: treadmark new case writes one with wheel.shape.file and rail.shape.file";
+    if (extension_of(file) == result) return "treadmark report and treadmark plot show results";
+  if (shape_extension(file))
+    return "a case names its wheel and rail: treadmark new case writes one with wheel.shape.file and rail.shape.file";
   return "use .toml (Treadmark) or .inp (CONTACT)";
 }
 
@@ -43,7 +41,7 @@ CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::s
     throw Error(ErrorKind::configuration,
                 extension.empty() ? "a case file is expected, this has no extension"
                                   : fmt::format("'{}' is no kind of case file", extension),
-                {file.string()}, advice_on_kind(extension));
+                {file.string()}, advice_on_kind(file));
   }
   CaseFile result = read_contact_input(file);
   apply_overrides(result, overrides);

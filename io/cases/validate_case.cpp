@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/combination_rules.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 
@@ -25,7 +26,7 @@ class Checker {
   }
 
   void surface(const SurfaceSource& s, Body which, double nominal_radius) const {
-    const std::string body = which == Body::rail ? "rail" : "wheel";
+    const std::string body = body_name(which);
     const OffsetsInput& o = s.offsets;
     require(!o.file.empty() || (!o.unit && !o.deviation_unit && !o.angles_deg),
             body + ".offsets says how a table is meant, but names none", body + ".offsets.file is missing");
@@ -241,7 +242,8 @@ void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes)
       const auto step = rolled_step(*previous->second, c);
       const std::string complaint = notes != nullptr ? doubt_about_history(*previous->second, c) : std::string();
       const auto* rail = std::get_if<WheelRailCase>(&c.content);
-      check.require(complaint.empty() || !step || !step->too_long() || (rail != nullptr && rail->long_steps), complaint,
+      const bool long_steps = rail != nullptr && rail->conventions == Conventions::contact;
+      check.require(complaint.empty() || !step || !step->too_long() || long_steps, complaint,
                     "more and shorter steps (case.steps, case.time_step_s)");
       if (!complaint.empty() && !std::exchange(told, true))
         notes->push_back(fmt::format("case {}: {}", c.number, complaint));

@@ -13,6 +13,7 @@
 #include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/model/rail_head.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -67,7 +68,7 @@ class Judge {
 
   void what_was_read() {
     fact("kind", source_.kind);
-    fact("body", p_.body == Body::wheel ? "wheel" : "rail");
+    fact("body", body_name(p_.body));
     fact("points", source_.points_in_file == p_.y.size()
                        ? fmt::format("{}", p_.y.size())
                        : fmt::format("{} of {} in the file", p_.y.size(), source_.points_in_file));
@@ -87,9 +88,8 @@ class Judge {
     const double usual = p_.body == Body::wheel ? kWidthWheel : kWidthRail;
     const auto off = [&](double factor) { return std::fabs(std::log(factor * y_.size() / usual)); };
     const bool inches = off(25.4) < off(10.0);
-    remark("unit", fmt::format("the {} is only {:.3g} mm wide: is it in {}? set scale_to_mm = {}",
-                               p_.body == Body::wheel ? "wheel" : "rail", kMm * y_.size(), inches ? "inches" : "cm",
-                               inches ? "25.4" : "10"));
+    remark("unit", fmt::format("the {} is only {:.3g} mm wide: is it in {}? set scale_to_mm = {}", body_name(p_.body),
+                               kMm * y_.size(), inches ? "inches" : "cm", inches ? "25.4" : "10"));
   }
 
   void orientation() {

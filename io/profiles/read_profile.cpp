@@ -13,10 +13,12 @@
 #include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -111,8 +113,8 @@ void check_length(const RawPoints& points, Body body, double asked_scale) {
     advice = asked_scale == 1.0 ? "is the file in micrometres? use a scale of 0.001"
                                 : "is a file in mm scaled like one in metres? use a scale of 1";
   throw Error(ErrorKind::input_data,
-              fmt::format("the {} profile is {:.4g} mm long, outside {:g} to {:g} mm",
-                          body == Body::rail ? "rail" : "wheel", length, kShortest_mm, kLongest_mm),
+              fmt::format("the {} profile is {:.4g} mm long, outside {:g} to {:g} mm", body_name(body), length,
+                          kShortest_mm, kLongest_mm),
               {points.file, 0, 0}, advice);
 }
 
@@ -177,7 +179,7 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
   measured::SectionPoints section{body, std::move(points.y), std::move(points.z)};
   scale_to_metres(section);
   measured::Understanding& seen = source.understood;
-  points.y = section.y, points.z = section.z;  // the reference program's rule does not ask for the unit
+  points.y = section.y, points.z = section.z;  // Placement::reference judges them whatever their unit is
   seen = measured::understand(section, words_of(options, points, body, radii));
   source.mirrored_y = source.mirrored_y != seen.mirrored_y;
   source.mirrored_z = source.mirrored_z != seen.mirrored_z;
@@ -271,12 +273,6 @@ SourcedProfile gensys_profile(std::string_view text, const std::string& file, Pr
   return column_profile(std::move(content), Body::wheel, options);
 }
 
-std::optional<Body> body_of(const std::string& extension) {
-  if (extension == ".prr" || extension == ".ban") return Body::rail;
-  if (extension == ".prw" || extension == ".whl" || extension == ".wheel") return Body::wheel;
-  return std::nullopt;
-}
-
 void check_file(const std::filesystem::path& file, Body body, const SourcePosition& referenced_from) {
   const std::string extension = extension_of(file);
   const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
@@ -288,10 +284,10 @@ void check_file(const std::filesystem::path& file, Body body, const SourcePositi
                 fmt::format("'{}': rail profiles of GENSYS are not read, which way their y points is not published",
                             file.string()),
                 where, "rename it to .txt, and set mirror_y if its y points to the middle of the track");
-  if (const std::optional<Body> named = body_of(extension); named && *named != body)
+  if (const std::optional<Body> named = body_by_extension(file); named && *named != body)
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for a {}, a {} profile is expected", file.string(),
-                            *named == Body::rail ? "rail" : "wheel", body == Body::rail ? "rail" : "wheel"),
+                            body_name(*named), body_name(body)),
                 where, "exchange the files");
 }
 
@@ -355,7 +351,8 @@ ProfileFormat profile_format(const std::filesystem::path& file) {
 std::filesystem::path profile_file(const std::filesystem::path& name) { return section_of(name).file; }
 
 std::optional<Body> profile_body(const std::filesystem::path& file) {
-  return body_of(extension_of(section_of(file).file));
+  const std::filesystem::path named = section_of(file).file;
+  return can_hold(named, kProfileFile) ? body_by_extension(named) : std::nullopt;
 }
 
 Profile parse_profile(std::string_view text, const std::string& file, ProfileFormat format, Body body,

@@ -9,12 +9,13 @@
 #include <limits>
 #include <numbers>
 
-#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/record_reader.hpp"
 #include "treadmark/io/profiles/slice_sum.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -239,10 +240,7 @@ SliceSet load_profiles(SliceList&& list, Body body, const SliceLoader& load) {
 
 }  // namespace
 
-bool is_slices_file(const std::filesystem::path& file) {
-  const std::string extension = extension_of(file);
-  return extension == ".slcs" || extension == ".slcw";
-}
+bool is_slices_file(const std::filesystem::path& file) { return can_hold(file, kSlicesFile); }
 
 SliceSet parse_slices(std::string_view text, const std::string& file, Body body, const SliceLoader& load) {
   return load_profiles(read_list(text, file, body), body, load);
@@ -250,11 +248,10 @@ SliceSet parse_slices(std::string_view text, const std::string& file, Body body,
 
 SliceSet read_slices(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                      const SourcePosition& referenced_from) {
-  const std::string extension = extension_of(file);
-  if (is_slices_file(file) && (extension == ".slcs") != (body == Body::rail))
+  if (is_slices_file(file) && body_by_extension(file) != body)
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for {} slices, a {} is expected", file.string(),
-                            body == Body::rail ? "wheel" : "rail", body == Body::rail ? "rail" : "wheel"),
+                            body == Body::rail ? "wheel" : "rail", body_name(body)),
                 referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from,
                 "exchange the files");
   const std::string text = profiles::read_text(file, "slices", referenced_from);

@@ -12,6 +12,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -39,8 +40,8 @@ void check_name(const std::filesystem::path& file, const Profile& profile, bool 
     refuse(fmt::format("profiles cannot be written to files '{}'", extension), "use .prr .prw .ban .whl or .csv");
   const std::optional<Body> named = profile_body(file);
   if (named && *named != profile.body)
-    refuse(fmt::format("the extension {} stands for a {}, this is a {}", extension,
-                       *named == Body::rail ? "rail" : "wheel", profile.body == Body::rail ? "rail" : "wheel"),
+    refuse(fmt::format("the extension {} stands for a {}, this is a {}", extension, body_name(*named),
+                       body_name(profile.body)),
            profile.body == Body::rail ? "use .prr, .ban or .csv" : "use .prw, .whl or .csv");
   if (with_derivatives && (extension == ".prr" || extension == ".prw"))
     refuse("Simpack files have no columns for slope and curvature", "use .csv, .ban or .whl");

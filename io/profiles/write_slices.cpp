@@ -18,6 +18,7 @@
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/slice_sum.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -32,10 +33,9 @@ void check(const std::filesystem::path& file, const SliceSet& slices) {
   const std::string extension = extension_of(file);
   const char* expected = slices.body == Body::rail ? ".slcs" : ".slcw";
   if (extension != expected)
-    throw Error(
-        ErrorKind::configuration,
-        fmt::format("slices of a {} are written to a file *{}", slices.body == Body::rail ? "rail" : "wheel", expected),
-        {file.string()});
+    throw Error(ErrorKind::configuration,
+                fmt::format("slices of a {} are written to a file *{}", body_name(slices.body), expected),
+                {file.string()});
   if (is_stream(file))
     throw Error(ErrorKind::configuration, "slices are written to a regular file and a folder beside it",
                 {file.string()});

@@ -78,6 +78,12 @@ struct HeightRowOptions {
 std::optional<Scan> read_height_rows(const std::filesystem::path& file, const HeightRowOptions& how,
                                      const ScanReadOptions& options = {}, const Progress& progress = {});
 
+/// The ends of the names of scans that are written: ".ply .las ...".
+std::string written_scan_extensions();
+
+/// Errors: Error(configuration) for a name that ends otherwise.
+void require_written_scan(const std::filesystem::path& file);
+
 /// Writes points times 1/metres_per(unit) by the extension: .ply (binary little endian, double, with a comment that
 /// names the unit), .xyz .asc .txt .csv (header line with names of columns and unit), .las 1.2 (steps of 0.1 um or
 /// finer, the unit as system identifier). Normals and passes are written where the cloud has them and the format can

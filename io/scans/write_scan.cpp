@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <utility>
 
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/points/binary_values.hpp"
@@ -71,6 +72,30 @@ void write_columns(const std::filesystem::path& file, const PointCloud& cloud, L
 
 }  // namespace scans
 
+namespace {
+
+using Writer = void (*)(const std::filesystem::path&, const PointCloud&, LengthUnit);
+constexpr Writer kByBlanks = [](auto&file, auto&cloud, auto unit) { scans::write_columns(file, cloud, unit, ' '); },
+                 kByCommas = [](auto&file, auto&cloud, auto unit) { scans::write_columns(file, cloud, unit, ','); };
+constexpr std::pair<std::string_view, Writer> kWriters[] = {{".ply", scans::write_ply}, {".las", scans::write_las},
+                                                            {".xyz", kByBlanks},        {".asc", kByBlanks},
+                                                            {".txt", kByBlanks},        {".csv", kByCommas}};
+
+}  // namespace
+
+std::string written_scan_extensions() {
+  std::string out;
+  for (const auto& [extension, writer] : kWriters) out.append(out.empty() ? "" : " ").append(extension);
+  return out;
+}
+
+void require_written_scan(const std::filesystem::path& file) {
+  for (const auto& [extension, writer] : kWriters)
+    if (extension == extension_of(file)) return;
+  throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension_of(file)),
+              {file.string()}, "use one of " + written_scan_extensions());
+}
+
 void write_scan(const std::filesystem::path& file, const PointCloud& cloud, LengthUnit unit) {
   const auto refuse = [&](const std::string& why, const std::string& advice) {
     throw Error(ErrorKind::configuration, fmt::format("cannot write {}: {}", file.string(), why), {}, advice);
@@ -82,13 +107,9 @@ void write_scan(const std::filesystem::path& file, const PointCloud& cloud, Leng
   for (const Vec3& p : cloud.points)
     if (!p.allFinite()) refuse("a point is not finite", "leave it out");
 
-  const std::string extension = extension_of(file);
-  if (extension == ".ply") return scans::write_ply(file, cloud, unit);
-  if (extension == ".las") return scans::write_las(file, cloud, unit);
-  if (extension == ".csv") return scans::write_columns(file, cloud, unit, ',');
-  if (extension == ".xyz" || extension == ".asc" || extension == ".txt")
-    return scans::write_columns(file, cloud, unit, ' ');
-  refuse("points are written by the extension", "known are .ply, .xyz, .asc, .txt, .csv and .las");
+  require_written_scan(file);
+  for (const auto& [extension, writer] : kWriters)
+    if (extension == extension_of(file)) writer(file, cloud, unit);
 }
 
 }  // namespace treadmark::io

@@ -84,21 +84,17 @@ const KeyTable<WearLaw>& wear_law_keys() {
   using L = WearLaw;
   static const auto keys = key_table<L>([](auto& list) {
     add_law(list, kWearTheories);
-    list.number("hardness_GPa", kPositive, "archard: of the body that wears", &L::hardness, kNoDefault);
-    list.number_list("k", kNotNegative, "archard: coefficient, one for each regime of slip speed", &L::k);
-    list.number_list("slip_m_s", kPositive, "archard: slip speeds between the regimes", &L::slip_limits);
-    list.number("k_seizure", kNotNegative, "archard: coefficient at high pressures; 0: there is no such regime",
-                &L::k_seizure);
-    list.number("seizure_pressure_over_hardness", kPositive, "archard: where high pressures begin", &L::seizure_ratio);
-    list.number_list("t_gamma_area_MPa", kNotNegative,
-                     "t_gamma: points of a broken line (1 MPa = 1 N/mm²), which goes on straight behind the last",
-                     &L::t_gamma_area);
-    list.number_list("wear_rate_ug_m_mm2", kNotNegative, "t_gamma: mass by distance and area at these points",
-                     &L::wear_rate);
-    list.number("density_kg_m3", kPositive, "t_gamma: of the body that wears", &L::density, kNoDefault);
-    list.number_list("volume_per_work_mm3_J", kNotNegative, "energy: coefficient, one for each regime of power by area",
-                     &L::volume_per_work);
-    list.number_list("power_density_W_mm2", kPositive, "energy: powers by area between the regimes", &L::power_limits);
+    for (const WearNumber& n : kWearNumbers)
+      std::visit(
+          [&](auto value) {
+            const KeyLimits limits = n.may_be_zero ? kNotNegative : kPositive;
+            if constexpr (std::is_same_v<decltype(value), double L::*>)
+              list.number(std::string(n.key), limits, std::string(n.meaning), value,
+                          may_lack(n, value) ? 0 : kNoDefault);
+            else
+              list.number_list(std::string(n.key), limits, std::string(n.meaning), value);
+          },
+          n.value);
   });
   return keys;
 }

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/read_toml.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
@@ -127,9 +127,7 @@ void check_regime(const ContactPart& part, const SimulationFile& out) {
 bool is_measured_wheel(const SurfaceSource& wheel) {
   const auto* file = std::get_if<GeometryFile>(&wheel.geometry);
   if (file == nullptr) return false;
-  const std::string extension = extension_of(file->file);
-  constexpr std::string_view kWhole[] = {".slcw", ".ply", ".stl", ".obj", ".off", ".vdb"};
-  return std::find(std::begin(kWhole), std::end(kWhole), extension) != std::end(kWhole);
+  return can_hold(file->file, kSlicesFile | kTriangleFile | kOffsetFile);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/cancellation.hpp"
-#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/points/fields.hpp"
 #include "treadmark/io/splines/xml_tree.hpp"
@@ -502,7 +502,7 @@ class Reader {
 
 }  // namespace
 
-bool is_spline_file(const std::filesystem::path& file) { return extension_of(file) == ".xml"; }
+bool is_spline_file(const std::filesystem::path& file) { return can_hold(file, kSplineFile); }
 
 SplineFile parse_splines(std::string_view text, const std::string& file, double scale_to_mm) {
   if (!(scale_to_mm > 0.0 && std::isfinite(scale_to_mm)))

@@ -48,7 +48,7 @@ std::string with_unit(const std::string& value, double uncertainty, std::string_
 }
 
 std::string text_line(std::string_view label, std::size_t width, const std::string& text) {
-  return fmt::format("{:<{}}{}\n", label, width, text);
+  return fmt::format("{:<{}} {}\n", label, width - 1, text);
 }
 
 void add_column(std::vector<std::string>& lines, const std::vector<std::string>& cells, bool texts) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/model/contact/conventions.hpp"
 #include "treadmark/model/contact/numerical_influence.hpp"
 
 namespace treadmark {
@@ -37,8 +38,7 @@ enum class HistoryUse {
 /// FASTSIM with slope reduction (Spiryagin et al. 2013).
 struct FastsimSettings {
   /// From the leading edge to the middle of the first element. half: half an element, and spin acts midway in each
-  /// step: without slip of second order in the size of elements. whole: of first order, as the reference program
-  /// (CONTACT) has it.
+  /// step: without slip of second order in the size of elements. whole: of first order.
   enum class FirstStep { half, whole };
   double k0 = 1.0;           ///< what is left of the slope at small creepage [-]
   double alpha = 1.0;        ///< slope at large creepage over that at small creepage [-]
@@ -76,10 +76,7 @@ struct SolverSettings {
   /// those of the last solution.
   enum class FirstSlip { below, above, last };
   FirstSlip first_slip = FirstSlip::last;
-  /// As the reference program (CONTACT) has it: displacements, and the elastic energy with them, of parts of a patch
-  /// are those of full elastic influence. In KPEC and ANALYN parts count as one patch; KPEC lets ends of rows that lie
-  /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
-  bool reference_quirks = false;
+  Conventions conventions = Conventions::treadmark;  ///< of search, distances, parts of patches, KPEC and ANALYN
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
 

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include "treadmark/model/contact/conventions.hpp"
+
 namespace treadmark {
 
 /// Homogeneous isotropic elastic bodies; body 1 is the rail, body 2 the wheel.
@@ -31,8 +33,8 @@ struct ThermalProperties {
 /// Heat in the surfaces of rail (1) and wheel (2).
 struct Thermal {
   ThermalProperties body_1, body_2;
-  double plastic_fraction = 1.0;  ///< of plastic work that becomes heat
-  bool reference_quirks = false;  ///< numbers as the reference program computes them (solvers/kalker/heat)
+  double plastic_fraction = 1.0;                     ///< of plastic work that becomes heat
+  Conventions conventions = Conventions::treadmark;  ///< of the temperatures
   friend bool operator==(const Thermal&, const Thermal&) = default;
 };
 

@@ -14,7 +14,7 @@ namespace treadmark {
 /// settings and `treadmark list solvers` read these tables; a new theory is an enumerator, a row and its
 /// implementation.
 
-/// How the input of the reference program (CONTACT) asks for a theory.
+/// How an input file of CONTACT (.inp) asks for a theory.
 struct ContactDigit {
   int value = -1;                                ///< -1: no digit of its own
   std::string_view on_rail = {}, of_patch = {};  ///< what it needs in module 1 and 3; empty: nothing
@@ -28,6 +28,9 @@ struct TheoryLimits {
   bool steady_only = false;     ///< tractions do not depend on the previous instant: no shift, no transient rolling
   bool rolling_only = false;    ///< steady or transient rolling: no shift
   bool full_normal = false;     ///< the full normal problem
+  bool springs = false;         ///< tractions deform springs row by row, not half-spaces
+  bool strips = false;          ///< ends of a strip may slip without traction, parts of a contact share the creepage
+  bool no_slip = false;         ///< every element adheres, though tractions exceed friction
 };
 
 template <class Id>
@@ -67,22 +70,22 @@ inline constexpr Theory<TangentialModel> kTangentialTheories[] = {
      "fastsim",
      "FASTSIM with three flexibilities",
      {3, "T = 0, 2, 3; D other than 3, 4", "T = 0, 2, 3"},
-     {.rolling_only = true}},
+     {.rolling_only = true, .springs = true}},
     {TangentialModel::fastsim_one_flexibility,
      "fastsim_one_flexibility",
      "FASTSIM with one flexibility",
      {2, "T = 0, 2, 3; D other than 3, 4", "T = 0, 2, 3"},
-     {.rolling_only = true}},
+     {.rolling_only = true, .springs = true}},
     {TangentialModel::fastrip,
      "fastrip",
      "FaStrip",
      {5, "T = 0, 3; D other than 3, 4", "T = 0, 3"},
-     {.steady_only = true}},
+     {.steady_only = true, .springs = true, .strips = true}},
     {TangentialModel::linear,
      "linear",
      "Kalker's linear theory: no slip and no friction bound, for creep coefficients",
      {},
-     {.steady_only = true}},
+     {.steady_only = true, .no_slip = true}},
 };
 
 inline constexpr Theory<Regime> kRegimes[] = {
@@ -114,11 +117,6 @@ constexpr const Theory<TangentialModel>& theory(TangentialModel id) {
 constexpr const Theory<Regime>& theory(Regime id) { return kRegimes[static_cast<std::size_t>(id)]; }
 constexpr const Theory<InfluenceSettings::Kind>& theory(InfluenceSettings::Kind id) {
   return kInfluenceKinds[static_cast<std::size_t>(id)];
-}
-
-/// Tractions deform half-spaces, not springs row by row.
-constexpr bool on_half_spaces(TangentialModel id) {
-  return id == TangentialModel::full || id == TangentialModel::linear;
 }
 
 /// The theory that a control digit asks for; the first of the table where the digit asks for no other.

@@ -17,8 +17,8 @@ enum class Side { left, right };
 /// Where the rail lies on the track and how it moves.
 struct Track {
   bool gauge_based = true;  ///< else rail_y0, rail_z0 place the rail's profile origin
-  /// The innermost point of all that lies high enough counts, as in the reference program; else that of the head
-  /// alone, without a keeper beside a groove.
+  /// The innermost point of all that lies high enough counts; else that of the head alone, without a keeper beside a
+  /// groove.
   bool gauge_at_innermost = false;
   double gauge_height = 14e-3;             ///< below the top of the rail [m]
   double gauge_width = 1.435;              ///< [m]
@@ -113,16 +113,15 @@ struct ElementGrid {
 /// Elements and how contact is looked for.
 struct Discretisation : ElementGrid {
   bool reference_at_deepest = false;
-  /// Size and fineness of the first search grid.
+  /// Size and fineness of the first search grid; refined, or one of Conventions::contact.
   enum class SearchGrid {
     refined,          ///< coarse grid over the whole window, fine grids on what it finds
-    reference_mesh,   ///< one grid whose steps follow dx, ds as in the reference program (CONTACT)
-    reference_steep,  ///< the same with its finer lateral steps for steep slopes
-    reference_locus,  ///< its contact locus, where both profiles are constant
+    reference_mesh,   ///< one grid whose steps follow dx, ds
+    reference_steep,  ///< the same with finer lateral steps for steep slopes
+    reference_locus,  ///< a contact locus on rows whose step follows ds
   } search = SearchGrid::refined;
   SearchMethod search_method = SearchMethod::automatic;
-  std::string detector;           ///< of detection/detector.hpp, in place of search_method; empty: that
-  bool distance_on_mesh = false;  ///< undeformed distance with the reference program's mesh of the wheel
+  std::string detector;  ///< of detection/detector.hpp, in place of search_method; empty: that
   /// Rolling step over dx that most steps of transient rolling have: displacements of the instant before are then
   /// interpolated between three steps that differ by 0.2 % (their error is about 1e-8). 0: always evaluated.
   double usual_dq_relative = 0.0;

@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/model/damage/wear_law.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -11,60 +14,68 @@
 namespace treadmark {
 namespace {
 
+constexpr const char* kNoOwnNumbers = "a law of wear has no numbers of its own: give those of a test";
+
 [[noreturn]] void refuse(std::string message, std::string advice) {
   throw Error(ErrorKind::configuration, std::move(message), {}, std::move(advice));
 }
 
-void require_positive(double value, const char* key) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    refuse(fmt::format("the law needs a positive {}", key),
-           "a law of wear has no numbers of its own: give those of a test");
+bool needs(const WearTheoryRow& row, std::string_view key) {
+  std::istringstream words{std::string(row.keys)};
+  return std::find(std::istream_iterator<std::string>(words), {}, key) != std::istream_iterator<std::string>();
 }
 
-void check_regimes(const std::vector<double>& values, const std::vector<double>& limits, const char* key,
-                   const char* limit_key) {
-  if (values.empty()) refuse(fmt::format("the law needs {}", key), "give one number, or one for each regime");
-  for (const double value : values)
-    if (!(value >= 0.0) || !std::isfinite(value)) refuse(fmt::format("{} must not be negative", key), "");
-  if (limits.size() + 1 != values.size())
-    refuse(fmt::format("{} has {} values and {} has {}", key, values.size(), limit_key, limits.size()),
-           fmt::format("there is one limit less than there are regimes"));
+const std::vector<double>& list_of(const WearLaw& law, std::string_view key) {
+  const auto& value = std::ranges::find(kWearNumbers, key, &WearNumber::key)->value;
+  return law.*std::get<std::vector<double> WearLaw::*>(value);
+}
+
+void check_number(double value, const WearNumber& n, bool needed) {
+  if (needed && (!(value > 0.0) || !std::isfinite(value)))
+    refuse(fmt::format("the law needs a positive {}", n.key), kNoOwnNumbers);
+  if (!(value > 0.0) && !(n.may_be_zero && value == 0.0))
+    refuse(fmt::format("{} must {}", n.key, n.may_be_zero ? "not be negative" : "be positive"), "");
+}
+
+void check_regimes(const WearNumber& n, std::size_t regimes, const std::vector<double>& limits) {
+  if (limits.size() + 1 != regimes)
+    refuse(fmt::format("{} has {} values and {} has {}", n.key, regimes, n.limits, limits.size()),
+           "there is one limit less than there are regimes");
   for (std::size_t i = 0; i < limits.size(); ++i)
     if (!(limits[i] > (i > 0 ? limits[i - 1] : 0.0)))
-      refuse(fmt::format("{} must be positive and increase", limit_key), "");
+      refuse(fmt::format("{} must be positive and increase", n.limits), "");
 }
 
-void check_line(const std::vector<double>& x, const std::vector<double>& y) {
+void check_line(const WearNumber& n, const std::vector<double>& x, const std::vector<double>& y) {
   if (x.size() < 2 || x.size() != y.size())
-    refuse(fmt::format("t_gamma_area_MPa has {} values and wear_rate_ug_m_mm2 has {}", x.size(), y.size()),
+    refuse(fmt::format("{} has {} values and {} has {}", n.over, x.size(), n.key, y.size()),
            "they are the points of a line: as many, and at least two");
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!(y[i] >= 0.0) || !std::isfinite(y[i])) refuse("wear_rate_ug_m_mm2 must not be negative", "");
-    if (!(x[i] >= 0.0) || !std::isfinite(x[i]) || (i > 0 && !(x[i] > x[i - 1])))
-      refuse("t_gamma_area_MPa must increase from 0 on", "");
-  }
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (!(x[i] > x[i - 1])) refuse(fmt::format("{} must increase from 0 on", n.over), "");
   if (y.back() < y[y.size() - 2])
-    refuse("wear_rate_ug_m_mm2 falls at the end of the line, which goes on behind it", "let its last piece not fall");
+    refuse(fmt::format("{} falls at the end of the line, which goes on behind it", n.key),
+           "let its last piece not fall");
+}
+
+void check_list(const WearLaw& law, const std::vector<double>& values, const WearNumber& n) {
+  if (values.empty()) refuse(fmt::format("the law needs {}", n.key), kNoOwnNumbers);
+  for (const double value : values)
+    if (!(value >= 0.0) || !std::isfinite(value)) refuse(fmt::format("{} must not be negative", n.key), "");
+  if (!n.limits.empty()) check_regimes(n, values.size(), list_of(law, n.limits));
+  if (!n.over.empty()) check_line(n, list_of(law, n.over), values);
 }
 
 }  // namespace
 
 void check(const WearLaw& law) {
-  switch (law.theory) {
-    case WearTheory::archard:
-      require_positive(law.hardness, "hardness_GPa");
-      check_regimes(law.k, law.slip_limits, "k", "slip_m_s");
-      if (!(law.k_seizure >= 0.0) || !(law.seizure_ratio > 0.0))
-        refuse("k_seizure and seizure_pressure_over_hardness must not be negative", "");
-      break;
-    case WearTheory::t_gamma:
-      require_positive(law.density, "density_kg_m3");
-      check_line(law.t_gamma_area, law.wear_rate);
-      break;
-    case WearTheory::energy:
-      check_regimes(law.volume_per_work, law.power_limits, "volume_per_work_mm3_J", "power_density_W_mm2");
-      break;
-  }
+  const WearTheoryRow& row = kWearTheories[static_cast<std::size_t>(law.theory)];
+  for (const WearNumber& n : kWearNumbers)
+    if (const auto* value = std::get_if<double WearLaw::*>(&n.value);
+        value && (needs(row, n.key) || may_lack(n, *value)))
+      check_number(law.**value, n, needs(row, n.key));
+  for (const WearNumber& n : kWearNumbers)
+    if (const auto* list = std::get_if<std::vector<double> WearLaw::*>(&n.value); list && needs(row, n.key))
+      check_list(law, law.**list, n);
 }
 
 }  // namespace treadmark

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace treadmark {
@@ -34,6 +35,38 @@ struct WearLaw {
   std::vector<double> volume_per_work;  ///< in each regime of power by area [m3/J]
   std::vector<double> power_limits;     ///< of a whole patch between the regimes, increasing [W/m2]
 };
+
+/// A number of a law, or a list of them: its key of evolution files, with its unit.
+struct WearNumber {
+  std::variant<double WearLaw::*, std::vector<double> WearLaw::*> value;
+  std::string_view key, meaning;
+  bool may_be_zero = false;
+  std::string_view limits = {};  ///< of a list with a value for each regime: key of the limits between them
+  std::string_view over = {};    ///< of a broken line: key of where its values are
+};
+inline constexpr WearNumber kWearNumbers[] = {
+    {&WearLaw::hardness, "hardness_GPa", "archard: of the body that wears"},
+    {&WearLaw::k, "k", "archard: coefficient, one for each regime of slip speed", true, "slip_m_s"},
+    {&WearLaw::slip_limits, "slip_m_s", "archard: slip speeds between the regimes"},
+    {&WearLaw::k_seizure, "k_seizure", "archard: coefficient at high pressures; 0: there is no such regime", true},
+    {&WearLaw::seizure_ratio, "seizure_pressure_over_hardness", "archard: where high pressures begin"},
+    {&WearLaw::t_gamma_area, "t_gamma_area_MPa",
+     "t_gamma: points of a broken line (1 MPa = 1 N/mm²), which goes on straight behind the last", true},
+    {&WearLaw::wear_rate,
+     "wear_rate_ug_m_mm2",
+     "t_gamma: mass by distance and area at these points",
+     true,
+     {},
+     "t_gamma_area_MPa"},
+    {&WearLaw::density, "density_kg_m3", "t_gamma: of the body that wears"},
+    {&WearLaw::volume_per_work, "volume_per_work_mm3_J", "energy: coefficient, one for each regime of power by area",
+     true, "power_density_W_mm2"},
+    {&WearLaw::power_limits, "power_density_W_mm2", "energy: powers by area between the regimes"}};
+
+/// Whether a law is complete without a number, which is 0 or has a usual value then.
+inline bool may_lack(const WearNumber& number, double WearLaw::*value) {
+  return number.may_be_zero || WearLaw{}.*value > 0.0;
+}
 
 /// One row a theory: its word in study files, what it is, where it holds, and the keys that it needs.
 struct WearTheoryRow {

@@ -194,7 +194,7 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
 }
 
 void ContactSolver::Workspace::solve_once(const ContactProblem& problem, ContactSolution& solution) {
-  if (!on_half_spaces(problem.tangential_model))
+  if (theory(problem.tangential_model).limits.springs)
     solve_fastsim(problem, solution, previous);
   else if (tangential.couples(problem))
     solve_in_turns(problem, solution);
@@ -204,14 +204,13 @@ void ContactSolver::Workspace::solve_once(const ContactProblem& problem, Contact
 
 /// With surface temperatures, in turns with friction that depends on them.
 void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, ContactSolution& solution) {
-  const HeatOptions heat{problem.thermal && problem.thermal->reference_quirks};
   const auto by_temperature = [](const FrictionLaw& law) { return law.kind == FrictionLaw::Kind::temperature; };
   const std::vector<FrictionLaw>& rows = problem.friction_of_row;
   const bool depends =
       rows.empty() ? by_temperature(problem.friction) : std::any_of(rows.begin(), rows.end(), by_temperature);
   if (!depends || !problem.thermal) {
     solve_once(problem, solution);
-    if (problem.thermal) add_surface_temperatures(problem, solution, heat);
+    if (problem.thermal) add_surface_temperatures(problem, solution);
     return;
   }
   std::vector<double> temperature(problem.grid.size(), problem.thermal->body_1.bulk_temperature);
@@ -221,7 +220,7 @@ void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, Contact
     solution.temperature_1 = temperature;
     solve_once(problem, solution);
     if (solution.status == Status::no_contact || solution.tangential.status != Status::ok) return;
-    add_surface_temperatures(problem, solution, heat);
+    add_surface_temperatures(problem, solution);
     double change = 0.0, size = 0.0;
     for (std::size_t i = 0; i < temperature.size(); ++i) {
       const double d = solution.temperature_1[i] - temperature[i];

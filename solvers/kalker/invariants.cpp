@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::kalker {
 namespace {
@@ -67,7 +68,7 @@ ElementSums sums_of(const ContactProblem& problem, const ContactSolution& s) {
   const bool has_states = s.state.size() == n,
              tangential = s.traction_x.size() == n && s.friction.size() == n && s.traction_y.size() == n && has_states,
              has_slip = tangential && s.slip_x.size() == n && s.slip_y.size() == n;
-  const bool strips = problem.tangential_model == TangentialModel::fastrip;
+  const bool strips = theory(problem.tangential_model).limits.strips;
   for (std::size_t i = 0; i < n; ++i) {
     const double p = s.pressure[i];
     sums.pressure += p;
@@ -120,7 +121,7 @@ std::optional<Violation> broken(Invariant invariant, double amount, std::string 
 std::optional<Violation> broken_tangentially(const ContactProblem& problem, const ContactSolution& s,
                                              const ElementSums& sums) {
   const double eps = problem.settings.eps, area = problem.grid.cell_area(), limit = sums.bound * area;
-  if (problem.tangential_model != TangentialModel::linear) {
+  if (!theory(problem.tangential_model).limits.no_slip) {
     constexpr double kRounding = 1e-9;
     const double excess = sums.greatest_bound > 0.0 ? sums.excess / sums.greatest_bound : sums.excess;
     if (excess > 10.0 * eps + kRounding)

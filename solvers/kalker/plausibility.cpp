@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 
@@ -95,8 +96,7 @@ double excess_over_friction(const ContactSolution& s) {
 
 /// What is beyond the theory of the tractions; empty: nothing.
 std::string beyond_tangential(const PatchSetting& p, const ContactSolution& s, const EquivalentEllipse& ellipse) {
-  using Model = TangentialModel;
-  if (p.tangential_model == Model::linear) {
+  if (theory(p.tangential_model).limits.no_slip) {
     const double excess = excess_over_friction(s);
     return excess <= kMostExcess ? std::string()
                                  : fmt::format(
@@ -110,7 +110,7 @@ std::string beyond_tangential(const PatchSetting& p, const ContactSolution& s, c
                unit = material.shear_modulus * c * c / (p.static_friction * s.force_n);
   const double xi = unit * k.c11 * std::abs(s.creepage.xi), eta = unit * k.c22 * std::abs(s.creepage.eta),
                spin = unit * c * k.c23 * std::abs(s.creepage.phi);
-  if (p.tangential_model == Model::fastsim_one_flexibility) {
+  if (p.tangential_model == TangentialModel::fastsim_one_flexibility) {
     const LinearFlexibilities three = linear_flexibilities(k, material.shear_modulus, ellipse.a, ellipse.b);
     double other = 0.0;
     for (const auto& [share, flexibility] :
@@ -123,7 +123,7 @@ std::string beyond_tangential(const PatchSetting& p, const ContactSolution& s, c
                      "three flexibilities",
                      1e2 * other);
   }
-  const bool strips = p.tangential_model == Model::fastrip;
+  const bool strips = theory(p.tangential_model).limits.strips;
   const SpinRange& range = strips ? kFastripRange : kFastsimRange;
   const bool wide = ratio < range.widest && spin > range.wide_spin,
              too_long = ratio > range.longest && spin > range.long_spin;

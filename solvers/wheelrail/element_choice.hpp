@@ -17,7 +17,7 @@ constexpr int kLeastAcross = 20, kMostAcross = 64;
 constexpr double kLongestElement = 4.0, kShortestElement = 1e-5;
 
 /// Whether a problem's elements are chosen, not only asked to be: in contacts that leave nothing but start values to a
-/// later instant. Damping, transient rolling and shifts need one raster, search grids of the reference program dx, ds.
+/// later instant. Damping, transient rolling and shifts need one raster, search grids other than refined dx, ds.
 bool chooses_elements(const Problem& problem);
 
 /// Sides of the elements of one patch [m].

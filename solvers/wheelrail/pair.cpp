@@ -11,7 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/detection/sampled_profile.hpp"
+#include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/solvers/wheelrail/damping.hpp"
 #include "treadmark/solvers/wheelrail/force_iteration.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
@@ -133,7 +133,8 @@ PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
 Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)), state_(std::make_shared<State>()) {
   require_facing(geometry_.rail, Facing::up, "rail");
   require_facing(geometry_.wheel, Facing::down, "wheel");
-  wheel_profile_ = detection::whole_profile(*geometry_.wheel);
+  bodies_.rail = geometry_.rail.get(), bodies_.wheel = geometry_.wheel.get();
+  bodies_.wheel_profile = detection::whole_profile(*geometry_.wheel);
 }
 
 Pair::~Pair() = default;
@@ -185,10 +186,10 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
     solution.remarks.push_back({RemarkKind::step_rule, 0, violated});
   }
 
-  if (geometry_.wheel->constant_profile() && !wheel_lines_ &&
+  if (geometry_.wheel->constant_profile() && !bodies_.wheel_lines &&
       p.discretisation.search == Discretisation::SearchGrid::reference_locus)
-    wheel_lines_ = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
-  PairStep step(geometry_, p, next->previous, solvers_, solution.times, {wheel_profile_, wheel_lines_});
+    bodies_.wheel_lines = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
+  PairStep step(geometry_, p, next->previous, solvers_, solution.times, bodies_);
   const double known = next->previous.stiffness;
   Balance balance =
       find_balance(step, p, known > 0.0 ? known : stiffest(p.material), next->previous.end_slope, known > 0.0);

@@ -113,10 +113,9 @@ class Pair {
   Instant choose_previous(const Problem& problem) const;
 
   Geometry geometry_;
-  std::shared_ptr<const detection::SampledProfile> wheel_profile_;  ///< whole_profile(): null for rough wheels
-  std::shared_ptr<const detection::ProfileLines> wheel_lines_;      ///< likewise, from the first search that wants them
-  std::vector<kalker::ContactSolver> solvers_;                      ///< by number of the patch; keep coefficients
-  kalker::ContactSolver coarse_solver_;                             ///< to estimate what refining would change
+  detection::BodyPair bodies_;                  ///< without places; wheel_lines from the first search that wants them
+  std::vector<kalker::ContactSolver> solvers_;  ///< by number of the patch; keep coefficients
+  kalker::ContactSolver coarse_solver_;         ///< to estimate what refining would change
   std::shared_ptr<const State> state_;
 };
 

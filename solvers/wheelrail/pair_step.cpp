@@ -12,6 +12,8 @@
 
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/detection/contact_search.hpp"
+#include "treadmark/model/contact/theories.hpp"
+#include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"
@@ -26,13 +28,13 @@ constexpr double kDeepestOfRadius = 0.02;
 }  // namespace
 
 PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous,
-                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, RoundWheel round_wheel)
+                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies)
     : geometry_(geometry),
-      round_wheel_(std::move(round_wheel)),
       problem_(problem),
       previous_(previous),
       solvers_(solvers),
       times_(times),
+      bodies_(std::move(bodies)),
       tangential_share_(previous.shares),
       elements_(geometry, problem) {}
 
@@ -49,8 +51,8 @@ bool PairStep::place(double rail_dy) {
   if (moved.vertical_force) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
   start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
-  bodies_ = {geometry_.rail.get(),    geometry_.wheel.get(), start_.X_TS,       start_.X_TA,
-             distance_mesh(problem_), round_wheel_.profile,  round_wheel_.lines};
+  bodies_.X_TR = start_.X_TS, bodies_.X_TW = start_.X_TA;
+  bodies_.distance_mesh = distance_mesh(problem_);
   const Stopwatch watch(times_.search_s);
   const detection::SearchSettings settings = search_settings(geometry_, moved, start_);
   const std::string& detector = problem_.discretisation.detector;
@@ -69,9 +71,9 @@ bool PairStep::at_given_height() const {
   return !problem_.vertical_force && !(springs && springs->stiffness_z > 0.0);
 }
 
-/// The reference program has one creepage for all parts, strip theory one for every row.
+/// Conventions::contact has one creepage for all parts, strip theory one for every row.
 bool PairStep::parts_creep_apart() const {
-  return !problem_.solver.reference_quirks && problem_.tangential_model != kalker::TangentialModel::fastrip;
+  return problem_.solver.conventions != Conventions::contact && !theory(problem_.tangential_model).limits.strips;
 }
 
 /// Creepages, or slip of the surfaces.

@@ -19,19 +19,13 @@
 
 namespace treadmark::wheelrail {
 
-/// What is known of a round wheel for all searches: see detection::BodyPair. Null: it is made when needed.
-struct RoundWheel {
-  std::shared_ptr<const detection::SampledProfile> profile;
-  std::shared_ptr<const detection::ProfileLines> lines;
-};
-
 /// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail,
 /// patches with their normal problems per height of the wheel over the rail, tangential problems per pitch rate. A
 /// right-hand problem. The references must outlive this.
 class PairStep {
  public:
   PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous,
-           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, RoundWheel round_wheel);
+           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies);
 
   /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other; at a given height evaluate()
   /// finds that out, its least_gap() is no number then.
@@ -113,7 +107,6 @@ class PairStep {
   void resolve_forces(Patch& patch) const;
 
   const Geometry& geometry_;
-  RoundWheel round_wheel_;
   Problem problem_;
   const Instant& previous_;
   std::vector<kalker::ContactSolver>& solvers_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/detection/contact_program/wheel_mesh.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 
 namespace treadmark::wheelrail {

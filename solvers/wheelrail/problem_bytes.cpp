@@ -56,7 +56,7 @@ void put_one(ByteWriter& out, const ElementGrid& grid) {
 }
 void put_one(ByteWriter& out, const Discretisation& d) {
   put_one(out, static_cast<const ElementGrid&>(d));
-  put_all(out, d.reference_at_deepest, d.search, d.search_method, d.detector, d.distance_on_mesh, d.usual_dq_relative);
+  put_all(out, d.reference_at_deepest, d.search, d.search_method, d.detector, d.usual_dq_relative);
 }
 void put_one(ByteWriter& out, const Material& material) {
   const auto& [g1, g2, nu1, nu2, layer, layer_yield, hardening, sheet, creep1, creep2, time1, time2] = material;
@@ -67,8 +67,8 @@ void put_one(ByteWriter& out, const FrictionLaw& law) {
   put_all(out, kind, kinetic, amp1, amp2, half1, half2, memory, velocity, temperature, change, range);
 }
 void put_one(ByteWriter& out, const kalker::SolverSettings& settings) {
-  const auto& [eps, iterations, outer, force, coupling, method, first_slip, quirks] = settings;
-  put_all(out, eps, iterations, outer, force, coupling, method, first_slip, quirks);
+  const auto& [eps, iterations, outer, force, coupling, method, first_slip, conventions] = settings;
+  put_all(out, eps, iterations, outer, force, coupling, method, first_slip, conventions);
 }
 void put_one(ByteWriter& out, const kalker::FastsimSettings& settings) {
   const auto& [k0, alpha, beta, flexibility, first_step] = settings;
@@ -83,8 +83,8 @@ void put_one(ByteWriter& out, const ThermalProperties& body) {
   put_all(out, temperature, capacity, conductivity, density);
 }
 void put_one(ByteWriter& out, const Thermal& thermal) {
-  const auto& [body_1, body_2, fraction, quirks] = thermal;
-  put_all(out, body_1, body_2, fraction, quirks);
+  const auto& [body_1, body_2, fraction, conventions] = thermal;
+  put_all(out, body_1, body_2, fraction, conventions);
 }
 void put_one(ByteWriter& out, const Damping& damping) {
   const auto& [normal, tangential, rate_normal, rate_tangential] = damping;

@@ -154,7 +154,7 @@ TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
   for (io::Case& c : file.cases) {
     auto& d = std::get<io::WheelRailCase>(c.content).discretisation;
     d.method = 5;
-    d.reference_search_mesh = false;
+    d.conventions = Conventions::treadmark;
   }
   CompareSettings settings;
   settings.backends = {"analytic", "spline", "offset"};

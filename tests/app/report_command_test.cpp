@@ -45,7 +45,10 @@ TEST(ReportCommand, OfAFolderEqualsThatOfTheRun) {
 TEST(ReportCommand, FoldersWithoutAPageOfTheirOwnHaveNumbersPicturesAndTables) {
   const SampleInput input;
   const std::string folder = (input.folder() / "geometry").string();
-  ASSERT_EQ(run_program({"geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "-o", folder}).status, 0);
+  ASSERT_EQ(run_program({"geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauge-mm", "1435", "-o",
+                         folder})
+                .status,
+            0);
   const ProgramResult made = run_program({"report", folder});
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string html = input.read("geometry/report.html");
@@ -96,6 +99,7 @@ TEST(ReportCommand, BadInputIsNamed) {
   const ProgramResult empty = run_program({"report", folder});
   EXPECT_EQ(empty.status, 3);
   EXPECT_THAT(empty.err, HasSubstr("holds no results"));
+  EXPECT_THAT(empty.err, HasSubstr("track.json (how a track gives way)"));
   input.write("fields.h5", "this is no HDF5 file");
   EXPECT_EQ(run_program({"report", folder}).status, 3);
   const ProgramResult several =

@@ -68,10 +68,10 @@ HEAVY_FREE = ("tests", "bench")
 CONTRACT_ONLY = ("analysis/", "detection/", "solvers/")
 
 # What comes from files must never reach a shell, so the program and its libraries start no other programs; but for the one that
-# holds OpenCASCADE, by its path and without a shell.
+# holds OpenCASCADE and the browser that prints pages, by their paths and without a shell.
 STARTS_PROGRAMS = re.compile(r"(?<![\w.>])(system|w?popen|v?fork|exec[lv]p?e?|posix_spawnp?)\s*\(")
 MAY_START = ("tests", "bench")
-STARTS_ITS_OWN = ("io/cad/cad_process.cpp",)
+STARTS_ITS_OWN = ("io/cad/cad_process.cpp", "app/cli/page_file.cpp")
 
 # A double beyond an integer's range has no value as one (core/to_whole.hpp). What is cast is one by its names and its words.
 INTEGER = r"(?:unsigned|int|long|long long|short|std::size_t|std::ptrdiff_t|std::u?int\d+_t)"

@@ -8,7 +8,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/detection/contact_program/wheel_mesh.hpp"
 
 namespace treadmark::detection {
 namespace {

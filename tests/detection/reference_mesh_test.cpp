@@ -165,12 +165,12 @@ TEST(ReferenceMesh, CornersLieWhereTheDataLie) {
 TEST(ReferenceMesh, LinesOverAPartAreThoseOfTheWhole) {
   const auto wheel = spline::make_slice_surface(crossing(Body::wheel), kMeshRadius);
   constexpr int kBeside = 3;
-  const std::vector<double> all = mesh_lines(*wheel, 0.1, 0.5e-3);
+  const std::vector<double> all = mesh_lines(*wheel, 0.1);
   ASSERT_GT(all.size(), 30u);
   const double first = all.front(), last = all.back(), third = (last - first) / 3.0;
   for (const LateralInterval& y : {LateralInterval{first + third, last - third}, LateralInterval{first, first + 1e-3},
                                    LateralInterval{last - 1e-3, last}, LateralInterval{first + third, first + third}}) {
-    const std::vector<double> part = mesh_lines(*wheel, 0.1, 0.5e-3, y, kBeside);
+    const std::vector<double> part = mesh_lines(*wheel, 0.1, y, kBeside);
     const auto from = std::ranges::find(all, part.front());
     ASSERT_NE(from, all.end());
     ASSERT_LE(static_cast<std::ptrdiff_t>(part.size()), all.end() - from);
@@ -212,7 +212,7 @@ TEST(ReferenceMesh, DamageFarAwayLeavesSectionsAndCorners) {
   ASSERT_TRUE(section_heights(damaged.bodies, damaged.X_TC, damaged.grid, after));
   for (std::size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(after[i], before[i], 1e-12);
 
-  const auto corners = mesh_lines(*wheel, 0.1, 1e-3), found = mesh_lines(*damaged.wheel, 0.1, 1e-3);
+  const auto corners = mesh_lines(*wheel, 0.1), found = mesh_lines(*damaged.wheel, 0.1);
   ASSERT_EQ(found.size(), corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) EXPECT_NEAR(found[i], corners[i], 1e-12);
 }
@@ -279,8 +279,9 @@ TEST(ReferenceMesh, PlanesAndAnglesGiveOneFacettedWheel) {
   // Both are chords of the same round wheel.
   const auto wheel = standard_wheel();
   const Pose X_TW{{0.0, 0.0, -kMeshRadius}, rotation_z(0.01) * rotation_y(-2.0)};
-  const WheelFacets angles{WheelFacets::Sections::angles, 0.1, 401, 0.5e-3},
-      planes{WheelFacets::Sections::planes, 0.1 * kMeshRadius, 401, 0.5e-3};
+  const std::vector<double> lines = mesh_lines(*wheel, lowest_angle(X_TW));
+  const WheelFacets angles{WheelFacets::Sections::angles, 0.1, 401, lines},
+      planes{WheelFacets::Sections::planes, 0.1 * kMeshRadius, 401, lines};
   const Grid2 grid{-5e-3, -10e-3, 0.7e-3, 0.9e-3, 15, 21};
   std::vector<double> by_angles(grid.size()), by_planes(grid.size()), exact(grid.size());
   FacetWheel(*wheel, X_TW, angles).heights(grid, by_angles);

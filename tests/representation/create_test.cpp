@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/registry.hpp"
@@ -81,9 +82,14 @@ TEST(CreateSurface, ChoosesTheNaturalBackend) {
 
 TEST(CreateSurface, RefusesUnknownBackends) {
   const NaturalSurface rail = create_natural(rail_60e1());
-  for (const char* backend : {"splines", "Mesh", "offset-cubic", "mesh "}) {
-    expect_refused(ErrorKind::configuration, "unknown backend", [&] { represent(rail, {backend, 0.0, {}}); });
-    expect_refused(ErrorKind::configuration, kAll, [&] { represent(rail, {backend, 0.0, {}}); });
+  const std::pair<const char*, const char*> advised[] = {{"splines", "did you mean 'spline'?"},
+                                                         {"Mesh", "did you mean 'mesh'?"},
+                                                         {"mesh ", "did you mean 'mesh'?"},
+                                                         {"voxels of mine", kAll}};
+  for (const auto& [backend, advice] : advised) {
+    const auto build = [&, name = backend] { represent(rail, {name, 0.0, {}}); };
+    expect_refused(ErrorKind::configuration, "unknown backend", build);
+    expect_refused(ErrorKind::configuration, advice, build);
   }
 }
 

@@ -2,30 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cases/contact_program/element_table.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "treadmark/app/cases/wheelrail_case.hpp"
-#include "treadmark/model/contact/theories.hpp"
+#include "treadmark/io/cases/contact_program/contact_case.hpp"
 
 namespace treadmark::app {
 namespace {
-
-int friction_digit(FrictionLaw::Kind kind) {
-  switch (kind) {
-    case FrictionLaw::Kind::coulomb:
-      return 0;
-    case FrictionLaw::Kind::linear:
-      return 2;
-    case FrictionLaw::Kind::rational:
-      return 3;
-    case FrictionLaw::Kind::exponential:
-      return 4;
-    case FrictionLaw::Kind::temperature:
-      return 6;
-  }
-  return 0;
-}
 
 template <class Content>
 int material_digit(const Content& input) {
@@ -43,22 +24,8 @@ io::MatFileHead common_head(const Content& input, int case_number) {
   head.material = input.material;
   head.friction = input.friction;
   head.material_model = material_digit(input);
-  head.friction_law = friction_digit(input.friction.kind);
+  head.friction_law = io::kLawDigits[static_cast<int>(input.friction.kind)];
   return head;
-}
-
-struct RollYaw {
-  double roll = 0.0, yaw = 0.0;
-};
-/// Of a rotation roll - yaw - pitch.
-RollYaw roll_yaw(const Mat3& r) { return {std::atan2(r(2, 1), r(1, 1)), std::asin(std::clamp(-r(0, 1), -1.0, 1.0))}; }
-
-int discretisation_digit(const io::WheelRailCase& input) {
-  constexpr int kSurfaceSlip = 3, kConformal = 4;
-  using Reference = ReferenceSurface;
-  return input.reference_surface == Reference::curved               ? kConformal
-         : input.reference_surface == Reference::plane_surface_slip ? kSurfaceSlip
-                                                                    : input.discretisation.method;
 }
 
 }  // namespace
@@ -79,12 +46,12 @@ io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSo
   const Pose &rail = solution.placement.X_TR, &wheel = solution.placement.X_TW;
   head.rail_y = rail.origin.y();
   head.rail_z = rail.origin.z();
-  head.rail_roll = roll_yaw(rail.rotation).roll;
+  head.rail_roll = roll_yaw_pitch(rail.rotation).roll;
   head.roller_radius = input.roller ? input.roller->nominal_radius : 0.0;
   head.wheel_x = wheel.origin.x();
   head.wheel_y = wheel.origin.y();
   head.wheel_z = wheel.origin.z();
-  const RollYaw turned = roll_yaw(wheel.rotation);
+  const RollYawPitch turned = roll_yaw_pitch(wheel.rotation);
   head.wheel_roll = turned.roll;
   head.wheel_yaw = turned.yaw;
   head.wheel_radius = input.wheelset.nominal_radius;
@@ -93,7 +60,7 @@ io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSo
   head.spin_y = reference.y();
   constexpr int kOnRoller = 4;
   head.configuration = (input.side == Side::right ? 1 : 0) + (input.roller ? kOnRoller : 0);
-  head.discretisation = discretisation_digit(input);
+  head.discretisation = io::discretisation_digit(input);
   head.patches = static_cast<int>(solution.patches.size());
   head.patch = static_cast<int>(patch) + 1;
   return head;

@@ -13,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/row_blocks.hpp"
 
@@ -29,8 +30,6 @@ std::string in_unit(double value, const char* unit, int digits = 3) {
 /// Lengths [m] with the digits of report.json.
 std::string in_mm(double length, int digits = 3) { return in_unit(in_file(kMilli * length), "mm", digits); }
 std::string in_um(double length) { return in_unit(1e3 * in_file(kMilli * length), "µm"); }
-
-std::string body_text(const io::ImportReport& report) { return report.body == Body::wheel ? "wheel" : "rail"; }
 
 std::size_t removed_count(const io::ImportReport& report) {
   std::size_t sum = 0;
@@ -88,7 +87,7 @@ Facts import_facts(const io::ImportReport& report) {
   const bool wheel = report.body == Body::wheel;
   Facts facts;
   facts.entries = {{"Version", report.version},
-                   {"Body", body_text(report) + (report.closed ? ", all round" : "")},
+                   {"Body", std::string(body_name(report.body)) + (report.closed ? ", all round" : "")},
                    {"Unit of the files", fmt::format("{} (from {})", report.unit, report.unit_from)},
                    {wheel ? "Angles" : "Along the track",
                     span(report.u_min, report.u_max, wheel ? 180.0 / kPi : kMilli, wheel ? "°" : "mm")},
@@ -197,7 +196,7 @@ Page import_page(const io::ImportReport& report, std::string document, const std
   OptionalFiles files(folder);
   files.has("maps.h5", "maps over the band");
   Page page{"import", fmt::format("Import of {}", report.inputs.empty() ? "" : report.inputs.front().file),
-            fmt::format("A {} from {}", body_text(report),
+            fmt::format("A {} from {}", body_name(report.body),
                         report.from_map ? "a map of deviations" : counted(report.points_read, "point"))};
   page.document = std::move(document);
 

@@ -11,6 +11,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/settings/key_words.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -219,8 +220,7 @@ std::string broken_limit(const LimitResult& limit, const Numbers& numbers) {
 
 report::Page measure_page(const MeasuredFile& file, const MeasureRequest& request) {
   const std::string name = std::filesystem::path(file.file).filename().string();
-  report::Page page{"measure", name,
-                    fmt::format("Measurements of a {}", request.body == Body::wheel ? "wheel" : "rail")};
+  report::Page page{"measure", name, fmt::format("Measurements of a {}", body_name(request.body))};
   report::Section overview{"overview", "Overview"};
   for (const std::string& note : file.notes)
     overview.blocks.emplace_back(report::Banner{report::Banner::Kind::note, "Note:", note});

@@ -201,7 +201,7 @@ Table event_table(const Simulations& all) {
 void add_missing_columns(const Simulations& all, Section& overview) {
   for (const auto& [name, simulation] : all) {
     std::vector<std::string> lacking;
-    for (const auto& [other, has, unused] : all)
+    for (const auto& [other, has] : all)
       for (const io::HistoryColumn& column : has.columns)
         if (column_of(simulation, column.name) == nullptr && std::ranges::find(lacking, column.name) == lacking.end())
           lacking.push_back(column.name);

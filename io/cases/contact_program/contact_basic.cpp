@@ -111,7 +111,7 @@ void put_models(ContactReader& r, BasicCase& b) {
   b.influence = r.kept.influence;
   b.thermal = r.effective_heat();
   b.solver = r.kept.solver;
-  b.solver.reference_quirks = true;
+  b.conventions = Conventions::contact;
   if (problem["TANG"] >= 2 && !r.kept.has_rolling)
     r.fail_at(problem, "TANG", "needs the rolling line CHI DQ VELOC, but no case has given it",
               "use C (INFLCF) = 2 here");

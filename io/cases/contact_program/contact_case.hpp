@@ -29,6 +29,7 @@ struct ContactSequence {
     int variation = 0;                  ///< V digit it was read with
     std::vector<double> positions;      ///< V = 1, 2: [rad], [m]
     std::vector<FrictionLaw> laws{{}};  ///< V = 0: one
+    FrictionVariation by_place() const;
   } friction;
 
   bool has_material = false;
@@ -127,6 +128,15 @@ SurfaceSource read_profile(ContactReader& reader, std::string_view body);
 void read_track(ContactReader& reader);
 void read_wheelset(ContactReader& reader);
 void put_motion(ContactReader& reader, WheelRailCase& to);
+
+/// P digits of HistoryUse and L digits of FrictionLaw::Kind, in the order of the enumerators; what a P digit keeps.
+inline constexpr int kHistoryDigits[] = {2, 0, 1, 3}, kLawDigits[] = {0, 2, 3, 4, 6};
+inline constexpr HistoryUse kHistories[] = {HistoryUse::keep_going, HistoryUse::normal_only, HistoryUse::start,
+                                            HistoryUse::same_instant};
+
+/// What a D digit asks for, in the conventions of such files; and the digit of a case.
+void put_discretisation(WheelRailCase& to, int digit, int max_elements);
+int discretisation_digit(const WheelRailCase& c);
 
 /// The body of one case after its control words.
 WheelRailCase read_wheel_rail(ContactReader& reader);

@@ -40,14 +40,8 @@ void ContactReader::fail_at(const ControlWord& word, std::string_view keyword, s
 }
 
 void ContactReader::read_control_words() {
-  using Keywords = std::vector<std::string_view>;
-  const bool rail = module == 1;
-  problem.emplace(text, module, rail ? "CPBTNFS" : "PBTNFS",
-                  rail ? Keywords{"CONFIG", "PVTIME", "BOUND", "TANG", "NORM", "FORCE", "STRESS"}
-                       : Keywords{"PVTIME", "BOUND", "TANG", "NORM", "FORCE", "STRESS"});
-  model.emplace(text, module, "VLDCMZE",
-                rail ? Keywords{"VARFRC", "FRCLAW", "DISCNS", "INFLCF", "MATER", "ZTRACK", "EWHEEL"}
-                     : Keywords{"VARFRC", "FRCLAW", "DISCNS", "INFLCF", "MATER", "RZNORM", "EXRHS"});
+  problem.emplace(text, module, ControlWord::Name::problem);
+  model.emplace(text, module, ControlWord::Name::model);
   damping = weight = 0;
   if (const auto second = text.optional_integer()) {
     damping_where = text.where();
@@ -60,8 +54,7 @@ void ContactReader::read_control_words() {
                       "0, 1 (linear) and 2 (quadratic) exist",
                       weight));
   }
-  run.emplace(text, module, "XHGIAOWR",
-              Keywords{"XFLOW", "HEAT", "GAUSEI", "IESTIM", "MATFIL", "OUTPUT", "FLOW", "RETURN"});
+  run.emplace(text, module, ControlWord::Name::run);
   if ((*run)["XFLOW"] >= 1) {
     text.begin_record("the debug line PSFLCIN");
     text.integer("PSFLCIN");
@@ -132,9 +125,7 @@ void ContactReader::read_solver() {
 }
 
 HistoryUse ContactReader::history() const {
-  using H = HistoryUse;
-  constexpr H kByDigit[] = {H::keep_going, H::normal_only, H::start, H::same_instant};
-  return kept.has_history ? kByDigit[(*problem)["PVTIME"]] : H::start;
+  return kept.has_history ? kHistories[(*problem)["PVTIME"]] : HistoryUse::start;
 }
 
 }  // namespace treadmark::io

@@ -21,13 +21,13 @@ enum class DigitSupport {
 
 /// One value of one control digit of the reference program's input; the whole list is the table of supported digits.
 struct DigitValue {
-  int module = 1;  ///< 1 wheel-rail, 3 basic
-  char letter = ' ';
+  int module = 1;            ///< 1 wheel-rail, 3 basic
   std::string_view keyword;  ///< for example TANG
   int value = 0;
   DigitSupport support = DigitSupport::no;
   std::string_view meaning;
   std::string_view condition{};  ///< of a value that is not supported: what to use instead
+  char letter = ' ';             ///< in the control word
 };
 
 /// All values of all digits, in the order of the control words.
@@ -38,8 +38,10 @@ std::string contact_digit_table();
 /// A decimal control word such as 1203100, letter by letter; leading zeros may be left out.
 class ControlWord {
  public:
+  enum class Name { problem, model, run };
+
   /// Reads the first integer of a record and checks that every digit has a value that exists in this module.
-  ControlWord(ContactText& text, int module, std::string_view letters, std::span<const std::string_view> keywords);
+  ControlWord(ContactText& text, int module, Name name);
 
   int operator[](std::string_view keyword) const;
   SourcePosition where(std::string_view keyword) const;

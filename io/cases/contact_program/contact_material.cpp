@@ -123,7 +123,7 @@ void ContactReader::read_material() {
     if (simplified == TangentialModel::fastsim_one_flexibility)
       kept.simplified_flexibility = positive_value(text, "FLX") * kFlexibility;
     FastsimSettings s;
-    s.first_step = FastsimSettings::FirstStep::whole;  // as the reference program
+    s.first_step = FastsimSettings::FirstStep::whole;  // as Conventions::contact
     s.k0 = text.real("K0_MF");
     s.alpha = text.real("ALFAMF");
     s.beta = text.real("BETAMF");
@@ -151,7 +151,7 @@ void ContactReader::read_heat() {
   if ((*run)["HEAT"] != 3) return;
   constexpr double kMilli = 1e3, kPerCubicMillimetre = 1e9;
   Thermal heat;
-  heat.reference_quirks = true;  // such files are compared with the reference program's numbers
+  heat.conventions = Conventions::contact;
   for (ThermalProperties* body : {&heat.body_1, &heat.body_2}) {
     text.begin_record(body == &heat.body_1 ? "the thermal line of body 1" : "the thermal line of body 2");
     body->bulk_temperature = text.real("BKTEMP");

@@ -12,6 +12,8 @@ namespace treadmark::io {
 
 namespace {
 
+constexpr int kSurfaceSlip = 3, kConformal = 4;  // D digits
+
 void read_discretisation(ContactReader& r) {
   ContactText& text = r.text;
   text.begin_record("the discretisation line DX");
@@ -37,36 +39,38 @@ void read_discretisation(ContactReader& r) {
 void put_friction(ContactReader& r, WheelRailCase& c) {
   const ContactSequence::Friction& f = r.kept.friction;
   const int variation = (*r.model)["VARFRC"];
-  using Kind = FrictionVariation::Kind;
   c.friction = f.laws.front();
   c.friction_variation = {};
   if (variation == 0) return;
   if (f.variation != variation)
     r.fail_at(*r.model, "FRCLAW",
               fmt::format("keeps the friction law, but none for V (VARFRC) = {} has been given", variation));
-  c.friction_variation = {variation == 1 ? Kind::inclination : Kind::along_track, f.positions, f.laws};
-}
-
-void put_discretisation(ContactReader& r, WheelRailCase& c) {
-  const ControlWord& model = *r.model;
-  constexpr int kAutomatic = 2, kSurfaceSlip = 3, kConformal = 4, kOblique = 8;
-  const int method = r.kept.discretisation_method;
-  if (model["DISCNS"] < 2 && method >= kOblique)
-    r.refuse(model.where("DISCNS"),
-             fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method), "use D = 6");
-  using Reference = ReferenceSurface;
-  c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip
-                        : method == kConformal ? Reference::curved
-                                               : Reference::plane;
-  DiscretisationInput& d = c.discretisation;
-  d.method = method == kSurfaceSlip || method == kConformal ? kAutomatic : method;
-  d.linear_weight = r.weight == 1;
-  d.max_elements = r.kept.max_elements;
-  d.reference_search_mesh = true;
-  c.moments_about_grid_origin = c.long_steps = true;
+  c.friction_variation = f.by_place();
 }
 
 }  // namespace
+
+FrictionVariation ContactSequence::Friction::by_place() const {
+  if (variation == 0) return {};
+  return {static_cast<FrictionVariation::Kind>(variation), positions, laws};
+}
+
+int discretisation_digit(const WheelRailCase& c) {
+  return c.reference_surface == ReferenceSurface::plane_surface_slip ? kSurfaceSlip
+         : c.reference_surface == ReferenceSurface::curved           ? kConformal
+                                                                     : c.discretisation.method;
+}
+
+void put_discretisation(WheelRailCase& c, int digit, int max_elements) {
+  constexpr int kAutomatic = 2;
+  using Reference = ReferenceSurface;
+  c.reference_surface = digit == kSurfaceSlip ? Reference::plane_surface_slip
+                        : digit == kConformal ? Reference::curved
+                                              : Reference::plane;
+  c.discretisation.method = c.reference_surface == Reference::plane ? digit : kAutomatic;
+  c.discretisation.max_elements = max_elements;
+  c.conventions = c.discretisation.conventions = Conventions::contact;
+}
 
 WheelRailCase read_wheel_rail(ContactReader& r) {
   ContactText& text = r.text;
@@ -123,7 +127,13 @@ WheelRailCase read_wheel_rail(ContactReader& r) {
   c.damping = r.kept.damping;
   c.subsurface = r.effective_subsurface();
   c.solver = r.kept.solver;
-  put_discretisation(r, c);
+  constexpr int kOblique = 8;
+  const int method = r.kept.discretisation_method;
+  if (model["DISCNS"] < 2 && method >= kOblique)
+    r.refuse(model.where("DISCNS"),
+             fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method), "use D = 6");
+  put_discretisation(c, method, r.kept.max_elements);
+  c.discretisation.linear_weight = r.weight == 1;
   r.kept.previous_normal = problem["NORM"];
   return c;
 }

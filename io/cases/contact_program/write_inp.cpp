@@ -12,8 +12,9 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/cases/contact_program/contact_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/model/contact/theories.hpp"
@@ -78,13 +79,7 @@ class InputWriter {
 
   template <class Content>
   void fastsim_first_step(const Content& c, std::string_view path) {
-    if (!on_half_spaces(c.tangential_model)) own_settings({{path, toml_text("whole")}});
-  }
-
-  template <class Content>
-  int history_digit(const Content& c) const {
-    constexpr int kDigits[] = {2, 0, 1, 3};  // start, keep_going, normal_only, same_instant
-    return kDigits[static_cast<int>(c.history)];
+    if (theory(c.tangential_model).limits.springs) own_settings({{path, toml_text("whole")}});
   }
 
   template <class Content>
@@ -107,23 +102,6 @@ class InputWriter {
     refuse_if(static_cast<int>(viscous) + static_cast<int>(layer) + static_cast<int>(simplified) > 1,
               "more than one of viscoelastic bodies, an interface layer and a simplified theory");
     return simplified ? theory_digit : viscous ? 1 : layer ? 4 : 0;
-  }
-
-  static int law_digit(FrictionLaw::Kind kind) {
-    using Kind = FrictionLaw::Kind;
-    switch (kind) {
-      case Kind::coulomb:
-        return 0;
-      case Kind::linear:
-        return 2;
-      case Kind::rational:
-        return 3;
-      case Kind::exponential:
-        return 4;
-      case Kind::temperature:
-        return 6;
-    }
-    return 0;
   }
 
   template <class Content>
@@ -296,9 +274,9 @@ class InputWriter {
     refuse_if(!s.offsets.file.empty(), fmt::format("a table of deviations ({}.offsets)", body), advice);
     const auto* file = std::get_if<GeometryFile>(&s.geometry);
     refuse_if(file == nullptr, fmt::format("the shape of the {} by formula ({}.shape)", body, body), advice);
-    const std::string extension = extension_of(file->file);
-    for (const std::string_view surface : {".ply", ".stl", ".obj", ".off", ".vdb"})
-      refuse_if(extension == surface, fmt::format("the {} as {}", body, surface), advice);
+    if (const auto row = shape_extension(file->file))
+      refuse_if((row->kinds & (kTriangleFile | kSplineFile | kCadFile | kOffsetFile)) != 0,
+                fmt::format("the {} as {}", body, row->extension), advice);
 
     const ProfileOptions& o = file->options;
     const SmoothingOptions usual;
@@ -332,9 +310,7 @@ class InputWriter {
               "a longitudinal force (wheelset.longitudinal_force_N) of a rail on springs (track.springs)");
     const int force = c.longitudinal_force ? 1 : c.rail_springs ? 3 : 0;
     const auto& variation = c.friction_variation;
-    const int method = c.reference_surface == Reference::plane_surface_slip ? 3
-                       : c.reference_surface == Reference::curved           ? 4
-                                                                            : c.discretisation.method;
+    const int method = discretisation_digit(c);
     refuse_if(c.reference_surface != Reference::plane && c.discretisation.method != 2,
               "contact.reference_surface with a discretisation.method of its own");
     const bool flexible = deviates(c.state.wheel_offset) || deviates(c.state.wheel_velocity);
@@ -368,11 +344,12 @@ class InputWriter {
 
     put(Record().add("C-P-B-T-N-F-S",
                      fmt::format("{}{}{}{}{}{}{}", (c.side == Side::right ? 1 : 0) + (c.roller ? 4 : 0),
-                                 history_digit(c), bound, theory(c.regime).digit.value,
+                                 kHistoryDigits[static_cast<int>(c.history)], bound, theory(c.regime).digit.value,
                                  c.vertical_force_prescribed ? 1 : 0, force, c.subsurface.blocks.empty() ? 0 : 3)));
     Record word;
-    word.add("V-L-D-C-M-Z-E", fmt::format("{}{}{}{}{}3{}", static_cast<int>(variation.kind), law_digit(c.friction.kind),
-                                          method, theory(c.influence.kind).digit.value, kind, flexible ? 5 : 3));
+    word.add("V-L-D-C-M-Z-E", fmt::format("{}{}{}{}{}3{}", static_cast<int>(variation.kind),
+                                          kLawDigits[static_cast<int>(c.friction.kind)], method,
+                                          theory(c.influence.kind).digit.value, kind, flexible ? 5 : 3));
     if (const int second = (c.discretisation.linear_weight ? 10 : 0) + (c.damping ? 2 : 0); second != 0)
       word.add_integer("10 GAPWGT + M2", second);
     put(word);
@@ -505,18 +482,18 @@ class InputWriter {
     const bool slip = !c.extra_slip_x.empty(), rolling = c.regime == Regime::transient || c.regime == Regime::steady;
     refuse_if(slip && c.spin_slip != SpinSlip::both, "extra slip of elements together with patch.spin_slip");
     const int extra = slip ? 9 : c.spin_slip == SpinSlip::longitudinal ? 2 : c.spin_slip == SpinSlip::lateral ? 3 : 0;
+    const FrictionLaw& first = c.friction_of_row.empty() ? c.friction : c.friction_of_row.front();
     const std::string closed = toml_text("closed");
     own_settings({{"case.sensitivities", "false"}, {"case.reference_ways", "true"}, {"patch.grid_border", closed}});
     fastsim_first_step(c, "patch.fastsim_first_step");
-    put(Record().add("P-B-T-N-F-S", fmt::format("{}{}{}{}{}{}", history_digit(c), bound, theory(c.regime).digit.value,
-                                                c.normal_force_prescribed ? 1 : 0,
+    put(Record().add("P-B-T-N-F-S", fmt::format("{}{}{}{}{}{}", kHistoryDigits[static_cast<int>(c.history)], bound,
+                                                theory(c.regime).digit.value, c.normal_force_prescribed ? 1 : 0,
                                                 c.fy_relative   ? 2
                                                 : c.fx_relative ? 1
                                                                 : 0,
                                                 c.subsurface.blocks.empty() ? 0 : 3)));
     put(Record().add("V-L-D-C-M-Z-E", fmt::format("{}{}2{}{}2{}", c.friction_of_row.empty() ? 0 : 3,
-                                                  law_digit(c.friction_of_row.empty() ? c.friction.kind
-                                                                                      : c.friction_of_row.front().kind),
+                                                  kLawDigits[static_cast<int>(first.kind)],
                                                   theory(c.influence.kind).digit.value, kind, extra)));
     third_word(c);
     kinematics(c);

@@ -21,9 +21,9 @@ std::string case_file_text(const CaseFile& file, const std::filesystem::path& fo
 /// wants to know. Cases of another kind than the first are left out. Thread-safe.
 Inputs inputs_of(std::span<const Case> cases, const std::filesystem::path& folder);
 
-/// The cases as input of the reference program (CONTACT, .inp) that reads as the same cases: every case gives all it
-/// needs, none keeps values. Settings that are Treadmark's own and no part of the problem (representation, search,
-/// details) stand in lines that the reference program takes for comments, "%treadmark key = value".
+/// The cases as input of CONTACT (.inp) that reads as the same cases: every case gives all it needs, none keeps values.
+/// Settings that are Treadmark's own and no part of the problem (representation, search, details) stand in lines that
+/// CONTACT takes for comments, "%treadmark key = value".
 /// Errors: Error(configuration) at a case with what such a file cannot say, by the name of its setting. Thread-safe.
 std::string contact_input_text(const CaseFile& file, const std::filesystem::path& folder);
 /// One case of such a file; sequence: what stands behind the module on its first line.

@@ -231,7 +231,8 @@ class MapPlot {
     const { x, y } = this.toPixel;
     for (const mark of this.view.marks) {
       const path = mark.points.map(([px, py], k) => `${k === 0 ? "M" : "L"}${x(px).toFixed(1)} ${y(py).toFixed(1)}`).join("");
-      if (!path) continue;
+      const elsewhere = mark.points.every(([px]) => x(px) < left) || mark.points.every(([px]) => x(px) > right); // another turn
+      if (!path || elsewhere) continue;
       this.svg.append(el("path", { class: "mark-halo", d: path }), el("path", { class: "mark", d: path }));
       const at = mark.points.map(([px]) => x(px)).reduce((sum, v) => sum + v, 0) / mark.points.length;
       const highest = Math.min(...mark.points.map(([, py]) => y(py)));

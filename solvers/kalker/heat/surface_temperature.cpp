@@ -70,17 +70,18 @@ struct Shares {
   double friction_1 = 0.0, friction_2 = 0.0;      ///< rise by flux times root of distance [K m^1.5 / W]
 };
 
-Shares shares(const Thermal& thermal, double velocity, bool quirks) {
+Shares shares(const Thermal& thermal, double velocity) {
   const double b1 = effusivity(thermal.body_1, "body 1"), b2 = effusivity(thermal.body_2, "body 2");
   const double share_1 = b1 / (b1 + b2), share_2 = b2 / (b1 + b2);
+  const bool exchanged = thermal.conventions == Conventions::contact;
   const double rise = 2.0 / ((b1 + b2) * std::sqrt(std::numbers::pi * velocity));
   Shares s;
   s.bulk_1 = thermal.body_1.bulk_temperature;
   s.bulk_2 = thermal.body_2.bulk_temperature;
-  s.conduction_1 = quirks ? share_1 : share_2;
-  s.conduction_2 = quirks ? share_2 : share_1;
+  s.conduction_1 = exchanged ? share_1 : share_2;
+  s.conduction_2 = exchanged ? share_2 : share_1;
   s.friction_2 = rise;
-  s.friction_1 = quirks ? rise * b2 / b1 : rise;
+  s.friction_1 = exchanged ? rise * b2 / b1 : rise;
   return s;
 }
 
@@ -168,27 +169,26 @@ void set_maxima(const ContactSolution& solution, SurfaceTemperatures& out) {
 
 }  // namespace
 
-SurfaceTemperatures surface_temperatures(const ContactProblem& problem, const ContactSolution& solution,
-                                         const HeatOptions& options) {
+SurfaceTemperatures surface_temperatures(const ContactProblem& problem, const ContactSolution& solution) {
   if (!problem.thermal) refuse("the problem has no thermal properties", "set them");
-  const bool quirks = options.reference_quirks;
+  const bool contact = problem.thermal->conventions == Conventions::contact;
   const std::vector<double> flux = frictional_heat(problem, solution, problem.thermal->plastic_fraction);
-  const Shares s = shares(*problem.thermal, problem.rolling.velocity, quirks);
+  const Shares s = shares(*problem.thermal, problem.rolling.velocity);
   const Grid2& grid = problem.grid;
   const std::vector<double> roots = distance_roots(grid.nx, grid.dx);
-  const double offset_behind = quirks && std::cos(problem.rolling.chi) > 0.0 ? 0.5 : -0.5;
+  const double offset_behind = contact && std::cos(problem.rolling.chi) > 0.0 ? 0.5 : -0.5;
   SurfaceTemperatures out{std::vector<double>(grid.size()), std::vector<double>(grid.size()), 0.0, 0.0};
   parallel_for(static_cast<std::size_t>(grid.ny), [&](std::size_t iy) {
     const Row row(grid, static_cast<int>(iy), problem.rolling.chi);
     set_conduction(row, solution.state, grid.dx, offset_behind, s, out);
-    add_frictional_rise(row, flux, roots, quirks ? 2.0 : 1.0, s, out);
+    add_frictional_rise(row, flux, roots, contact ? 2.0 : 1.0, s, out);
   });
   set_maxima(solution, out);
   return out;
 }
 
-void add_surface_temperatures(const ContactProblem& problem, ContactSolution& solution, const HeatOptions& options) {
-  SurfaceTemperatures temperatures = surface_temperatures(problem, solution, options);
+void add_surface_temperatures(const ContactProblem& problem, ContactSolution& solution) {
+  SurfaceTemperatures temperatures = surface_temperatures(problem, solution);
   solution.temperature_1 = std::move(temperatures.body_1);
   solution.temperature_2 = std::move(temperatures.body_2);
   solution.max_temperature_1 = temperatures.max_1;

@@ -9,15 +9,6 @@
 
 namespace treadmark::kalker {
 
-struct HeatOptions {
-  /// Numbers as the reference program computes them instead of the physically right ones:
-  /// * bodies of unequal effusivity: the temperature of conduction in the contact, the relaxation behind it and the
-  ///   frictional rise of body 1 are computed with the shares of the two bodies exchanged;
-  /// * heat of an element counts twice at its own centre;
-  /// * rolling direction 0: behind the contact the distance from it is one element too large.
-  bool reference_quirks = false;
-};
-
 /// Temperatures of the two surfaces [deg C], one value an element; the greatest of the elements in contact (0 without).
 struct SurfaceTemperatures {
   std::vector<double> body_1, body_2;
@@ -33,13 +24,12 @@ std::vector<double> frictional_heat(const ContactProblem& problem, const Contact
 /// temperatures, heat flows normal to the surface only (large Peclet number). In the contact the surfaces share one
 /// temperature: friction heats both alike, heat flows from the warmer to the colder body; behind it each relaxes on its
 /// own. A row with gaps counts as in contact from its first to its last element; heat arises where it does.
-/// problem.thermal gives the properties. Thread-safe. Errors: Error(configuration) without thermal properties, for
-/// values that are not positive, regimes other than steady, a velocity that is not positive, fields of other sizes.
-SurfaceTemperatures surface_temperatures(const ContactProblem& problem, const ContactSolution& solution,
-                                         const HeatOptions& options = {});
+/// problem.thermal gives the properties, and whose conventions hold. Thread-safe. Errors: Error(configuration) without
+/// thermal properties, for values that are not positive, regimes other than steady, a velocity that is not positive,
+/// fields of other sizes.
+SurfaceTemperatures surface_temperatures(const ContactProblem& problem, const ContactSolution& solution);
 
 /// Puts the temperatures into the solution.
-void add_surface_temperatures(const ContactProblem& problem, ContactSolution& solution,
-                              const HeatOptions& options = {});
+void add_surface_temperatures(const ContactProblem& problem, ContactSolution& solution);
 
 }  // namespace treadmark::kalker

@@ -58,7 +58,7 @@ ContactHistory history_of(const ContactProblem& problem, const ContactSolution& 
   out.plastic_x = solution.plastic_x;
   out.plastic_y = solution.plastic_y;
   out.yield_stress = solution.yield_stress;
-  if (!on_half_spaces(problem.tangential_model)) {
+  if (theory(problem.tangential_model).limits.springs) {
     out.layer_x = solution.displacement_x;
     out.layer_y = solution.displacement_y;
   }

@@ -72,16 +72,17 @@ double curvature_across(const Interpenetration& overlap, int iy) {
 }  // namespace
 
 std::vector<double> analyn_pressure(const Interpenetration& overlap, const CombinedMaterial& material,
-                                    bool reference_quirks) {
+                                    Conventions conventions) {
   const Grid2& grid = overlap.grid();
   const ElementBox& box = overlap.box();
+  const bool at_element = conventions == Conventions::contact;
   double depth = 0.0;
-  for (int iy = box.y0; iy < box.y1; ++iy) depth = std::max(depth, -vertex(overlap, iy, reference_quirks).distance);
+  for (int iy = box.y0; iy < box.y1; ++iy) depth = std::max(depth, -vertex(overlap, iy, at_element).distance);
 
   std::vector<double> pressure(grid.size(), 0.0);
   for (int iy = box.y0; iy < box.y1; ++iy) {
     if (!(overlap.least_distance(iy) < 0.0)) continue;
-    const Vertex deepest = vertex(overlap, iy, reference_quirks);
+    const Vertex deepest = vertex(overlap, iy, at_element);
     const double a_curvature = curvature_along(overlap, iy), b_curvature = curvature_across(overlap, iy);
     const HertzShape whole = hertz_from_curvatures(a_curvature, b_curvature, {false, depth}, material);
     // Hertz' contact ends across where the gap above its least is B b^2: there the row's share of the depth is used up.

@@ -16,7 +16,7 @@ struct HertzLoad {
   double value = 0.0;  ///< force [N] or approach [m], > 0
 };
 
-/// What is known of the geometry, as in the reference program's Hertzian inputs.
+/// What is known of the geometry.
 /// All functions throw Error(configuration) for values that are not positive.
 HertzShape hertz_from_curvatures(double curvature_x, double curvature_y, const HertzLoad& load,
                                  const CombinedMaterial& material);

@@ -73,6 +73,19 @@ class Interpenetration {
 /// Curvatures A, B below this [1/m] are taken for this: the methods need a minimum in both directions.
 inline constexpr double kLeastCurvature = 0.1;
 
+/// From inside to outside, where a level lies between the distances there, as a share of the way; half the way without
+/// a neighbour.
+inline double share_to_level(double inside, double outside, double level) {
+  return std::isfinite(outside) ? (level - inside) / (outside - inside) : 0.5;
+}
+
+/// What KPEC finds Hertz' ellipse from.
+struct Outline {
+  double curvature_x = kLeastCurvature;   ///< A of A x^2 [1/m]
+  double middle = 0.0, half_width = 0.0;  ///< across, of where the bodies overlap beyond the level [m]
+  double deepest = 0.0;                   ///< how far from the middle they overlap most [m]
+};
+
 /// Normal displacement of the problem's bodies, sheet included, [m] inside a box of elements by the pressures [Pa]
 /// inside that box; elements outside the box are left alone. Fields have the grid's size.
 void half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,

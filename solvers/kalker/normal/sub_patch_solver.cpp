@@ -62,7 +62,7 @@ void SubPatchSolver::reset() {
 
 void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   check_sub_patches(problem);
-  if (problem.settings.reference_quirks && problem.normal_model != NormalModel::full) {
+  if (problem.settings.conventions == Conventions::contact && problem.normal_model != NormalModel::full) {
     ContactProblem whole = problem;
     whole.sub_patches = {};
     if (workspace_->solvers.empty()) workspace_->solvers.emplace_back();
@@ -157,11 +157,12 @@ void SubPatchSolver::Workspace::solve_at(const ContactProblem& problem, ContactS
   solution.displacement_n.assign(n, 0.0);
   solution.state.assign(n, ElementState::exterior);
   solution.approach = problem.approach;
+  const bool full_influence = problem.settings.conventions == Conventions::contact;
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t own = sub.part[i] > 0 ? sub.part[i] - 1u : 0u;
     for (std::size_t k = 0; k < count; ++k) {
-      const double felt = sub.part[i] > 0 && !problem.settings.reference_quirks ? sub.coupling[own * count + k] : 1.0;
+      const double felt = sub.part[i] > 0 && !full_influence ? sub.coupling[own * count + k] : 1.0;
       solution.displacement_n[i] += felt * caused[k][i];
       solution.pressure[i] += parts[k].pressure[i];
     }

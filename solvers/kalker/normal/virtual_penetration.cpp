@@ -10,8 +10,8 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/normal/analyn.hpp"
+#include "treadmark/solvers/kalker/normal/contact_program/kpec_by_elements.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
-#include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 
 namespace treadmark::kalker {
 
@@ -40,13 +40,9 @@ void check_penetration_problem(const ContactProblem& problem) {
 constexpr double kShapeLevel = 0.5;
 
 /// Factor on displacements [m] that makes them the overlap: in the mean, the more the deeper, so that none of several
-/// places of about the same depth decides alone; of the reference program at the deepest element.
-double scale_to_depth(const Interpenetration& overlap, std::span<const double> displacement, bool reference_quirks) {
+/// places of about the same depth decides alone.
+double scale_to_depth(const Interpenetration& overlap, std::span<const double> displacement) {
   const Grid2& grid = overlap.grid();
-  if (reference_quirks) {
-    const int iy = overlap.deepest_row();
-    return overlap.depth() / displacement[grid.index(overlap.deepest_column(iy), iy)];
-  }
   double wanted = 0.0, found = 0.0;
   for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy)
     for (int ix = overlap.box().x0; ix < overlap.box().x1; ++ix) {
@@ -67,10 +63,11 @@ void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCach
   const Interpenetration overlap(grid, problem.gap, problem.approach);
   solution.approach = problem.approach;
   const CombinedMaterial material = combine(problem.material);
-  const bool kpec = problem.normal_model == NormalModel::kpec, quirks = problem.settings.reference_quirks;
+  const bool kpec = problem.normal_model == NormalModel::kpec;
+  const Conventions conventions = problem.settings.conventions;
   if (!overlap.box().empty())
     solution.pressure =
-        kpec ? kpec_distribution(overlap, material, quirks) : analyn_pressure(overlap, material, quirks);
+        kpec ? kpec_distribution(overlap, material, conventions) : analyn_pressure(overlap, material, conventions);
   const bool any = std::any_of(solution.pressure.begin(), solution.pressure.end(), [](double p) { return p > 0.0; });
   if (!any) {
     solution.status = solution.normal.status = Status::no_contact;
@@ -78,25 +75,13 @@ void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCach
   }
   half_space_displacement(operators, problem, overlap.box(), solution.pressure, solution.displacement_n);
   if (!kpec) return;
-  const double scale = scale_to_depth(overlap, solution.displacement_n, quirks);
+  const double scale = conventions == Conventions::contact ? scale_at_deepest(overlap, solution.displacement_n)
+                                                           : scale_to_depth(overlap, solution.displacement_n);
   for (double& p : solution.pressure) p *= scale;
   for (double& u : solution.displacement_n) u *= scale;
 }
 
 namespace {
-
-/// From a to b, where a level lies between the distances at both, as a share of the way; half the way without a
-/// neighbour.
-double share_to_level(double inside, double outside, double level) {
-  return std::isfinite(outside) ? (level - inside) / (outside - inside) : 0.5;
-}
-
-/// What Hertz' ellipse is found from. Where it is not the reference program's, all of it is continuous in the gap.
-struct Outline {
-  double curvature_x = kLeastCurvature;   ///< A of A x^2 [1/m]
-  double middle = 0.0, half_width = 0.0;  ///< across, of where the bodies overlap beyond the level [m]
-  double deepest = 0.0;                   ///< how far from the middle they overlap most [m]
-};
 
 /// A by least squares, every row of elements with a height and a slope of its own. An element weighs as the deepest of
 /// itself and its neighbours along the row lies beyond the level: a row that does has three.
@@ -156,46 +141,6 @@ Outline outline(const Interpenetration& overlap, double level) {
   return out;
 }
 
-/// A of A x^2 through the deepest element and two at the same distance on both sides, beyond the level.
-double curvature_along(const Interpenetration& overlap, double level) {
-  const int iy = overlap.deepest_row(), ix = overlap.deepest_column(iy);
-  const double least = -overlap.depth();
-  int reach = 1;
-  const int most = overlap.grid().nx;
-  while (reach < most && std::max(overlap.distance(ix - reach, iy), overlap.distance(ix + reach, iy)) <= level) ++reach;
-  double behind = overlap.distance(ix - reach, iy), ahead = overlap.distance(ix + reach, iy);
-  if (reach > 1 && !(std::isfinite(behind) && std::isfinite(ahead))) {  // at the border: the last pair inside
-    --reach;
-    behind = overlap.distance(ix - reach, iy);
-    ahead = overlap.distance(ix + reach, iy);
-  }
-  if (!std::isfinite(behind)) behind = ahead;
-  if (!std::isfinite(ahead)) ahead = behind;
-  if (!std::isfinite(ahead)) return kLeastCurvature;
-  const double step = reach * overlap.grid().dx;
-  return std::max(kLeastCurvature, (ahead - 2.0 * least + behind) / (2.0 * step * step));
-}
-
-/// Where the rows' least distance passes a level [m], going outwards from a row (direction -1 or +1).
-double lateral_end(const Interpenetration& overlap, int iy, int direction, double level) {
-  const int ix = overlap.deepest_column(iy);
-  const double share = share_to_level(overlap.distance(ix, iy), overlap.distance(ix, iy + direction), level);
-  return overlap.grid().y(iy) + direction * share * overlap.grid().dy;
-}
-
-Outline reference_outline(const Interpenetration& overlap, double level) {
-  int first = overlap.deepest_row(), last = first;
-  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy)
-    if (overlap.least_distance(iy) < level) {
-      first = std::min(first, iy);
-      last = std::max(last, iy);
-    }
-  const double low = lateral_end(overlap, first, -1, level), high = lateral_end(overlap, last, 1, level);
-  const double middle = 0.5 * (low + high);
-  return {curvature_along(overlap, level), middle, 0.5 * (high - low),
-          std::abs(overlap.grid().y(overlap.deepest_row()) - middle)};
-}
-
 /// Share of the depth at which a row is cut, linear in y^2 between what Hertz' ellipse has at its ends along x and y.
 struct CutLevel {
   double along = 0.0, across = 0.0;  ///< A a^2, B b^2 over the depth
@@ -207,9 +152,9 @@ struct CutLevel {
   }
 };
 
-CutLevel cut_level(const Interpenetration& overlap, const CombinedMaterial& material, bool reference_quirks) {
+CutLevel cut_level(const Interpenetration& overlap, const CombinedMaterial& material, Conventions conventions) {
   const double depth = overlap.depth(), level = -kShapeLevel * depth;
-  const Outline o = reference_quirks ? reference_outline(overlap, level) : outline(overlap, level);
+  const Outline o = conventions == Conventions::contact ? outline_of_elements(overlap, level) : outline(overlap, level);
   const double curvature_y = std::max(kLeastCurvature, (level + depth) / (o.half_width * o.half_width));
   const HertzShape hertz = hertz_from_curvatures(o.curvature_x, curvature_y, {false, depth}, material);
   CutLevel cut;
@@ -236,13 +181,13 @@ void fill_run(const Interpenetration& overlap, int iy, int first, int last, doub
 }  // namespace
 
 std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material,
-                                      bool reference_quirks) {
+                                      Conventions conventions) {
   const Grid2& grid = overlap.grid();
-  const CutLevel cut = cut_level(overlap, material, reference_quirks);
+  const CutLevel cut = cut_level(overlap, material, conventions);
   std::vector<double> distribution(grid.size(), 0.0);
   for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy) {
     const double share = cut.at(grid.y(iy)), level = -(1.0 - std::clamp(share, 0.0, 1.0)) * overlap.depth();
-    const double end_level = reference_quirks ? -(1.0 - share) * overlap.depth() : level;
+    const double end_level = conventions == Conventions::contact ? -(1.0 - share) * overlap.depth() : level;
     for (int ix = overlap.box().x0; ix < overlap.box().x1; ++ix) {
       if (overlap.distance(ix, iy) > level) continue;
       const int first = ix;

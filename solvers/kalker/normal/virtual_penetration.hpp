@@ -14,8 +14,8 @@ namespace treadmark::kalker {
 /// Approximate pressures for any gap at a prescribed approach by problem.normal_model kpec or analyn, without
 /// iterations. In: pressure and displacement_n of the grid's size, all 0. Out: these, approach, and Status::no_contact
 /// if nothing overlaps. The displacement is that of the half-space by the pressure, in the box of elements that
-/// overlap; with kpec it equals the overlap in the mean over what overlaps by more than half the depth, of the
-/// reference program at the deepest element. Errors: Error(configuration) for a prescribed force, less than 3 x 3
+/// overlap; with kpec it equals the overlap in the mean over what overlaps by more than half the depth, in
+/// Conventions::contact at the deepest element. Errors: Error(configuration) for a prescribed force, less than 3 x 3
 /// elements, a gap of another size or not finite.
 void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators,
                                ContactSolution& solution);
@@ -24,8 +24,8 @@ void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCach
 /// rows such that an elliptic contact comes out as Hertz' ellipse. In each run of elements of a row the distribution is
 /// a half ellipse as high as the run is half long. Returned: that distribution [m], of the grid's size, to be scaled by
 /// the half-space's displacement. There must be contact. Continuous in the gap as long as runs do not join or part;
-/// with reference_quirks it is not.
+/// in Conventions::contact it is not, and ends of rows that lie further out than the ellipse reaches run on.
 std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material,
-                                      bool reference_quirks);
+                                      Conventions conventions);
 
 }  // namespace treadmark::kalker

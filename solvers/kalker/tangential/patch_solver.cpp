@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/solvers/kalker/tangential/nested_start.hpp"
 
 namespace treadmark::kalker {
@@ -129,7 +130,7 @@ bool PatchSolver::adhere(double eps) {
 }
 
 bool PatchSolver::solve(const Creepage& creepage, double eps) {
-  if (input_.tangential_model == TangentialModel::linear) {
+  if (theory(input_.tangential_model).limits.no_slip) {
     creepage_ = creepage;
     problem_.rigid_slip = conditions_.known_slip.at(creepage);
     return adhere(eps);

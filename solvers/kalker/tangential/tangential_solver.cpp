@@ -14,6 +14,7 @@
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
+#include "treadmark/model/contact/theories.hpp"
 #include "treadmark/solvers/kalker/tangential/creepage_search.hpp"
 #include "treadmark/solvers/kalker/tangential/previous_instant.hpp"
 
@@ -37,7 +38,7 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
                    "solve the normal problem first");
   if (!solution.state.empty() && solution.state.size() != grid.size())
     refuse_problem("element states do not fit the contact grid", "solve the normal problem first");
-  if (problem.tangential_model == TangentialModel::linear && problem.regime != Regime::steady)
+  if (theory(problem.tangential_model).limits.steady_only && problem.regime != Regime::steady)
     refuse_problem("the linear theory is for steady rolling", "use the full tangential model");
   const CombinedMaterial combined = combine(problem.material);
   if (!(combined.shear_modulus > 0.0)) refuse_problem("the shear modulus must be positive", "check the material");
@@ -260,7 +261,7 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     outcome.creepage = problem.creepage;
     if (!solver.solve(problem.creepage, problem.settings.eps)) outcome.status = Status::not_converged;
   }
-  if (problem.tangential_model == TangentialModel::linear &&
+  if (theory(problem.tangential_model).limits.no_slip &&
       std::hypot(solver.relative_force()[0], solver.relative_force()[1]) > 1.0) {
     outcome.status = Status::not_converged;
     outcome.message = "the linear theory gives more force than friction: the creepage is beyond it";

@@ -5,6 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::damage {
@@ -71,6 +77,8 @@ TEST(WearLawCheck, RefusesNumbersThatMakeNoSense) {
     return testing::error_of([&] { check(law); });
   };
   EXPECT_EQ(error([](WearLaw&) {}), "");
+  EXPECT_THAT(error([](WearLaw& law) { law.seizure_ratio = 0.0; }), HasSubstr("seizure_pressure_over_hardness"));
+  EXPECT_THAT(error([](WearLaw& law) { law.k_seizure = -1.0; }), HasSubstr("k_seizure must not be negative"));
   EXPECT_THAT(error([](WearLaw& law) { law.hardness = -1.0; }), HasSubstr("positive hardness_GPa"));
   EXPECT_THAT(error([](WearLaw& law) { law.k = {}; }), HasSubstr("needs k"));
   EXPECT_THAT(error([](WearLaw& law) { law.k = {-1e-4}; }), HasSubstr("k must not be negative"));
@@ -78,6 +86,32 @@ TEST(WearLawCheck, RefusesNumbersThatMakeNoSense) {
   EXPECT_THAT(error([](WearLaw& law) { law.k = {1, 2, 3}, law.slip_limits = {0.7, 0.2}; }), HasSubstr("increase"));
   EXPECT_THAT(error([](WearLaw& law) { law.theory = WearTheory::t_gamma; }), HasSubstr("density_kg_m3"));
   EXPECT_THAT(error([](WearLaw& law) { law.theory = WearTheory::energy; }), HasSubstr("volume_per_work_mm3_J"));
+}
+
+TEST(WearLawCheck, RefusesEveryLawWithoutItsNumbers) {
+  for (const WearTheoryRow& row : kWearTheories) {
+    WearLaw law;
+    law.theory = row.theory;
+    EXPECT_THAT(testing::error_of([&] { check(law); }), HasSubstr("the law needs")) << row.word;
+    std::istringstream keys{std::string(row.keys)};
+    for (std::string key; keys >> key;)
+      EXPECT_EQ(std::ranges::count(kWearNumbers, key, &WearNumber::key), 1) << row.word << ' ' << key;
+  }
+}
+
+TEST(WearLawCheck, RefusesALineThatFallsOrIsNotOne) {
+  WearLaw law;
+  law.theory = WearTheory::t_gamma;
+  law.density = 7800.0;
+  const auto error = [&](std::vector<double> x, std::vector<double> y) {
+    law.t_gamma_area = std::move(x), law.wear_rate = std::move(y);
+    return testing::error_of([&] { check(law); });
+  };
+  EXPECT_EQ(error({0, 1}, {0, 1}), "");
+  EXPECT_THAT(error({0, 1, 2}, {0, 1}), HasSubstr("t_gamma_area_MPa has 3 values and wear_rate_ug_m_mm2 has 2"));
+  EXPECT_THAT(error({1, 1}, {0, 1}), HasSubstr("t_gamma_area_MPa must increase"));
+  EXPECT_THAT(error({0, 1}, {1, 0}), HasSubstr("wear_rate_ug_m_mm2 falls"));
+  EXPECT_THAT(error({0, 1}, {0, -1}), HasSubstr("wear_rate_ug_m_mm2 must not be negative"));
 }
 
 }  // namespace

@@ -10,7 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
 #include "treadmark/tests/support/parts.hpp"
@@ -21,7 +23,10 @@ namespace treadmark::testing {
 namespace {
 
 using nlohmann::json;
+using ::testing::Contains;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
 std::string written(const fs::path& file, const std::string& text) {
@@ -85,6 +90,23 @@ TEST(Measure, LimitsSayWithinOutsideAndNotMeasured) {
   EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("wrong.toml:2:1"));
   EXPECT_THAT(r.err, HasSubstr("flange_height_mm"));
+}
+
+TEST(Measure, FolderSkipsNoFileThatMayBeOfThisBody) {
+  const TemporaryFolder folder;
+  std::size_t ours = 0;
+  for (const io::ShapeExtension& row : io::kShapeExtensions) {
+    const std::string name = "a" + std::string(row.extension);
+    written(folder.path() / name, "");
+    ours += row.body != Body::rail && row.kinds != io::kCadFile && row.kinds != io::kSplineFile;
+  }
+  written(folder.path() / "readme.md", "no profile");
+  const std::vector<std::string> names = app::measured_names({folder.path().string()}, Body::wheel);
+  EXPECT_EQ(names.size(), ours);
+  for (const char* end :
+       {".pts", ".ptx", ".xyzrgb", ".xyzn", ".asc", ".laz", ".csv", ".wheel", ".slcw", ".ply", ".vdb"})
+    EXPECT_THAT(names, Contains(EndsWith(end)));
+  for (const char* end : {".prr", ".slcs", ".md"}) EXPECT_THAT(names, Not(Contains(EndsWith(end))));
 }
 
 TEST(Measure, ManyFilesAndOneThatIsBad) {

@@ -127,7 +127,7 @@ TEST(KeptTables, EveryPartOfAProblemDecides) {
       [](P& p) { p.friction.kinetic = 0.1; },
       [](P& p) { p.friction.temperature_range = 2.0; },
       [](P& p) { p.solver.eps = 1e-6; },
-      [](P& p) { p.solver.reference_quirks = true; },
+      [](P& p) { p.solver.conventions = Conventions::contact; },
       [](P& p) { p.fastsim.flexibility = 1.0; },
       [](P& p) { p.influence.inclination = {0.1}; },
       [](P& p) { p.thermal = Thermal{}; },

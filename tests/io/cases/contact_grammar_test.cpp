@@ -38,7 +38,7 @@ TEST(ContactInputModule1, ConvertsEveryValueToSi) {
   EXPECT_DOUBLE_EQ(c.discretisation.combination, 4e-3);
   EXPECT_FALSE(c.discretisation.turning);
   EXPECT_DOUBLE_EQ(c.discretisation.near_miss, -1e-3);
-  EXPECT_TRUE(c.discretisation.reference_search_mesh);
+  EXPECT_EQ(c.discretisation.conventions, Conventions::contact);
   EXPECT_FALSE(c.discretisation.linear_weight);
   EXPECT_EQ(c.discretisation.method, 2);
   EXPECT_EQ(c.discretisation.max_elements, 20000);

@@ -39,7 +39,7 @@ TEST(TomlCase, SmallestWheelRailCase) {
   EXPECT_EQ(std::get<StandardProfile>(c.wheel.geometry).name, "S1002");
   EXPECT_DOUBLE_EQ(c.vertical_force, 1e5);
   EXPECT_EQ(c.regime, Regime::steady);
-  EXPECT_FALSE(c.discretisation.reference_search_mesh);
+  EXPECT_EQ(c.discretisation.conventions, Conventions::treadmark);
   EXPECT_EQ(c.rail.where.line, 1);
 }
 
@@ -201,7 +201,7 @@ max_set_iterations = 50
   EXPECT_TRUE(c.discretisation.linear_weight);
   EXPECT_EQ(c.discretisation.method, 6);
   EXPECT_EQ(c.discretisation.max_elements, 5000);
-  EXPECT_TRUE(c.discretisation.reference_search_mesh);
+  EXPECT_EQ(c.discretisation.conventions, Conventions::contact);
   EXPECT_DOUBLE_EQ(c.material.shear_modulus_1, 80e9);
   EXPECT_DOUBLE_EQ(c.material.shear_modulus_2, 80e9);
   EXPECT_DOUBLE_EQ(c.material.poisson_1, 0.3);
@@ -372,7 +372,7 @@ TEST(TomlOverride, ValuesWordsAndListElements) {
     EXPECT_DOUBLE_EQ(c.wheel.defects.flats.at(0).depth, 0.5e-3);
     EXPECT_DOUBLE_EQ(c.wheel.defects.flats.at(0).length, 0.1);
     EXPECT_EQ(c.side, Side::left);
-    EXPECT_TRUE(c.discretisation.reference_search_mesh);
+    EXPECT_EQ(c.discretisation.conventions, Conventions::contact);
   }
 }
 

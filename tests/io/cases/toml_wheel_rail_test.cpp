@@ -178,7 +178,7 @@ columns = [3, 90000]
   EXPECT_DOUBLE_EQ(c.material.sheet_flexibility, 1e-14);
   EXPECT_DOUBLE_EQ(c.thermal.value().body_2.density, 7800.0);
   EXPECT_DOUBLE_EQ(c.thermal.value().plastic_fraction, 0.5);
-  EXPECT_FALSE(c.thermal.value().reference_quirks);
+  EXPECT_EQ(c.thermal.value().conventions, Conventions::treadmark);
   EXPECT_DOUBLE_EQ(c.friction.temperature_range, 300.0);
   EXPECT_TRUE(c.subsurface.full_tensor);
   EXPECT_EQ(c.subsurface.blocks.at(0).columns.at(1), 90000);

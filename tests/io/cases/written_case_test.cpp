@@ -217,12 +217,27 @@ rail_bulk_temperature_C = 30
   const CaseFile again = parse_contact_input(text, "folder/case.inp");
   expect_same_cases(f, again);
   const WheelRailCase& c = std::get<WheelRailCase>(again.cases.at(0).content);
-  EXPECT_FALSE(c.discretisation.reference_search_mesh || c.discretisation.prune || c.long_steps ||
-               c.moments_about_grid_origin || c.thermal->reference_quirks);
+  EXPECT_FALSE(c.discretisation.prune);
+  for (const Conventions kept : {c.discretisation.conventions, c.conventions, c.thermal->conventions})
+    EXPECT_EQ(kept, Conventions::treadmark);
   EXPECT_FALSE(std::get<GeometryFile>(c.wheel.geometry).open_seam);
   EXPECT_EQ(std::get<GeometryFile>(c.wheel.geometry).file, fs::path("folder/sub/wheel.slcw"));
   // Elsewhere the files are still those.
   EXPECT_THAT(contact_input_text(f, "other/place"), HasSubstr("'../../folder/sub/wheel.slcw'"));
+}
+
+TEST(WrittenCase, AskingForTheNumbersOfKeysMakesNothing) {
+  for (const bool patch : {false, true}) {
+    Case c = case_without_keys(patch);
+    for (const CaseKey& key : case_keys()) {
+      if (!key.get || (key.info.scope != KeyScope::any && (key.info.scope == KeyScope::patch) != patch)) continue;
+      key.get(c);
+      const auto* rail = std::get_if<WheelRailCase>(&c.content);
+      EXPECT_FALSE(rail != nullptr && (rail->roller || rail->rail_springs || rail->damping)) << key.info.path;
+      EXPECT_FALSE(std::visit([](const auto& content) { return content.thermal.has_value(); }, c.content))
+          << key.info.path;
+    }
+  }
 }
 
 TEST(WrittenCase, OwnSettingsThatAreWrongAreNamedWithTheirPlace) {
@@ -251,6 +266,8 @@ TEST_P(RefusedInput, IsNamed) {
 INSTANTIATE_TEST_SUITE_P(Settings, RefusedInput,
                          ::testing::Values(Refused{"rail.shape.standard=60E1", "rail.shape"},
                                            Refused{"wheel.shape.file=a.ply", "the wheel as .ply"},
+                                           Refused{"wheel.shape.file=a.step", "the wheel as .step"},
+                                           Refused{"rail.shape.file=a.xml", "the rail as .xml"},
                                            Refused{"rail.shape.crossing=nose", "rail.shape.crossing"},
                                            Refused{"wheel.flats=[{length_mm=40, depth_mm=0.1}]", "wheel.flats"},
                                            Refused{"rail.shape.file=\"it's.prr\"", "for its quote"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "mesh_files.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -62,6 +63,8 @@ TEST(WriteMesh, SaysWhatItCannotDo) {
 TEST(ReadMeshFile, KnowsItsFiles) {
   for (const char* name : {"a.ply", "b.STL", "c.Obj", "path/d.off"}) EXPECT_TRUE(is_mesh_file(name));
   for (const char* name : {"a.prr", "ply", "a.ply.gz", ""}) EXPECT_FALSE(is_mesh_file(name));
+  for (const ShapeExtension& row : kShapeExtensions)
+    EXPECT_EQ(is_mesh_file("a" + std::string(row.extension)), row.kinds & kTriangleFile) << row.extension;
 }
 
 TEST(ReadMeshFile, ScalesAndPlacesItsErrors) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <limits>
+#include <sstream>
 
 #include "sample_files.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -183,6 +185,14 @@ TEST(ScanFormats, ByExtension) {
   for (const char* name : {"a.ply", "a.STL", "a.obj", "a.off", "a.xyz", "a.asc", "a.TXT", "a.csv", "a.Las"})
     EXPECT_TRUE(is_scan_file(name)) << name;
   for (const char* name : {"a.laz", "a.toml", "ply", "a.ply.gz", ""}) EXPECT_FALSE(is_scan_file(name)) << name;
+  std::string known;  // the table of all shapes names the same extensions as the parsers
+  for (const ShapeExtension& row : kShapeExtensions) {
+    const std::string name = "a" + std::string(row.extension);
+    EXPECT_EQ(is_scan_file(name), row.read && (row.kinds & kPointFile) != 0) << name;
+    known += std::string(row.extension) + ' ';
+  }
+  std::istringstream extensions(scan_extensions());
+  for (std::string one; extensions >> one;) EXPECT_NE(known.find(one + ' '), std::string::npos) << one;
   const TemporaryFolder folder;
   const Scan scan = read_scan(folder.write("a.PLY", binary_ply(false)));
   EXPECT_EQ(scan.cloud.points, kPoints);

@@ -118,7 +118,7 @@ TEST(WriteScan, Errors) {
     EXPECT_EQ(error.kind(), ErrorKind::configuration);
     EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   };
-  expect(folder.path() / "a.stl", "known are .ply, .xyz");
+  expect(folder.path() / "a.stl", "use one of .ply .las .xyz");
   std::filesystem::create_directory(folder.path() / "dir.ply");
   expect(folder.path() / "dir.ply", "it is a folder");
   expect("/dev/null/a.ply", "cannot write");

@@ -74,16 +74,17 @@ TEST(SurfaceTemperature, UniformSlidingHeatsLikeABandSource) {
 
 TEST(SurfaceTemperature, AnEllipticalSourceConvergesToTheExactMaximum) {
   const double a = 5e-3, q = 3e8;
-  const auto error = [&](int n, bool quirks) {
+  const auto error = [&](int n, Conventions conventions) {
     Row row(n, 2 * a / n, kPi, kSteel, kSteel);
     for (int i = 0; i < n; ++i) row.slide(i, i, q * std::sqrt(1.0 - std::pow((2.0 * i + 1.0) / n - 1.0, 2)));
+    row.problem.thermal->conventions = conventions;
     const double exact =
         2.18830 * q * std::sqrt(a) / (2 * effusivity(kSteel) * std::sqrt(kPi * row.problem.rolling.velocity));
-    return std::abs(surface_temperatures(row.problem, row.solution, {quirks}).max_1 / exact - 1.0);
+    return std::abs(surface_temperatures(row.problem, row.solution).max_1 / exact - 1.0);
   };
-  EXPECT_LT(error(50, false), 2e-3);
-  EXPECT_LT(error(400, false), 1e-4);
-  EXPECT_GT(error(400, true), 0.02);
+  EXPECT_LT(error(50, Conventions::treadmark), 2e-3);
+  EXPECT_LT(error(400, Conventions::treadmark), 1e-4);
+  EXPECT_GT(error(400, Conventions::contact), 0.02);
 }
 
 /// Heat that has flowed into both bodies per area of surface, from what is left of it far behind the contact.
@@ -104,9 +105,10 @@ TEST(SurfaceTemperature, HeatIsConserved) {
     const SurfaceTemperatures t = surface_temperatures(row.problem, row.solution);
     const double heat = sliding ? 3e8 * 30 * dx : 0.0;
     EXPECT_NEAR(heat_far_behind(row, t, 24.5 * dx), heat, 1e-4 * 3e8 * 30 * dx);
-    const SurfaceTemperatures quirks = surface_temperatures(row.problem, row.solution, {true});
+    row.problem.thermal->conventions = Conventions::contact;
+    const SurfaceTemperatures other = surface_temperatures(row.problem, row.solution);
     if (sliding) {
-      EXPECT_GT(std::abs(heat_far_behind(row, quirks, 24.5 * dx) - heat), 0.1 * heat);
+      EXPECT_GT(std::abs(heat_far_behind(row, other, 24.5 * dx) - heat), 0.1 * heat);
     }
   }
 }
@@ -210,16 +212,18 @@ TEST(SurfaceTemperature, ReferenceCases) {
     ASSERT_EQ(solution.status, Status::ok);
     EXPECT_NEAR(solution.force_x, patch.at("fx_N").get<double>(), 6e-4 * 1e5);
     const double printed = patch.at("max(t1,t2)");
-    add_surface_temperatures(problem, solution, {true});
+    problem.thermal->conventions = Conventions::contact;
+    add_surface_temperatures(problem, solution);
     EXPECT_NEAR(std::max(solution.max_temperature_1, solution.max_temperature_2), printed, 6e-4 * printed);
-    const double with_quirks = solution.max_temperature_1;
+    const double of_contact = solution.max_temperature_1;
+    problem.thermal->conventions = Conventions::treadmark;
     add_surface_temperatures(problem, solution);
     EXPECT_EQ(solution.temperature_1.size(), grid.size());
     if (k == 1) {
       EXPECT_NEAR(solution.max_temperature_1, printed, 1e-9 * printed) << "no sliding";
     } else {
       // The reference counts an element's own heat twice, which vanishes with the root of the element's size only.
-      EXPECT_LT(solution.max_temperature_1, with_quirks - 1.0);
+      EXPECT_LT(solution.max_temperature_1, of_contact - 1.0);
     }
     if (k == 0) {
       // Sliding at 1 m/s under the Hertzian pressure, row y = 0: 2.1883 is the greatest value of the integral of

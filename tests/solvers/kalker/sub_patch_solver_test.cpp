@@ -57,11 +57,11 @@ TEST(SubPatches, TheReferenceProgramDoesNotTellThemApartInApproximateTheories) {
   for (const NormalModel model : {NormalModel::kpec, NormalModel::analyn}) {
     TwoBumps bumps(0.3);
     bumps.problem.normal_model = model;
-    bumps.problem.settings.reference_quirks = true;
+    bumps.problem.settings.conventions = Conventions::contact;
     const ContactSolution quirky = ContactSolver().solve_normal(bumps.problem);
-    bumps.problem.settings.reference_quirks = false;
+    bumps.problem.settings.conventions = Conventions::treadmark;
     const ContactSolution parts = ContactSolver().solve_normal(bumps.problem);
-    bumps.problem.settings.reference_quirks = true;
+    bumps.problem.settings.conventions = Conventions::contact;
     bumps.problem.sub_patches = {};
     const ContactSolution whole = ContactSolver().solve_normal(bumps.problem);
     EXPECT_EQ(quirky.pressure, whole.pressure);
@@ -72,7 +72,7 @@ TEST(SubPatches, TheReferenceProgramDoesNotTellThemApartInApproximateTheories) {
 TEST(SubPatches, ElasticEnergyOfTheReferenceProgramIsThatOfFullInfluence) {
   TwoBumps bumps(0.3);
   const ContactSolution parts = ContactSolver().solve_normal(bumps.problem);
-  bumps.problem.settings.reference_quirks = true;
+  bumps.problem.settings.conventions = Conventions::contact;
   const ContactSolution quirky = ContactSolver().solve_normal(bumps.problem);
   EXPECT_EQ(quirky.pressure, parts.pressure);
   EXPECT_GT(quirky.elastic_energy, parts.elastic_energy);

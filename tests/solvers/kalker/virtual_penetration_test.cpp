@@ -134,11 +134,11 @@ TEST(VirtualPenetration, KpecMakesTheDisplacementTheDepth) {
   const HertzShape shape = ellipse(2.0);
   const Grid2 grid = hertz_grid(shape, 41, 41, 1.2);
   OwnedProblem owned = at_approach(grid, hertz_gap(shape, grid), shape.approach, NormalModel::kpec);
-  owned.problem.settings.reference_quirks = true;
+  owned.problem.settings.conventions = Conventions::contact;
   const ContactSolution reference = ContactSolver().solve_normal(owned.problem);
   EXPECT_NEAR(reference.displacement_n[grid.index(20, 20)] / shape.approach, 1.0, 1e-9);
   EXPECT_GT(reference.elastic_energy, 0.0);
-  owned.problem.settings.reference_quirks = false;
+  owned.problem.settings.conventions = Conventions::treadmark;
   const ContactSolution solution = ContactSolver().solve_normal(owned.problem);
   double wanted = 0.0, found = 0.0;
   for (std::size_t i = 0; i < grid.size(); ++i) {
@@ -175,11 +175,11 @@ double largest_jump(double from, double to, const Force& force) {
   return change;
 }
 
-double kpec_force(double tilt, double approach, double aside, bool quirks = false) {
+double kpec_force(double tilt, double approach, double aside, Conventions conventions = Conventions::treadmark) {
   const Grid2 grid{-9.9e-3 + aside, -14.9e-3 + aside, 0.6e-3, 0.6e-3, 34, 50};
   OwnedProblem owned = at_approach(grid, gap_of(grid, [&](double x, double y) { return two_places(x, y, tilt); }),
                                    approach, NormalModel::kpec);
-  owned.problem.settings.reference_quirks = quirks;
+  owned.problem.settings.conventions = conventions;
   return solve(std::move(owned)).force_n;
 }
 
@@ -188,7 +188,8 @@ TEST(VirtualPenetration, KpecIsContinuous) {
   EXPECT_LT(largest_jump(-3e-6, 3e-6, [](double tilt) { return kpec_force(tilt, 60e-6, 0.0); }), kSmooth);
   EXPECT_LT(largest_jump(5e-6, 60e-6, [](double approach) { return kpec_force(1e-6, approach, 0.0); }), kSmooth);
   EXPECT_LT(largest_jump(0.0, 0.6e-3, [](double aside) { return kpec_force(1e-6, 60e-6, aside); }), kSmooth);
-  EXPECT_GT(largest_jump(-3e-6, 3e-6, [](double tilt) { return kpec_force(tilt, 60e-6, 0.0, true); }), kJump)
+  EXPECT_GT(largest_jump(-3e-6, 3e-6, [](double tilt) { return kpec_force(tilt, 60e-6, 0.0, Conventions::contact); }),
+            kJump)
       << "the reference program scales at the deepest element";
 }
 

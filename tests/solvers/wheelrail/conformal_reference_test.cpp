@@ -172,9 +172,8 @@ struct WornPair {
     p.discretisation.combination = 20e-3;
     p.discretisation.turning = 40e-3;
     p.discretisation.search = Discretisation::SearchGrid::reference_locus;
-    p.discretisation.distance_on_mesh = true;
     p.solver.eps = 1e-6;
-    p.solver.reference_quirks = true;
+    p.solver.conventions = Conventions::contact;
     FrictionLaw low, high;
     low.kinetic = 0.2;
     high.kinetic = 0.35;

@@ -7,8 +7,8 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/create.hpp"
+#include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
-#include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
 // Wheels on rollers and in rings, from the surfaces to the forces.
@@ -151,7 +151,7 @@ TEST(RollerContact, TheReferenceMeshCutsRailsIntoSectionsNotRollers) {
   for (const double radius : {0.0, kRoller}) {
     const Geometry geometry = s1002_on(radius);
     Problem p = s1002_problem();
-    p.discretisation.distance_on_mesh = true;
+    p.solver.conventions = Conventions::contact;
     if (radius != 0.0) p.roller = Roller{radius, 10.0 / radius};
     EXPECT_EQ(distance_mesh(p)->rail_sections, radius == 0.0);
   }
