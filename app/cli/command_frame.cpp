@@ -108,11 +108,17 @@ void print_results(const std::string& json_file, const std::function<std::string
 }
 
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json) {
-  if (!json_file.empty() && json_file != "-") write_file(json_file, json());
+  if (json_file.empty() || json_file == "-") return;
+  const std::string text = json();
+  catch_interrupt();  // from here on nothing is left half-written
+  write_file(json_file, text);
 }
 
 void write_report_file(const std::filesystem::path& file, const std::function<report::Page()>& page) {
-  if (!file.empty()) write_page(file, report::to_html(page()));
+  if (file.empty()) return;
+  const std::string html = report::to_html(page());
+  catch_interrupt();
+  write_page(file, html);
 }
 
 namespace {
