@@ -467,8 +467,7 @@ TEST_F(Cad, RefusesPointsThatLieNowhere) {
 
 /// Its triangles would take minutes.
 TEST_F(Cad, RefusesWhatIsHigherThanAnyRail) {
-  EXPECT_THAT(refusal(replaced(sample("nose.step"), "(0.,0.,80.)", "(0.,0.,65536)"), "nose.step"),
-              HasSubstr("m high"));
+  EXPECT_THAT(refusal(replaced(sample("nose.step"), "(0.,0.,80.)", "(0.,0.,65536)"), "nose.step"), HasSubstr("m high"));
 }
 
 /// Waits for what the other end never says.
