@@ -16,7 +16,8 @@ command -v mmdebstrap >/dev/null || { echo "mmdebstrap is missing: install the D
 [[ -n $(compgen -G "$packages/treadmark_*.deb") ]] || bash scripts/packages.sh "$packages" >&2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cp "$packages"/{treadmark,treadmark-cad,treadmark-openvdb,libtreadmark0,libtreadmark-dev}_*.deb tests/io/cad/data/rail.step tests/interfaces/c/quick_start.c "$work"
+cp "$packages"/{treadmark,treadmark-cad,treadmark-openvdb,libtreadmark0,libtreadmark-dev}_*.deb tests/io/cad/data/rail.step "$work"
+awk '/^```c$/ { on = 1; next } /^```$/ && on { exit } on' docs/c-interface.md >"$work/quick_start.c"
 
 cat >"$work/visit.sh" <<'VISIT'
 set -euo pipefail

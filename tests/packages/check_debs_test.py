@@ -25,7 +25,7 @@ def make(folder, name, depends="libc6 (>= 2)", parts=("libc6", "Eigen"), licence
     for path, text in [*texts.items(), *((f"usr/{held}", None) for held in check_debs.NEEDED[name][1] if held not in leave)]:
         (root / path).parent.mkdir(parents=True, exist_ok=True)
         (root / path).write_bytes(text.encode() if text is not None else content)
-    subprocess.run(["dpkg-deb", "--root-owner-group", "-b", root, folder / f"{name}_1_all.deb"], check=True, capture_output=True)
+    subprocess.run(["dpkg-deb", "--root-owner-group", "-Znone", "-b", root, folder / f"{name}_1_all.deb"], check=True, capture_output=True)
     shutil.rmtree(root)
 
 
