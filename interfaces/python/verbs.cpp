@@ -56,8 +56,7 @@ Varied varied_of(const io::CaseFile& file, const io::RunResult& result) {
     }
     // NaN: the case has no such part. It equals nothing, not even itself.
     const auto differ = [](const auto& a, const auto& b) { return a != b && (a == a || b == b); };
-    if (std::ranges::adjacent_find(row.second, differ) != row.second.end())
-      varied.push_back(std::move(row));
+    if (std::ranges::adjacent_find(row.second, differ) != row.second.end()) varied.push_back(std::move(row));
   };
   for (const c::CaseNumber& number : c::case_numbers())
     if (number.key->get)
