@@ -54,8 +54,9 @@ Varied varied_of(const io::CaseFile& file, const io::RunResult& result) {
       if (one->content.index() != cases.front()->content.index()) return;
       row.second.emplace_back(value_of(*one));
     }
-    if (std::ranges::adjacent_find(row.second, std::not_equal_to<>()) != row.second.end())
-      varied.push_back(std::move(row));
+    // NaN: the case has no such part. It equals nothing, not even itself.
+    const auto differ = [](const auto& a, const auto& b) { return a != b && (a == a || b == b); };
+    if (std::ranges::adjacent_find(row.second, differ) != row.second.end()) varied.push_back(std::move(row));
   };
   for (const c::CaseNumber& number : c::case_numbers())
     if (number.key->get)

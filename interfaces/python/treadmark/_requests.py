@@ -52,7 +52,7 @@ def _number(value: Any, factor: float = 1.0) -> float:
     return math.nan if value is None else float(factor * value)
 
 
-_KINDS: dict[str, Any] = {"number": float, "integer": int, "flag": bool, "list": Union[str, float, Sequence[float]], "file": Shape, "text": Union[str, float]}
+_KINDS: dict[str, Any] = {"integer": int, "flag": bool, "file": Shape, "text": Union[str, float]}
 
 
 class Setting(NamedTuple):
@@ -68,7 +68,11 @@ class Setting(NamedTuple):
     @property
     def kind(self) -> Any:
         """The annotation of its argument."""
-        return Annotated[float, self.unit] if self.values == "number" and self.unit != "1" else _KINDS[self.values]
+        number: Any = Annotated[float, self.unit] if self.unit != "1" else float
+        several: Any = Sequence
+        if self.values in ("number", "list"):
+            return number if self.values == "number" else Union[several[number], str]
+        return Path if self.name == "case" else _KINDS[self.values]
 
 
 _settings_of = {verb: {row[1]: Setting(*row) for row in _treadmark.request_tables()[verb]} for verb in ("geometry", "measure")}

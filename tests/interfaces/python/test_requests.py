@@ -390,7 +390,7 @@ def test_keywords_are_those_of_the_settings():
     for function, verb, but in ((tm.geometry, "geometry", set()), (tm.measure, "measure", set()), (tm.measure_files, "measure", {"mate"})):
         names = {row[1] for row in keys[verb]} - but
         assert names < set(inspect.signature(function).parameters)
-        for key, name, factor, unit, meaning in keys[verb]:
+        for key, name, factor, unit, values, meaning in keys[verb]:
             if name in names - {"wheel", "rail"}:
                 assert (f"{name} [{unit}]: {meaning}" if unit != "1" else f"{name}: {meaning}") in function.__doc__
     assert ("axle_load_kN", "axle_load", 1e3, "N") in [row[:4] for row in keys["geometry"]]
