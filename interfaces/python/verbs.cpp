@@ -137,6 +137,7 @@ std::string position_svg(const std::string& title, const std::vector<std::pair<d
                          const std::vector<std::pair<double, double>>& wheel) {
   const auto curve = [](const std::vector<std::pair<double, double>>& points) {
     std::vector<Vec2> all;
+    all.reserve(points.size());
     for (const auto& [y, z] : points) all.emplace_back(y, z);
     return curve_of(all);
   };

@@ -127,7 +127,14 @@ class EveryFault : public ::testing::TestWithParam<OutputRow> {
     if (next_end.status != 0) return wrong("the next run failed: " + next_end.err);
     for (const auto& [path, content] : then)
       if (settled.count(path) == 0) return wrong("the next run left " + path);
-    return then == settled ? "" : wrong("the next run wrote something else");
+    for (const auto& [path, content] : settled) {
+      // What goes on has other times, which tables do not hold.
+      const bool timed = GetParam().resumes && !path.ends_with(".csv");
+      const auto own = then.find(path);
+      if (own == then.end() || (!timed && own->second != content))
+        return wrong("the next run wrote something else: " + path);
+    }
+    return {};
   }
 
   OutputScene scene;

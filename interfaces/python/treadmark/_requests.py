@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import inspect
 import json
 import math
 import os
 import pathlib
-from typing import TYPE_CHECKING, Annotated, Any, Callable, Iterable, Mapping, NamedTuple, Sequence, TypeVar, Union
+from typing import TYPE_CHECKING, Annotated, Any, Callable, Iterable, Mapping, NamedTuple, Sequence, TypeVar, Union, cast
 
 import numpy as np
 
@@ -85,14 +86,20 @@ def _takes_settings(verb: str, *but: str) -> Callable[[_Function], _Function]:
 
     def told(function: _Function) -> _Function:
         own = inspect.signature(function)
-        settings = [one for name, one in _settings_of[verb].items() if name not in own.parameters and name not in but]
-        keywords = [inspect.Parameter(one.name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=one.kind) for one in settings]
+        settings = {name: one for name, one in _settings_of[verb].items() if name not in own.parameters and name not in but}
+
+        @functools.wraps(function)
+        def call(*arguments: Any, **keywords: Any) -> Any:
+            return function(*arguments, **{name: taken(name, settings[name].kind, value) if name in settings and value is not None else value
+                                           for name, value in keywords.items()})
+
+        keywords = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=one.kind) for name, one in settings.items()]
         parameters = [one for one in own.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
         at = next((i for i, one in enumerate(parameters) if one.kind is inspect.Parameter.KEYWORD_ONLY), len(parameters))
-        setattr(function, "__signature__", own.replace(parameters=[*parameters[:at], *keywords, *parameters[at:]]))
-        lines = [f"    {one.name}{'' if one.unit == '1' else f' [{one.unit}]'}: {one.meaning}" for one in settings]
-        function.__doc__ = (function.__doc__ or "").replace("    SETTINGS", "\n".join(lines))
-        return function
+        setattr(call, "__signature__", own.replace(parameters=[*parameters[:at], *keywords, *parameters[at:]]))
+        lines = [f"    {name}{'' if one.unit == '1' else f' [{one.unit}]'}: {one.meaning}" for name, one in settings.items()]
+        call.__doc__ = (function.__doc__ or "").replace("    SETTINGS", "\n".join(lines))
+        return cast(_Function, call)
 
     return told
 
@@ -107,7 +114,6 @@ def _settings(verb: str, values: Mapping[str, Any], changes: Changes = None) -> 
         if value is None:
             continue
         setting = _settings_of[verb][name]
-        value = taken(name, setting.kind, value)
         if name == "nominal_radius":
             radius_of(value)
         if is_array(value):

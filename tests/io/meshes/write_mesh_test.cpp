@@ -64,7 +64,7 @@ TEST(ReadMeshFile, KnowsItsFiles) {
   for (const char* name : {"a.ply", "b.STL", "c.Obj", "path/d.off"}) EXPECT_TRUE(is_mesh_file(name));
   for (const char* name : {"a.prr", "ply", "a.ply.gz", ""}) EXPECT_FALSE(is_mesh_file(name));
   for (const ShapeExtension& row : kShapeExtensions)
-    EXPECT_EQ(is_mesh_file("a" + std::string(row.extension)), row.kinds & kTriangleFile) << row.extension;
+    EXPECT_EQ(is_mesh_file("a" + std::string(row.extension)), (row.kinds & kTriangleFile) != 0) << row.extension;
 }
 
 TEST(ReadMeshFile, ScalesAndPlacesItsErrors) {

@@ -57,6 +57,7 @@ export class PanelNodes {
   private readonly origin: SVGPathElement;
   private readonly title: SVGTextElement;
   private titleWidth = 0;
+  private inside = 0; // its width
   private readonly note: SVGTextElement;
   private drawn = "";
 
@@ -85,6 +86,7 @@ export class PanelNodes {
     const key = JSON.stringify([place, window]);
     if (key === this.drawn) return;
     this.drawn = key;
+    this.inside = place.width;
     for (const rect of [this.clip, this.frame])
       for (const side of ["x", "y", "width", "height"] as const) put(rect, side, place[side].toFixed(2));
     put(this.title, "x", place.x.toFixed(1));
@@ -140,7 +142,7 @@ export class PanelNodes {
     }
     say(this.note, content.note);
     show(this.origin, content.note === "");
-    show(this.axes, textWidth(content.note) < width); // else the note would lie on their numbers
+    show(this.axes, textWidth(content.note, "13px system-ui, sans-serif") < this.inside); // else the note would lie on their numbers
   }
 }
 
