@@ -162,11 +162,11 @@ class Iteration {
     return step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
   }
 
-  void keep_stiffness(const ForceBalance& balance, const ForceBalance::Target& target, double z) {
+  void keep_stiffness(const ForceBalance::Target& target, double z, const ForceBalance* balance = nullptr) {
     const double depth = z - step_.touching_z();
     if (!(depth > 0.0)) return;
     out_.stiffness = target.at(z) / std::pow(depth, 1.5), known_ = true;
-    out_.end_slope = balance.end_slope(depth);
+    if (balance) out_.end_slope = balance->end_slope(depth);
   }
 
   /// About the height, without tractions: near enough for the size of patches, and for the next search to start from.
@@ -176,24 +176,71 @@ class Iteration {
     double z = balance.first(step_.touching_z());
     for (int i = 0; i < p_.max_force_iterations; ++i) {
       check_cancelled();
-      step_.evaluate(z);
+      step_.evaluate(z, target.at(z));
+      if (step_.carries_load()) {
+        const double laid = std::exchange(z, step_.z());
+        keep_stiffness(target, z);
+        if (std::abs(z - laid) <= kNearEnough * (z - step_.touching_z())) return;
+        continue;
+      }
       const ForceBalance::State state = balance.add(z, force_at_height(), step_.least_gap());
-      if (state == ForceBalance::State::found && step_.too_deep() <= 0.0) keep_stiffness(balance, target, z);
+      if (state == ForceBalance::State::found && step_.too_deep() <= 0.0) keep_stiffness(target, z, &balance);
       if (state != ForceBalance::State::search) return;
       z = balance.next();
     }
   }
 
+  bool reached(const ForceBalance::Target& target, double z) const {
+    return std::abs(step_.force_T().z() - target.at(z)) <= p_.solver.eps * std::abs(target.at(z));
+  }
+
+  /// One patch: its normal problem finds the height with the pressures. Elements are laid again, and what lies under
+  /// them is measured again, until the height stays as it is to the accuracy of forces. Nothing where the height has to
+  /// be sought, from z on; evaluated: the step stands there.
+  std::optional<bool> iterate_under_load(const ForceBalance::Target& target, double& z, bool& evaluated) {
+    constexpr double kDeeper = 2.0;
+    constexpr int kMost = 16;
+    const double touching = step_.touching_z(), still = 2.0 * p_.solver.eps;
+    double laid = z;
+    bool lay = true, shares_known = step_.knows_earlier_shares();
+    for (int i = 0; i < std::min(kMost, p_.max_force_iterations); ++i) {
+      check_cancelled();
+      if (lay)
+        step_.evaluate(laid = z, target.at(z));
+      else
+        step_.carry(target.at(z));
+      evaluated = lay && !step_.carries_load();
+      if (!step_.carries_load()) return std::nullopt;
+      z = step_.z();
+      out_.iterations.emplace_back(z, step_.force_T().z());
+      lay = shares_known && std::abs(z - laid) > still * (z - touching);
+      // Under far too large a load few elements sink in far too deep.
+      z = std::min(z, touching + kDeeper * (laid - touching));
+      if (lay) continue;
+      if (!(shares_known ? solve_tangential() : estimate_shares())) return false;
+      if (!std::exchange(shares_known, true)) continue;
+      out_.z = z;
+      out_.iterations.emplace_back(z, step_.force_T().z());
+      if (!reached(target, z)) continue;
+      keep_stiffness(target, z);
+      return true;
+    }
+    return std::nullopt;
+  }
+
   bool iterate_height(const ForceBalance::Target& target) {
     ForceBalance balance(target, p_.solver.eps, stiffness_for(target), out_.end_slope);
     double z = balance.first(step_.touching_z());
+    bool evaluated = false;
+    if (const std::optional<bool> done = iterate_under_load(target, z, evaluated)) return *done;
     ForceBalance::State state = ForceBalance::State::search;
     bool tangential_done = false, shares_known = false, exact = false;
     // Where a flange carries load, tractions turn the force: heights and tractions come to terms in rounds, each with
     // iterations of its own. What tractions add to the force is known well enough from a height close to the balance.
     for (int i = 0, round = 0; i < p_.max_force_iterations && round < p_.max_force_iterations; ++i) {
       check_cancelled();
-      if (state == ForceBalance::State::search && !tangential_done) step_.evaluate(z);
+      if (state == ForceBalance::State::search && !tangential_done && !std::exchange(evaluated, false))
+        step_.evaluate(z);
       const double force = force_at_height();
       out_.iterations.emplace_back(z, force);
       out_.z = z;
@@ -222,7 +269,7 @@ class Iteration {
     if (inside_the_rail()) return false;
     if (!(tangential_done && exact) && !solve_tangential()) return false;
     if (state == ForceBalance::State::found) {
-      keep_stiffness(balance, target, out_.z);
+      keep_stiffness(target, out_.z, &balance);
       return true;
     }
     if (state == ForceBalance::State::no_balance) return no_balance(balance, target);
@@ -248,7 +295,7 @@ class Iteration {
                               std::abs(force - target.at(z)) <= kSmallJump * std::abs(target.at(z));
       if (state == ForceBalance::State::no_balance && !small_jump) return no_balance(balance, target);
       if ((state == ForceBalance::State::found || small_jump) && step_.too_deep() <= 0.0) {
-        keep_stiffness(balance, target, z);
+        keep_stiffness(target, z, &balance);
         return true;
       }
       z = balance.next();

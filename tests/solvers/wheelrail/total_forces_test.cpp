@@ -117,6 +117,34 @@ TEST(TotalForces, SpringsAndLongitudinalForceAtOnce) {
   EXPECT_NEAR(s.load.wheelset.force.x(), 3000.0, 1.0);
 }
 
+// The normal problem finds the height: elements are laid where the contact may be, and once more where it is.
+TEST(TotalForces, AHeightTakesTwoLooks) {
+  constexpr int kCases = 15, kMostSearches = 8 * kCases / 3, kMostNormal = 13 * kCases / 3;
+  Pair pair(standard_geometry());
+  PhaseTimes sum;
+  for (const double y : {-4e-3, -2e-3, 0.0, 1.5e-3, 3e-3})
+    for (const double load : {3e4, 6e4, 1.2e5}) {
+      Problem p = standard_problem();
+      p.state.position.y = y;
+      p.vertical_force = load;
+      const PairSolution s = pair.solve(p);
+      ASSERT_EQ(s.status, Status::ok) << s.message;
+      EXPECT_NEAR(s.load.track.force.z(), load, 2.0 * p.solver.eps * load);
+      // The same at that height: what the elements were laid for.
+      Problem there = p;
+      there.vertical_force.reset();
+      there.state.position.z = s.z;
+      const PairSolution t = pair.solve(there);
+      EXPECT_NEAR(t.load.track.force.z(), load, 5.0 * p.solver.eps * load);
+      EXPECT_NEAR((t.patches.at(0).frame.X_TC.origin - s.patches.at(0).frame.X_TC.origin).norm(), 0.0, 1e-7);
+      sum += s.times;
+    }
+  EXPECT_LE(sum.searches, kMostSearches);
+  EXPECT_LE(sum.distances, kMostSearches);
+  EXPECT_LE(sum.normal_solves, kMostNormal);
+  EXPECT_LE(sum.tangential_solves, kMostSearches);
+}
+
 TEST(TotalForces, DissimilarBodiesReachThePrescribedLoad) {
   Pair pair(standard_geometry());
   Problem p = standard_problem();
