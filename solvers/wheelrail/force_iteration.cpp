@@ -20,7 +20,7 @@ namespace {
 class Iteration {
  public:
   Iteration(PairStep& step, const Problem& problem, double stiffness, double end_slope, bool known)
-      : step_(step), p_(problem), known_(known) {
+      : step_(step), p_(problem), eps_(problem.solver.eps), known_(known) {
     out_.stiffness = stiffness;
     out_.end_slope = end_slope;
     out_.pitch_rate = p_.longitudinal_force ? free_rolling_rate() : p_.state.velocity.pitch;
@@ -54,17 +54,15 @@ class Iteration {
 
   /// Tractions, at the pitch rate that gives the prescribed longitudinal force.
   bool solve_tangential() {
-    step_.solve_tangential(out_.pitch_rate, p_.solver.eps);
+    step_.solve_tangential(out_.pitch_rate, eps_);
     if (!p_.longitudinal_force || step_.normal_force() <= 0.0) return true;
     const double friction = std::max(p_.friction.static_friction(), 1e-6), bound = friction * step_.normal_force();
     const double running = std::abs(free_rolling_rate());
     // Creepages of the order of a ten-thousandth; of a shift, displacements of the order of a thousandth of an element.
     const bool shift = p_.regime == kalker::Regime::shift;
     const double unit = shift ? p_.discretisation.dx / p_.wheelset.nominal_radius : running;
-    RootSearch search({.tolerance = p_.solver.eps * bound,
-                       .first_step = 1e-4 * unit,
-                       .reach = 0.5 * unit,
-                       .resolution = 1e-14 * unit});
+    RootSearch search(
+        {.tolerance = eps_ * bound, .first_step = 1e-4 * unit, .reach = 0.5 * unit, .resolution = 1e-14 * unit});
     RootSearch::State state = RootSearch::State::search;
     // A wheel that turns slower, its rate less negative, brakes: it pulls the rail forward.
     constexpr int kMost = 60;
@@ -73,7 +71,7 @@ class Iteration {
       state = search.add(out_.pitch_rate, step_.longitudinal_force() - *p_.longitudinal_force);
       if (state != RootSearch::State::search) break;
       out_.pitch_rate = search.next();
-      step_.solve_tangential(out_.pitch_rate, p_.solver.eps);
+      step_.solve_tangential(out_.pitch_rate, eps_);
     }
     if (state == RootSearch::State::found) return true;
     fail(Status::not_converged, fmt::format("no longitudinal balance: {:.6g} N are prescribed, the contact gives "
@@ -86,8 +84,7 @@ class Iteration {
   bool estimate_shares() {
     if (p_.longitudinal_force) return solve_tangential();
     constexpr double kLoosest = 1e-2, kPart = 0.3;
-    step_.solve_tangential(out_.pitch_rate,
-                           std::clamp(kPart * p_.solver.eps / step_.friction_share(), p_.solver.eps, kLoosest));
+    step_.solve_tangential(out_.pitch_rate, std::clamp(kPart * eps_ / step_.friction_share(), eps_, kLoosest));
     return true;
   }
 
@@ -191,7 +188,7 @@ class Iteration {
   }
 
   bool reached(const ForceBalance::Target& target, double z) const {
-    return std::abs(step_.force_T().z() - target.at(z)) <= p_.solver.eps * std::abs(target.at(z));
+    return std::abs(step_.force_T().z() - target.at(z)) <= eps_ * std::abs(target.at(z));
   }
 
   /// One patch: its normal problem finds the height with the pressures. Elements are laid again, and what lies under
@@ -200,7 +197,7 @@ class Iteration {
   std::optional<bool> iterate_under_load(const ForceBalance::Target& target, double& z, bool& evaluated) {
     constexpr double kDeeper = 2.0;
     constexpr int kMost = 16;
-    const double touching = step_.touching_z(), still = 2.0 * p_.solver.eps;
+    const double touching = step_.touching_z(), still = 2.0 * eps_;
     double laid = z;
     bool lay = true, shares_known = step_.knows_earlier_shares();
     for (int i = 0; i < std::min(kMost, p_.max_force_iterations); ++i) {
@@ -229,7 +226,7 @@ class Iteration {
   }
 
   bool iterate_height(const ForceBalance::Target& target) {
-    ForceBalance balance(target, p_.solver.eps, stiffness_for(target), out_.end_slope);
+    ForceBalance balance(target, eps_, stiffness_for(target), out_.end_slope);
     double z = balance.first(step_.touching_z());
     bool evaluated = false;
     if (const std::optional<bool> done = iterate_under_load(target, z, evaluated)) return *done;
@@ -279,7 +276,7 @@ class Iteration {
 
   /// With tractions at every height: for forces that they turn so much that rounds go to and fro.
   bool iterate_with_tractions(const ForceBalance::Target& target, double z) {
-    ForceBalance balance(target, p_.solver.eps, out_.stiffness, out_.end_slope);
+    ForceBalance balance(target, eps_, out_.stiffness, out_.end_slope);
     balance.restart();
     for (int i = 0; i < p_.max_force_iterations; ++i) {
       check_cancelled();
@@ -325,13 +322,22 @@ class Iteration {
         {.tolerance = p_.solver.eps * scale, .first_step = k.first_step_y, .reach = kReach, .resolution = 1e-12});
     RootSearch::State state = RootSearch::State::search;
     double dy = 0.0;
+    const auto residual_there = [&] { return k.stiffness_y * dy - step_.force_T().y() - k.force_y; };
+    // Far from the balance of the springs that of the other forces need not be more exact than it makes a difference.
+    constexpr double kPart = 0.1, kLoosest = 100.0;
+    eps_ = kLoosest * p_.solver.eps;
     constexpr int kMost = 60;
     for (int i = 0; i < kMost; ++i) {
       check_cancelled();
       out_.rail_dy = dy;
       if (!step_.place(dy)) return off_the_rail();
       if (!balance_vertical()) return;
-      const double residual = k.stiffness_y * dy - step_.force_T().y() - k.force_y;
+      double residual = residual_there();
+      if (std::abs(residual) <= p_.solver.eps * scale && std::exchange(eps_, p_.solver.eps) > p_.solver.eps) {
+        if (!balance_vertical()) return;
+        residual = residual_there();
+      }
+      eps_ = std::clamp(kPart * std::abs(residual) / scale, p_.solver.eps, kLoosest * p_.solver.eps);
       state = search.add(dy, residual);
       if (state != RootSearch::State::search) break;
       // The springs alone give the first step where the contact does not add to them.
@@ -348,6 +354,7 @@ class Iteration {
 
   PairStep& step_;
   const Problem& p_;
+  double eps_;  ///< of forces, relative
   bool known_;  ///< the stiffness, from a balance
   bool elements_sought_ = false;
   Balance out_;
