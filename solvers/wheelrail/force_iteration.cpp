@@ -187,10 +187,6 @@ class Iteration {
     }
   }
 
-  bool reached(const ForceBalance::Target& target, double z) const {
-    return std::abs(step_.force_T().z() - target.at(z)) <= eps_ * std::abs(target.at(z));
-  }
-
   /// One patch: its normal problem finds the height with the pressures. Elements are laid again, and what lies under
   /// them is measured again, until the height stays as it is to the accuracy of forces. Nothing where the height has to
   /// be sought, from z on; evaluated: the step stands there.
@@ -218,7 +214,7 @@ class Iteration {
       if (!std::exchange(shares_known, true)) continue;
       out_.z = z;
       out_.iterations.emplace_back(z, step_.force_T().z());
-      if (!reached(target, z)) continue;
+      if (std::abs(step_.force_T().z() - target.at(z)) > eps_ * std::abs(target.at(z))) continue;
       keep_stiffness(target, z);
       return true;
     }

@@ -202,7 +202,7 @@ void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
     ++times_.normal_solves;
     kalker::ContactProblem problem = contact_problem(patch);
     const std::optional<double> force = load ? normal_load(patch, *load) : std::nullopt;
-    if (force) problem.force_prescribed = true, problem.normal_force = *force;
+    problem.force_prescribed = force.has_value(), problem.normal_force = force.value_or(0.0);
     s.contact = solver(i, patch).solve_normal(problem);
     carries_load_ = force && s.contact.status == Status::ok;
   }
@@ -217,16 +217,12 @@ void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
   patch.normal = s.contact;
 }
 
-void PairStep::carry(double load) {
-  move(patches_.front());
-  press(0, patches_.front(), load);
-}
+void PairStep::carry(double load) { press(0, patches_.front(), load); }
 
 void PairStep::evaluate(double z, std::optional<double> load) {
   placement_ = start_;
   const double dz = z - start_z_;
-  lower(dz);
-  z_ = z;
+  lower(dz), z_ = z;
   carries_load_ = false;
   patches_.clear();
   detection::SearchResult found;

@@ -42,12 +42,10 @@ class PairStep {
   bool chooses_elements() const { return elements_.active(); }
   /// Chooses elements by the contact of the last evaluate(). False: they stay.
   bool learn_elements();
-  /// Patches and pressures with the wheelset at height z over the undeflected rail. Under a load: where one patch on a
-  /// plane carries all, its pressures are those at which force_T() has this vertical part [N], on elements that were
-  /// laid for height z.
+  /// Patches and pressures with the wheelset at height z over the undeflected rail. One patch on a plane is solved
+  /// under the load, if given: force_T() has this vertical part [N], on elements that were laid for height z.
   void evaluate(double z, std::optional<double> load = {});
-  /// Whether the last evaluate() found pressures under its load; then z() is the height at which they are, for which
-  /// everything but the elements' place is.
+  /// Whether the last evaluate() found pressures under its load; then all but the elements' place is that of z().
   bool carries_load() const { return carries_load_; }
   double z() const { return z_; }
   /// The same under another load, or with tractions found since; of a step that carries its load.

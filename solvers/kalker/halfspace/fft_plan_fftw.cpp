@@ -30,11 +30,10 @@ SharedPlan shared_lines(Lines kind, int length, int distance, int lines, const M
   std::erase_if(known, [](const auto& one) { return one.second.expired(); });
   auto& kept = known[{static_cast<int>(kind), length, distance, lines}];
   if (SharedPlan plan = kept.lock()) return plan;
-  const fftw_plan plan = make(lines);
+  SharedPlan plan(make(lines), fftw_destroy_plan);
   if (!plan) throw std::bad_alloc();
-  const SharedPlan owned(plan, fftw_destroy_plan);
-  kept = owned;
-  return owned;
+  kept = plan;
+  return plan;
 }
 
 /// Rows of a small transform go in blocks of so many, whatever their number, for which there are few plans.

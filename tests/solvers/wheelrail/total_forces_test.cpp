@@ -92,9 +92,8 @@ TEST(TotalForces, RailOnSpringsUnderAPrescribedLoad) {
       EXPECT_NEAR((r.patches.at(0).frame.X_TC.origin - s.patches.at(0).frame.X_TC.origin).norm(), 0.0, 1e-7);
     }
   // Far from the springs' balance the height is found less exactly.
-  constexpr int kMostSearches = 34, kMostTangential = 26;
-  EXPECT_LE(sum.searches, kMostSearches);
-  EXPECT_LE(sum.tangential_solves, kMostTangential);
+  EXPECT_LE(sum.searches, 34);
+  EXPECT_LE(sum.tangential_solves, 26);
 }
 
 TEST(TotalForces, RailOnSpringsUnderAPrescribedHeight) {
@@ -123,9 +122,8 @@ TEST(TotalForces, SpringsAndLongitudinalForceAtOnce) {
   EXPECT_NEAR(s.load.wheelset.force.x(), 3000.0, 1.0);
 }
 
-// The normal problem finds the height: elements are laid where the contact may be, and once more where it is.
+// The normal problem finds the height: elements are laid where the contact may be, and where it is. 15 cases.
 TEST(TotalForces, AHeightTakesTwoLooks) {
-  constexpr int kCases = 15, kMostSearches = 8 * kCases / 3, kMostNormal = 13 * kCases / 3;
   Pair pair(standard_geometry());
   PhaseTimes sum;
   for (const double y : {-4e-3, -2e-3, 0.0, 1.5e-3, 3e-3})
@@ -136,19 +134,15 @@ TEST(TotalForces, AHeightTakesTwoLooks) {
       const PairSolution s = pair.solve(p);
       ASSERT_EQ(s.status, Status::ok) << s.message;
       EXPECT_NEAR(s.load.track.force.z(), load, 2.0 * p.solver.eps * load);
-      // The same at that height: what the elements were laid for.
-      Problem there = p;
-      there.vertical_force.reset();
-      there.state.position.z = s.z;
-      const PairSolution t = pair.solve(there);
+      p.vertical_force.reset();
+      p.state.position.z = s.z;
+      const PairSolution t = pair.solve(p);
       EXPECT_NEAR(t.load.track.force.z(), load, 5.0 * p.solver.eps * load);
       EXPECT_NEAR((t.patches.at(0).frame.X_TC.origin - s.patches.at(0).frame.X_TC.origin).norm(), 0.0, 1e-7);
       sum += s.times;
     }
-  EXPECT_LE(sum.searches, kMostSearches);
-  EXPECT_LE(sum.distances, kMostSearches);
-  EXPECT_LE(sum.normal_solves, kMostNormal);
-  EXPECT_LE(sum.tangential_solves, kMostSearches);
+  for (const int searches : {sum.searches, sum.distances, sum.tangential_solves}) EXPECT_LE(searches, 40);
+  EXPECT_LE(sum.normal_solves, 65);
 }
 
 TEST(TotalForces, DissimilarBodiesReachThePrescribedLoad) {
