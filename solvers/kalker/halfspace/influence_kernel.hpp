@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "treadmark/model/contact/material.hpp"
 
@@ -32,6 +33,10 @@ class InfluenceKernel {
 
   /// Coefficients at (X, Y) [m], the observation point minus the centre of the loaded element. Thread-safe.
   virtual InfluenceBlock at(double X, double Y) const = 0;
+  /// The same at (k step + shift, Y) for k = first, first + 1 ... with step > 0.
+  virtual void row(int first, double step, double shift, double Y, std::span<InfluenceBlock> blocks) const {
+    for (InfluenceBlock& block : blocks) block = at(first++ * step + shift, Y);
+  }
   /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y, xn and nx odd in X and even in Y, yn and ny the other
   /// way round: as for half-spaces.
   virtual bool symmetric() const = 0;
