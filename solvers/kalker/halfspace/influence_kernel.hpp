@@ -33,10 +33,6 @@ class InfluenceKernel {
 
   /// Coefficients at (X, Y) [m], the observation point minus the centre of the loaded element. Thread-safe.
   virtual InfluenceBlock at(double X, double Y) const = 0;
-  /// The same at (k step + shift, Y) for k = first, first + 1 ... with step > 0.
-  virtual void row(int first, double step, double shift, double Y, std::span<InfluenceBlock> blocks) const {
-    for (InfluenceBlock& block : blocks) block = at(first++ * step + shift, Y);
-  }
   /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y, xn and nx odd in X and even in Y, yn and ny the other
   /// way round: as for half-spaces.
   virtual bool symmetric() const = 0;
@@ -44,6 +40,10 @@ class InfluenceKernel {
   virtual bool symmetric_in_y() const { return symmetric(); }
   /// Whether tangential tractions move surfaces normally and the other way round.
   virtual bool coupled() const = 0;
+  /// Coefficients at (k step + shift, Y) for k = first, first + 1 ... with step > 0.
+  virtual void row(int first, double step, double shift, double Y, std::span<InfluenceBlock> blocks) const {
+    for (InfluenceBlock& block : blocks) block = at(first++ * step + shift, Y);
+  }
 };
 
 /// The kernel for elements of dx by dy [m] of a pair of bodies; flexibilities of layers and sheets are not in it.
