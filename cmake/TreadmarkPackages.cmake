@@ -57,6 +57,15 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/" DESTINATION "${CMAKE_INSTALL
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/docs" COMPONENT program
   PATTERN "*.in" EXCLUDE PATTERN "*.dox" EXCLUDE)
 
+# Of what is loaded at first use no tool sees that it is needed.
+if(TREADMARK_HAVE_HDF5)
+  execute_process(COMMAND dpkg-query -S "${TREADMARK_HDF5_FILE}" OUTPUT_VARIABLE owner ERROR_QUIET)
+  string(REGEX REPLACE "[:\n].*" "" owner "${owner}")
+  foreach(package IN ITEMS PROGRAM LIBRARY PYTHON)
+    string(JOIN ", " CPACK_DEBIAN_${package}_PACKAGE_DEPENDS ${CPACK_DEBIAN_${package}_PACKAGE_DEPENDS} ${owner})
+  endforeach()
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME treadmark)
 set(CPACK_PACKAGE_VENDOR "Treadmark contributors")
