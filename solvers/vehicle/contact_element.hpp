@@ -41,6 +41,7 @@ struct PatchTangent {
 struct ContactReaction {
   Status status = Status::ok;  ///< no_contact is not a failure
   std::string message;
+  bool derailed = false;                    ///< no solution because wheel and rail have parted
   wheelrail::Wrench on_rail;                ///< track axes; moment about the rail marker [N], [N m]
   wheelrail::Wrench on_wheelset;            ///< track axes; moment about the wheelset's centre [N], [N m]
   double lateral_creep_force = 0.0;         ///< T_y: sum of F_s over the patches, on the rail [N]

@@ -30,7 +30,7 @@ void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::configuration, message);
 }
 
-const Columns& checked(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
+void check(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
   require(columns.size() >= 2, "a contact table needs two lateral positions or more");
   require(!loads.empty() && loads.front() > 0.0 && std::isfinite(loads.back()) &&
               std::ranges::is_sorted(loads, std::less_equal<>{}),
@@ -45,7 +45,6 @@ const Columns& checked(const Columns& columns, const std::vector<double>& loads,
       require(k == 0 || c.z > column.under[k - 1].z, "the wheel of a contact table must sink as the load grows");
     }
   }
-  return columns;
 }
 
 template <class Value>
@@ -60,12 +59,13 @@ std::vector<double> positions(const Columns& columns) {
 }
 
 template <class Value>
-ShapeCurve curve(const Columns& columns, Value&& value) {
-  return ShapeCurve::monotone(positions(columns), along(columns, value));
+ShapeCurve curve(const Columns& columns, const ShapeCurve* beside, Value&& value) {
+  return ShapeCurve::monotone(positions(columns), along(columns, value), beside);
 }
 
-ShapeCurve curve(const Columns& columns, std::size_t level, double ContactUnderLoad::*member) {
-  return curve(columns, [&](const ContactTableColumn& column) { return column.under[level].*member; });
+ShapeCurve curve(const Columns& columns, const ShapeCurve* beside, std::size_t level,
+                 double ContactUnderLoad::*member) {
+  return curve(columns, beside, [&](const ContactTableColumn& column) { return column.under[level].*member; });
 }
 
 ShapeCurve heights_less_energy(const Columns& columns, double load) {
@@ -74,27 +74,61 @@ ShapeCurve heights_less_energy(const Columns& columns, double load) {
           along(columns, [](const ContactTableColumn& c) { return c.under[0].slope; })};
 }
 
-LoadLevel load_level(const Columns& columns, std::size_t level, double load) {
+LoadLevel load_level(const Columns& columns, std::size_t level, double load, const LoadLevel* beside) {
   const auto compression = [&](const ContactTableColumn& c) {
     // Up to the first load like Hertz: the approach that has this energy.
     return level == 0 ? 2.5 * c.under[0].elastic_energy / load : c.under[level].z - c.under[level - 1].z;
   };
-  return {load, curve(columns, compression), curve(columns, level, &ContactUnderLoad::area),
-          curve(columns, [&](const ContactTableColumn& c) { return std::log(c.under[level].aspect_ratio); })};
+  const auto of = [&](ShapeCurve LoadLevel::*member) { return beside ? &(beside->*member) : nullptr; };
+  return {load, curve(columns, of(&LoadLevel::compression), compression),
+          curve(columns, of(&LoadLevel::area), level, &ContactUnderLoad::area),
+          curve(columns, of(&LoadLevel::log_aspect_ratio),
+                [&](const ContactTableColumn& c) { return std::log(c.under[level].aspect_ratio); })};
+}
+
+/// beside: the stretch that it goes on from, or null.
+TableStretch stretch_of(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level,
+                        const TableStretch* beside) {
+  const auto of = [&](ShapeCurve TableStretch::*member) { return beside ? &(beside->*member) : nullptr; };
+  check(columns, loads, reference_level);
+  TableStretch out{columns.front().y,
+                   columns.back().y,
+                   heights_less_energy(columns, loads.front()),
+                   curve(columns, of(&TableStretch::wheel_y), reference_level, &ContactUnderLoad::wheel_y),
+                   curve(columns, of(&TableStretch::wheel_z), reference_level, &ContactUnderLoad::wheel_z),
+                   {}};
+  for (std::size_t k = 0; k < loads.size(); ++k)
+    out.levels.push_back(load_level(columns, k, loads[k], beside ? &beside->levels[k] : nullptr));
+  return out;
 }
 
 }  // namespace
 
-ContactTable::ContactTable(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level,
-                           wheelrail::Problem problem, const wheelrail::Placement& nominal)
-    : y_min_(checked(columns, loads, reference_level).front().y),
-      y_max_(columns.back().y),
+ContactTable::ContactTable(const Columns& columns, std::vector<double> loads, std::size_t reference_level,
+                           wheelrail::Problem problem, const wheelrail::Placement& nominal, Grow grow)
+    : loads_(std::move(loads)),
+      reference_level_(reference_level),
       problem_(std::move(problem)),
       nominal_(nominal),
-      energy_height_(heights_less_energy(columns, loads.front())),
-      wheel_y_(curve(columns, reference_level, &ContactUnderLoad::wheel_y)),
-      wheel_z_(curve(columns, reference_level, &ContactUnderLoad::wheel_z)) {
-  for (std::size_t k = 0; k < loads.size(); ++k) levels_.push_back(load_level(columns, k, loads[k]));
+      grow_(std::move(grow)),
+      central_(stretch_of(columns, loads_, reference_level, nullptr)) {}
+
+const TableStretch* ContactTable::beyond(double y) const {
+  if (!grow_ || !std::isfinite(y)) return nullptr;
+  const bool high = y > 0.0;
+  Wing& wing = high ? high_ : low_;
+  const std::lock_guard lock(wing.growing);
+  for (;;) {
+    for (const TableStretch& stretch : wing.made)
+      if (y >= stretch.y_min && y <= stretch.y_max) return &stretch;
+    if (wing.ended) return nullptr;
+    const TableStretch& last = wing.made.empty() ? central_ : wing.made.back();
+    const Columns columns = grow_(high ? last.y_max : last.y_min);
+    if (columns.size() < 2)
+      wing.ended = true;
+    else
+      wing.made.push_back(stretch_of(columns, loads_, reference_level_, &last));
+  }
 }
 
 namespace {
@@ -114,7 +148,7 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
   if (p.roller) refuse("a contact table knows no rollers");
   if (!(load > 0.0) || !std::isfinite(load))
     refuse("the reference load of a contact table must be positive and finite");
-  for (const double length : {options.lateral_range, options.step, options.element_size})
+  for (const double length : {options.lateral_range, options.growth, options.step, options.element_size})
     if (!(length > 0.0) || !std::isfinite(length))
       refuse("range, step and element size of a contact table must be positive and finite");
   const std::vector<double>& loads = options.relative_loads;
@@ -182,22 +216,37 @@ ContactUnderLoad under_load(double y, double load, const wheelrail::PairSolution
 struct Attempt {
   ContactTableColumn column;
   bool solved = true;
+  bool parts = false;  ///< the wheel stands on the tip of its flange, or a profile ends below the wheel
   std::string message;
 };
+
+bool part(const wheelrail::PairSolution& s) {
+  return std::ranges::any_of(s.remarks, [](const Remark& r) {
+    return r.kind == RemarkKind::on_flange_tip || r.kind == RemarkKind::on_flange_back ||
+           r.kind == RemarkKind::surface_ends_in_contact;
+  });
+}
 
 class Builder {
  public:
   Builder(const wheelrail::Geometry& geometry, const wheelrail::Problem& rest, const wheelrail::Placement& nominal,
-          std::vector<double> loads)
-      : geometry_(geometry), rest_(rest), wheel_origin_(nominal.X_TW.origin), loads_(std::move(loads)) {}
+          std::vector<double> loads, bool parallel)
+      : geometry_(geometry),
+        rest_(rest),
+        wheel_origin_(nominal.X_TW.origin),
+        loads_(std::move(loads)),
+        parallel_(parallel) {}
 
   std::vector<Attempt> solve(const std::vector<double>& y) const {
     std::vector<Attempt> attempts(y.size());
-    parallel_for(y.size(), [&](std::size_t i) { attempts[i] = attempt(y[i]); });
+    const auto solve_one = [&](std::size_t i) { attempts[i] = attempt(y[i]); };
+    if (parallel_)
+      parallel_for(y.size(), solve_one);
+    else
+      for (std::size_t i = 0; i < y.size(); ++i) solve_one(i);
     return attempts;
   }
 
- private:
   Attempt attempt(double y) const {
     Attempt a;
     a.column.y = y;
@@ -209,6 +258,7 @@ class Builder {
       const wheelrail::PairSolution s = pair.solve(p);
       const bool sinks = a.column.under.empty() || s.z > a.column.under.back().z;
       a.solved = s.status == Status::ok && !s.patches.empty() && sinks;
+      a.parts = a.parts || part(s);
       a.message = s.message;
       if (!a.solved) break;
       a.column.under.push_back(under_load(y, load, s, wheel_origin_));
@@ -216,23 +266,33 @@ class Builder {
     return a;
   }
 
+ private:
   const wheelrail::Geometry& geometry_;
   const wheelrail::Problem& rest_;
   Vec3 wheel_origin_;
   std::vector<double> loads_;
+  bool parallel_;
 };
 
-/// Those round the central one that have a solution, without a gap.
+constexpr std::size_t kMostBetween = 3;  ///< columns without a solution between two that have one
+
+/// Those round the central one that have a solution.
 std::vector<ContactTableColumn> connected(const std::vector<Attempt>& attempts, std::size_t centre) {
   if (!attempts[centre].solved)
     throw Error(ErrorKind::numerical,
                 "wheel and rail have no contact in their central position: " + attempts[centre].message, {},
                 "check gauge, flange-back distance and profiles; smooth those that were measured");
-  std::size_t first = centre, last = centre;
-  while (first > 0 && attempts[first - 1].solved) --first;
-  while (last + 1 < attempts.size() && attempts[last + 1].solved) ++last;
-  std::vector<ContactTableColumn> columns;
-  for (std::size_t i = first; i <= last; ++i) columns.push_back(attempts[i].column);
+  std::vector<ContactTableColumn> columns{attempts[centre].column};
+  for (const int way : {-1, 1}) {
+    std::size_t without = 0;
+    for (auto i = static_cast<std::ptrdiff_t>(centre) + way;
+         i >= 0 && i < std::ssize(attempts) && without <= kMostBetween; i += way) {
+      const Attempt& a = attempts[static_cast<std::size_t>(i)];
+      without = a.solved ? 0 : without + 1;
+      if (a.solved) columns.push_back(a.column);
+    }
+  }
+  std::ranges::sort(columns, {}, &ContactTableColumn::y);
   return columns;
 }
 
@@ -245,12 +305,15 @@ bool angles_differ_much(const ContactTableColumn& a, const ContactTableColumn& b
 
 /// Columns between those whose contact angles differ much.
 void refine(const Builder& builder, std::vector<ContactTableColumn>& columns) {
-  std::vector<double> between;
-  for (std::size_t i = 0; i + 1 < columns.size(); ++i)
-    if (angles_differ_much(columns[i], columns[i + 1])) between.push_back(0.5 * (columns[i].y + columns[i + 1].y));
-  for (const Attempt& a : builder.solve(between))
-    if (a.solved) columns.push_back(a.column);
-  std::ranges::sort(columns, {}, &ContactTableColumn::y);
+  constexpr int kTimes = 3;
+  for (int time = 0; time < kTimes; ++time) {
+    std::vector<double> between;
+    for (std::size_t i = 0; i + 1 < columns.size(); ++i)
+      if (angles_differ_much(columns[i], columns[i + 1])) between.push_back(0.5 * (columns[i].y + columns[i + 1].y));
+    for (const Attempt& a : builder.solve(between))
+      if (a.solved) columns.push_back(a.column);
+    std::ranges::sort(columns, {}, &ContactTableColumn::y);
+  }
 }
 
 }  // namespace
@@ -288,7 +351,7 @@ std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry&
   check(geometry, prototype, reference_load, options);
   const wheelrail::Problem rest = table_problem(prototype, options);
   const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
-  const Builder builder(geometry, rest, nominal, loads_of(reference_load, options));
+  const Builder builder(geometry, rest, nominal, loads_of(reference_load, options), true);
 
   constexpr double kRounding = 1e-9;
   const auto each_way = to_whole<std::size_t>(options.lateral_range / options.step + kRounding);
@@ -296,28 +359,48 @@ std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry&
   for (std::size_t i = 0; i <= 2 * each_way; ++i)
     y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));
   std::vector<ContactTableColumn> columns = connected(builder.solve(y), each_way);
-  constexpr int kRefinements = 3;
-  for (int i = 0; i < kRefinements; ++i) refine(builder, columns);
+  refine(builder, columns);
+  return columns;
+}
+
+std::vector<ContactTableColumn> solve_columns_beyond(const wheelrail::Geometry& geometry,
+                                                     const wheelrail::Problem& prototype, double reference_load,
+                                                     double from, const ContactTableOptions& options) {
+  const wheelrail::Problem rest = table_problem(prototype, options);
+  // One after the other: whoever evaluates wheels on several threads may wait for this table.
+  const Builder builder(geometry, rest, wheelrail::place(geometry, rest), loads_of(reference_load, options), false);
+  const double step = std::copysign(2.0 * options.step, from);
+  const auto most = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(options.growth / std::abs(step))));
+  std::vector<ContactTableColumn> columns;
+  for (std::size_t i = 0, without = 0; i <= most && without <= kMostBetween; ++i) {
+    const Attempt a = builder.attempt(from + static_cast<double>(i) * step);
+    if (a.parts && i > 0) break;
+    without = a.solved ? 0 : without + 1;
+    if (a.solved) columns.push_back(a.column);
+  }
+  std::ranges::sort(columns, {}, &ContactTableColumn::y);
+  refine(builder, columns);
   return columns;
 }
 
 std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTableColumn>& columns,
                                                      const wheelrail::Geometry& geometry,
                                                      const wheelrail::Problem& prototype, double reference_load,
-                                                     const ContactTableOptions& options) {
+                                                     const ContactTableOptions& options, ContactTable::Grow grow) {
   const wheelrail::Problem rest = table_problem(prototype, options);
   const auto nearest =
       std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
   return std::make_shared<ContactTable>(columns, loads_of(reference_load, options),
                                         static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest,
-                                        wheelrail::place(geometry, rest));
+                                        wheelrail::place(geometry, rest), std::move(grow));
 }
 
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
                                                         const wheelrail::Problem& prototype, double reference_load,
                                                         const ContactTableOptions& options) {
-  return contact_table_of(solve_contact_columns(geometry, prototype, reference_load, options), geometry, prototype,
-                          reference_load, options);
+  return contact_table_of(
+      solve_contact_columns(geometry, prototype, reference_load, options), geometry, prototype, reference_load, options,
+      [=](double from) { return solve_columns_beyond(geometry, prototype, reference_load, from, options); });
 }
 
 void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& out) {
@@ -366,13 +449,13 @@ ShapeCurve::ShapeCurve(std::vector<double> x, std::vector<double> value, std::ve
   require_points(x_, slope_.size());
 }
 
-ShapeCurve ShapeCurve::monotone(std::vector<double> x, std::vector<double> value) {
+ShapeCurve ShapeCurve::monotone(std::vector<double> x, std::vector<double> value, const ShapeCurve* beside) {
   require_points(x, value.size());
   const std::size_t last = x.size() - 1;
   const auto chord = [&](std::size_t i) { return (value[i + 1] - value[i]) / (x[i + 1] - x[i]); };
   std::vector<double> slope(x.size());
-  slope.front() = chord(0);
-  slope.back() = chord(last - 1);
+  slope.front() = beside && beside->x_.back() == x.front() ? beside->slope_.back() : chord(0);
+  slope.back() = beside && beside->x_.front() == x.back() ? beside->slope_.front() : chord(last - 1);
   for (std::size_t i = 1; i < last; ++i)
     slope[i] = mean_slope(chord(i - 1), chord(i), x[i] - x[i - 1], x[i + 1] - x[i]);
   return {std::move(x), std::move(value), std::move(slope)};

@@ -21,10 +21,10 @@ struct Compression {
 /// Marches up the levels. In each the displacement is c u with u = (phi - phi_0) / (phi_1 - phi_0), phi = F^(2/3); its
 /// complementary energy is the integral c B(F) of the displacement over the force, and the sum of all by y is the
 /// lateral force (Engesser's theorem).
-Compression compress(const ContactTable& table, double y, const ShapeCurve::Point& touching, double z) {
+Compression compress(const TableStretch& stretch, double y, const ShapeCurve::Point& touching, double z) {
   Compression out;
   if (!(z > touching.value)) return out;
-  const std::vector<LoadLevel>& levels = table.levels();
+  const std::vector<LoadLevel>& levels = stretch.levels;
   // The force first.
   double below = touching.value, phi_0 = 0.0, phi = 0.0;
   for (std::size_t k = 0; k < levels.size(); ++k) {
@@ -62,17 +62,20 @@ Compression compress(const ContactTable& table, double y, const ShapeCurve::Poin
 
 ElasticContact elastic_contact(const ContactTable& table, const RelativePlace& place) {
   ElasticContact c;
-  const ShapeCurve::Point arm_y = table.wheel_y().at(place.y), arm_z = table.wheel_z().at(place.y);
+  const TableStretch* stretch = table.at(place.y);
+  c.in_table = stretch != nullptr;
+  if (!c.in_table) return c;
+  const ShapeCurve::Point arm_y = stretch->wheel_y.at(place.y), arm_z = stretch->wheel_z.at(place.y);
   // Where the wheel would have to stand upright to have its contact place there.
   const double y = place.y - place.roll * arm_z.value, z = place.z + place.roll * arm_y.value;
-  const auto covered = [&](double position) { return position >= table.y_min() && position <= table.y_max(); };
-  c.in_table = covered(place.y) && covered(y);
+  stretch = table.at(y);
+  c.in_table = stretch != nullptr;
   if (!c.in_table) return c;
 
-  const ShapeCurve::Point height = table.energy_height().at(y), first = table.levels().front().compression.at(y);
+  const ShapeCurve::Point height = stretch->energy_height.at(y), first = stretch->levels.front().compression.at(y);
   // Hertz: 2/5 of the compression under the first load are in its energy height.
   const ShapeCurve::Point touching{height.value - 0.6 * first.value, height.slope - 0.6 * first.slope};
-  const Compression vertical = compress(table, y, touching, z);
+  const Compression vertical = compress(*stretch, y, touching, z);
   const double upright_slope = vertical.force > 0.0 ? vertical.lateral / vertical.force : touching.slope;
   c.slope = upright_slope * (1.0 - place.roll * arm_z.slope) - place.roll * arm_y.slope;
   const double per_vertical = std::sqrt(1.0 + c.slope * c.slope);

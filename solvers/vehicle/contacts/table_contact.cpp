@@ -81,13 +81,14 @@ void put_below_the_axle(Pose& X_TC, const Pose& X_TWs, double curvature) {
   }
 }
 
-ContactReaction not_covered(const ContactTable& table, const RelativePlace& place) {
+ContactReaction derailed(const RelativePlace& place) {
   ContactReaction r;
   r.status = Status::failed;
+  r.derailed = true;
   r.message = fmt::format(
-      "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
-      "reaches from {:.4g} to {:.4g} mm: the flange climbs, or the wheel leaves the rail",
-      1e3 * place.y, 1e3 * table.y_min(), 1e3 * table.y_max());
+      "the {}: the wheel stands {:.4g} mm {} of its central position over the rail and {:.4g} mm {}",
+      place.y > 0.0 ? "flange has climbed the rail" : "tread has left the rail", 1e3 * std::abs(place.y),
+      place.y > 0.0 ? "outside" : "inside", 1e3 * std::abs(place.z), place.z < 0.0 ? "above it" : "below it");
   return r;
 }
 
@@ -116,7 +117,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   const wheelrail::Placement now = placed(*table_, motion);
   const RelativePlace place = relative_place(table_->nominal(), now, motion);
   const ElasticContact elastic = elastic_contact(*table_, place);
-  if (!elastic.in_table) return not_covered(*table_, place);
+  if (!elastic.in_table) return derailed(place);
 
   ContactReaction r;
   r.least_gap = -elastic.penetration;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -50,7 +51,8 @@ std::shared_ptr<const ContactTable> tread_table(double cant) {
 PairMotion pressed(const ContactTable& table, double y, double depth) {
   PairMotion m;
   m.wheelset.y = y;
-  m.wheelset.z = table.energy_height().at(y).value - 0.6 * table.levels().front().compression.at(y).value + depth;
+  const TableStretch& there = *table.at(y);
+  m.wheelset.z = there.energy_height.at(y).value - 0.6 * there.levels.front().compression.at(y).value + depth;
   return m;
 }
 
@@ -176,6 +178,92 @@ TEST_P(AgainstPair, LateralCreepForces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cants, AgainstPair, ::testing::Values(0.0, 1.0 / 40.0));
+
+/// From where the tread leaves the rail to the tip of the flange, or where the profiles end.
+struct Wheel {
+  const char* name;
+  std::function<std::shared_ptr<const Surface>()> make;
+  double least_y, most_y;  ///< that the table must reach [m]
+};
+
+/// Two rims beside a hollow of a depth of some mm, no flange.
+std::shared_ptr<const Surface> hollow_wheel(double turn) {
+  ArcChain chain;
+  chain.start_y = -45e-3;
+  chain.segments = {
+      {15e-3, 0.0}, {5e-3, -turn / 5e-3}, {40e-3, 2.0 * turn / 40e-3}, {5e-3, -turn / 5e-3}, {15e-3, 0.0}};
+  return analytic::make_revolved_surface(chain, kRadius);
+}
+
+std::shared_ptr<const Surface> named_wheel(const char* name) {
+  return analytic::make_standard_surface({name}, Body::wheel, kRadius);
+}
+
+class WholeRange : public ::testing::TestWithParam<Wheel> {};
+
+TEST_P(WholeRange, ElasticForcesAreThoseOfTheSolvedContact) {
+  const wheelrail::Geometry bodies{analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), GetParam().make(), true,
+                                   true};
+  const wheelrail::Problem problem = standard_problem(1.0 / 40.0);
+  const auto table = build_contact_table(bodies, problem, kLoad, {.step = 0.5e-3});
+  TableContact element(table, Side::right);
+  double least = 0.0, most = 0.0;
+  for (const int way : {-1, 1})
+    for (double y = 0.3e-3 * way; table->at(y) != nullptr; y += 1.7e-3 * way)
+      for (const double load : {3e4, 1e5}) {
+        SCOPED_TRACE(::testing::Message() << "y = " << 1e3 * y << " mm, " << 1e-3 * load << " kN");
+        least = std::min(least, y), most = std::max(most, y);
+        wheelrail::Problem p = problem;
+        p.state.position.y = y;
+        p.vertical_force = load;
+        p.regime = kalker::Regime::frictionless;
+        const wheelrail::PairSolution s = wheelrail::Pair(bodies).solve(p);
+        ASSERT_EQ(s.status, Status::ok) << s.message;
+        PairMotion m;
+        m.wheelset.y = y;
+        m.wheelset.z = s.z;
+        const ContactReaction r = element.evaluate(m);
+        ASSERT_EQ(r.status, Status::ok) << r.message;
+        EXPECT_NEAR(r.on_rail.force.z(), load, 0.03 * load);
+        const double angle = std::atan(-s.load.track.force.y() / s.load.track.force.z());
+        EXPECT_NEAR(std::atan(-r.on_rail.force.y() / r.on_rail.force.z()), angle, 0.004 + 0.03 * std::abs(angle));
+      }
+  EXPECT_LT(least, GetParam().least_y);
+  EXPECT_GT(most, GetParam().most_y);
+}
+
+INSTANTIATE_TEST_SUITE_P(Wheels, WholeRange,
+                         ::testing::Values(Wheel{"S1002", [] { return named_wheel("S1002"); }, -58e-3, 17e-3},
+                                           Wheel{"cone10", [] { return named_wheel("cone 1:10"); }, -55e-3, 30e-3},
+                                           Wheel{"cone4", [] { return named_wheel("cone 1:4"); }, -45e-3, 20e-3},
+                                           Wheel{"hollow", [] { return hollow_wheel(0.1); }, -20e-3, 20e-3},
+                                           Wheel{"deep", [] { return hollow_wheel(0.25); }, -20e-3, 20e-3}),
+                         [](const auto& wheel) { return wheel.param.name; });
+
+/// Whoever asks, in whatever order: the same stretches, which go over into each other without a jump of the force.
+TEST(TableContact, ATableGrowsTheSameWayWhateverIsAskedFirst) {
+  const auto table = [] {
+    return build_contact_table(standard_geometry(), standard_problem(0.025), kLoad,
+                               {.lateral_range = 3e-3, .growth = 2e-3, .step = 0.5e-3, .relative_loads = {1.0}});
+  };
+  const auto one = table(), other = table();
+  TableContact first(one, Side::right), second(other, Side::right);
+  const std::vector<double> places{-7.9e-3, 3.2e-3, -3.1e-3, 5.9e-3, -4.9e-3};
+  for (const double y : places) first.evaluate(pressed(*one, y, 1e-4));
+  for (auto y = places.rbegin(); y != places.rend(); ++y) {
+    const ContactReaction a = first.evaluate(pressed(*one, *y, 1e-4)), b = second.evaluate(pressed(*other, *y, 1e-4));
+    ASSERT_EQ(a.status, Status::ok) << a.message;
+    EXPECT_EQ(a.on_rail.force, b.on_rail.force) << "y = " << *y;
+    EXPECT_EQ(a.on_wheelset.moment, b.on_wheelset.moment) << "y = " << *y;
+  }
+  for (const double edge : {-5e-3, -3e-3, 3e-3, 5e-3}) {
+    const PairMotion inside = pressed(*one, edge - 1e-12, 1e-4);
+    PairMotion outside = inside;
+    outside.wheelset.y += 2e-12;
+    const Vec3 jump = first.evaluate(outside).on_rail.force - first.evaluate(inside).on_rail.force;
+    EXPECT_LT(jump.norm(), 1e-6 * kLoad) << "y = " << edge;
+  }
+}
 
 TEST(TableContact, ClosedLoopsGainNoWork) {
   const auto table = standard_table();
@@ -383,11 +471,11 @@ TEST(TableContact, TheTableDoesNotDependOnThreads) {
   };
   const auto one = build(1), two = build(2);
   for (double y = -3e-3; y <= 3e-3; y += 0.17e-3) {
-    EXPECT_EQ(one->energy_height().at(y).value, two->energy_height().at(y).value);
-    EXPECT_EQ(one->wheel_y().at(y).value, two->wheel_y().at(y).value);
-    for (std::size_t k = 0; k < one->levels().size(); ++k) {
-      EXPECT_EQ(one->levels()[k].compression.at(y).value, two->levels()[k].compression.at(y).value);
-      EXPECT_EQ(one->levels()[k].area.at(y).slope, two->levels()[k].area.at(y).slope);
+    EXPECT_EQ(one->central().energy_height.at(y).value, two->central().energy_height.at(y).value);
+    EXPECT_EQ(one->central().wheel_y.at(y).value, two->central().wheel_y.at(y).value);
+    for (std::size_t k = 0; k < one->central().levels.size(); ++k) {
+      EXPECT_EQ(one->central().levels[k].compression.at(y).value, two->central().levels[k].compression.at(y).value);
+      EXPECT_EQ(one->central().levels[k].area.at(y).slope, two->central().levels[k].area.at(y).slope);
     }
   }
 }
@@ -395,10 +483,13 @@ TEST(TableContact, TheTableDoesNotDependOnThreads) {
 TEST(TableContact, OutsideTheTableAndInTheAir) {
   TableContact element(standard_table(), Side::right);
   PairMotion m = pressed(*standard_table(), 0.0, 1e-4);
-  m.wheelset.y = 0.02;
-  const ContactReaction off = element.evaluate(m);
-  EXPECT_EQ(off.status, Status::failed);
-  EXPECT_NE(off.message.find("flange"), std::string::npos);
+  for (const auto& [y, what] : {std::pair{40e-3, "flange has climbed"}, {-90e-3, "tread has left"}}) {
+    m.wheelset.y = y;
+    const ContactReaction off = element.evaluate(m);
+    EXPECT_EQ(off.status, Status::failed);
+    EXPECT_TRUE(off.derailed);
+    EXPECT_NE(off.message.find(what), std::string::npos) << off.message;
+  }
 
   const ContactReaction lifted = element.evaluate(pressed(*standard_table(), 0.0, -2e-4));
   EXPECT_EQ(lifted.status, Status::no_contact);
