@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -146,10 +147,10 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of,
       [=] { return reaction().longitudinal_creep_force; });
   add(prefix + "Y_N", "N", "lateral force on the rail" + of, [=] { return reaction().on_rail.force.y(); });
-  add(prefix + "angle_rad", "rad", "contact angle of the most loaded patch, 0 without contact" + of, [=] {
-    const auto& patches = reaction().tangents;
-    const auto most = std::ranges::max_element(patches, {}, &vehicle::PatchTangent::normal_force);
-    return most == patches.end() ? 0.0 : roll_yaw_pitch(most->X_TC.rotation).roll;
+  add(prefix + "angle_rad", "rad", "contact angle, of all normal forces together, 0 without contact" + of, [=] {
+    Vec3 normal = Vec3::Zero();
+    for (const vehicle::PatchTangent& t : reaction().tangents) normal += t.normal_force * t.X_TC.rotation.col(2);
+    return std::atan2(-normal.y(), normal.z());
   });
   const auto motion = [this, wheel] { return vehicle_.motion(wheel, simulation_->state()); };
   add(prefix + "lift_m", "m", "how far the tape circle stands above its height at rest over the rail" + of, [=, this] {

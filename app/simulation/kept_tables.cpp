@@ -148,6 +148,7 @@ std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::Conten
   wheelrail::write(vehicle::table_problem(prototype, options), decides);
   for (const double value : {load, options.lateral_range, options.step, options.element_size}) decides.put(value);
   decides.put(options.relative_loads);
+  decides.put(options.heavier);
   decides.put(options.growth);
   using Columns = std::vector<vehicle::ContactTableColumn>;
   const auto kept = [key = "contact table of " + bodies + "\nwith " + hex_of(decides),
@@ -156,10 +157,17 @@ std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::Conten
                                  vehicle::write_columns);
   };
   const Columns central = kept("", [&] { return vehicle::solve_contact_columns(geometry, prototype, load, options); });
-  return vehicle::contact_table_of(central, geometry, prototype, load, options, [=](double from) {
-    return kept(fmt::format("\nbeyond {:a} m", from),
-                [&] { return vehicle::solve_columns_beyond(geometry, prototype, load, from, options); });
-  });
+  return vehicle::contact_table_of(central, geometry, prototype, load, options,
+                                   {[=](double from) {
+                                      return kept(fmt::format("\nbeyond {:a} m", from), [&] {
+                                        return vehicle::solve_columns_beyond(geometry, prototype, load, from, options);
+                                      });
+                                    },
+                                    [=](const Columns& columns) {
+                                      return kept(fmt::format("\nheavier from {:a} m", columns.front().y), [&] {
+                                        return vehicle::solve_heavier(geometry, prototype, load, columns, options);
+                                      });
+                                    }});
 }
 
 std::shared_ptr<const vehicle::CreepTable> kept_creep_table(

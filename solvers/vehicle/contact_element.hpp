@@ -29,7 +29,7 @@ struct PairMotion {
 };
 
 /// How a patch's force follows motion, in contact axes: d(force on the rail) = K d(wheel - rail displacement) + C
-/// d(velocity), both diagonal. Serves the convergence of implicit steps only.
+/// d(velocity), both diagonal. Serves the convergence of implicit steps; the sum of the normal forces is the contact's.
 struct PatchTangent {
   Pose X_TC;                                ///< contact axes at the contact point, track axes
   double stiffness_n = 0.0;                 ///< [N/m]

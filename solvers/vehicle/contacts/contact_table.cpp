@@ -40,8 +40,10 @@ void check(const Columns& columns, const std::vector<double>& loads, std::size_t
     require(column.under.size() == loads.size(), "every lateral position of a contact table needs all loads");
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const ContactUnderLoad& c = column.under[k];
-      require(c.elastic_energy > 0.0 && c.area > 0.0 && c.aspect_ratio > 0.0,
-              "energy, area and aspect ratio of a contact table must be positive");
+      require(c.elastic_energy > 0.0 && !c.parts.empty() && c.parts.size() <= kMostParts &&
+                  std::ranges::all_of(
+                      c.parts, [](const ContactPart& part) { return part.area > 0.0 && part.aspect_ratio > 0.0; }),
+              "energies, areas and aspect ratios of a contact table must be positive");
       require(k == 0 || c.z > column.under[k - 1].z, "the wheel of a contact table must sink as the load grows");
     }
   }
@@ -79,56 +81,128 @@ LoadLevel load_level(const Columns& columns, std::size_t level, double load, con
     // Up to the first load like Hertz: the approach that has this energy.
     return level == 0 ? 2.5 * c.under[0].elastic_energy / load : c.under[level].z - c.under[level - 1].z;
   };
-  const auto of = [&](ShapeCurve LoadLevel::*member) { return beside ? &(beside->*member) : nullptr; };
-  return {load, curve(columns, of(&LoadLevel::compression), compression),
-          curve(columns, of(&LoadLevel::area), level, &ContactUnderLoad::area),
-          curve(columns, of(&LoadLevel::log_aspect_ratio),
-                [&](const ContactTableColumn& c) { return std::log(c.under[level].aspect_ratio); })};
+  return {load, curve(columns, beside ? &beside->compression : nullptr, compression), {}};
+}
+
+/// The parts of one load at one place get the numbers of those near them on the wheel: at the load next to it towards
+/// the reference load, or at the place before. No number is given twice.
+class Numbering {
+ public:
+  void number(LoadLevel::Parts& parts, const LoadLevel::Parts* at_other_load, const LoadLevel::Parts* at_place_before) {
+    struct Link {
+      double distance;
+      LoadLevel::Part* part;
+      int number;
+    };
+    std::vector<Link> links;
+    for (const LoadLevel::Parts* known : {at_other_load, at_place_before})
+      for (const LoadLevel::Part& one : known ? known->all() : std::span<const LoadLevel::Part>())
+        for (LoadLevel::Part& part : parts.all())
+          if (const double d = std::abs(one.wheel_y - part.wheel_y); d < kNear) links.push_back({d, &part, one.number});
+    std::ranges::stable_sort(links, {}, &Link::distance);
+    const auto is_given = [&](int number) {
+      return std::ranges::find(parts.all(), number, &LoadLevel::Part::number) != parts.all().end();
+    };
+    for (const Link& link : links)
+      if (link.part->number < 0 && !is_given(link.number)) link.part->number = link.number;
+    for (LoadLevel::Part& part : parts.all())
+      if (part.number < 0) part.number = next_++;
+  }
+
+ private:
+  static constexpr double kNear = 5e-3;  // [m]
+  int next_ = 0;
+};
+
+LoadLevel::Parts parts_at(const ContactUnderLoad& c) {
+  LoadLevel::Parts parts;
+  for (const ContactPart& p : c.parts)
+    parts.part.at(parts.count++) = {-1,        p.share, std::atan(p.slope),      p.wheel_y,
+                                    p.wheel_z, p.area,  std::log(p.aspect_ratio)};
+  return parts;
+}
+
+void add_parts(const Columns& columns, std::size_t reference, std::vector<LoadLevel>& levels) {
+  Numbering numbering;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].parts.push_back(parts_at(columns[i].under[k]));
+    const auto number = [&](std::size_t k, const LoadLevel::Parts* at_other_load) {
+      numbering.number(levels[k].parts[i], at_other_load, i > 0 ? &levels[k].parts[i - 1] : nullptr);
+    };
+    number(reference, nullptr);
+    for (std::size_t k = reference; k-- > 0;) number(k, &levels[k + 1].parts[i]);
+    for (std::size_t k = reference + 1; k < levels.size(); ++k) number(k, &levels[k - 1].parts[i]);
+  }
 }
 
 /// beside: the stretch that it goes on from, or null.
-TableStretch stretch_of(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level,
+TableStretch stretch_of(Columns columns, const std::vector<double>& loads, std::size_t reference,
                         const TableStretch* beside) {
   const auto of = [&](ShapeCurve TableStretch::*member) { return beside ? &(beside->*member) : nullptr; };
-  check(columns, loads, reference_level);
+  check(columns, loads, reference);
   TableStretch out{columns.front().y,
                    columns.back().y,
+                   positions(columns),
                    heights_less_energy(columns, loads.front()),
-                   curve(columns, of(&TableStretch::wheel_y), reference_level, &ContactUnderLoad::wheel_y),
-                   curve(columns, of(&TableStretch::wheel_z), reference_level, &ContactUnderLoad::wheel_z),
+                   curve(columns, of(&TableStretch::wheel_y), reference, &ContactUnderLoad::wheel_y),
+                   curve(columns, of(&TableStretch::wheel_z), reference, &ContactUnderLoad::wheel_z),
+                   {},
                    {}};
   for (std::size_t k = 0; k < loads.size(); ++k)
     out.levels.push_back(load_level(columns, k, loads[k], beside ? &beside->levels[k] : nullptr));
+  add_parts(columns, reference, out.levels);
+  out.columns = std::move(columns);
   return out;
 }
 
 }  // namespace
 
-ContactTable::ContactTable(const Columns& columns, std::vector<double> loads, std::size_t reference_level,
-                           wheelrail::Problem problem, const wheelrail::Placement& nominal, Grow grow)
+ContactTable::ContactTable(Columns columns, Loads loads, wheelrail::Problem problem,
+                           const wheelrail::Placement& nominal, Growth growth)
     : loads_(std::move(loads)),
-      reference_level_(reference_level),
       problem_(std::move(problem)),
       nominal_(nominal),
-      grow_(std::move(grow)),
-      central_(stretch_of(columns, loads_, reference_level, nullptr)) {}
+      growth_(std::move(growth)),
+      central_(stretch_of(std::move(columns), loads_.first, loads_.reference, nullptr)) {}
 
 const TableStretch* ContactTable::beyond(double y) const {
-  if (!grow_ || !std::isfinite(y)) return nullptr;
+  if (!growth_.beyond || !std::isfinite(y)) return nullptr;
   const bool high = y > 0.0;
   Wing& wing = high ? high_ : low_;
-  const std::lock_guard lock(wing.growing);
+  const std::lock_guard lock(growing_);
   for (;;) {
     for (const TableStretch& stretch : wing.made)
       if (y >= stretch.y_min && y <= stretch.y_max) return &stretch;
     if (wing.ended) return nullptr;
     const TableStretch& last = wing.made.empty() ? central_ : wing.made.back();
-    const Columns columns = grow_(high ? last.y_max : last.y_min);
+    Columns columns = growth_.beyond(high ? last.y_max : last.y_min);
     if (columns.size() < 2)
       wing.ended = true;
     else
-      wing.made.push_back(stretch_of(columns, loads_, reference_level_, &last));
+      wing.made.push_back(stretch_of(std::move(columns), loads_.first, loads_.reference, &last));
   }
+}
+
+const TableStretch* ContactTable::heavier(const TableStretch& stretch) const {
+  if (!growth_.heavier || loads_.heavier.empty()) return nullptr;
+  std::vector<double> loads = loads_.first;
+  loads.insert(loads.end(), loads_.heavier.begin(), loads_.heavier.end());
+  const auto make = [&](const TableStretch& from, const TableStretch* beside) {
+    return stretch_of(growth_.heavier(from.columns), loads, loads_.reference, beside);
+  };
+  const std::lock_guard lock(growing_);
+  if (!central_heavier_) central_heavier_ = make(central_, nullptr);
+  if (&stretch == &central_) return &*central_heavier_;
+  // One after the other, as each goes on from the one before.
+  for (Wing* wing : {&low_, &high_}) {
+    if (std::ranges::none_of(wing->made, [&](const TableStretch& one) { return &one == &stretch; })) continue;
+    for (std::size_t i = 0; i < wing->made.size(); ++i) {
+      if (wing->heavier.size() == i)
+        wing->heavier.push_back(make(wing->made[i], i == 0 ? &*central_heavier_ : &wing->heavier.back()));
+      if (&wing->made[i] == &stretch) return &wing->heavier[i];
+    }
+  }
+  return nullptr;
 }
 
 namespace {
@@ -151,7 +225,8 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
   for (const double length : {options.lateral_range, options.growth, options.step, options.element_size})
     if (!(length > 0.0) || !std::isfinite(length))
       refuse("range, step and element size of a contact table must be positive and finite");
-  const std::vector<double>& loads = options.relative_loads;
+  std::vector<double> loads = options.relative_loads;
+  loads.insert(loads.end(), options.heavier.begin(), options.heavier.end());
   if (loads.empty() || !(loads.front() > 0.0) || !std::isfinite(loads.back()) ||
       !std::ranges::is_sorted(loads, std::less_equal<>{}))
     refuse("the relative loads of a contact table must be positive and increase");
@@ -161,16 +236,76 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
                        1e3 * options.step));
 }
 
-struct PatchShape {
+/// Rows of a patch's elements that belong together.
+struct Rows {
+  const wheelrail::PatchSolution* patch;
+  int from, to;  ///< both included
+  double force;  ///< normal [N]
+};
+
+std::vector<double> row_forces(const wheelrail::PatchSolution& patch) {
+  std::vector<double> forces(static_cast<std::size_t>(patch.grid.ny));
+  for (int iy = 0; iy < patch.grid.ny; ++iy)
+    for (int ix = 0; ix < patch.grid.nx; ++ix)
+      forces[static_cast<std::size_t>(iy)] += patch.contact.pressure[patch.grid.index(ix, iy)] * patch.grid.cell_area();
+  return forces;
+}
+
+/// Two parts, on both sides of the deepest valley of the force along the rows; one, as it is, where there is none worth
+/// it.
+std::vector<Rows> split(const Rows& rows, double all_force) {
+  constexpr double kValley = 0.7;  // of the lower of both crests
+  constexpr double kLeast = 0.05;  // of all force
+  const std::vector<double> force = row_forces(*rows.patch);
+  const auto first = force.begin() + rows.from, last = force.begin() + rows.to + 1;
+  double deepest = 0.0, below = 0.0, force_below = 0.0;
+  auto valley = last;
+  for (auto row = first; row != last; below += *row, ++row) {
+    if (row == first) continue;
+    const double crest = std::min(*std::max_element(first, row), *std::max_element(row, last));
+    if (*row < kValley * crest && crest - *row > deepest && below > kLeast * all_force &&
+        rows.force - below > kLeast * all_force)
+      deepest = crest - *row, valley = row, force_below = below;
+  }
+  if (valley == last) return {rows};
+  const int at = rows.from + static_cast<int>(valley - first);
+  return {{rows.patch, rows.from, at - 1, force_below}, {rows.patch, at, rows.to, rows.force - force_below}};
+}
+
+/// What the wheel touches the rail with, kMostParts at most; of more, those that carry most.
+std::vector<Rows> parts_of(const wheelrail::PairSolution& s) {
+  std::vector<Rows> parts;
+  double all = 0.0;
+  for (const wheelrail::PatchSolution& patch : s.patches) {
+    parts.push_back({&patch, 0, patch.grid.ny - 1, patch.contact.force_n});
+    all += patch.contact.force_n;
+  }
+  for (std::size_t i = 0; i < parts.size() && parts.size() < kMostParts;) {
+    const std::vector<Rows> two = split(parts[i], all);
+    parts[i] = two.front();
+    if (two.size() > 1)
+      parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1, two.back());
+    else
+      ++i;
+  }
+  std::ranges::stable_sort(parts, std::greater{}, &Rows::force);
+  if (parts.size() > kMostParts) parts.resize(kMostParts, parts.front());
+  return parts;
+}
+
+/// Area, aspect ratio and place of the force, contact axes.
+struct PartShape {
   double area = 0.0, aspect_ratio = 1.0;
+  Vec2 centre = Vec2::Zero();
 };
 
 /// From integrals over the pressures, which do not change in jumps as a count of elements does. For an ellipsoid p_0
 /// sqrt(1 - r^2) the squared mean of sqrt(p) is 24/25 of the mean of p, and the second moments are a^2/5 and b^2/5.
-PatchShape patch_shape(const wheelrail::PatchSolution& patch) {
+PartShape shape_of(const Rows& rows) {
+  const wheelrail::PatchSolution& patch = *rows.patch;
   double sum = 0.0, sum_of_roots = 0.0;
   Vec2 centre = Vec2::Zero(), second = Vec2::Zero();
-  for (int iy = 0; iy < patch.grid.ny; ++iy)
+  for (int iy = rows.from; iy <= rows.to; ++iy)
     for (int ix = 0; ix < patch.grid.nx; ++ix) {
       const double p = patch.contact.pressure[patch.grid.index(ix, iy)];
       const Vec2 place(patch.grid.x(ix), patch.grid.y(iy));
@@ -183,23 +318,37 @@ PatchShape patch_shape(const wheelrail::PatchSolution& patch) {
   second = second / sum - centre.cwiseAbs2();
   // A single row or column of elements has an extent of its own.
   second += Vec2(patch.grid.dx * patch.grid.dx, patch.grid.dy * patch.grid.dy) / 1e3;
-  return {25.0 / 24.0 * sum_of_roots * sum_of_roots / sum * patch.grid.cell_area(), std::sqrt(second.x() / second.y())};
+  return {25.0 / 24.0 * sum_of_roots * sum_of_roots / sum * patch.grid.cell_area(), std::sqrt(second.x() / second.y()),
+          centre};
 }
 
-ContactUnderLoad under_load(double y, double load, const wheelrail::PairSolution& s, const Vec3& wheel_origin) {
+/// On the rail where it has its force, with the rail's inclination there.
+ContactPart part_at(const Surface& rail, const wheelrail::PairSolution& s, const Rows& rows, const PartShape& shape,
+                    double depth) {
+  const wheelrail::PatchSolution& patch = *rows.patch;
+  double height = 0.0, slope = 0.0;
+  const double y = shape.centre.y();
+  rail.heights({s.placement.X_TR.inverse() * patch.frame.X_TC, Grid2{0.0, y, patch.grid.dx, patch.grid.dy, 1, 1}},
+               {std::span(&height, 1), {}, std::span(&slope, 1)});
+  if (!std::isfinite(height) || !std::isfinite(slope)) height = slope = 0.0;
+  const double angle = patch.frame.angle + std::atan(slope);
+  const Vec3 place = patch.frame.X_TC.apply({0.0, y, height}) + depth * rotation_x(angle).col(2);
+  ContactPart part;
+  part.slope = std::tan(angle);
+  part.wheel_y = place.y(), part.wheel_z = place.z();
+  return part;
+}
+
+ContactUnderLoad under_load(const Surface& rail, double y, double load, const wheelrail::PairSolution& s,
+                            const Vec3& wheel_origin) {
   ContactUnderLoad c;
   c.z = s.z;
-  double height = 0.0, normal_force = 0.0, log_aspect = 0.0;
+  double height = 0.0, normal_force = 0.0;
   for (const wheelrail::PatchSolution& patch : s.patches) {
-    const double force = patch.contact.force_n;
-    const PatchShape shape = patch_shape(patch);
     c.elastic_energy += patch.contact.elastic_energy;
-    height += force * patch.frame.X_TC.origin.z();
-    log_aspect += force * std::log(shape.aspect_ratio);
-    normal_force += force;
-    c.area += shape.area;
+    height += patch.contact.force_n * patch.frame.X_TC.origin.z();
+    normal_force += patch.contact.force_n;
   }
-  c.aspect_ratio = std::exp(log_aspect / normal_force);
   const Vec3& force = s.load.track.force;
   const Vec3& marker = s.placement.X_TR.origin;
   c.slope = -force.y() / force.z();
@@ -207,9 +356,26 @@ ContactUnderLoad under_load(double y, double load, const wheelrail::PairSolution
   // approach.
   const double z = height / normal_force;
   const double place_y = marker.y() + (s.load.track.moment.x() + (z - marker.z()) * force.y()) / force.z();
-  const double to_wheel = 2.5 * c.elastic_energy / load / (1.0 + c.slope * c.slope);
+  const double per_vertical = std::sqrt(1.0 + c.slope * c.slope),
+               to_wheel = 2.5 * c.elastic_energy / load / (per_vertical * per_vertical);
   c.wheel_y = place_y - c.slope * to_wheel - (wheel_origin.y() + y);
   c.wheel_z = z + to_wheel - (wheel_origin.z() + s.z);
+  const std::vector<Rows> parts = parts_of(s);
+  double carried = 0.0;
+  for (const Rows& rows : parts) carried += rows.force;
+  for (const Rows& rows : parts) {
+    const PartShape shape = shape_of(rows);
+    ContactPart part{1.0, c.slope, c.wheel_y, c.wheel_z};
+    if (parts.size() > 1) {
+      part = part_at(rail, s, rows, shape, to_wheel * per_vertical);
+      part.wheel_y -= wheel_origin.y() + y;
+      part.wheel_z -= wheel_origin.z() + s.z;
+    }
+    part.share = rows.force / carried * normal_force / force.norm();
+    part.area = shape.area;
+    part.aspect_ratio = shape.aspect_ratio;
+    c.parts.push_back(part);
+  }
   return c;
 }
 
@@ -230,11 +396,12 @@ bool part(const wheelrail::PairSolution& s) {
 class Builder {
  public:
   Builder(const wheelrail::Geometry& geometry, const wheelrail::Problem& rest, const wheelrail::Placement& nominal,
-          std::vector<double> loads, bool parallel)
+          std::vector<double> loads, double reference_load, bool parallel)
       : geometry_(geometry),
         rest_(rest),
         wheel_origin_(nominal.X_TW.origin),
         loads_(std::move(loads)),
+        reference_(reference_load),
         parallel_(parallel) {}
 
   std::vector<Attempt> solve(const std::vector<double>& y) const {
@@ -250,27 +417,62 @@ class Builder {
   Attempt attempt(double y) const {
     Attempt a;
     a.column.y = y;
-    wheelrail::Problem p = rest_;
-    p.state.position.y = y;
-    wheelrail::Pair pair(geometry_);
-    for (const double load : loads_) {
-      p.vertical_force = load;
-      const wheelrail::PairSolution s = pair.solve(p);
-      const bool sinks = a.column.under.empty() || s.z > a.column.under.back().z;
-      a.solved = s.status == Status::ok && !s.patches.empty() && sinks;
-      a.parts = a.parts || part(s);
-      a.message = s.message;
-      if (!a.solved) break;
-      a.column.under.push_back(under_load(y, load, s, wheel_origin_));
-    }
+    a.solved = press(a);
     return a;
   }
 
+  /// Adds loads to columns that have those before.
+  void press_harder(std::vector<ContactTableColumn>& columns) const {
+    for (ContactTableColumn& column : columns) {
+      Attempt a;
+      a.column = std::move(column);
+      press(a);
+      column = std::move(a.column);
+    }
+  }
+
  private:
+  /// Adds the loads that a column lacks. False: not even the reference load has a solution.
+  bool press(Attempt& a) const {
+    std::vector<ContactUnderLoad>& under = a.column.under;
+    const std::size_t loads = loads_.size();
+    wheelrail::Problem p = rest_;
+    p.state.position.y = a.column.y;
+    wheelrail::Pair pair(geometry_);
+    while (under.size() < loads) {
+      const double load = loads_[under.size()];
+      p.vertical_force = load;
+      p.discretisation.dx = p.discretisation.ds =
+          rest_.discretisation.dx * std::cbrt(std::max(1.0, load / (kFine * reference_)));
+      const wheelrail::PairSolution s = pair.solve(p);
+      a.parts = a.parts || (load <= reference_ && part(s));
+      a.message = s.message;
+      if (s.status != Status::ok || s.patches.empty() || !(under.empty() || s.z > under.back().z)) break;
+      under.push_back(under_load(*geometry_.rail, a.column.y, load, s, wheel_origin_));
+    }
+    if (under.size() < loads && (under.empty() || loads_[under.size() - 1] < reference_)) return false;
+    while (under.size() < loads) under.push_back(like_hertz(under));
+    return true;
+  }
+
+  /// The next load, from those before.
+  ContactUnderLoad like_hertz(const std::vector<ContactUnderLoad>& under) const {
+    const std::size_t k = under.size();
+    const auto approach = [&](std::size_t i) { return std::cbrt(loads_[i] * loads_[i]); };
+    ContactUnderLoad next = under.back();
+    next.z += k == 1 ? (approach(1) / approach(0) - 1.0) * 2.5 * under[0].elastic_energy / loads_[0]
+                     : (approach(k) - approach(k - 1)) / (approach(k - 1) - approach(k - 2)) *
+                           (under[k - 1].z - under[k - 2].z);
+    for (ContactPart& part : next.parts) part.area *= approach(k) / approach(k - 1);
+    return next;
+  }
+
   const wheelrail::Geometry& geometry_;
   const wheelrail::Problem& rest_;
   Vec3 wheel_origin_;
+  static constexpr double kFine = 2.0;  ///< up to so much of the reference load elements are as wanted
   std::vector<double> loads_;
+  double reference_;
   bool parallel_;
 };
 
@@ -337,10 +539,13 @@ wheelrail::Problem table_problem(wheelrail::Problem p, const ContactTableOptions
 
 namespace {
 
+std::vector<double> times(std::vector<double> relative, double reference_load) {
+  for (double& load : relative) load *= reference_load;
+  return relative;
+}
+
 std::vector<double> loads_of(double reference_load, const ContactTableOptions& options) {
-  std::vector<double> loads;
-  for (const double relative : options.relative_loads) loads.push_back(relative * reference_load);
-  return loads;
+  return times(options.relative_loads, reference_load);
 }
 
 }  // namespace
@@ -351,7 +556,7 @@ std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry&
   check(geometry, prototype, reference_load, options);
   const wheelrail::Problem rest = table_problem(prototype, options);
   const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
-  const Builder builder(geometry, rest, nominal, loads_of(reference_load, options), true);
+  const Builder builder(geometry, rest, nominal, loads_of(reference_load, options), reference_load, true);
 
   constexpr double kRounding = 1e-9;
   const auto each_way = to_whole<std::size_t>(options.lateral_range / options.step + kRounding);
@@ -368,7 +573,8 @@ std::vector<ContactTableColumn> solve_columns_beyond(const wheelrail::Geometry& 
                                                      double from, const ContactTableOptions& options) {
   const wheelrail::Problem rest = table_problem(prototype, options);
   // One after the other: whoever evaluates wheels on several threads may wait for this table.
-  const Builder builder(geometry, rest, wheelrail::place(geometry, rest), loads_of(reference_load, options), false);
+  const Builder builder(geometry, rest, wheelrail::place(geometry, rest), loads_of(reference_load, options),
+                        reference_load, false);
   const double step = std::copysign(2.0 * options.step, from);
   const auto most = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(options.growth / std::abs(step))));
   std::vector<ContactTableColumn> columns;
@@ -383,16 +589,27 @@ std::vector<ContactTableColumn> solve_columns_beyond(const wheelrail::Geometry& 
   return columns;
 }
 
-std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTableColumn>& columns,
-                                                     const wheelrail::Geometry& geometry,
+Columns solve_heavier(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype, double reference_load,
+                      Columns columns, const ContactTableOptions& options) {
+  const wheelrail::Problem rest = table_problem(prototype, options);
+  std::vector<double> loads = loads_of(reference_load, options);
+  const std::vector<double> heavier = times(options.heavier, reference_load);
+  loads.insert(loads.end(), heavier.begin(), heavier.end());
+  Builder(geometry, rest, wheelrail::place(geometry, rest), std::move(loads), reference_load, false)
+      .press_harder(columns);
+  return columns;
+}
+
+std::shared_ptr<const ContactTable> contact_table_of(Columns columns, const wheelrail::Geometry& geometry,
                                                      const wheelrail::Problem& prototype, double reference_load,
-                                                     const ContactTableOptions& options, ContactTable::Grow grow) {
+                                                     const ContactTableOptions& options, ContactTable::Growth growth) {
   const wheelrail::Problem rest = table_problem(prototype, options);
   const auto nearest =
       std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
-  return std::make_shared<ContactTable>(columns, loads_of(reference_load, options),
-                                        static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest,
-                                        wheelrail::place(geometry, rest), std::move(grow));
+  const ContactTable::Loads loads{loads_of(reference_load, options), times(options.heavier, reference_load),
+                                  static_cast<std::size_t>(nearest - options.relative_loads.begin())};
+  return std::make_shared<ContactTable>(std::move(columns), loads, rest, wheelrail::place(geometry, rest),
+                                        std::move(growth));
 }
 
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
@@ -400,16 +617,32 @@ std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometr
                                                         const ContactTableOptions& options) {
   return contact_table_of(
       solve_contact_columns(geometry, prototype, reference_load, options), geometry, prototype, reference_load, options,
-      [=](double from) { return solve_columns_beyond(geometry, prototype, reference_load, from, options); });
+      {[=](double from) { return solve_columns_beyond(geometry, prototype, reference_load, from, options); },
+       [=](const Columns& columns) { return solve_heavier(geometry, prototype, reference_load, columns, options); }});
 }
+
+namespace {
+
+constexpr double ContactUnderLoad::*kNumbers[] = {&ContactUnderLoad::z, &ContactUnderLoad::elastic_energy,
+                                                  &ContactUnderLoad::slope, &ContactUnderLoad::wheel_y,
+                                                  &ContactUnderLoad::wheel_z};
+constexpr double ContactPart::*kPartNumbers[] = {&ContactPart::share,   &ContactPart::slope,
+                                                 &ContactPart::wheel_y, &ContactPart::wheel_z,
+                                                 &ContactPart::area,    &ContactPart::aspect_ratio};
+
+}  // namespace
 
 void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& out) {
   out.put(columns.size());
   for (const auto& [y, under] : columns) {
     out.put(y);
     out.put(under.size());
-    for (const auto& [z, energy, slope, wheel_y, wheel_z, area, aspect_ratio] : under)
-      for (const double value : {z, energy, slope, wheel_y, wheel_z, area, aspect_ratio}) out.put(value);
+    for (const ContactUnderLoad& c : under) {
+      for (const auto number : kNumbers) out.put(c.*number);
+      out.put(c.parts.size());
+      for (const ContactPart& part : c.parts)
+        for (const auto number : kPartNumbers) out.put(part.*number);
+    }
   }
 }
 
@@ -420,8 +653,11 @@ std::vector<ContactTableColumn> read_columns(ByteReader& in) {
     in.get(column.y);
     for (auto loads = in.get<std::size_t>(); loads > 0; --loads) {
       ContactUnderLoad& c = column.under.emplace_back();
-      for (double* value : {&c.z, &c.elastic_energy, &c.slope, &c.wheel_y, &c.wheel_z, &c.area, &c.aspect_ratio})
-        in.get(*value);
+      for (const auto number : kNumbers) in.get(c.*number);
+      for (auto parts = in.get<std::size_t>(); parts > 0; --parts) {
+        ContactPart& part = c.parts.emplace_back();
+        for (const auto number : kPartNumbers) in.get(part.*number);
+      }
     }
   }
   return columns;

@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "treadmark/core/byte_archive.hpp"
@@ -40,11 +43,22 @@ struct ContactTableOptions {
   double lateral_range = 12e-3;  ///< to both sides of the wheel's central position, before the table grows [m]
   double growth = 6e-3;          ///< of each stretch beyond, whose step is twice the first one's [m]
   double step = 0.25e-3;         ///< [m]; finer where the contact angle changes fast
-  double element_size = 0.5e-3;  ///< of the contact problems, dx = ds [m]
+  double element_size = 0.5e-3;  ///< of the contact problems, dx = ds [m]; grows with what is pressed harder
   /// Loads over the reference load, increasing. One: a Hertzian spring. More: its stiffness follows the profiles from
-  /// load to load.
+  /// load to load, and like Hertz beyond the last one, or one above the reference that has no solution.
   std::vector<double> relative_loads = {0.3, 0.6, 1.0, 2.0};
+  std::vector<double> heavier = {5.0, 10.0};  ///< what it grows by where a wheel is pressed harder than by all of these
 };
+
+/// Of what a wheel touches the rail with: a patch, or a part of one between two valleys of its pressure.
+struct ContactPart {
+  double share = 1.0;                   ///< of the normal force of the resultant; together they may exceed it
+  double slope = 0.0;                   ///< tangent of the contact angle [-]
+  double wheel_y = 0.0, wheel_z = 0.0;  ///< place on the undeformed wheel, from the wheel's profile origin [m]
+  double area = 0.0;                    ///< of contact [m2]
+  double aspect_ratio = 1.0;            ///< a/b of the equivalent ellipse, a in the rolling direction [-]
+};
+constexpr std::size_t kMostParts = 3;
 
 /// Contact under one load at one lateral displacement of the wheel against the rail; right-hand side, track axes.
 struct ContactUnderLoad {
@@ -52,8 +66,7 @@ struct ContactUnderLoad {
   double elastic_energy = 0.0;          ///< [J]
   double slope = 0.0;                   ///< tangent of the contact angle [-]
   double wheel_y = 0.0, wheel_z = 0.0;  ///< contact place on the undeformed wheel, from the wheel's profile origin [m]
-  double area = 0.0;                    ///< of contact [m2]
-  double aspect_ratio = 1.0;            ///< a/b of the equivalent ellipse, a in the rolling direction [-]
+  std::vector<ContactPart> parts;       ///< one to kMostParts
 };
 
 /// All loads at one lateral displacement.
@@ -66,90 +79,118 @@ struct ContactTableColumn {
 struct LoadLevel {
   double load = 0.0;       ///< vertical [N]
   ShapeCurve compression;  ///< vertical approach since the level before [m]; first level: since Hertzian first touch
-  ShapeCurve area;         ///< of contact at this load [m2]
-  ShapeCurve log_aspect_ratio;  ///< ln(a/b) at this load
+  /// A part of the contact; those that are one at neighbouring places and loads have the same number.
+  struct Part {
+    int number = -1;
+    double share, angle, wheel_y, wheel_z, area, log_aspect;  ///< as of ContactPart, angle [rad]
+  };
+  /// Of all parts at one place.
+  struct Parts {
+    std::array<Part, kMostParts> part;
+    std::size_t count = 0;
+    std::span<Part> all() { return {part.data(), count}; }
+    std::span<const Part> all() const { return {part.data(), count}; }
+  };
+  std::vector<Parts> parts;  ///< by TableStretch::y
 };
 
 /// Contact at the displacements from y_min to y_max.
 struct TableStretch {
   double y_min = 0.0, y_max = 0.0;  ///< [m]
-  /// Height of the first level less its elastic energy over its load [m]. Its slope is the tangent of the contact angle
-  /// there.
+  std::vector<double> y;            ///< of the columns, from the first to the last of these [m]
+  /// Height of the first level less its elastic energy over its load [m]. Its slope is the tangent of the contact
+  /// angle there.
   ShapeCurve energy_height;
   ShapeCurve wheel_y, wheel_z;
   std::vector<LoadLevel> levels;
+  std::vector<ContactTableColumn> columns;  ///< what it is made of
 };
 
 /// Contact of a round wheel and a prismatic rail under a few loads, against their lateral displacement y, everything
-/// else at rest and upright. Several patches count as one contact that has their load and energy: its place is where
-/// their resultant acts, its area their sum, its aspect ratio their mean by load. One table serves both rails, any
-/// number of wheels and threads. It grows by stretches where somebody asks beyond those it has, the same ones whoever
-/// asks, and in whatever order.
+/// else at rest and upright. Elastically several patches count as one contact that has their load and energy and
+/// whose place is where their resultant acts; what slides are up to three contacts, each an ellipse of its own. One
+/// table serves both rails, any number of wheels and threads. It grows by stretches where somebody asks beyond those
+/// it has, the same ones whoever asks, and in whatever order.
 class ContactTable {
  public:
-  /// Columns outwards from y, on the side of its sign; less than two: wheel and rail part there.
-  using Grow = std::function<std::vector<ContactTableColumn>(double from)>;
+  struct Loads {
+    std::vector<double> first, heavier;  ///< vertical, increasing [N]
+    std::size_t reference = 0;           ///< the one of the first whose contact places are taken
+  };
+  /// How it grows; null: it does not.
+  struct Growth {
+    /// Columns outwards from y, on the side of its sign; less than two: wheel and rail part there.
+    std::function<std::vector<ContactTableColumn>(double from)> beyond;
+    /// The same columns with the heavier loads added.
+    std::function<std::vector<ContactTableColumn>(const std::vector<ContactTableColumn>& columns)> heavier;
+  };
 
-  /// columns: by increasing y, each with the contact under every load; reference_level: whose contact places are taken.
-  /// problem: of which track, wheelset, material and friction count; nominal: its placement at rest; grow: null for a
-  /// table that does not. Errors: Error(configuration) for less than two columns, loads or compressions that do not
-  /// increase.
-  ContactTable(const std::vector<ContactTableColumn>& columns, std::vector<double> loads, std::size_t reference_level,
-               wheelrail::Problem problem, const wheelrail::Placement& nominal, Grow grow = {});
+  /// columns: by increasing y, each with the contact under the first loads. problem: of which track, wheelset,
+  /// material and friction count; nominal: its placement at rest. Errors: Error(configuration) for less than two
+  /// columns, loads or compressions that do not increase.
+  ContactTable(std::vector<ContactTableColumn> columns, Loads loads, wheelrail::Problem problem,
+               const wheelrail::Placement& nominal, Growth growth = {});
 
   const wheelrail::Problem& problem() const { return problem_; }
   const wheelrail::Placement& nominal() const { return nominal_; }
 
   /// Round the central position.
   const TableStretch& central() const { return central_; }
-  /// The stretch that y belongs to; null where wheel and rail have parted. Takes long where it has to be made. Errors:
-  /// those of making it.
+  /// The stretch that y belongs to; null where wheel and rail have parted. Takes long where it has to be made.
+  /// Errors: those of making it.
   const TableStretch* at(double y) const { return y >= central_.y_min && y <= central_.y_max ? &central_ : beyond(y); }
 
+  /// The same stretch with the heavier loads; null where there are none. It takes as long.
+  const TableStretch* heavier(const TableStretch& stretch) const;
+
  private:
-  /// Stretches to one side, outwards.
+  /// Stretches to one side, outwards, without and with the heavier loads.
   struct Wing {
-    std::mutex growing;
-    std::deque<TableStretch> made;
+    std::deque<TableStretch> made, heavier;
     bool ended = false;
   };
   const TableStretch* beyond(double y) const;
 
-  std::vector<double> loads_;
-  std::size_t reference_level_;
+  Loads loads_;
   wheelrail::Problem problem_;
   wheelrail::Placement nominal_;
-  Grow grow_;
+  Growth growth_;
   TableStretch central_;
+  mutable std::mutex growing_;
+  mutable std::optional<TableStretch> central_heavier_;
   mutable Wing low_, high_;
 };
 
-/// What of a pair's problem a table is made for; tables for the same surfaces, load, options and the same of these are
-/// the same.
+/// What of a pair's problem a table is made for; tables for the same surfaces, load, options and the same of these
+/// are the same.
 wheelrail::Problem table_problem(wheelrail::Problem prototype, const ContactTableOptions& options = {});
 
-/// Solves the contact at every lateral displacement of the range, in parallel. The table covers those round the central
-/// position that have a solution, and passes over single ones that have none (rough profiles); beyond it grows until
-/// the wheel stands on the tip of its flange, or where one of the profiles ends. prototype: material, friction, track
-/// and wheelset of a right-hand pair; states and irregularities do not count. Errors: Error(configuration) for a
-/// left-hand prototype, bodies that are not round and prismatic, a curved track, rollers and options without meaning;
-/// Error(numerical) if the bodies do not touch in the central position.
+/// Solves the contact at every lateral displacement of the range, in parallel. The table covers those round the
+/// central position that have a solution, and passes over single ones that have none (rough profiles); beyond it
+/// grows until the wheel stands on the tip of its flange, or where one of the profiles ends. prototype: material,
+/// friction, track and wheelset of a right-hand pair; states and irregularities do not count. Errors:
+/// Error(configuration) for a left-hand prototype, bodies that are not round and prismatic, a curved track, rollers
+/// and options without meaning; Error(numerical) if the bodies do not touch in the central position.
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
                                                         const wheelrail::Problem& prototype, double reference_load,
                                                         const ContactTableOptions& options = {});
 
-/// Its parts: the first two, of which the second is for its growth, take long, the third takes none of it.
+/// Its parts: columns, those that it grows by and the heavier loads take long, to make a table of them takes none of
+/// it.
 std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry& geometry,
                                                       const wheelrail::Problem& prototype, double reference_load,
                                                       const ContactTableOptions& options = {});
 std::vector<ContactTableColumn> solve_columns_beyond(const wheelrail::Geometry& geometry,
                                                      const wheelrail::Problem& prototype, double reference_load,
                                                      double from, const ContactTableOptions& options = {});
-std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTableColumn>& columns,
+std::vector<ContactTableColumn> solve_heavier(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
+                                              double reference_load, std::vector<ContactTableColumn> columns,
+                                              const ContactTableOptions& options = {});
+std::shared_ptr<const ContactTable> contact_table_of(std::vector<ContactTableColumn> columns,
                                                      const wheelrail::Geometry& geometry,
                                                      const wheelrail::Problem& prototype, double reference_load,
                                                      const ContactTableOptions& options = {},
-                                                     ContactTable::Grow grow = {});
+                                                     ContactTable::Growth growth = {});
 
 void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& out);
 /// Errors: Error(input_data) for bytes that end too early.
