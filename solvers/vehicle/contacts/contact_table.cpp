@@ -41,9 +41,8 @@ void check(const Columns& columns, const std::vector<double>& loads, std::size_t
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const ContactUnderLoad& c = column.under[k];
       require(c.elastic_energy > 0.0 && !c.parts.empty() && c.parts.size() <= kMostParts &&
-                  std::ranges::all_of(
-                      c.parts, [](const ContactPart& part) { return part.area > 0.0 && part.aspect_ratio > 0.0; }),
-              "energies, areas and aspect ratios of a contact table must be positive");
+                  std::ranges::all_of(c.parts, [](const ContactPart& part) { return part.area > 0.0; }),
+              "energies and areas of a contact table must be positive");
       require(k == 0 || c.z > column.under[k - 1].z, "the wheel of a contact table must sink as the load grows");
     }
   }
@@ -84,50 +83,36 @@ LoadLevel load_level(const Columns& columns, std::size_t level, double load, con
   return {load, curve(columns, beside ? &beside->compression : nullptr, compression), {}};
 }
 
-/// The parts of one load at one place get the numbers of those near them on the wheel: at the load next to it towards
-/// the reference load, or at the place before. No number is given twice.
-class Numbering {
- public:
-  void number(LoadLevel::Parts& parts, const LoadLevel::Parts* at_other_load, const LoadLevel::Parts* at_place_before) {
-    struct Link {
-      double distance;
-      LoadLevel::Part* part;
-      int number;
-    };
-    std::vector<Link> links;
-    for (const LoadLevel::Parts* known : {at_other_load, at_place_before})
-      for (const LoadLevel::Part& one : known ? known->all() : std::span<const LoadLevel::Part>())
-        for (LoadLevel::Part& part : parts.all())
-          if (const double d = std::abs(one.wheel_y - part.wheel_y); d < kNear) links.push_back({d, &part, one.number});
-    std::ranges::stable_sort(links, {}, &Link::distance);
-    const auto is_given = [&](int number) {
-      return std::ranges::find(parts.all(), number, &LoadLevel::Part::number) != parts.all().end();
-    };
-    for (const Link& link : links)
-      if (link.part->number < 0 && !is_given(link.number)) link.part->number = link.number;
-    for (LoadLevel::Part& part : parts.all())
-      if (part.number < 0) part.number = next_++;
-  }
+using Parts = std::vector<ContactPart>;
 
- private:
-  static constexpr double kNear = 5e-3;  // [m]
-  int next_ = 0;
-};
-
-LoadLevel::Parts parts_at(const ContactUnderLoad& c) {
-  LoadLevel::Parts parts;
-  for (const ContactPart& p : c.parts)
-    parts.part.at(parts.count++) = {-1,        p.share, std::atan(p.slope),      p.wheel_y,
-                                    p.wheel_z, p.area,  std::log(p.aspect_ratio)};
-  return parts;
+/// Parts get the numbers of those near them on the wheel, known from the load next to theirs towards the reference
+/// load, or from the place before; none twice.
+void number_parts(Parts& parts, const Parts* at_other_load, const Parts* at_place_before, int& next) {
+  constexpr double kNear = 5e-3;  // [m]
+  struct Link {
+    double distance;
+    ContactPart* part;
+    int number;
+  };
+  std::vector<Link> links;
+  for (const Parts* known : {at_other_load, at_place_before})
+    for (const ContactPart& one : known ? *known : Parts())
+      for (ContactPart& part : parts)
+        if (const double d = std::abs(one.wheel_y - part.wheel_y); d < kNear) links.push_back({d, &part, one.number});
+  std::ranges::stable_sort(links, {}, &Link::distance);
+  for (const Link& link : links)
+    if (link.part->number < 0 && std::ranges::find(parts, link.number, &ContactPart::number) == parts.end())
+      link.part->number = link.number;
+  for (ContactPart& part : parts)
+    if (part.number < 0) part.number = next++;
 }
 
 void add_parts(const Columns& columns, std::size_t reference, std::vector<LoadLevel>& levels) {
-  Numbering numbering;
+  int next = 0;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].parts.push_back(parts_at(columns[i].under[k]));
-    const auto number = [&](std::size_t k, const LoadLevel::Parts* at_other_load) {
-      numbering.number(levels[k].parts[i], at_other_load, i > 0 ? &levels[k].parts[i - 1] : nullptr);
+    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].parts.push_back(columns[i].under[k].parts);
+    const auto number = [&](std::size_t k, const Parts* at_other_load) {
+      number_parts(levels[k].parts[i], at_other_load, i > 0 ? &levels[k].parts[i - 1] : nullptr, next);
     };
     number(reference, nullptr);
     for (std::size_t k = reference; k-- > 0;) number(k, &levels[k + 1].parts[i]);
@@ -240,7 +225,7 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
 struct Rows {
   const wheelrail::PatchSolution* patch;
   int from, to;  ///< both included
-  double force;  ///< normal [N]
+  double force;  ///< normal, of all their elements [N]
 };
 
 std::vector<double> row_forces(const wheelrail::PatchSolution& patch) {
@@ -251,9 +236,9 @@ std::vector<double> row_forces(const wheelrail::PatchSolution& patch) {
   return forces;
 }
 
-/// Two parts, on both sides of the deepest valley of the force along the rows; one, as it is, where there is none worth
-/// it.
-std::vector<Rows> split(const Rows& rows, double all_force) {
+/// Leaves of the rows those before the deepest valley of their force and returns those behind; none where there is no
+/// valley.
+std::optional<Rows> split(Rows& rows, double all_force) {
   constexpr double kValley = 0.7;  // of the lower of both crests
   constexpr double kLeast = 0.05;  // of all force
   const std::vector<double> force = row_forces(*rows.patch);
@@ -267,9 +252,11 @@ std::vector<Rows> split(const Rows& rows, double all_force) {
         rows.force - below > kLeast * all_force)
       deepest = crest - *row, valley = row, force_below = below;
   }
-  if (valley == last) return {rows};
+  if (valley == last) return std::nullopt;
   const int at = rows.from + static_cast<int>(valley - first);
-  return {{rows.patch, rows.from, at - 1, force_below}, {rows.patch, at, rows.to, rows.force - force_below}};
+  const Rows behind{rows.patch, at, rows.to, rows.force - force_below};
+  rows = {rows.patch, rows.from, at - 1, force_below};
+  return behind;
 }
 
 /// What the wheel touches the rail with, kMostParts at most; of more, those that carry most.
@@ -280,28 +267,22 @@ std::vector<Rows> parts_of(const wheelrail::PairSolution& s) {
     parts.push_back({&patch, 0, patch.grid.ny - 1, patch.contact.force_n});
     all += patch.contact.force_n;
   }
-  for (std::size_t i = 0; i < parts.size() && parts.size() < kMostParts;) {
-    const std::vector<Rows> two = split(parts[i], all);
-    parts[i] = two.front();
-    if (two.size() > 1)
-      parts.insert(parts.begin() + static_cast<std::ptrdiff_t>(i) + 1, two.back());
-    else
-      ++i;
-  }
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    while (parts.size() < kMostParts) {
+      const std::optional<Rows> behind = split(parts[i], all);
+      if (!behind) break;
+      parts.push_back(*behind);
+    }
   std::ranges::stable_sort(parts, std::greater{}, &Rows::force);
   if (parts.size() > kMostParts) parts.resize(kMostParts, parts.front());
   return parts;
 }
 
-/// Area, aspect ratio and place of the force, contact axes.
-struct PartShape {
-  double area = 0.0, aspect_ratio = 1.0;
-  Vec2 centre = Vec2::Zero();
-};
-
-/// From integrals over the pressures, which do not change in jumps as a count of elements does. For an ellipsoid p_0
-/// sqrt(1 - r^2) the squared mean of sqrt(p) is 24/25 of the mean of p, and the second moments are a^2/5 and b^2/5.
-PartShape shape_of(const Rows& rows) {
+/// Where the rows have their force on the rail, with its inclination there, and as deep in the rail as the undeformed
+/// wheel is. Sizes are from integrals over the pressures, which do not change in jumps as a count of elements does. For
+/// an ellipsoid p_0 sqrt(1 - r^2) the squared mean of sqrt(p) is 24/25 of the mean of p, and the second moments are
+/// a^2/5 and b^2/5.
+ContactPart part_of(const Rows& rows, const Surface& rail, const Pose& X_TR, double depth) {
   const wheelrail::PatchSolution& patch = *rows.patch;
   double sum = 0.0, sum_of_roots = 0.0;
   Vec2 centre = Vec2::Zero(), second = Vec2::Zero();
@@ -318,25 +299,20 @@ PartShape shape_of(const Rows& rows) {
   second = second / sum - centre.cwiseAbs2();
   // A single row or column of elements has an extent of its own.
   second += Vec2(patch.grid.dx * patch.grid.dx, patch.grid.dy * patch.grid.dy) / 1e3;
-  return {25.0 / 24.0 * sum_of_roots * sum_of_roots / sum * patch.grid.cell_area(), std::sqrt(second.x() / second.y()),
-          centre};
-}
 
-/// On the rail where it has its force, with the rail's inclination there.
-ContactPart part_at(const Surface& rail, const wheelrail::PairSolution& s, const Rows& rows, const PartShape& shape,
-                    double depth) {
-  const wheelrail::PatchSolution& patch = *rows.patch;
+  const double y = centre.y();
   double height = 0.0, slope = 0.0;
-  const double y = shape.centre.y();
-  rail.heights({s.placement.X_TR.inverse() * patch.frame.X_TC, Grid2{0.0, y, patch.grid.dx, patch.grid.dy, 1, 1}},
+  rail.heights({X_TR.inverse() * patch.frame.X_TC, Grid2{0.0, y, patch.grid.dx, patch.grid.dy, 1, 1}},
                {std::span(&height, 1), {}, std::span(&slope, 1)});
   if (!std::isfinite(height) || !std::isfinite(slope)) height = slope = 0.0;
   const double angle = patch.frame.angle + std::atan(slope);
-  const Vec3 place = patch.frame.X_TC.apply({0.0, y, height}) + depth * rotation_x(angle).col(2);
-  ContactPart part;
-  part.slope = std::tan(angle);
-  part.wheel_y = place.y(), part.wheel_z = place.z();
-  return part;
+  const Vec3 at = patch.frame.X_TC.apply({0.0, y, height}) + depth * rotation_x(angle).col(2);
+  return {rows.force,
+          angle,
+          at.y(),
+          at.z(),
+          25.0 / 24.0 * sum_of_roots * sum_of_roots / sum * patch.grid.cell_area(),
+          0.5 * std::log(second.x() / second.y())};
 }
 
 ContactUnderLoad under_load(const Surface& rail, double y, double load, const wheelrail::PairSolution& s,
@@ -360,22 +336,18 @@ ContactUnderLoad under_load(const Surface& rail, double y, double load, const wh
                to_wheel = 2.5 * c.elastic_energy / load / (per_vertical * per_vertical);
   c.wheel_y = place_y - c.slope * to_wheel - (wheel_origin.y() + y);
   c.wheel_z = z + to_wheel - (wheel_origin.z() + s.z);
-  const std::vector<Rows> parts = parts_of(s);
   double carried = 0.0;
-  for (const Rows& rows : parts) carried += rows.force;
-  for (const Rows& rows : parts) {
-    const PartShape shape = shape_of(rows);
-    ContactPart part{1.0, c.slope, c.wheel_y, c.wheel_z};
-    if (parts.size() > 1) {
-      part = part_at(rail, s, rows, shape, to_wheel * per_vertical);
-      part.wheel_y -= wheel_origin.y() + y;
-      part.wheel_z -= wheel_origin.z() + s.z;
-    }
-    part.share = rows.force / carried * normal_force / force.norm();
-    part.area = shape.area;
-    part.aspect_ratio = shape.aspect_ratio;
-    c.parts.push_back(part);
+  for (const Rows& rows : parts_of(s)) {
+    ContactPart& part = c.parts.emplace_back(part_of(rows, rail, s.placement.X_TR, to_wheel * per_vertical));
+    carried += rows.force;
+    part.wheel_y -= wheel_origin.y() + y;
+    part.wheel_z -= wheel_origin.z() + s.z;
   }
+  if (c.parts.size() == 1) {
+    ContactPart& all = c.parts.front();
+    all.angle = std::atan(c.slope), all.wheel_y = c.wheel_y, all.wheel_z = c.wheel_z;
+  }
+  for (ContactPart& part : c.parts) part.share *= normal_force / (carried * force.norm());
   return c;
 }
 
@@ -421,13 +393,13 @@ class Builder {
     return a;
   }
 
-  /// Adds loads to columns that have those before.
-  void press_harder(std::vector<ContactTableColumn>& columns) const {
+  /// Adds the loads that columns lack.
+  void press_harder(Columns& columns) const {
     for (ContactTableColumn& column : columns) {
       Attempt a;
-      a.column = std::move(column);
+      std::swap(a.column, column);
       press(a);
-      column = std::move(a.column);
+      std::swap(a.column, column);
     }
   }
 
@@ -626,9 +598,8 @@ namespace {
 constexpr double ContactUnderLoad::*kNumbers[] = {&ContactUnderLoad::z, &ContactUnderLoad::elastic_energy,
                                                   &ContactUnderLoad::slope, &ContactUnderLoad::wheel_y,
                                                   &ContactUnderLoad::wheel_z};
-constexpr double ContactPart::*kPartNumbers[] = {&ContactPart::share,   &ContactPart::slope,
-                                                 &ContactPart::wheel_y, &ContactPart::wheel_z,
-                                                 &ContactPart::area,    &ContactPart::aspect_ratio};
+constexpr double ContactPart::*kPartNumbers[] = {&ContactPart::share,   &ContactPart::angle, &ContactPart::wheel_y,
+                                                 &ContactPart::wheel_z, &ContactPart::area,  &ContactPart::log_aspect};
 
 }  // namespace
 

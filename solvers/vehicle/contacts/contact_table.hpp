@@ -2,14 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "treadmark/core/byte_archive.hpp"
@@ -50,13 +48,14 @@ struct ContactTableOptions {
   std::vector<double> heavier = {5.0, 10.0};  ///< what it grows by where a wheel is pressed harder than by all of these
 };
 
-/// Of what a wheel touches the rail with: a patch, or a part of one between two valleys of its pressure.
+/// What a wheel touches the rail with: a patch, or a part of one between two valleys of its pressure.
 struct ContactPart {
-  double share = 1.0;                   ///< of the normal force of the resultant; together they may exceed it
-  double slope = 0.0;                   ///< tangent of the contact angle [-]
-  double wheel_y = 0.0, wheel_z = 0.0;  ///< place on the undeformed wheel, from the wheel's profile origin [m]
-  double area = 0.0;                    ///< of contact [m2]
-  double aspect_ratio = 1.0;            ///< a/b of the equivalent ellipse, a in the rolling direction [-]
+  double share;             ///< of the normal force of the resultant; together they may exceed it
+  double angle;             ///< of the contact [rad]
+  double wheel_y, wheel_z;  ///< place on the undeformed wheel, from the wheel's profile origin [m]
+  double area;              ///< of contact [m2]
+  double log_aspect;        ///< ln(a/b) of the equivalent ellipse, a in the rolling direction
+  int number = -1;          ///< in a table the same at neighbouring places and loads where it is one contact
 };
 constexpr std::size_t kMostParts = 3;
 
@@ -66,7 +65,7 @@ struct ContactUnderLoad {
   double elastic_energy = 0.0;          ///< [J]
   double slope = 0.0;                   ///< tangent of the contact angle [-]
   double wheel_y = 0.0, wheel_z = 0.0;  ///< contact place on the undeformed wheel, from the wheel's profile origin [m]
-  std::vector<ContactPart> parts;       ///< one to kMostParts
+  std::vector<ContactPart> parts;       ///< one to kMostParts, the strongest first
 };
 
 /// All loads at one lateral displacement.
@@ -79,19 +78,7 @@ struct ContactTableColumn {
 struct LoadLevel {
   double load = 0.0;       ///< vertical [N]
   ShapeCurve compression;  ///< vertical approach since the level before [m]; first level: since Hertzian first touch
-  /// A part of the contact; those that are one at neighbouring places and loads have the same number.
-  struct Part {
-    int number = -1;
-    double share, angle, wheel_y, wheel_z, area, log_aspect;  ///< as of ContactPart, angle [rad]
-  };
-  /// Of all parts at one place.
-  struct Parts {
-    std::array<Part, kMostParts> part;
-    std::size_t count = 0;
-    std::span<Part> all() { return {part.data(), count}; }
-    std::span<const Part> all() const { return {part.data(), count}; }
-  };
-  std::vector<Parts> parts;  ///< by TableStretch::y
+  std::vector<std::vector<ContactPart>> parts;  ///< at this load, by TableStretch::y
 };
 
 /// Contact at the displacements from y_min to y_max.

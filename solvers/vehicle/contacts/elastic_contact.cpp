@@ -63,12 +63,12 @@ Compression compress(const TableStretch& stretch, double y, const ShapeCurve::Po
 class Mixture {
  public:
   /// weight: of shares and places; of_area: of areas.
-  void add(const LoadLevel::Parts& parts, double weight, double of_area) {
-    for (const LoadLevel::Part& from : parts.all()) {
-      LoadLevel::Part* const end = sums_.data() + count_;
-      LoadLevel::Part* to = std::find_if(sums_.data(), end, [&](const auto& s) { return s.number == from.number; });
+  void add(const std::vector<ContactPart>& parts, double weight, double of_area) {
+    for (const ContactPart& from : parts) {
+      ContactPart* const end = sums_.data() + count_;
+      ContactPart* to = std::find_if(sums_.data(), end, [&](const auto& s) { return s.number == from.number; });
       if (to == end) {
-        *to = {from.number, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        *to = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, from.number};
         ++count_;
       }
       const double w = weight * from.share;
@@ -85,7 +85,7 @@ class Mixture {
   void put(ElasticContact& c, double turn) const {
     constexpr double kLeast = 1e-6;  // of the normal force
     for (std::size_t i = 0; i < count_; ++i) {
-      const LoadLevel::Part& s = sums_[i];
+      const ContactPart& s = sums_[i];
       if (!(s.share > kLeast) || !(s.area > 0.0)) continue;
       const double each = 1.0 / s.share, size = std::sqrt(s.area / std::numbers::pi),
                    elongation = std::exp(0.5 * s.log_aspect * each);
@@ -95,7 +95,7 @@ class Mixture {
   }
 
  private:
-  std::array<LoadLevel::Part, 4 * kMostParts> sums_;
+  std::array<ContactPart, 4 * kMostParts> sums_;
   std::size_t count_ = 0;
 };
 
@@ -105,7 +105,7 @@ void add_parts(const TableStretch& stretch, double y, const Compression& reached
                of_force = reached.level == 0 ? 1.0 : std::min(u, 1.0);
   Mixture mixture;
   const auto add = [&](std::size_t level, double weight, double of_area) {
-    const std::vector<LoadLevel::Parts>& parts = stretch.levels[level].parts;
+    const auto& parts = stretch.levels[level].parts;
     mixture.add(parts[i], (1.0 - t) * weight, (1.0 - t) * of_area);
     mixture.add(parts[i + 1], t * weight, t * of_area);
   };
