@@ -167,7 +167,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
     r.area += area;
     r.max_pressure = std::max(r.max_pressure, 1.5 * part.normal_force / area);
     ++r.patches;
-    if (elastic.count == 1)
+    if (i == 0)
       r.tangents.front().damping_x = creep.damping.x(), r.tangents.front().damping_s = creep.damping.y();
     else
       r.tangents.push_back({X_TC, 0.0, creep.damping.x(), creep.damping.y(), 0.0});

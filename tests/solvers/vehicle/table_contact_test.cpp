@@ -227,10 +227,11 @@ TEST_P(WholeRange, ElasticForcesAreThoseOfTheSolvedContact) {
         const ContactReaction r = element.evaluate(m);
         ASSERT_EQ(r.status, Status::ok) << r.message;
         EXPECT_NEAR(r.on_rail.force.z(), load, 0.03 * load);
-        // Harder pressed flanges touch where the solved contact has another plane than what gives way.
+        // In the flange's root, and the more the harder it is pressed, the plane of the solved contact is another one
+        // than what gives way.
         if (load > 2.0 * kLoad) continue;
         const double angle = std::atan(-s.load.track.force.y() / s.load.track.force.z());
-        EXPECT_NEAR(std::atan(-r.on_rail.force.y() / r.on_rail.force.z()), angle, 0.002 + 0.03 * std::abs(angle));
+        EXPECT_NEAR(std::atan(-r.on_rail.force.y() / r.on_rail.force.z()), angle, 0.002 + 0.06 * std::abs(angle));
       }
   EXPECT_LT(least, GetParam().least_y);
   EXPECT_GT(most, GetParam().most_y);
