@@ -511,13 +511,13 @@ wheelrail::Problem table_problem(wheelrail::Problem p, const ContactTableOptions
 
 namespace {
 
-std::vector<double> times(std::vector<double> relative, double reference_load) {
+std::vector<double> multiplied(std::vector<double> relative, double reference_load) {
   for (double& load : relative) load *= reference_load;
   return relative;
 }
 
 std::vector<double> loads_of(double reference_load, const ContactTableOptions& options) {
-  return times(options.relative_loads, reference_load);
+  return multiplied(options.relative_loads, reference_load);
 }
 
 }  // namespace
@@ -565,7 +565,7 @@ Columns solve_heavier(const wheelrail::Geometry& geometry, const wheelrail::Prob
                       Columns columns, const ContactTableOptions& options) {
   const wheelrail::Problem rest = table_problem(prototype, options);
   std::vector<double> loads = loads_of(reference_load, options);
-  const std::vector<double> heavier = times(options.heavier, reference_load);
+  const std::vector<double> heavier = multiplied(options.heavier, reference_load);
   loads.insert(loads.end(), heavier.begin(), heavier.end());
   Builder(geometry, rest, wheelrail::place(geometry, rest), std::move(loads), reference_load, false)
       .press_harder(columns);
@@ -578,7 +578,7 @@ std::shared_ptr<const ContactTable> contact_table_of(Columns columns, const whee
   const wheelrail::Problem rest = table_problem(prototype, options);
   const auto nearest =
       std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
-  const ContactTable::Loads loads{loads_of(reference_load, options), times(options.heavier, reference_load),
+  const ContactTable::Loads loads{loads_of(reference_load, options), multiplied(options.heavier, reference_load),
                                   static_cast<std::size_t>(nearest - options.relative_loads.begin())};
   return std::make_shared<ContactTable>(std::move(columns), loads, rest, wheelrail::place(geometry, rest),
                                         std::move(growth));
