@@ -470,20 +470,22 @@ std::vector<ContactTableColumn> connected(const std::vector<Attempt>& attempts, 
   return columns;
 }
 
-bool angles_differ_much(const ContactTableColumn& a, const ContactTableColumn& b) {
-  constexpr double kMostChange = 0.04;  // of the tangent
+bool differ_much(const ContactTableColumn& a, const ContactTableColumn& b) {
+  constexpr double kMostChange = 0.04, kMostWay = 3e-3;  // of the tangent; of the contact over the wheel [m]
   for (std::size_t k = 0; k < a.under.size(); ++k)
-    if (std::abs(b.under[k].slope - a.under[k].slope) > kMostChange) return true;
+    if (std::abs(b.under[k].slope - a.under[k].slope) > kMostChange ||
+        std::abs(b.under[k].wheel_y - a.under[k].wheel_y) > kMostWay)
+      return true;
   return false;
 }
 
-/// Columns between those whose contact angles differ much.
+/// Columns between those whose contacts differ much.
 void refine(const Builder& builder, std::vector<ContactTableColumn>& columns) {
   constexpr int kTimes = 3;
   for (int time = 0; time < kTimes; ++time) {
     std::vector<double> between;
     for (std::size_t i = 0; i + 1 < columns.size(); ++i)
-      if (angles_differ_much(columns[i], columns[i + 1])) between.push_back(0.5 * (columns[i].y + columns[i + 1].y));
+      if (differ_much(columns[i], columns[i + 1])) between.push_back(0.5 * (columns[i].y + columns[i + 1].y));
     for (const Attempt& a : builder.solve(between))
       if (a.solved) columns.push_back(a.column);
     std::ranges::sort(columns, {}, &ContactTableColumn::y);
