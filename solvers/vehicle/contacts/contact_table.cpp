@@ -549,7 +549,7 @@ std::vector<ContactTableColumn> solve_columns_beyond(const wheelrail::Geometry& 
   // One after the other: whoever evaluates wheels on several threads may wait for this table.
   const Builder builder(geometry, rest, wheelrail::place(geometry, rest), loads_of(reference_load, options),
                         reference_load, false);
-  const double step = std::copysign(2.0 * options.step, from);
+  const double step = std::copysign(options.step, from);
   const auto most = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(options.growth / std::abs(step))));
   std::vector<ContactTableColumn> columns;
   for (std::size_t i = 0, without = 0; i <= most && without <= kMostBetween; ++i) {

@@ -39,7 +39,7 @@ class ShapeCurve {
 
 struct ContactTableOptions {
   double lateral_range = 12e-3;  ///< to both sides of the wheel's central position, before the table grows [m]
-  double growth = 6e-3;          ///< of each stretch beyond, whose step is twice the first one's [m]
+  double growth = 6e-3;          ///< of each stretch beyond [m]
   double step = 0.25e-3;         ///< [m]; finer where the contact angle changes fast
   double element_size = 0.5e-3;  ///< of the contact problems, dx = ds [m]; grows with what is pressed harder
   /// Loads over the reference load, increasing. One: a Hertzian spring. More: its stiffness follows the profiles from
