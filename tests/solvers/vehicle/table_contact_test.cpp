@@ -185,6 +185,7 @@ struct Wheel {
   const char* name;
   std::function<std::shared_ptr<const Surface>()> make;
   double least_y, most_y;  ///< that the table must reach [m]
+  double error = 0.03;     ///< of the vertical force at the same height, at most
 };
 void PrintTo(const Wheel& wheel, std::ostream* out) { *out << wheel.name; }
 
@@ -226,7 +227,7 @@ TEST_P(WholeRange, ElasticForcesAreThoseOfTheSolvedContact) {
         m.wheelset.z = s.z;
         const ContactReaction r = element.evaluate(m);
         ASSERT_EQ(r.status, Status::ok) << r.message;
-        EXPECT_NEAR(r.on_rail.force.z(), load, 0.03 * load);
+        EXPECT_NEAR(r.on_rail.force.z(), load, GetParam().error * load);
         // In the flange's root, and the more the harder it is pressed, the plane of the solved contact is another one
         // than what gives way.
         if (load > 2.0 * kLoad) continue;
@@ -241,7 +242,7 @@ INSTANTIATE_TEST_SUITE_P(Wheels, WholeRange,
                          ::testing::Values(Wheel{"S1002", [] { return named_wheel("S1002"); }, -58e-3, 17e-3},
                                            Wheel{"cone10", [] { return named_wheel("cone 1:10"); }, -55e-3, 30e-3},
                                            Wheel{"cone4", [] { return named_wheel("cone 1:4"); }, -45e-3, 20e-3},
-                                           Wheel{"hollow", [] { return hollow_wheel(0.1); }, -18e-3, 20e-3},
+                                           Wheel{"hollow", [] { return hollow_wheel(0.1); }, -18e-3, 20e-3, 0.05},
                                            Wheel{"deep", [] { return hollow_wheel(0.25); }, -18e-3, 20e-3}),
                          [](const auto& wheel) { return wheel.param.name; });
 
