@@ -174,6 +174,7 @@ class Run {
     record_.emplace(file_, *simulation_);
     summary_.emplace(file_, *simulation_);
     result_.columns = record_->columns();
+    result_.columns_chosen = !file_.history.channels.empty();
     if (kept_) return restore();
     record_->append(result_.values);
     summary_->note();

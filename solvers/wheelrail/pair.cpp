@@ -208,6 +208,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   next->last.stiffness = balance.stiffness;
   next->last.end_slope = balance.end_slope;
   if (p.refinement) step.estimate_refinement(coarse_solver_);
+  if (p.surface_loads) step.find_surface_loads();
   solution.placement = step.placement();
   const double balanced = step.force_T().z();
   solution.patches = step.take_patches();
