@@ -179,13 +179,13 @@ TEST(FullContact, SlipOfTheSurfacesDoesItsWorkToo) {
       contact.accept();
       double elements = 0.0;
       for (const auto& patch : contact.repeat(contact.accepted()).patches) elements -= patch.contact.frictional_power;
-      EXPECT_NEAR(elements, r.frictional_power, 0.03 * elements);
+      EXPECT_NEAR(elements, r.frictional_power, 0.015 * elements);
     }
 }
 
 /// Contact that goes round the gauge corner: the resultant leans as that of pressures along local normals.
 TEST(FullContact, PressureLeansAsInConformalContact) {
-  const Aside at = aside(6.22e-3, 14.8e-3);
+  const Aside at = aside(6.4e-3, 15e-3);
   std::vector<double> lean;
   for (const auto reference : {ReferenceSurface::plane, ReferenceSurface::curved}) {
     wheelrail::Problem p = prototype(wheelrail::Side::right, kalker::Regime::frictionless, 0.25e-3);
@@ -195,7 +195,7 @@ TEST(FullContact, PressureLeansAsInConformalContact) {
     ASSERT_NE(r.status, Status::no_contact);
     lean.push_back(std::atan2(r.on_rail.force.y(), r.on_rail.force.z()));
   }
-  EXPECT_NEAR(lean[0], lean[1], 0.02);
+  EXPECT_NEAR(lean[0], lean[1], 2e-3);  // along the normal of the plane 0.017 more
 }
 
 /// Along a curve the rail has turned where a yawed flange touches ahead of the axle.
