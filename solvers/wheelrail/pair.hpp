@@ -54,7 +54,7 @@ struct PatchSolution {
   Vec3 force_C = Vec3::Zero();                     ///< on the rail, contact axes, with damping [N]
   Vec3 moment_C = Vec3::Zero();                    ///< about the contact reference [N m]
   Wrenches load;
-  std::optional<SurfaceLoads> surface_loads;  ///< where they were asked for; with damping
+  std::optional<SurfaceLoads> surface_loads;  ///< where they were asked for, with damping; load is then theirs
   std::uint64_t id = 0;                       ///< stays with a patch through a sequence in time; > 0
   std::vector<std::uint64_t> came_from;       ///< patches of the previous instant that it continues
   Vec3 reference_rail = Vec3::Zero();         ///< contact reference in rail axes [m]

@@ -139,7 +139,7 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
   out.message = solution.message;
   out.doubts = static_cast<int>(std::ranges::count_if(solution.remarks, &Remark::grave));
   out.least_gap = solution.least_gap;
-  const wheelrail::Placement& placed = solution.placement;
+  out.on_rail = solution.load.track;
   double most_loaded = 0.0;
   for (const wheelrail::PatchSolution& patch : solution.patches) {
     const kalker::ContactSolution& c = patch.contact;
@@ -153,17 +153,15 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
     // times traction over elements lack the step in which material leaves the contact.
     out.frictional_power += in_time ? dissipated(patch) : patch.surface_loads->slip_power;
     out.tangents.push_back(tangent_of(patch, problem_, motion.wheelset.x - past_.x));
-    const auto on = [&](const wheelrail::Wrench& load_C, const Vec3& about) {
-      const Pose& X_TC = patch.frame.X_TC;
-      const Vec3 force = X_TC.rotation * load_C.force;
-      return wheelrail::Wrench{force, X_TC.rotation * load_C.moment + (X_TC.origin - about).cross(force)};
+    const Pose& X_TC = patch.frame.X_TC;
+    const auto about_axle = [&](const wheelrail::Wrench& load_C) {
+      const Vec3 force = X_TC.rotation * load_C.force, arm = X_TC.origin - solution.placement.X_TWs.origin;
+      return wheelrail::Wrench{force, X_TC.rotation * load_C.moment + arm.cross(force)};
     };
-    const Vec3& axle = placed.X_TWs.origin;
-    out.on_rail += on(patch.surface_loads->rail, placed.X_TR.origin);
-    const wheelrail::Wrench taken = on(patch.surface_loads->wheel, axle);
+    const wheelrail::Wrench taken = about_axle(patch.surface_loads->wheel);
     out.on_wheelset += {-taken.force, -taken.moment};
     // Ahead of the axle a rail that bends has another direction, and pressures push the wheel back or forth.
-    const double along = -motion.curvature * on(patch.surface_loads->pressure, axle).moment.z();
+    const double along = -motion.curvature * about_axle(patch.surface_loads->pressure).moment.z();
     out.on_rail.force.x() += along;
     out.on_wheelset.force.x() -= along;
     ++out.patches;
