@@ -24,7 +24,7 @@ namespace treadmark::wheelrail {
 /// Heights of rail and wheel along n at which the rigid slip of each element was taken [m]; empty: in the contact plane
 /// and at the approach.
 struct SlipHeights {
-  std::vector<double> rail, wheel;
+  std::vector<double> rail, wheel;  ///< by element of the grid [m]
 };
 
 /// What a patch does to its bodies (surface_loads.hpp): loads on the rail in contact axes, moments about the contact
