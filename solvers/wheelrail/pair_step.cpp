@@ -308,10 +308,9 @@ void PairStep::find_surface_loads() {
   const MaterialVelocity material = material_velocity(problem_, placement_);
   for (Patch& patch : patches_) {
     PatchSolution& s = patch.solution;
-    s.surface_loads =
-        surface_loads(geometry_, placement_, material, s,
-                      patch.reference ? *patch.reference : detection::plane_reference(s.grid, s.reference_C),
-                      patch.slip_heights);
+    s.surface_loads = surface_loads(
+        geometry_, placement_, material, s,
+        patch.reference ? *patch.reference : detection::plane_reference(s.grid, s.reference_C), patch.slip_heights);
   }
 }
 
