@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cerrno>
 #include <cstdlib>
 #include <iterator>
 #include <sstream>
@@ -18,6 +20,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 
 extern "C" char** environ;
@@ -38,6 +41,19 @@ fs::path find_browser() {
   return {};
 }
 
+/// A file's address (RFC 8089): what is neither a letter nor a digit is written by its code.
+std::string url_of(const fs::path& file) {
+  std::string out = "file://";
+  for (const char c : file.string())
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/-._~").find(c) != std::string_view::npos)
+      out += c;
+    else
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
+}
+
+bool is_print(const fs::path& file) { return io::extension_of(file) == ".pdf"; }
+
 std::string printed(const fs::path& file, const std::string& html) {
   const fs::path folder = fs::absolute(file).parent_path(), page = folder / fmt::format(".page-{}.html", ::getpid()),
                  pdf = folder / fmt::format(".page-{}.pdf", ::getpid());
@@ -50,7 +66,7 @@ std::string printed(const fs::path& file, const std::string& html) {
                          "--virtual-time-budget=10000",
                          ::geteuid() == 0 ? "--no-sandbox" : "--disable-extensions",
                          "--print-to-pdf=" + pdf.string(),
-                         "file://" + page.string()};
+                         url_of(page)};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -60,7 +76,7 @@ std::string printed(const fs::path& file, const std::string& html) {
     posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_RDWR, 0);
   pid_t process = 0;
   if (::posix_spawn(&process, arguments.front(), &quiet, nullptr, arguments.data(), environ) == 0)
-    ::waitpid(process, nullptr, 0);
+    while (::waitpid(process, nullptr, 0) < 0 && errno == EINTR) continue;
   posix_spawn_file_actions_destroy(&quiet);
   std::string bytes = fs::exists(pdf) ? io::profiles::read_text(pdf, "PDF", {}) : "";
   fs::remove(page);
@@ -74,8 +90,8 @@ std::string printed(const fs::path& file, const std::string& html) {
 }  // namespace
 
 void check_page_name(const fs::path& file) {
-  const std::string ending = file.extension().string();
-  if (ending == ".pdf" && find_browser().empty())
+  const std::string ending = io::extension_of(file);
+  if (is_print(file) && find_browser().empty())
     throw Error(ErrorKind::configuration, "a page becomes a PDF by Chromium, which is not installed", {file.string()},
                 "install it, or write the page as .html and print it from a browser");
   constexpr std::string_view kOthers[] = {".png", ".svg", ".jpg", ".jpeg", ".docx", ".odt", ".xlsx", ".json", ".csv"};
@@ -85,7 +101,7 @@ void check_page_name(const fs::path& file) {
 }
 
 void write_page(const fs::path& file, const std::string& html) {
-  write_file(file, file.extension() == ".pdf" ? printed(file, html) : html);
+  write_file(file, is_print(file) ? printed(file, html) : html);
 }
 
 }  // namespace treadmark::cli

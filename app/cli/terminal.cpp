@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "treadmark/io/files/text.hpp"
+
 namespace treadmark::cli {
 namespace {
 
@@ -16,15 +18,11 @@ constexpr std::size_t kUsual = 80;  // of a terminal that does not tell
 
 bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }
 
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
-}
-
 /// Where the rest of a line goes on: below its last column, which begins behind two blanks, unless that is far right.
 std::size_t indent_of(std::string_view line, std::size_t columns) {
   constexpr std::size_t kParagraph = 2, kListed = 8;
   const std::size_t text = std::min(line.find_first_not_of(' '), line.size()), gap = line.rfind("  ");
-  const std::size_t last = gap == std::string_view::npos ? 0 : width_of(line.substr(0, gap + 2));
+  const std::size_t last = gap == std::string_view::npos ? 0 : io::characters_of(line.substr(0, gap + 2));
   if (last > text && last <= 2 * columns / 3) return last;
   return text < kListed ? text + kParagraph : std::min(text, columns / 2);
 }
@@ -32,7 +30,7 @@ std::size_t indent_of(std::string_view line, std::size_t columns) {
 std::string folded_line(std::string_view line, std::size_t columns) {
   std::string out;
   const std::string indent(indent_of(line, columns), ' ');
-  for (std::size_t room = columns; width_of(line) > room; room = columns - indent.size()) {
+  for (std::size_t room = columns; io::characters_of(line) > room; room = columns - indent.size()) {
     const std::size_t most = cut(line, room + 1).size(), first = line.find_first_not_of(' ');
     std::size_t at = line.rfind(' ', most - 1);
     if (at == std::string_view::npos || at <= first) at = line.find(' ', most);  // a word that is too long

@@ -13,6 +13,7 @@
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
@@ -46,7 +47,7 @@ class Packer {
     for (io::SurfaceSource& part : source.parts) pack(part, body);
     auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
     if (geometry == nullptr || !source.parts.empty()) return;
-    if (geometry->file.extension() == ".vdb")
+    if (io::extension_of(geometry->file) == ".vdb")
       throw Error(ErrorKind::configuration, "FMUs do not take OpenVDB with them, which offsets need", source.where,
                   "convert the surface to triangles or slices: treadmark convert");
     const fs::path original = geometry->file;

@@ -18,6 +18,7 @@
 #include "treadmark/app/cases/noise_of_results.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
@@ -47,7 +48,7 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
     said.overrides = request.overrides;
     return named_surface(name, said);
   }
-  if (!fs::exists(name) && fs::path(name).extension() != ".vdb") {
+  if (!fs::exists(name) && !is_offset_file(name)) {
     try {
       SurfaceSpec spec;
       spec.body = body;
@@ -62,7 +63,7 @@ NaturalSurface surface_of(const GeometryRequest& request, const std::string& nam
   NamedSurface said;
   said.body = body;
   said.scale_to_mm = request.scale_to_mm;
-  said.nominal_radius = body == Body::wheel && fs::path(name).extension() != ".vdb" ? 0.5 * kUsualDiameter : 0.0;
+  said.nominal_radius = body == Body::wheel && !is_offset_file(name) ? 0.5 * kUsualDiameter : 0.0;
   return named_surface(name, said);
 }
 

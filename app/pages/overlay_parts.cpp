@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/report/html_text.hpp"
 
 namespace treadmark::app::pages {
@@ -32,9 +33,7 @@ std::string version_of(const Origin& origin) {
 std::string shortened(const std::string& text) {
   constexpr std::size_t kMost = 60, kKept = 40;
   if (text.size() <= kMost) return text;
-  std::size_t end = kKept;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // no half characters
-  return fmt::format("{}… ({} characters)", text.substr(0, end), text.size());
+  return fmt::format("{}… ({} characters)", io::cut_to_bytes(text, kKept), io::characters_of(text));
 }
 
 }  // namespace

@@ -168,6 +168,13 @@ std::string read_input(const std::filesystem::path& file, std::string_view what)
   return text;
 }
 
+namespace {
+
+/// UTF-8 goes on with a character in bytes 10xxxxxx.
+bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
+
+}  // namespace
+
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -182,6 +189,16 @@ std::size_t utf8_length(std::string_view text) {
   const unsigned least = length == 4 ? 0x10000u : length == 3 ? 0x800u : 0x80u;  // no longer than needed
   const bool surrogate = code >= 0xD800u && code < 0xE000u;
   return code < least || code > 0x10FFFFu || surrogate ? 0 : length;
+}
+
+std::size_t characters_of(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
+}
+
+std::string_view cut_to_bytes(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return text;
+  while (most > 0 && !begins_character(text[most])) --most;
+  return text.substr(0, most);
 }
 
 double rounded(double value, Digits digits) {

@@ -39,6 +39,12 @@ std::string read_input(const std::filesystem::path& file, std::string_view what)
 /// Bytes of the UTF-8 character (RFC 3629) at the start of a text that is not empty; 0 where there is none.
 std::size_t utf8_length(std::string_view text);
 
+/// Characters of a text in UTF-8, not bytes.
+std::size_t characters_of(std::string_view text);
+
+/// The start of a text in UTF-8 of at most so many bytes, without half a character at its end.
+std::string_view cut_to_bytes(std::string_view text, std::size_t most);
+
 /// Rounded, so that changes of unit leave no tail of nines. Zero has no sign. Thread-safe.
 double rounded(double value, treadmark::Digits digits = treadmark::Digits::twelve);
 

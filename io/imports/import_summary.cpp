@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/tables/shown.hpp"
@@ -15,11 +16,6 @@ namespace {
 
 constexpr std::size_t kLabel = 24, kSummaryLine = 110;  // characters
 constexpr std::size_t kMostDamageLines = 5, kMostHoleLines = 3, kMostInputs = 5;
-
-/// Letters, not bytes.
-std::size_t letters(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
 
 /// Control characters become blanks, so that a name cannot break the lines.
 std::string one_line(std::string text) {
@@ -35,7 +31,8 @@ class Page {
   void line(const std::string& text) { text_ += fmt::format("{}\n", one_line(text)); }
   void row(const std::string& label, const std::string& text) {
     const std::string head = one_line(label);
-    wrap(fmt::format("  {}{:{}}", head, "", letters(head) < kLabel ? kLabel - letters(head) : 1), text, kLabel + 2);
+    wrap(fmt::format("  {}{:{}}", head, "", characters_of(head) < kLabel ? kLabel - characters_of(head) : 1), text,
+         kLabel + 2);
   }
   void wrap(std::string line, const std::string& text, std::size_t indent) {
     std::string rest = one_line(text);
@@ -44,7 +41,7 @@ class Page {
       const std::size_t end = std::min(rest.find(' '), rest.size());
       const std::string word = rest.substr(0, end);
       rest.erase(0, std::min(end + 1, rest.size()));
-      if (!first && letters(line) + 1 + letters(word) > kSummaryLine) {
+      if (!first && characters_of(line) + 1 + characters_of(word) > kSummaryLine) {
         text_ += line + "\n";
         line.assign(indent, ' ');
         first = true;

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "treadmark/io/files/text.hpp"
+
 namespace treadmark::io {
 namespace {
 
@@ -48,10 +50,7 @@ std::optional<double> number_in(const std::string& toml) {
 std::string bare(std::string text) {
   constexpr std::size_t kMost = 100;
   std::erase_if(text, [](char c) { return c == '\'' || c == '"'; });
-  if (text.size() <= kMost) return text;
-  std::size_t end = kMost;
-  while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // no half characters
-  return text.substr(0, end) + "…";
+  return text.size() <= kMost ? text : std::string(cut_to_bytes(text, kMost)) + "…";
 }
 
 /// Adds "a.b.0.c" and the value of each leaf.

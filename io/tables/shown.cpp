@@ -10,16 +10,6 @@
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
-namespace {
-
-/// Characters, not bytes: UTF-8 continues a character with 10xxxxxx.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
-}  // namespace
-
 std::string shown_number(double value, int decimals) {
   if (!std::isfinite(value)) return "-";
   std::string text = decimals < 0              ? fmt::format("{:.5g}", value)
@@ -53,7 +43,7 @@ std::string text_line(std::string_view label, std::size_t width, const std::stri
 
 void add_column(std::vector<std::string>& lines, const std::vector<std::string>& cells, bool texts) {
   std::size_t width = 0;
-  for (const std::string& cell : cells) width = std::max(width, width_of(cell));
+  for (const std::string& cell : cells) width = std::max(width, characters_of(cell));
   const std::string gap(lines.front().empty() ? 0 : 2, ' ');
   for (std::size_t i = 0; i < lines.size(); ++i)
     lines[i] += gap + (texts ? fmt::format("{:<{}}", cells[i], width) : fmt::format("{:>{}}", cells[i], width));

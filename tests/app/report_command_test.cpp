@@ -72,15 +72,19 @@ TEST(ReportCommand, TracksHaveAReport) {
 TEST(ReportCommand, OtherFilesThanPagesAreRefusedBeforeTheWork) {
   const SampleInput input;
   const std::string folder = input.folder().string();
-  const ProgramResult picture = run_program({"run", folder + "/missing.inp", "--report", folder + "/x.png"});
-  EXPECT_EQ(picture.status, 2);
-  EXPECT_THAT(picture.err, HasSubstr("a report is a page (.html) or its print (.pdf)"));
+  for (const char* name : {"/x.png", "/x.PNG"}) {
+    const ProgramResult picture = run_program({"run", folder + "/missing.inp", "--report", folder + name});
+    EXPECT_EQ(picture.status, 2);
+    EXPECT_THAT(picture.err, HasSubstr("a report is a page (.html) or its print (.pdf)"));
+  }
   const std::string before = std::getenv("PATH");
   setenv("PATH", folder.c_str(), 1);  // where there is no browser
-  const ProgramResult print = run_program({"run", folder + "/missing.inp", "--report", folder + "/x.pdf"});
+  for (const char* name : {"/x.pdf", "/x.PDF"}) {
+    const ProgramResult print = run_program({"run", folder + "/missing.inp", "--report", folder + name});
+    EXPECT_EQ(print.status, 2);
+    EXPECT_THAT(print.err, HasSubstr("Chromium, which is not installed"));
+  }
   setenv("PATH", before.c_str(), 1);
-  EXPECT_EQ(print.status, 2);
-  EXPECT_THAT(print.err, HasSubstr("Chromium, which is not installed"));
 }
 
 TEST(ReportCommand, ReportsNeedNoFolder) {

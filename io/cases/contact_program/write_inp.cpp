@@ -335,8 +335,7 @@ class InputWriter {
         file != nullptr && file->options.placement == ProfileOptions::Placement::automatic &&
         !is_slices_file(file->file))
       out_ += " %treadmark wheel.shape.placement = 'automatic'\n";
-    if (const auto* file = std::get_if<GeometryFile>(&c.wheel.geometry);
-        file != nullptr && file->file.extension().string().starts_with(".slc"))
+    if (const auto* file = std::get_if<GeometryFile>(&c.wheel.geometry); file != nullptr && is_slices_file(file->file))
       own_settings({{"wheel.shape.open_seam", "true"}});
     if (c.longitudinal_force && c.state.velocity.pitch != 0.0)
       out_ += fmt::format(" %treadmark wheelset.vpitch_rad_s = {}\n %treadmark wheelset.longitudinal_force_N = {}\n",

@@ -791,6 +791,17 @@ test("geometry, measures, checks and assessments are read whole by everybody", a
   }
 });
 
+test("a report is printed into any folder", () => {
+  const strange = join(folder, "50 % of #1");
+  mkdirSync(strange);
+  results.treadmark(["geometry", join(results.examples, "wheel-flat.toml"), "--report", join(strange, "wheelset.pdf")]);
+  const print = readFileSync(join(strange, "wheelset.pdf"), "latin1");
+  assert.ok(print.startsWith("%PDF"));
+  const pages = print.match(/\/Type\s*\/Page\b/g)?.length ?? 0;
+  assert.ok(pages >= 1 && pages <= 8, `${pages} pages`);
+  assert.deepEqual(readdirSync(strange), ["wheelset.pdf"]);
+});
+
 test("every page stays below 8 MB; how fast they open is told", async () => {
   const files = [...readdirSync(folder).filter((name) => name.endsWith(".html")), join("import", "report.html")];
   assert.ok(files.length >= 9, files.join(", "));
