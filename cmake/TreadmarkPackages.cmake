@@ -1,68 +1,84 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Packages for Debian: `cpack -G DEB` in the folder of a build. What is installed belongs to one of the components below. Those of a
-# build under the GPL have names of their own and stand in for the others.
-set(TREADMARK_PACKAGE_SUFFIX "")
-set(TREADMARK_PACKAGE_NOTE "")
-if(TREADMARK_GPL)
-  set(TREADMARK_PACKAGE_SUFFIX "-gpl")
-  set(TREADMARK_PACKAGE_NOTE " (GPL-3.0-or-later, with FFTW or CGAL)")
-endif()
-
-# treadmark_package(<component> <name> <section> <summary>): one package; more of it in variables CPACK_DEBIAN_<COMPONENT>_...
+# Packages for Debian: scripts/packages.sh. What is installed belongs to one of the components below. Those of a build under the GPL
+# have names of their own and stand in for the others.
 set(CPACK_COMPONENTS_ALL "")
+
+# treadmark_package(<component> <name> <section> <summary> [APART]): one package; more of it in variables CPACK_DEBIAN_<COMPONENT>_...
+# APART: nothing under the GPL is in it, whatever the build.
 macro(treadmark_package component name section summary)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
   string(TOUPPER ${component} upper)
-  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name}${TREADMARK_PACKAGE_SUFFIX})
-  if(TREADMARK_GPL)
-    foreach(relation IN ITEMS PROVIDES CONFLICTS REPLACES)
-      set(CPACK_DEBIAN_${upper}_PACKAGE_${relation} ${name})
-    endforeach()
+  set(package ${name})
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "Wheel-rail contact on any 3D surface: ${summary}")
+  if(TREADMARK_GPL AND NOT "${ARGN}" STREQUAL "APART")
+    set(package ${name}-gpl)
+    string(APPEND CPACK_COMPONENT_${upper}_DESCRIPTION " (GPL-3.0-or-later, with FFTW or CGAL)")
+    set(CPACK_DEBIAN_${upper}_PACKAGE_PROVIDES "${name} (= ${PROJECT_VERSION})")
+    set(CPACK_DEBIAN_${upper}_PACKAGE_CONFLICTS ${name})
+    set(CPACK_DEBIAN_${upper}_PACKAGE_REPLACES ${name})
   endif()
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${package})
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
-  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}${TREADMARK_PACKAGE_NOTE}")
-  set(documents "${CMAKE_INSTALL_DATADIR}/doc/${name}${TREADMARK_PACKAGE_SUFFIX}")
-  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${documents}" RENAME copyright COMPONENT ${component})
-  install(FILES "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION "${documents}" COMPONENT ${component})
+  install(FILES "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package}" COMPONENT ${component})
 endmacro()
 
-treadmark_package(program treadmark science "Wheel-rail contact on any 3D surface: the program")
-treadmark_package(library libtreadmark${TREADMARK_ABI} libs "Wheel-rail contact on any 3D surface: shared library")
-treadmark_package(development libtreadmark-dev libdevel "Wheel-rail contact on any 3D surface: headers for C and C++")
+treadmark_package(program treadmark science "the program")
+treadmark_package(library libtreadmark${TREADMARK_ABI} libs "shared library")
+treadmark_package(development libtreadmark-dev libdevel "headers for C and C++")
 if(TREADMARK_HAVE_PYTHON)
-  treadmark_package(python python3-treadmark python "Wheel-rail contact on any 3D surface: package for Python")
+  treadmark_package(python python3-treadmark python "package for Python")
   string(REGEX REPLACE ".*cpython-3([0-9]+).*" "\\1" minor "${TREADMARK_PYTHON_SUFFIX}")
   math(EXPR next "${minor} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${minor}), python3 (<< 3.${next}), python3-numpy")
-  set(CPACK_COMPONENT_PYTHON_DEPENDS library)
 endif()
+# Modules (core/modules.hpp), with libraries that the first report does not need.
+set(extras "")
+foreach(part IN ITEMS cad openvdb)
+  string(TOUPPER ${part} upper)
+  if(TREADMARK_HAVE_${upper})
+    treadmark_package(${part} treadmark-${part} science "what needs ${TREADMARK_${upper}_NAME}" APART)
+    list(APPEND extras treadmark-${part})
+    set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS
+      "treadmark (= ${PROJECT_VERSION}) | libtreadmark${TREADMARK_ABI} (= ${PROJECT_VERSION}) | python3-treadmark (= ${PROJECT_VERSION})")
+  endif()
+endforeach()
+treadmark_package(documents treadmark-doc doc "documents" APART)
+set(CPACK_DEBIAN_DOCUMENTS_PACKAGE_ARCHITECTURE all)
+list(JOIN extras ", " extras)
+foreach(package IN ITEMS PROGRAM LIBRARY PYTHON)
+  set(CPACK_DEBIAN_${package}_PACKAGE_SUGGESTS "${extras}")
+endforeach()
 
-# The module for offsets lies beside the shared library.
-set(CPACK_COMPONENT_PROGRAM_DEPENDS library)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
-# Programs in C need the shared library alone, those in C++ link static ones.
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, zlib1g-dev")
-foreach(part IN LISTS TREADMARK_PARTS)
+# For programs in C++, which link static libraries.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, zlib1g-dev")
+foreach(part IN ITEMS embree hdf5 tbb fftw cgal expat)
   string(TOUPPER "${part}" upper)
-  # Headers of nanoflann are seen by ours alone.
-  if(TREADMARK_HAVE_${upper} AND TREADMARK_${upper}_PACKAGES MATCHES "-dev" AND NOT part MATCHES "^(python|scans)$")
-    string(REPLACE " and " ", " packages "${TREADMARK_${upper}_PACKAGES}")
-    string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS ", ${packages}")
+  if(TREADMARK_HAVE_${upper})
+    string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", ${TREADMARK_${upper}_PACKAGES}")
   endif()
 endforeach()
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/examples" COMPONENT program
   PATTERN CMakeLists.txt EXCLUDE)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/docs" COMPONENT program
-  PATTERN "*.in" EXCLUDE PATTERN "*.dox" EXCLUDE)
+# The documents as pages for browsers (Debian packages python3-sphinx, python3-myst-parser, furo); installed where they were made.
+add_custom_target(site COMMAND /usr/bin/python3 -m sphinx -q -W --keep-going -d "${PROJECT_BINARY_DIR}/site-cache" -c docs . "${PROJECT_BINARY_DIR}/site"
+  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" VERBATIM)
+install(DIRECTORY "${PROJECT_BINARY_DIR}/site/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/html" COMPONENT documents OPTIONAL
+  PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE)
+install(DIRECTORY "${PROJECT_BINARY_DIR}/api/html/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/html/api" COMPONENT documents OPTIONAL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME treadmark)
 set(CPACK_PACKAGE_VENDOR "Treadmark contributors")
 set(CPACK_PACKAGE_CONTACT "Treadmark contributors <contributors@treadmark.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_STRIP_FILES ON)
+if(TREADMARK_FOR_PACKAGES)
+  set(CPACK_DEBIAN_DEBUGINFO_PACKAGE ON)
+else()
+  set(CPACK_STRIP_FILES ON)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

@@ -15,6 +15,7 @@ target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic
   $<$<BOOL:${TREADMARK_WARNINGS_AS_ERRORS}>:-Werror>)
 
 set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")
+set(TREADMARK_MODULES "${PROJECT_BINARY_DIR}/lib/treadmark")  # core/modules.hpp
 
 # What parsing costs is shared: sources are compiled several at a time, after headers that are parsed once. So names of a folder's
 # anonymous namespaces must differ. -DTREADMARK_SHARED_PARSING=OFF compiles every file by itself.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <span>
 #include <string>
@@ -87,6 +88,9 @@ class ByteReader {
 
   std::span<const std::byte> rest_;
 };
+
+/// Another one for any change of one byte, which would go on as another state (Fowler, Noll and Vo: FNV-1a, 64 bits).
+std::uint64_t check_sum(std::span<const std::byte> bytes);
 
 [[noreturn]] inline void refuse_saved_state(const char* what) {
   throw Error(ErrorKind::input_data, std::string("a saved state is damaged: ") + what, {}, "start anew");

@@ -81,8 +81,8 @@ Grid2 potential_contact_grid(const BodyPair& bodies, const ContactPatch& patch, 
   grid.dy = ds;
   grid.x0 = first(x_low, dx) * dx;
   grid.y0 = first(s_low, ds) * ds;
-  grid.nx = static_cast<int>(count(x_low, x_high, dx));
-  grid.ny = static_cast<int>(count(s_low, s_high, ds));
+  grid.nx = to_whole<int>(count(x_low, x_high, dx));
+  grid.ny = to_whole<int>(count(s_low, s_high, ds));
   return grid;
 }
 

@@ -69,7 +69,7 @@ class SampledWheel {
       const Vec3 q = X_.apply_inverse({x, y, z});
       const double place = (q.y() - first_) * inverse_step_;
       if (!(place >= 0.0 && place <= static_cast<double>(r_.size() - 1))) return kNaN;
-      const std::size_t k = std::min(static_cast<std::size_t>(place), r_.size() - 2);
+      const std::size_t k = std::min(to_whole<std::size_t>(place), r_.size() - 2);
       const double f = place - static_cast<double>(k), rise = r_[k + 1] - r_[k], a = by_y_[k] * step_,
                    b = by_y_[k + 1] * step_;
       const double c2 = 3.0 * rise - 2.0 * a - b, c3 = a + b - 2.0 * rise;
@@ -251,7 +251,7 @@ void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_
   const auto gap = [&](int i) { return fine.gap[static_cast<std::size_t>(i)] - wheel_dz; };
   const auto rail_z = [&](double y) {
     const double place = std::clamp((y - rows.first) / rows.step, 0.0, rows.count - 1.0);
-    const auto i = static_cast<std::size_t>(std::min(static_cast<int>(place), rows.count - 2));
+    const auto i = static_cast<std::size_t>(std::min(to_whole<int>(place), rows.count - 2));
     const double low = fine.rail_z[i], high = fine.rail_z[i + 1], f = place - static_cast<double>(i);
     return std::isnan(low) ? high : std::isnan(high) ? low : low + f * (high - low);
   };

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/closest_gap.hpp"
 #include "treadmark/detection/region_extent.hpp"
 
@@ -30,7 +31,7 @@ Grid2 refined_grid(const Grid2& g, const Region& r, const SearchSettings& s) {
   const auto points = [&](double length, double finest) {
     const double wanted =
         finest > 0.0 ? std::min<double>(s.refined_points, std::ceil(length / finest)) : s.refined_points;
-    return std::max(9, static_cast<int>(wanted) + 1);
+    return std::max(9, to_whole<int>(wanted) + 1);
   };
   Grid2 f;
   f.nx = points(x_max - x_min, s.refined_dx);

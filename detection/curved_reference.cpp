@@ -13,6 +13,7 @@ namespace {
 // The mean of two unit normals is shorter than 0.9 when they differ by more than this [rad].
 constexpr double kDisagreement = 0.902;
 constexpr double kLongestStep = 0.25e-3;
+constexpr double kFar = 1.0;  // [m] where one side of it has no section, the other has none either
 
 /// A point of the curve and its direction, in C.
 struct CurvePoint {
@@ -96,8 +97,12 @@ ReferenceRows curved_reference(const BodyPair& bodies, const ContactFrame& frame
     for (int iy = first; iy != last; iy += direction) {
       const double way = arc_length(iy) - s;
       const int steps = std::max(1, to_whole<int>(std::ceil(std::abs(way) / kLongestStep - 1e-6)));
-      if (way != 0.0)
-        for (int k = 0; k < steps; ++k) point = curve.at_arc_length(point, way / steps);
+      for (int k = 0; k < steps && way != 0.0; ++k) {
+        const double left = way * (steps - k) / steps;
+        const bool at_once = point.straight && std::abs(left) > kFar;
+        point = curve.at_arc_length(point, at_once ? left : way / steps);
+        if (at_once) break;
+      }
       s = arc_length(iy);
       result.rows[static_cast<std::size_t>(iy)] = {point.y, point.n, point.angle};
     }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::detection {
 namespace {
 
@@ -46,7 +48,7 @@ Rectangle crossing_extent(const GapField& field, double wheel_dz, const Region& 
 double rail_height_near(const GapField& field, int ix, double y) {
   const Grid2& g = field.grid();
   const double position = std::clamp((y - g.y0) / g.dy, 0.0, static_cast<double>(g.ny - 1));
-  const int iy = std::min(static_cast<int>(position), g.ny - 2);
+  const int iy = std::min(to_whole<int>(position), g.ny - 2);
   const double fraction = position - iy;
   const double low = field.rail_z(ix, iy), high = field.rail_z(ix, iy + 1);
   if (std::isnan(low) && std::isnan(high)) {

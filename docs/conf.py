@@ -13,6 +13,7 @@ include_patterns = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md",
 exclude_patterns = ["build*", "out*", "shared", "**/node_modules", ".*"]
 html_title = "Treadmark"
 html_copy_source = False
+html_scaled_image_link = False  # thumbnails lead to their sections
 html_static_path = ["site"]
 html_css_files = ["site.css"]
 html_js_files = ["site.js"]
@@ -38,5 +39,12 @@ def add_navigation(app, name, source):
     source[0] = re.sub(r'<img [^>]*>', lambda image: re.sub(r'(alt="[^"]*)"', lambda alt: alt[0].replace(": ", " – "), image[0]), source[0])
 
 
+def add_front(app, exception):
+    front = pathlib.Path(app.outdir, "index.html")  # where people and servers look first
+    front.write_text('<!DOCTYPE html>\n<meta charset="utf-8">\n<title>Treadmark</title>\n<meta http-equiv="refresh" content="0; url=docs/index.html">\n'
+                     '<a href="docs/index.html">Documents of Treadmark</a>\n', encoding="utf-8")
+
+
 def setup(app):
     app.connect("source-read", add_navigation)
+    app.connect("build-finished", add_front)

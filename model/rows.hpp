@@ -8,6 +8,8 @@
 #include <string_view>
 #include <type_traits>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark {
 
 /// A number of a result is one row of a table: files, terminal and pages walk the rows (io/tables/) and name no number
@@ -56,6 +58,15 @@ using WholeOf = typename Parts<decltype(Member)>::Whole;
 template <auto Member>
 using ValueOf = typename Parts<decltype(Member)>::Value;
 
+/// A number as a member of a row keeps it.
+template <class V>
+constexpr V as_member(double v) {
+  if constexpr (std::is_integral_v<V>)
+    return to_whole<V>(v);
+  else
+    return static_cast<V>(v);
+}
+
 /// A text, a number, a count, or a number that may not be known.
 template <auto Member>
 constexpr Access<WholeOf<Member>> of() {
@@ -73,7 +84,7 @@ constexpr Access<WholeOf<Member>> of() {
             [](const R& r) { return (r.*Member).has_value(); }};
   else
     return {[](const R& r) { return static_cast<double>(r.*Member); },
-            [](R& r, double v) { r.*Member = static_cast<V>(v); }, nullptr, std::is_integral_v<V>};
+            [](R& r, double v) { r.*Member = as_member<V>(v); }, nullptr, std::is_integral_v<V>};
 }
 
 /// True or false in JSON.
@@ -114,7 +125,7 @@ constexpr Access<WholeOf<Outer>> within() {
   using V = ValueOf<Inner>;
   if constexpr (std::is_same_v<ValueOf<Outer>, WholeOf<Inner>>)
     return {[](const R& r) { return static_cast<double>(r.*Outer.*Inner); },
-            [](R& r, double v) { r.*Outer.*Inner = static_cast<V>(v); }, nullptr, std::is_integral_v<V>};
+            [](R& r, double v) { r.*Outer.*Inner = as_member<V>(v); }, nullptr, std::is_integral_v<V>};
   else
     return {[](const R& r) { return (*(r.*Outer)).*Inner; },
             [](R& r, double v) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::report {
 namespace {
@@ -48,7 +49,7 @@ std::vector<RowValue> curves_over(Page& page, std::size_t steps) {
         if (!series.steps.empty()) {
           for (std::size_t i = 0; i < std::min(series.steps.size(), series.y.size()); ++i)
             if (series.steps[i] >= 0.0 && series.steps[i] < static_cast<double>(steps))
-              values[static_cast<std::size_t>(series.steps[i])] = series.y[i];
+              values[to_whole<std::size_t>(series.steps[i])] = series.y[i];
         } else if (chart->linked && series.y.size() == steps) {
           values = series.y;
         } else {
@@ -126,7 +127,7 @@ class StepFilter {
     Series some = series;
     some.y.clear(), some.x.clear(), some.texts.clear(), some.steps.clear();
     for (std::size_t i = 0; i < series.steps.size(); ++i) {
-      const auto at = series.steps[i] < 0.0 ? place_.end() : place_.find(static_cast<std::size_t>(series.steps[i]));
+      const auto at = series.steps[i] < 0.0 ? place_.end() : place_.find(to_whole<std::size_t>(series.steps[i]));
       if (at == place_.end()) continue;
       some.steps.push_back(static_cast<double>(at->second));
       some.y.push_back(series.y[i]);

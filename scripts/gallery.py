@@ -141,8 +141,10 @@ def thumbnails():
     """Pictures that lead to their sections."""
     def anchor(title):
         return re.sub(r"[^a-z0-9 -]", "", title.lower()).replace(" ", "-")
-    return "\n" + "\n".join(f'[<img src="gallery/{e.example}.svg" alt="{e.title}" title="{e.title}" width="160">](#{anchor(e.title)})'
-                            for e in ENTRIES if e.plot) + "\n"
+    across = 4
+    cells = [f'[<img src="gallery/{e.example}.svg" alt="{e.title}" width="160"><br>{e.title}](#{anchor(e.title)})' for e in ENTRIES if e.plot]
+    rows = ["| " + " | ".join(cells[k:k + across]) + " |" for k in range(0, len(cells), across)]
+    return "\n" + "\n".join([rows[0], "|" + across * ":-:|", *rows[1:]]) + "\n"
 
 
 def differences(old, new):

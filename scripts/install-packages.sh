@@ -13,7 +13,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )
 
-[[ ${1:-} != --tests ]] || packages+=(libfftw3-dev libcgal-dev libgmp-dev libmpfr-dev chromium clang-format clang-tidy doxygen gfortran python3-h5py python3-pytest python3-mypy python3-pandas python3-xarray python3-matplotlib python3-distributed python3-pip python3-setuptools python3-venv python3-wheel libxml2-utils libsimbody-dev slurmctld slurmd slurm-client munge valgrind
+[[ ${1:-} != --tests ]] || packages+=(libfftw3-dev libcgal-dev libgmp-dev libmpfr-dev chromium clang-format clang-tidy doxygen dpkg-dev file gfortran python3-h5py python3-pytest python3-mypy python3-pandas python3-xarray python3-matplotlib python3-distributed python3-pip python3-setuptools python3-venv python3-wheel libxml2-utils libsimbody-dev slurmctld slurmd slurm-client munge valgrind
   python3-sphinx python3-myst-parser furo)
 [[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.

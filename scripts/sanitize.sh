@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Builds a part of the tests with sanitizers and runs it. usage: sanitize.sh [address|replay [SECONDS]|thread|trap|memcheck]
+# Builds a part of the tests with sanitizers and runs it. usage: sanitize.sh [address|all|replay [SECONDS]|thread|trap|memcheck]
 #   address   address and undefined behaviour: readers of files, splines, Kalker's solvers; and replay beside them
+#   all       address and undefined behaviour under every test that a sanitized program can run: for a night
 #   replay    the same build of the readers under the corpus of tests/fuzz, then under mutants of it for some seconds (60)
 #   thread    data races; without oneTBB and OpenVDB, in which the sanitizer does not see how threads wait for each other
 #   trap      signed overflow (-ftrapv) and floating-point division by zero and overflow end a test where they happen: Kalker's
@@ -21,6 +22,12 @@ case "$kind" in
       io/profiles/io_profiles_tests core/core_tests model/model_tests io/json/io_json_tests io/meshes/io_meshes_tests)
     ;;
   replay) preset=asan ;;
+  all)
+    cmake --preset asan -DTREADMARK_REPORT=ON -DTREADMARK_BUILD_BENCH=OFF
+    cmake --build --preset asan
+    export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp"
+    exec ctest --test-dir build/asan -j"$(nproc)" --output-on-failure
+    ;;
   thread)
     preset=tsan
     programs=(core/core_tests search/search_tests backends/spline/backends_spline_tests backends/mesh/backends_mesh_tests
@@ -39,7 +46,7 @@ case "$kind" in
     done
     exit 0
     ;;
-  *) sed -n '4,13s/^# //p' "$0" >&2; exit 2 ;;
+  *) sed -n '4,14s/^# //p' "$0" >&2; exit 2 ;;
 esac
 
 # Targets of readers whose tests are built here anyway, and of what reads TOML.

@@ -110,8 +110,8 @@ SurfaceCells make_cells(const Surface& surface, Body body, double nominal_radius
     throw Error(ErrorKind::configuration,
                 fmt::format("a surface of {:.0f} x {:.0f} cells cannot evolve", columns, rows), {},
                 fmt::format("choose du_mm and dy_mm for at least two rows and at most {:.0f} cells", kMostCells));
-  cells.nu = static_cast<int>(columns);
-  cells.ny = static_cast<int>(rows);
+  cells.nu = to_whole<int>(columns);
+  cells.ny = to_whole<int>(rows);
   cells.radius.assign(static_cast<std::size_t>(cells.ny), 1.0);
   std::vector<Vec2> points;
   points.reserve(static_cast<std::size_t>(cells.ny));

@@ -9,6 +9,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/contact/hertz_ellipse.hpp"
 
 namespace treadmark::geometry {
@@ -35,7 +36,7 @@ double modulus_of(const AxleLoad& load) {
 bool is_edge(const Section& s, double y) {
   const double t = (y - s.first()) / s.step();
   if (!(t >= 1.0) || !(t < static_cast<double>(s.size()) - 2.0)) return false;
-  const auto i = static_cast<std::size_t>(t);
+  const auto i = to_whole<std::size_t>(t);
   const auto bend = [&](std::size_t k) { return std::fabs(std::atan(s.slope()[k + 1]) - std::atan(s.slope()[k])); };
   return bend(i) > kEdge && bend(i) > kAlone * std::max(bend(i - 1), bend(i + 1));
 }

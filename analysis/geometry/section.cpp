@@ -93,7 +93,7 @@ Section Section::raised(double dz) const {
 SectionPoint Section::at(double y) const {
   const double t = (y - first_) * per_step_;
   if (!(t >= 0.0) || t > last_index_) return {kNaN, kNaN, kNaN};
-  const std::size_t i = t < last_index_ ? static_cast<std::size_t>(t) : z_.size() - 2;
+  const std::size_t i = t < last_index_ ? to_whole<std::size_t>(t) : z_.size() - 2;
   const double u = t - static_cast<double>(i);
   const double z0 = z_[i], z1 = z_[i + 1], m0 = step_ * slope_[i], m1 = step_ * slope_[i + 1], d = z1 - z0;
   SectionPoint p;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "treadmark/core/surface.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/shape/profile.hpp"
 
 namespace treadmark::geometry {
@@ -45,7 +46,7 @@ class Section {
   double height(double y) const {
     const double t = (y - first_) * per_step_;
     if (!(t >= 0.0) || t > last_index_) return kNone;
-    const std::size_t i = t < last_index_ ? static_cast<std::size_t>(t) : z_.size() - 2;
+    const std::size_t i = t < last_index_ ? to_whole<std::size_t>(t) : z_.size() - 2;
     return z_[i] + (t - static_cast<double>(i)) * (z_[i + 1] - z_[i]);
   }
 

@@ -72,7 +72,7 @@ WheelsetOnTrack::WheelsetOnTrack(const SideInput& right, const SideInput& left, 
 void WheelsetOnTrack::outline(const Side& side, double s, std::array<double, 4>& out) {
   const Section& w = *side.input.wheel;
   const double t = std::clamp((s - w.first()) / w.step(), 0.0, static_cast<double>(w.size() - 1));
-  const std::size_t i = std::min(static_cast<std::size_t>(t), w.size() - 2);
+  const std::size_t i = std::min(to_whole<std::size_t>(t), w.size() - 2);
   const double u = t - static_cast<double>(i), h = w.step();
   const Hermite y(side.y[i], side.y[i + 1], h * side.dy[i], h * side.dy[i + 1]);
   const Hermite z(side.z[i], side.z[i + 1], h * side.dz[i], h * side.dz[i + 1]);
@@ -165,7 +165,7 @@ void WheelsetOnTrack::minima(const Side& side, double y, double roll, double wit
                high = rail.last() - shift - side.input.wheel_y + kMore;
   const auto index = [&](double s) {
     const double t = (s - w.first()) / w.step();
-    return static_cast<std::size_t>(std::clamp(t, 0.0, static_cast<double>(w.size() - 1)));
+    return to_whole<std::size_t>(t, 0.0, static_cast<double>(w.size() - 1));
   };
   const std::size_t from = index(low) / kStride * kStride, to = std::min(index(high) + kStride, w.size() - 1);
 

@@ -72,7 +72,7 @@ auto placed(const NominalOutline& n, const Turned& place) {
     const Vec2 turned(c * p.x() - s * p.y(), s * p.x() + c * p.y());
     const double y = turned.x() + place.dy, z = turned.y() + place.dz, t = (y - n.first) / n.step;
     if (!(t >= 0.0) || t + 1.0 >= static_cast<double>(n.z.size())) return std::nullopt;
-    const auto i = static_cast<std::size_t>(t);
+    const auto i = to_whole<std::size_t>(t);
     const double slope = (n.z[i + 1] - n.z[i]) / n.step;
     if (std::isnan(slope)) return std::nullopt;
     return Beside{turned, y, z, n.z[i], slope, z - n.z[i] - slope * (y - n.first - n.step * static_cast<double>(i))};
@@ -98,7 +98,7 @@ RollFit fitted_to(const std::vector<Vec2>& points, const NominalOutline& n, Turn
             {across * at->off, -across * at->slope, across, across * (at->turned.x() + at->slope * at->turned.y())});
       }
     if (static_cast<double>(rows.size()) < kInRange * static_cast<double>(points.size())) return out;
-    const auto kept = static_cast<std::ptrdiff_t>(kKept * static_cast<double>(rows.size()));
+    const auto kept = to_whole<std::ptrdiff_t>(kKept * static_cast<double>(rows.size()));
     std::nth_element(rows.begin(), rows.begin() + kept, rows.end(),
                      [](const Residual& a, const Residual& b) { return std::fabs(a.r) < std::fabs(b.r); });
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();

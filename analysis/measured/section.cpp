@@ -56,7 +56,7 @@ Envelope envelope(const SectionPoints& p, double sign) {
 double quantile(std::vector<double> values, double share) {
   std::erase_if(values, [](double v) { return std::isnan(v); });
   if (values.empty()) return kNaN;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + to_whole<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }

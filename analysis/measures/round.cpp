@@ -105,7 +105,7 @@ class Revolution {
       const auto size = static_cast<std::ptrdiff_t>(theta_.size());
       const auto wrapped = [size](std::ptrdiff_t i) { return static_cast<std::size_t>(((i % size) + size) % size); };
       const auto margin = to_whole<std::ptrdiff_t>(std::ceil(0.01 / step));
-      const auto longest = static_cast<std::ptrdiff_t>(g_.longest_flat / (base[0] * step));
+      const auto longest = to_whole<std::ptrdiff_t>(g_.longest_flat / (base[0] * step));
       for (std::ptrdiff_t i = 0; i < size; ++i) {
         if (!(smooth(wrapped(i)) < -deep)) continue;
         for (const std::ptrdiff_t way : {-1, +1}) {

@@ -433,6 +433,22 @@ const char* name_of(AssessedStatus status) {
   return "";
 }
 
+const char* reason_of(AssessedStatus status) {
+  switch (status) {
+    case AssessedStatus::ok:
+      return "";
+    case AssessedStatus::outside:
+      return "the run ends before the section does";
+    case AssessedStatus::too_short:
+      return "the section is shorter than a mean or a filter needs";
+    case AssessedStatus::too_coarse:
+      return "steps of the record are too long for a filter";
+    case AssessedStatus::unloaded:
+      return "the wheel is nearly unloaded";
+  }
+  return "";
+}
+
 std::span<const QuantityInfo> assessed_quantities() {
   static const auto all = [] {
     std::vector<QuantityInfo> list;

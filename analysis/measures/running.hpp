@@ -54,6 +54,8 @@ enum class AssessedStatus {
   unloaded,    ///< the wheel carries less than a hundredth of its load: there is no ratio of forces
 };
 const char* name_of(AssessedStatus status);
+/// Why there are no numbers, in words; "" of ok.
+const char* reason_of(AssessedStatus status);
 
 /// A quantity of a section. Numbers are NaN unless the status is ok.
 struct Assessed {

@@ -207,7 +207,7 @@ double weighting_magnitude(Weighting weighting, double frequency) {
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(values.size() - 1);
-  const auto low = values.begin() + static_cast<std::ptrdiff_t>(place);
+  const auto low = values.begin() + to_whole<std::ptrdiff_t>(place);
   std::nth_element(values.begin(), low, values.end());
   if (low + 1 == values.end()) return *low;
   const double next = *std::min_element(low + 1, values.end());

@@ -100,15 +100,16 @@ void add_spectra(AssessedRun& run) {
 void add_doubts(AssessedRun& run) {
   if (run.result->status != "complete")
     run.doubts.push_back(fmt::format("the run is {}: it is assessed as far as it goes", run.result->status));
-  std::map<std::string, std::pair<std::size_t, std::string>> counts;
+  std::map<measures::AssessedStatus, std::pair<std::size_t, std::string>> counts;
   for (const measures::Assessed& one : run.quantities)
     if (one.status != measures::AssessedStatus::ok) {
-      auto& [count, example] = counts[measures::name_of(one.status)];
+      auto& [count, example] = counts[one.status];
       if (count++ == 0) example = fmt::format("{} of {} in {}", one.quantity, one.place, one.section);
     }
   for (const auto& [status, found] : counts)
-    run.doubts.push_back(fmt::format("{} of {} quantities are {} (docs/assessment.md), the first {}", found.first,
-                                     run.quantities.size(), status, found.second));
+    run.doubts.push_back(fmt::format("{} of {} quantities have no value: {} ({}); the first is {}", found.first,
+                                     run.quantities.size(), measures::reason_of(status), measures::name_of(status),
+                                     found.second));
 }
 
 fs::path store_of(const std::string& name) {

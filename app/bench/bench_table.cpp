@@ -67,7 +67,7 @@ std::string remarks(const BenchReport& report, const char* before) {
 std::string bench_table(const BenchReport& report) {
   std::vector<Line> lines(kHead.begin(), kHead.end());
   for (const BenchRow& row : report.rows) lines.push_back(cells(row));
-  return origin(report) + "\n\n" + io::table_text(lines) + remarks(report, "");
+  return origin(report) + "\n\n" + io::table_text(lines, {3, 6, 10}) + remarks(report, "");
 }
 
 std::string bench_markdown(const BenchReport& report) {

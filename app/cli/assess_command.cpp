@@ -64,6 +64,7 @@ int assess_command(const AssessOptions& options, const CommonOptions&) {
   const std::vector<app::AssessedRun> runs = app::assess_files(options.results, request, options.channels);
   const std::vector<std::string> channels =
       options.channels.empty() ? app::usual_channels(*runs.front().result) : options.channels;
+  catch_interrupt();  // what takes time is done
   if (!options.folder.empty()) app::write_assessment_folder(options.folder, runs, channels);
   write_report_file(options.report_file, [&] { return app::pages::assessment_page(runs, channels); });
   if (!options.csv_file.empty() && options.csv_file != "-") write_file(options.csv_file, app::assessment_csv(runs));

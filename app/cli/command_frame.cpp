@@ -19,6 +19,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/report/write_page.hpp"
 
@@ -107,11 +108,17 @@ void print_results(const std::string& json_file, const std::function<std::string
 }
 
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json) {
-  if (!json_file.empty() && json_file != "-") write_file(json_file, json());
+  if (json_file.empty() || json_file == "-") return;
+  const std::string text = json();
+  catch_interrupt();  // from here on nothing is left half-written
+  write_file(json_file, text);
 }
 
 void write_report_file(const std::filesystem::path& file, const std::function<report::Page()>& page) {
-  if (!file.empty()) write_page(file, report::to_html(page()));
+  if (file.empty()) return;
+  const std::string html = report::to_html(page());
+  catch_interrupt();
+  write_page(file, html);
 }
 
 namespace {
@@ -188,7 +195,7 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
   constexpr double kCells = 20.0;
   const double share = static_cast<double>(finished) / static_cast<double>(total);
   std::string line =
-      fmt::format("[{:.<20}] {}/{} ({:.0f} %) {}", std::string(static_cast<std::size_t>(kCells * share), '#'), finished,
+      fmt::format("[{:.<20}] {}/{} ({:.0f} %) {}", std::string(to_whole<std::size_t>(kCells * share), '#'), finished,
                   total, 100.0 * share, what);
   if (finished > 0)
     line += fmt::format(", {:.1f} s left",

@@ -27,8 +27,9 @@ int diff_command(const DiffOptions& options, const CommonOptions&) {
   std::size_t beyond = 0;
   for (const app::QuantityDifference& q : difference.quantities) {
     if (q.relative <= options.tolerance) break;
-    if (beyond++ == 0) std::cout << fmt::format("{:<34}{:>14}{:>14}{:>12}  where\n", "", "first", "second", "relative");
-    std::cout << fmt::format("{:<34}{:>14.6g}{:>14.6g}{:>12.2e}  case {}{}\n", q.key, q.a, q.b, q.relative,
+    if (beyond++ == 0)
+      std::cout << fmt::format("{:<29} {:>12} {:>12} {:>8}  where\n", "", "first", "second", "relative");
+    std::cout << fmt::format("{:<29} {:>12.6g} {:>12.6g} {:>8.1e}  case {}{}\n", q.key, q.a, q.b, q.relative,
                              q.case_number, q.patch == 0 ? "" : fmt::format(", patch {}", q.patch));
   }
   std::cout << fmt::format("{} of {} quantities differ by more than {:g}\n", beyond, difference.quantities.size(),

@@ -58,8 +58,8 @@ void write_list(const ListFiles& files, const app::ResultList& list, bool shown)
   write_report_file(files.report, [&] { return app::list_page(list); });
   if (shown && files.csv != "-") print(app::list_text(list));
   if (list.failed() > 0)
-    std::cerr << fmt::format("{} of {} {} failed: see the column error\n", list.failed(), list.rows.size(),
-                             list.things);
+    std::cerr << fmt::format("{} of {} {} failed{}\n", list.failed(), list.rows.size(), list.things,
+                             files.csv.empty() ? "" : ": see the column error");
   if (const std::filesystem::path kept = kept_rows(files); !kept.empty()) remove_file(kept);
 }
 

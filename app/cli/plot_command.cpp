@@ -33,10 +33,12 @@ int plot_command(const PlotOptions& options, const CommonOptions&) {
     throw Error(ErrorKind::configuration, "pictures are written as SVG only", {options.output_file, 0, 0},
                 "end the name with .svg; a report saves single views as PNG");
   const std::string svg = report::plot(page, options.what, options.cases);
-  if (options.output_file == "-")
+  if (options.output_file == "-") {
     std::cout << svg;
-  else
+  } else {
+    catch_interrupt();
     write_file(options.output_file, svg);
+  }
   return kOk;
 }
 

@@ -31,6 +31,7 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
   report::PageOptions how;
   how.live = !options.static_pictures;
   const std::string html = report::to_html(page, how);
+  catch_interrupt();
   write_page(file, html);
   if (how.live && report::page_script().empty() && !common.quiet)
     std::cerr << "note: this build has no Node.js: the report shows fixed pictures\n";

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::cli {
 namespace {
 
@@ -46,7 +48,7 @@ void add_setting(CLI::App& verb, const io::KeyInfo& key, std::vector<io::CaseOve
     option = verb.add_option_function<std::string>(name, take, key.doc);
   if (key.above == 0.0) option->check(CLI::PositiveNumber);
   if (key.at_least && key.type == io::KeyType::integer)
-    option->check(CLI::Range(static_cast<int>(*key.at_least), static_cast<int>(*key.at_most)));
+    option->check(CLI::Range(to_whole<int>(*key.at_least), to_whole<int>(*key.at_most)));
   else if (key.at_least)
     option->check(CLI::Range(*key.at_least, *key.at_most));
   if (!key.choices.empty()) option->check(CLI::IsMember(key.choices));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -12,11 +13,13 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/slurm_jobs.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/io/tables/shown.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -75,17 +78,23 @@ int slurm_command(const io::StudyFile& study, const SweepOptions& options) {
 }
 
 void print_table(const io::StudyResult& study) {
+  std::vector<std::vector<std::string>> lines{{"run", "status"}};
+  std::string said;
   for (const io::SimulationRun& run : study.runs) {
-    std::string line = fmt::format("{:>4}  {:<40} {:<10}", run.number, run.label, run.status);
-    for (const char* name : {"q_max_N", "q_max_over_static", "ty_max_N", "pmax_Pa"}) {
-      const double value = io::summary_value(run, name);
-      if (value == value) line += fmt::format("  {} {:.5g}", name, value);
-    }
-    print(line + (run.message.empty() ? "" : "  " + run.message) + '\n');
+    lines.push_back({fmt::format("{:>4}  {}", run.number, run.label), run.status});
+    if (!run.message.empty()) said += fmt::format("run {}: {}\n", run.number, run.message);
   }
+  for (const char* name : {"q_max_N", "q_max_over_static", "ty_max_N", "pmax_Pa"}) {
+    const auto shown = [&](const io::SimulationRun& run) { return io::shown_number(io::summary_value(run, name), -1); };
+    if (std::ranges::all_of(study.runs, [&](const auto& run) { return shown(run) == "-"; })) continue;
+    lines.front().emplace_back(name);
+    for (std::size_t i = 0; i < study.runs.size(); ++i) lines[i + 1].push_back(shown(study.runs[i]));
+  }
+  print(io::table_text(lines, {1}) + said);
 }
 
 int sweep_command(const SweepOptions& options, const CommonOptions& common) {
+  require_file(options.file, "study file", ErrorKind::configuration);
   if (!io::is_study_file(options.file))
     throw Error(ErrorKind::configuration, options.file + " is not a study: it has no table [study]", {},
                 "treadmark simulate runs one simulation");

@@ -9,6 +9,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/shown.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
@@ -69,17 +70,18 @@ std::string evolution_json(const io::EvolutionResult& result) {
 
 std::string evolution_table(const io::EvolutionResult& result) {
   if (result.generations.empty()) return "";
-  std::string text = fmt::format("{:>10}", "generation");
+  std::vector<std::vector<std::string>> lines{{"generation"}};
   for (const io::EvolutionQuantity& q : io::quantities_of(result.generations.front()))
-    if (q.shown & kInTable) text += fmt::format("  {:>{}}", q.name, std::max<std::size_t>(q.name.size(), 10));
-  text += '\n';
+    if (q.shown & kInTable) lines.front().push_back(q.name);
   for (const io::Generation& g : result.generations) {
-    text += fmt::format("{:>10}", g.number);
-    for (const io::EvolutionQuantity& q : io::quantities_of(g))
-      if (q.shown & kInTable) text += fmt::format("  {:>{}.5g}", q.value, std::max<std::size_t>(q.name.size(), 10));
-    text += '\n';
+    lines.push_back({fmt::format("{:>10}", g.number)});
+    const std::vector<io::EvolutionQuantity> known = io::quantities_of(g);
+    for (std::size_t k = 1; k < lines.front().size(); ++k) {
+      const auto found = std::ranges::find(known, lines.front()[k], &io::EvolutionQuantity::name);
+      lines.back().push_back(found == known.end() ? "-" : fmt::format("{:.5g}", found->value));
+    }
   }
-  return text;
+  return io::table_text(lines, {1});
 }
 
 void write_evolution_folder(const std::filesystem::path& folder, const io::EvolutionResult& result) {

@@ -10,8 +10,11 @@
 #include <utility>
 
 #include "treadmark/app/fmu/resources.hpp"
+#include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/modules.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
 namespace treadmark::fmi {
@@ -30,17 +33,12 @@ void add_folder(const fs::path& folder, const std::string& as, Files& files) {
       files[as + '/' + entry.path().lexically_relative(folder).generic_string()] = io::read_text(entry.path());
 }
 
-/// The folder with the shared library and what goes with it.
-fs::path library_folder() {
+/// The folder with the shared library and what goes with it. small: one that knows neither triangles nor vehicles.
+fs::path library_folder(bool small) {
+  const char* const name = small ? "fmu-pair" : "fmu";
   std::error_code failed;
-  std::vector<fs::path> places;
-  if (const fs::path program = fs::read_symlink("/proc/self/exe", failed); !failed)
-    for (const char* libraries : {"lib", TREADMARK_LIBRARIES})
-      places.push_back(program.parent_path().parent_path() / libraries / "treadmark" / "fmu");
-  places.emplace_back(TREADMARK_BUILT_FMU);
-  places.emplace_back(TREADMARK_INSTALLED_FMU);
-  for (const fs::path& place : places)
-    if (fs::exists(place / kLibraries, failed)) return place;
+  for (const fs::path& place : module_folders())
+    if (fs::exists(place / name / kLibraries, failed)) return place / name;
   throw Error(ErrorKind::configuration, "there is no library for FMUs beside this program", {},
               "install Treadmark again");
 }
@@ -103,14 +101,16 @@ std::string archive_of(const Files& files, const fs::path& libraries, const std:
 }  // namespace
 
 WrittenFmu write_fmu(const FmuContent& content) {
-  const fs::path library = library_folder();
   // Never committed: gone with this object. Not beside the output, which may be a pipe.
   const OutputFolder stage(fs::temp_directory_path() / "treadmark-fmu", OutputFolder::Old::replaced);
   Description about;
   about.name = content.output.stem().string();
   about.title = write_resources(content, stage.path());
   about.token = token_of(stage.path());
+  const std::size_t triangles_before = mesh::surfaces_made();
   const auto model = open_model(stage.path());
+  const bool triangles = mesh::surfaces_made() > triangles_before;
+  const fs::path library = library_folder(!triangles && !io::is_simulation_file(content.input));
 
   Files files;
   add_folder(stage.path(), "resources", files);

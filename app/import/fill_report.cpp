@@ -37,7 +37,7 @@ MapFrame map_frame(const ImportFindings& found) {
     const double start = -std::numbers::pi * band.radius;
     double rows = std::floor((start - a_min) / points.cell_a + 0.5);
     rows -= std::floor(rows / static_cast<double>(points.rows)) * static_cast<double>(points.rows);
-    out.first_row = static_cast<std::size_t>(rows) % points.rows;
+    out.first_row = to_whole<std::size_t>(rows) % points.rows;
     a_min =
         wrap_angle((a_min + points.cell_a * (static_cast<double>(out.first_row) + 0.5)) / band.radius) * band.radius -
         0.5 * points.cell_a;
@@ -150,7 +150,7 @@ void fill_residuals(const ImportFindings& found, io::ImportReport& report) {
     if (place < 0.0)
       ++residuals.below;
     else if (place < static_cast<double>(kBins))
-      ++report.residual_histogram[static_cast<std::size_t>(place)];
+      ++report.residual_histogram[to_whole<std::size_t>(place)];
     else
       ++residuals.above;
   }

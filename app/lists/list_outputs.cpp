@@ -10,6 +10,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/settings/key_words.hpp"
+#include "treadmark/io/tables/shown.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -52,25 +53,22 @@ report::ChartView column_view(const std::vector<const ListRow*>& rows, const Lis
 
 std::string list_text(const ResultList& list) {
   const std::vector<std::size_t> columns = shown_columns(list);
-  std::size_t width = 20;
-  for (const ListRow& row : list.rows) width = std::max(width, row.name.size() + 2);
-  const auto wide = [&](std::size_t k) { return list.numbers[k].name.size() + 2; };
-  std::string text = fmt::format("{:<{}}", "name", width);
-  for (const std::size_t k : columns) text += fmt::format("{:>{}}", list.numbers[k].name, wide(k));
-  text += "  status\n";
+  std::vector<std::vector<std::string>> lines{{"name", "status"}};
+  for (const std::size_t k : columns) lines.front().push_back(list.numbers[k].name);
+  std::string failed;
   for (const ListRow* row : list.worst_first()) {
-    text += fmt::format("{:<{}}", row->name, width);
     if (!row->error.empty()) {
-      text += fmt::format("  failed: {}\n", row->error);
+      failed += fmt::format("{}: failed: {}\n", row->name, row->error);
       continue;
     }
+    lines.push_back({row->name, row->status});
     for (const std::size_t k : columns) {
       const double value = number_of(*row, k);
-      text += fmt::format("{:>{}}", std::isnan(value) ? "-" : fmt::format("{:.3f}", value + 0.0), wide(k));
+      lines.back().push_back(std::isnan(value) ? "-" : fmt::format("{:.3f}", value + 0.0));
     }
-    text += fmt::format("  {}\n", row->status);
   }
-  return text + fmt::format("{} {}, {} failed\n", list.rows.size(), list.things, list.failed());
+  return failed + (lines.size() > 1 ? io::table_text(lines, {1}) : std::string()) +
+         fmt::format("{} {}, {} failed\n", list.rows.size(), list.things, list.failed());
 }
 
 std::string list_csv(const ResultList& list) {

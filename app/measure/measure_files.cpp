@@ -102,7 +102,7 @@ class WheelFile {
       : read_(read), request_(request), nominals_(nominals), out_(out) {}
 
   void measure() {
-    const std::string one = "one section does not tell: it takes a scan round the wheel";
+    const std::string one = "needs a scan of the full circumference";
     if (read_.points) {
       const Section section = section_of(read_, *read_.points);
       out_.noise = section.noise();
@@ -340,7 +340,7 @@ class RailFile {
       out_.noise = section.noise();
       numbers_ = section_numbers(section);
       draw(section, numbers_);
-      numbers_.roughness_exceedance.reason = "one section does not tell: it takes a scan along the rail";
+      numbers_.roughness_exceedance.reason = "needs a scan along the rail";
       out_.numbers = numbers_;
       return;
     }
@@ -399,7 +399,7 @@ class RailFile {
     const double length = read_.x_max - read_.x_min;
     const auto count = to_whole<std::size_t>(std::isfinite(length) ? length / request_.line_step : 0.0);
     if (read_.surface->constant_profile() || count < 64) {
-      worst.reason = "it takes a scan along the rail";
+      worst.reason = "needs a scan along the rail";
       return;
     }
     std::vector<Vec2> line(count);

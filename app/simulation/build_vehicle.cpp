@@ -239,7 +239,7 @@ class Builder {
     const Pose X_TR = origin(rails.own), X_TR_table = origin(rails.of_table);
     const double apart = (X_TR.origin - X_TR_table.origin).norm();
     const int nx = 2 + std::clamp(to_whole<int>((to - from) / kAlong), 0, kMost - 2);
-    const int ny = 2 * static_cast<int>(kAside / kAcross) + 1;
+    const int ny = 2 * to_whole<int>(kAside / kAcross) + 1;
     const Grid2 grid{from, X_TR.origin.y() - kAside, (to - from) / (nx - 1), kAcross, nx, ny};
     std::vector<double> z(grid.size()), z_table(grid.size()), slope(grid.size());
     rails.own.surface->heights({X_TR.inverse(), grid}, {z, {}, {}});

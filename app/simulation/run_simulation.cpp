@@ -19,6 +19,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/stability/eigenmodes.hpp"
@@ -182,7 +183,7 @@ class Run {
 
   void loop(const Progress& progress) {
     constexpr double kPerMetre = 1e4;
-    const auto total = static_cast<std::size_t>(kPerMetre * file_.settings.distance);
+    const auto total = to_whole<std::size_t>(kPerMetre * file_.settings.distance);
     auto last_kept = Clock::now(), last_told = last_kept - std::chrono::hours(1);
     // Histories grow, and with them what a checkpoint costs: together no more than a twentieth of the time.
     constexpr double kLeastApart = 20.0;  // times as long as the last one took
@@ -204,8 +205,7 @@ class Run {
       if (progress.report && now - last_told > std::chrono::milliseconds(100)) {
         last_told = now;
         const double x = built_.vehicle.travel(simulation_->state().time).distance;
-        progress.report(std::min(total, static_cast<std::size_t>(kPerMetre * x)), total,
-                        fmt::format("x = {:.3f} m", x));
+        progress.report(std::min(total, to_whole<std::size_t>(kPerMetre * x)), total, fmt::format("x = {:.3f} m", x));
       }
       if (!options_.checkpoint_file.empty() && std::chrono::duration<double>(now - last_kept).count() > apart) {
         keep_checkpoint();

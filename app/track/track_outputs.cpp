@@ -10,6 +10,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/simulations/write_track.hpp"
 #include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/shown.hpp"
 #include "treadmark/io/tables/text_of.hpp"
 #include "treadmark/report/pictures/chart.hpp"
 
@@ -118,17 +119,15 @@ std::string track_table(const TrackResult& r) {
       text += fmt::format("  {:>9.5g} kg on {:>9.5g} MN/m, {:>9.5g} kN s/m\n", layer.mass, kMega * layer.stiffness,
                           1e-3 * layer.damping);
   }
-  text += "receptance [nm/N] and phase [deg]\n" + fmt::format("  {:>8}", "f [Hz]");
-  for (const TrackCurve* curve : all_curves(r)) text += fmt::format("  {:>17}", curve->name);
-  text += '\n';
+  std::vector<std::vector<std::string>> lines{{"  f [Hz]"}};
+  for (const TrackCurve* curve : all_curves(r)) lines.front().push_back(curve->name);
   for (const std::size_t row : table_rows(r.frequency.size())) {
-    text += fmt::format("  {:>8.5g}", r.frequency[row]);
+    lines.push_back({fmt::format("{:>8.5g}", r.frequency[row])});
     for (const TrackCurve* curve : all_curves(r))
-      text += fmt::format("  {:>9.4g} {:>7.1f}", kNano * std::abs(curve->receptance[row]),
-                          kDegreeOfRad * std::arg(curve->receptance[row]));
-    text += '\n';
+      lines.back().push_back(fmt::format("{:>9.4g} {:>7.1f}", kNano * std::abs(curve->receptance[row]),
+                                         kDegreeOfRad * std::arg(curve->receptance[row])));
   }
-  return text;
+  return text + "receptance [nm/N] and phase [deg]\n" + io::table_text(lines, {1});
 }
 
 std::string track_csv(const TrackResult& r) {

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
 
@@ -51,7 +52,7 @@ std::vector<Chord> chords_of(const std::vector<ChainSegment>& chain) {
     const double k = std::fabs(seg.curvature);
     const double parts =
         std::ceil(std::max(seg.length * std::sqrt(k / (8.0 * GraphCurve::kChordOff)), 4.0 * k * seg.length));
-    const int n = static_cast<int>(std::clamp(parts, 1.0, 2000.0));
+    const int n = to_whole<int>(parts, 1.0, 2000.0);
     ChainPoint a = point_on(seg, 0.0);
     for (int i = 1; i <= n; ++i) {
       const ChainPoint b = point_on(seg, seg.length * i / n);

@@ -14,6 +14,7 @@
 #include "treadmark/core/kernel.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/recent.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
 
@@ -145,7 +146,7 @@ class RowWriter : PointWriter {
       return w >= low && w <= high;
     };
     const double steps = (((p_.wx > 0.0 ? high : low) - w_row) / p_.wx - g_.x0) / g_.dx;  // NaN: one point
-    int last = std::max(ix, static_cast<int>(steps < g_.nx ? std::max(steps, -1.0) : steps >= g_.nx ? g_.nx - 1 : -1));
+    int last = std::max(ix, to_whole<int>(steps < g_.nx ? std::max(steps, -1.0) : steps >= g_.nx ? g_.nx - 1 : -1));
     while (last > ix && !holds(last)) --last;
     while (last + 1 < g_.nx && holds(last + 1)) ++last;
     return last;

@@ -8,6 +8,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/kernel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::displacement {
 
@@ -154,7 +155,7 @@ DisplacedBand::Kind DisplacedBand::judge(int begin, int end, Block& block) {
 /// Misses of the base that offsets may change into hits: those near a hit, or near points that nobody knows.
 void DisplacedBand::leave_misses(const Block& block, double reach) {
   const double cells = std::ceil(reach / std::min(g_.dx, g_.dy));
-  const int w = static_cast<int>(std::min(cells, 2.0 * kColumns));
+  const int w = to_whole<int>(std::min(cells, 2.0 * kColumns));
   for (int iy = first_; iy < last_; ++iy)
     for (int ix = block.first; ix < block.last; ++ix) {
       if (!std::isnan(base_.row(iy)[ix])) continue;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/mesh/make.hpp"
 
+#include <atomic>
 #include <cmath>
 
 #include "treadmark/backends/mesh/mesh_surface.hpp"
@@ -12,6 +13,8 @@ namespace treadmark::mesh {
 
 namespace {
 
+std::atomic<std::size_t> made = 0;
+
 std::shared_ptr<const Surface> make(TriangleMesh mesh, Body body, const MeshOptions& options, MeshRepair* repair,
                                     bool single_precision) {
   if (!(options.crease_angle >= 0.0 && std::isfinite(options.crease_angle)))
@@ -20,6 +23,7 @@ std::shared_ptr<const Surface> make(TriangleMesh mesh, Body body, const MeshOpti
   PreparedMesh prepared = prepare(mesh, body, found);
   mesh = {};
   if (repair) *repair = found;
+  ++made;
   return std::make_shared<MeshSurface>(std::move(prepared), body, options, single_precision);
 }
 
@@ -34,6 +38,8 @@ std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, co
                                                 MeshRepair* repair) {
   return make(std::move(mesh), body, options, repair, false);
 }
+
+std::size_t surfaces_made() { return made; }
 
 MeshRepair check_mesh(const TriangleMesh& mesh, Body body) {
   MeshRepair found;

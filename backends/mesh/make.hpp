@@ -49,6 +49,9 @@ std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh, Body body, c
 std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, const MeshOptions& options = {},
                                                 MeshRepair* repair = nullptr);
 
+/// How many of either this process has made. Thread-safe.
+std::size_t surfaces_made();
+
 /// What make_mesh_surface would repair, and its errors.
 MeshRepair check_mesh(const TriangleMesh& mesh, Body body);
 

@@ -20,6 +20,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::offset {
 
@@ -242,7 +243,7 @@ Profile read_points(const Reader& in, Body body) {
   const std::vector<double> s = in.numbers("base_smoothing");
   if (s.size() != 5 || !(s[0] == 0.0 || s[0] == 1.0 || s[0] == 2.0))
     in.refuse("the entry 'base_smoothing' of the VDB file is broken");
-  p.smoothing = {static_cast<SmoothingOptions::Method>(static_cast<int>(s[0])), s[1], s[2], s[3], s[4]};
+  p.smoothing = {static_cast<SmoothingOptions::Method>(to_whole<int>(s[0])), s[1], s[2], s[3], s[4]};
   return p;
 }
 
@@ -302,7 +303,7 @@ void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec
   if (!(frame[2] >= kLeastStep) || !(frame[3] >= kLeastStep))
     in.refuse(fmt::format("the steps of the offsets in the VDB file are below {} m", kLeastStep));
   f.u0 = frame[0], f.y0 = frame[1], f.du = frame[2], f.dy = frame[3];
-  f.turn = static_cast<int>(frame[4]);
+  f.turn = to_whole<int>(frame[4]);
   f.first = frame[5], f.last = frame[6];
   if (f.turn != frame[4] || (f.turn > 0 && std::fabs(f.turn * f.du - 2.0 * std::numbers::pi) > 1e-9))
     in.refuse("the voxels in the VDB file do not fill the turn");

@@ -9,6 +9,7 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::offset {
 
@@ -30,9 +31,9 @@ int voxels_of_turn(const OffsetMap& map, int& columns) {
   if (!divides)
     throw Error(ErrorKind::input_data,
                 fmt::format("the steps of the offset map {} do not divide the turn: {:.6f} of them", map.name, voxels));
-  if (map.grid.nx > static_cast<int>(whole) + 1)
+  if (map.grid.nx > to_whole<int>(whole) + 1)
     throw Error(ErrorKind::input_data, fmt::format("the offset map {} covers more than one turn", map.name));
-  columns = static_cast<int>(whole);  // a last column that repeats the first is left out
+  columns = to_whole<int>(whole);  // a last column that repeats the first is left out
   return columns;
 }
 

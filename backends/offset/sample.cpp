@@ -14,6 +14,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::offset {
 
@@ -50,7 +51,7 @@ Plan make_plan(const Surface& base, Body body, double R, const OffsetSettings& s
     if (!(R > 0.0) || !std::isfinite(R)) refuse("offsets of a wheel need its nominal radius");
     const double turn = std::max(8.0, std::round(2.0 * kPi * R / s.du));
     if (!(turn < kMostIndex)) refuse("the voxels of the offsets are too small for the circumference of the wheel");
-    p.frame.turn = static_cast<int>(turn);
+    p.frame.turn = to_whole<int>(turn);
     p.frame.du = 2.0 * kPi / turn;
     last = turn - 1.0;
     if (region.x_max - region.x_min < 2.0 * kPi - p.frame.du) {
@@ -71,8 +72,8 @@ Plan make_plan(const Surface& base, Body body, double R, const OffsetSettings& s
                        last - first + 1.0, high - low + 1.0));
   if (std::max({std::fabs(first), std::fabs(last), std::fabs(low), std::fabs(high)}) > kMostIndex)
     refuse("the region of offsets lies too far from the origin for its steps");
-  p.i_begin = static_cast<int>(first), p.i_end = static_cast<int>(last) + 1;
-  p.j_begin = static_cast<int>(low), p.j_end = static_cast<int>(high) + 1;
+  p.i_begin = to_whole<int>(first), p.i_end = to_whole<int>(last) + 1;
+  p.j_begin = to_whole<int>(low), p.j_end = to_whole<int>(high) + 1;
   return p;
 }
 

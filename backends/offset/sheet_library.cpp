@@ -9,6 +9,7 @@
 
 #include "treadmark/backends/offset/openvdb/sheet_library.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/modules.hpp"
 
 namespace treadmark::offset {
 
@@ -20,15 +21,8 @@ constexpr const char* kFileName = "libtreadmark_openvdb.so";
 
 /// Where the library may lie; a bare name: on the run path of the program.
 std::vector<fs::path> places() {
-  std::vector<fs::path> all;
-  std::error_code failed;
-  if (const fs::path program = fs::read_symlink("/proc/self/exe", failed); !failed)
-    all.push_back(program.parent_path().parent_path() / "lib" / "treadmark" / kFileName);
-  // Beside the shared library that this is part of, wherever it was installed.
-  if (Dl_info here{}; dladdr(reinterpret_cast<const void*>(&sheet_library), &here) != 0 && here.dli_fname != nullptr)
-    all.push_back(fs::path(here.dli_fname).parent_path() / "treadmark" / kFileName);
-  all.push_back(fs::path(TREADMARK_BUILT_MODULES) / kFileName);
-  all.push_back(fs::path(TREADMARK_INSTALLED_MODULES) / kFileName);
+  std::vector<fs::path> all = module_folders();
+  for (fs::path& folder : all) folder /= kFileName;
   all.emplace_back(kFileName);
   return all;
 }
@@ -48,7 +42,7 @@ const SheetLibrary& load() {
     tried += "\n  " + file.string() + " is of version " + library.version;
   }
   throw Error(ErrorKind::configuration, std::string("cannot load ") + kFileName + ", which offsets need:" + tried, {},
-              "install Treadmark again, or name the folder of that library in LD_LIBRARY_PATH");
+              module_advice("openvdb"));
 }
 
 }  // namespace

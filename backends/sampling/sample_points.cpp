@@ -10,6 +10,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::sampling {
@@ -114,7 +115,7 @@ std::vector<double> stations(const Surface& surface, Body body, double nominal_r
   const double count = std::max(closed ? 8.0 : 3.0, std::ceil((to - from) / step - 1e-9));
   if (!(count < kMostPoints))
     throw Error(ErrorKind::configuration, "the spacing of samples is too small for the range");
-  return even(from, to, static_cast<std::size_t>(count) + (closed ? 0 : 1), !closed);
+  return even(from, to, to_whole<std::size_t>(count) + (closed ? 0 : 1), !closed);
 }
 
 PointGrid sample_points(const Surface& surface, Body body, double nominal_radius, const SampleSettings& settings) {
@@ -127,7 +128,7 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
   grid.u = stations(surface, body, nominal_radius, settings.region, spacing_u, grid.closed);
   const auto refuse = [] {
     throw Error(ErrorKind::configuration,
-                "sampling this finely needs more than " + std::to_string(static_cast<int>(kMostPoints)) + " points", {},
+                "sampling this finely needs more than " + std::to_string(to_whole<int>(kMostPoints)) + " points", {},
                 "use a coarser resolution or a smaller region");
   };
   const Box3 box = surface.bounds();

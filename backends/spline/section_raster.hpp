@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::spline {
 
 // A section is the curve in which a plane spanned by a grid line and the direction of heights cuts a surface:
@@ -145,11 +147,11 @@ class SectionRaster {
     const double low = std::min(a.s, b.s), high = std::max(a.s, b.s);
     int first = 0, last = samples_.count - 1;
     if (low > samples_.first)
-      first = static_cast<int>(std::min((low - samples_.first) * inverse_step_ + (1.0 - kEdgeSlack), 2e9));
+      first = to_whole<int>(std::min((low - samples_.first) * inverse_step_ + (1.0 - kEdgeSlack), 2e9));
     if (high < samples_.last()) {
       const double reach = (high - samples_.first) * inverse_step_ + kEdgeSlack;
       if (reach < 0.0) return;
-      last = static_cast<int>(reach);
+      last = to_whole<int>(reach);
     }
     if (first > last) return;
 

@@ -12,6 +12,7 @@
 #include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/backends/spline/section_raster.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 
@@ -141,7 +142,7 @@ class SortedProfile {
     return all;
   }
   std::size_t part(double s) const {
-    return static_cast<std::size_t>(std::clamp((s - first_) * inverse_width_, 0.0, static_cast<double>(parts_) - 1.0));
+    return to_whole<std::size_t>((s - first_) * inverse_width_, 0.0, static_cast<double>(parts_) - 1.0);
   }
 
   ViewedProfile viewed_;

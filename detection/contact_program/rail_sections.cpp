@@ -48,7 +48,7 @@ struct Lattice {
   double y(int i) const { return range.low + (range.high - range.low) * i / steps; }
   /// The last point not above, between both ends.
   int below(double at) const {
-    return static_cast<int>(std::clamp((at - range.low) / (range.high - range.low) * steps, 0.0, 1.0 * steps));
+    return to_whole<int>((at - range.low) / (range.high - range.low) * steps, 0.0, 1.0 * steps);
   }
 
   static constexpr double kStep = 0.1e-3;  // [m]

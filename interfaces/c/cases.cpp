@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
@@ -50,7 +51,7 @@ void set_number(tm_case& c, const CaseNumber& number, double value) {
   if (number.key->info.type == io::KeyType::integer) {
     if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::round(value))
       throw Error(ErrorKind::configuration, fmt::format("{} must be a whole number", number.name));
-    given.data = static_cast<std::int64_t>(value);
+    given.data = to_whole<std::int64_t>(value);
   } else {
     given.data = value / number.si;
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 #include "treadmark/model/contact/material.hpp"
@@ -173,7 +174,7 @@ void set_friction(Problem& p, int method, Values v) {
   if (variation != 0) {
     const double given = v.empty() ? 0.0 : std::round(v[0]);
     if (!(given >= 1.0 && given <= kMostSets)) throw Refusal{CNTC_err_frclaw, "the number of friction sets is wrong"};
-    sets = static_cast<std::size_t>(given);
+    sets = to_whole<std::size_t>(given);
     require_count(v, 1 + sets * (count + 1), "the friction method", method);
     v = v.subspan(1);
   } else {

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# usage: cmake -DLIBRARY=... -DNAME=... -DTO=... -DLICENCES=file;... -P gather_libraries.cmake
+# usage: cmake -DLIBRARY=... -DNAME=... -DSTRIP=... -DTO=... -DLICENCES=file;... -P gather_libraries.cmake
 # What goes into every FMU: TO/binaries with the shared library and those that it needs beyond the C and C++ run time, the same compressed in
 # TO/binaries.zip, TO/licenses.
 file(REMOVE_RECURSE "${TO}")
 file(MAKE_DIRECTORY "${TO}/binaries" "${TO}/licenses")
-file(COPY_FILE "${LIBRARY}" "${TO}/binaries/${NAME}.so")
+execute_process(COMMAND "${STRIP}" --strip-unneeded -o "${TO}/binaries/${NAME}.so" "${LIBRARY}" COMMAND_ERROR_IS_FATAL ANY)
 file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${LIBRARY}" RESOLVED_DEPENDENCIES_VAR needed UNRESOLVED_DEPENDENCIES_VAR missing
   PRE_EXCLUDE_REGEXES "^lib(c|m|dl|rt|pthread|stdc\\+\\+|gcc_s|asan|ubsan|tsan)\\.so" "^ld-linux")
 if(missing)
@@ -30,5 +30,5 @@ foreach(file IN LISTS needed)
   endif()
 endforeach()
 file(GLOB libraries RELATIVE "${TO}/binaries" "${TO}/binaries/*")
-execute_process(COMMAND "${CMAKE_COMMAND}" -E tar cf "${TO}/binaries.zip" --format=zip -- ${libraries}
+execute_process(COMMAND "${CMAKE_COMMAND}" -E tar cf "${TO}/binaries.zip" --format=zip --mtime=1980-01-01 -- ${libraries}
   WORKING_DIRECTORY "${TO}/binaries" COMMAND_ERROR_IS_FATAL ANY)

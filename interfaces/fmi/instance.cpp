@@ -278,21 +278,28 @@ void free_state(void** state) {
 
 void state_size(const void* state, std::size_t* size) {
   require(state != nullptr && size != nullptr, "state and size must not be null");
-  *size = static_cast<const SavedState*>(state)->bytes.size();
+  *size = static_cast<const SavedState*>(state)->bytes.size() + sizeof(std::uint64_t);
 }
 
 void serialize(const void* state, void* bytes, std::size_t size) {
   require(state != nullptr && bytes != nullptr, "state and bytes must not be null");
   const auto& from = static_cast<const SavedState*>(state)->bytes;
-  require(size >= from.size(), "there is not enough room for the state");
+  const std::uint64_t sum = check_sum(from);
+  require(size >= from.size() + sizeof sum, "there is not enough room for the state");
   std::memcpy(bytes, from.data(), from.size());
+  std::memcpy(static_cast<std::byte*>(bytes) + from.size(), &sum, sizeof sum);
 }
 
 void deserialize(const Instance& instance, const void* bytes, std::size_t size, void** state) {
   require(bytes != nullptr && state != nullptr, "bytes and state must not be null");
-  const auto* first = static_cast<const std::byte*>(bytes);
-  auto made = std::make_unique<SavedState>(SavedState{{first, first + size}});
-  instance.check(made->bytes);
+  const std::span<const std::byte> all(static_cast<const std::byte*>(bytes), size);
+  std::uint64_t sum = 0;
+  if (size < sizeof sum) refuse_saved_state("it ends too early");
+  const auto content = all.first(size - sizeof sum);
+  instance.check(content);
+  std::memcpy(&sum, content.data() + content.size(), sizeof sum);
+  if (check_sum(content) != sum) refuse_saved_state("its check sum differs");
+  auto made = std::make_unique<SavedState>(SavedState{{content.begin(), content.end()}});
   *state = made.release();
 }
 

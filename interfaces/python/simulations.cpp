@@ -21,6 +21,7 @@
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
@@ -156,6 +157,7 @@ py::dict sweep(const Source& source, const std::filesystem::path& folder, bool r
                int threads, const std::optional<std::pair<int, int>>& runs) {
   require_part("hdf5", "folders of studies");
   app::StudyOutcome outcome = with_progress(progress, threads, [&](const Progress& report) {
+    require_file(source.file, "study file", ErrorKind::configuration);
     if (!io::is_study_file(source.file))
       throw Error(ErrorKind::configuration, "this is not a study: it has no table [study]",
                   {source.file.string(), 0, 0}, "use treadmark.simulate for one simulation");

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cad/cad_process.hpp"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
@@ -19,6 +18,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/modules.hpp"
 
 extern char** environ;
 
@@ -34,22 +34,13 @@ constexpr int kSlice = 50;            // [ms] between questions whether the work
 
 /// Errors: Error(configuration) where it is nowhere.
 fs::path program() {
-  std::vector<fs::path> places;
-  std::error_code failed;
-  if (const fs::path own = fs::read_symlink("/proc/self/exe", failed); !failed)
-    places.push_back(own.parent_path().parent_path() / "lib" / "treadmark");
-  // Beside the shared library that this is part of, wherever it was installed.
-  if (Dl_info here{}; dladdr(reinterpret_cast<const void*>(&write_sheet), &here) != 0 && here.dli_fname != nullptr)
-    places.push_back(fs::path(here.dli_fname).parent_path() / "treadmark");
-  places.emplace_back(TREADMARK_BUILT_MODULES);
-  places.emplace_back(TREADMARK_INSTALLED_MODULES);
   std::string tried;
-  for (const fs::path& place : places) {
-    if (::access((place / kProgram).c_str(), X_OK) == 0) return place / kProgram;
-    tried += "\n  " + place.string();
+  for (const fs::path& folder : module_folders()) {
+    if (::access((folder / kProgram).c_str(), X_OK) == 0) return folder / kProgram;
+    tried += "\n  " + folder.string();
   }
   throw Error(ErrorKind::configuration, fmt::format("cannot find {}, which files of CAD need, in{}", kProgram, tried),
-              {}, "install Treadmark again");
+              {}, module_advice("cad"));
 }
 
 /// A run of the program. It ends with this object.
@@ -74,7 +65,7 @@ class ProcessChannel final : public SocketChannel {
     socket_ = ends[0];
     if (failed == 0) return;
     ::close(socket_);
-    throw Error(ErrorKind::configuration, fmt::format("cannot start {}", path), {file}, "install Treadmark again");
+    throw Error(ErrorKind::configuration, fmt::format("cannot start {}", path), {file}, module_advice("cad"));
   }
   ProcessChannel(const ProcessChannel&) = delete;
   ProcessChannel& operator=(const ProcessChannel&) = delete;

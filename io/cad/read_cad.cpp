@@ -20,6 +20,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/cad_process.hpp"
+#include "treadmark/io/cad/step_text.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -35,7 +36,7 @@ constexpr double kCoarse = 10e-3;    // between slices [m]
 constexpr double kFine = 0.5e-3;     // likewise, where the shape changes most [m]
 constexpr double kDeviation = 1e-7;  // that makes slices closer [m]
 constexpr double kFarApart = 60e-3;  // a surface that begins again so far aside is another one [m]
-constexpr double kLongest = 200.0, kWidest = 10.0;  // of a body [m]
+constexpr double kLongest = 200.0, kWidest = 10.0;  // of a body, across and up too [m]
 constexpr std::size_t kMostSlices = 20'000;
 constexpr double kSide = 0.5e-3, kFlat = 20e-6;  // of triangles: longest side; deviation before they are divided [m]
 
@@ -523,7 +524,7 @@ TriangleMesh triangles_of(const cad::CadShape& shape, const RunningSurface& surf
 CadSurface cad::running_surface(const CadShape& shape, Body body, double nominal_radius,
                                 const std::filesystem::path& file) {
   const cad::Point low = shape.low(), high = shape.high();
-  if (high[0] - low[0] > kLongest || high[1] - low[1] > kWidest || high[2] - low[2] > kLongest)
+  if (high[0] - low[0] > kLongest || high[1] - low[1] > kWidest || high[2] - low[2] > kWidest)
     throw Error(ErrorKind::input_data,
                 fmt::format("the part is {:.4g} m long, {:.4g} m wide and {:.4g} m high", high[0] - low[0],
                             high[1] - low[1], high[2] - low[2]),
@@ -588,6 +589,7 @@ CadSurface read_cad(const std::filesystem::path& file, Body body, double nominal
   if (size > kMostBytes)
     throw Error(ErrorKind::input_data, fmt::format("the CAD file has {} bytes, more than {}", size, kMostBytes),
                 {file.string()}, "export the running surface alone");
+  if (is_step_file(file)) cad::require_step_numbers(file);
   const cad::CadShape shape(cad::start_opencascade(file.string()), file, !is_step_file(file));
   return cad::running_surface(shape, body, nominal_radius, file);
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
@@ -44,7 +45,7 @@ void read_sheet(const Hdf5GroupReader& parent, const SheetRow<Record>& what, con
   const auto nu = static_cast<std::size_t>(sheet.nu());
   const std::vector<double> values = group.numbers("values", {rows.size(), nu});
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    const int j = static_cast<int>(rows[k]);
+    const int j = to_whole<int>(rows[k]);
     if (!(rows[k] >= 0.0) || j >= cells.ny || j != rows[k])
       throw Error(ErrorKind::input_data, fmt::format("the sheet {} has a row {}", what.name, rows[k]),
                   {parent.file(), 0, 0});

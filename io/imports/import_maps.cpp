@@ -8,6 +8,7 @@
 #include <span>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/imports/import_words.hpp"
@@ -146,7 +147,7 @@ Cloud read_cloud(const std::filesystem::path& file, const Hdf5GroupReader& group
     constexpr double kMost = 1e15;
     if (values.size() != 1 || !(values.front() >= 0.0 && values.front() <= kMost))
       refuse(file, fmt::format("has no count {} of points", count.name));
-    cloud.*count.count = static_cast<std::size_t>(values.front());
+    cloud.*count.count = to_whole<std::size_t>(values.front());
   }
   for (const CloudColumn& column : kCloud) {
     const std::vector<double> values = group.numbers(column.name);

@@ -9,6 +9,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/tables/number.hpp"
 
@@ -103,7 +104,7 @@ std::size_t JsonTree::count() const {
   const double value = number();
   if (!(value >= 0.0 && value <= kMost) || value != std::floor(value))
     refuse(fmt::format("is {:g} where a whole number, not negative, is expected", value));
-  return static_cast<std::size_t>(value);
+  return to_whole<std::size_t>(value);
 }
 
 int JsonTree::integer() const {
@@ -111,7 +112,7 @@ int JsonTree::integer() const {
   const double value = number();
   if (!(std::fabs(value) <= 2147483647.0) || value != std::floor(value))
     refuse(fmt::format("is {:g} where a whole number is expected", value));
-  return static_cast<int>(value);
+  return to_whole<int>(value);
 }
 
 std::string JsonTree::text() const {

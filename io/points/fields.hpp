@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/line_blocks.hpp"
 
@@ -94,7 +95,7 @@ inline std::uint64_t count_in(const LineBlocks& lines, const Field& field) {
   double value = 0.0;
   if (!parse_number(field.text, false, value) || !is_whole(value) || value < 0.0 || value > 1e12)
     lines.fail("a number of elements is expected, this is " + profiles::printable(field.text), field.column);
-  return static_cast<std::uint64_t>(value);
+  return to_whole<std::uint64_t>(value);
 }
 
 /// The three numbers behind a key, as the sink reads numbers. what: the message where they are fewer.

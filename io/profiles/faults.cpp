@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io::profiles {
 namespace {
@@ -40,7 +41,7 @@ class VoidMarks {
     if (!others.empty()) values = std::move(others);
     std::ranges::sort(values);
     const auto at = [&](double share) {
-      return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+      return values[to_whole<std::size_t>(share * static_cast<double>(values.size() - 1))];
     };
     middle_ = at(0.5);
     spread_ = at(0.75) - at(0.25);
@@ -65,7 +66,7 @@ class VoidMarks {
   static bool is_power(double size) {
     constexpr double kLeast = 16384.0, kMost = 4294967296.0;
     if (!(size >= kLeast && size <= kMost) || size != std::floor(size)) return false;
-    const auto whole = static_cast<std::uint64_t>(size);
+    const auto whole = to_whole<std::uint64_t>(size);
     return (whole & (whole - 1)) == 0 || (whole & (whole + 1)) == 0;
   }
 

@@ -79,15 +79,16 @@ std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& s
   const std::string sum = sha256_hex(sums);
   const std::string name = fmt::format("{}-{}", file.filename().string(), sum.substr(0, kDigitsOfFolder));
 
+  std::string list = fmt::format(
+      "\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, NACCEL\n"
+      "       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
+      rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH", slices.u.size(),
+      slices.approximate_u ? 2 : 1, rail ? "S" : "TH");
+  for (std::size_t i = 0; i < slices.u.size(); ++i)
+    fmt::format_to(std::back_inserter(list), "   {:.9f}   '{}/{}'\n", kMilli * slices.u[i], name, slice_name(i));
   std::string index = fmt::format("% {}\n", slices.name);
   for (const std::string& comment : comments) index += fmt::format("% {}\n", comment);
-  fmt::format_to(std::back_inserter(index),
-                 "{}{}\n\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, "
-                 "NACCEL\n       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
-                 kSumOfSlices, sum, rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH",
-                 slices.u.size(), slices.approximate_u ? 2 : 1, rail ? "S" : "TH");
-  for (std::size_t i = 0; i < slices.u.size(); ++i)
-    fmt::format_to(std::back_inserter(index), "   {:.9f}   '{}/{}'\n", kMilli * slices.u[i], name, slice_name(i));
+  index += fmt::format("{}{}\n{}", kSumOfSlices, sha256_hex(sums + list), list);
 
   // Until the file names the new slices the old ones stay.
   const FolderLock lock(file.parent_path());

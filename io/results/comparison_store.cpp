@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
@@ -103,7 +104,7 @@ constexpr Access<B> off() {
 template <std::size_t S::*number>
 constexpr Access<B> points() {
   return {[](const B& b) { return static_cast<double>(b.difference.*number); },
-          [](B& b, double v) { b.difference.*number = static_cast<std::size_t>(v); }, nullptr, true};
+          [](B& b, double v) { b.difference.*number = to_whole<std::size_t>(v); }, nullptr, true};
 }
 template <auto number>
 constexpr Access<ComparedRow> of_all() {

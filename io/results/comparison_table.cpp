@@ -38,10 +38,10 @@ std::string flat(std::string text) {
   return text;
 }
 
-Line candidate_line(const ComparisonCandidate& candidate, bool truth) {
+Line candidate_line(const ComparisonCandidate& candidate) {
   const CandidateDigest all = digest(candidate);
   Line line(kColumns);
-  line[0] = flat(candidate.name) + (truth ? " (reference)" : "");
+  line[0] = flat(candidate.name);
   line[1] = candidate.resolution == 0.0 ? "-" : in_short(candidate.resolution * 1e3);
   if (!candidate.failure.empty()) {
     std::fill(line.begin() + 2, line.end(), std::string(1, '-'));
@@ -91,10 +91,11 @@ std::string remarks(const ComparisonCandidate& candidate) {
 
 std::string comparison_table(const Comparison& comparison) {
   std::vector<Line> lines(kHead.begin(), kHead.end());
-  for (const ComparisonCandidate& candidate : comparison.candidates)
-    lines.push_back(candidate_line(candidate, &candidate == comparison.candidates.data()));
+  for (const ComparisonCandidate& candidate : comparison.candidates) lines.push_back(candidate_line(candidate));
 
-  std::string out = table_text(lines);
+  std::string out = table_text(lines, {2, 6, 11});
+  if (!comparison.candidates.empty())
+    out += fmt::format("errors are those against the first, {}\n", flat(comparison.candidates.front().name));
   if (const std::vector<int> cases = cases_without_limit(comparison); !cases.empty())
     out += fmt::format(
         "case {}: the largest pressure has no limit (edge_pressure) and tells nothing of representations; force, mean "

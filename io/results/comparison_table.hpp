@@ -9,9 +9,9 @@
 
 namespace treadmark::io {
 
-/// A comparison as aligned columns for people, one line a candidate, units in the head; "-" where nothing was measured.
-/// Errors are the largest over the cases, times the mean per case. Below: what failed and the notes of the builders.
-/// Ends in a newline. Thread-safe.
+/// A comparison as aligned columns for people: errors of the surfaces, errors of the contact, costs, each with one line
+/// a candidate, units in the head; "-" where nothing was measured. Errors are the largest over the cases, times the
+/// mean per case. Below: what failed and the notes of the builders. Ends in a newline. Thread-safe.
 std::string comparison_table(const Comparison& comparison);
 
 /// The rows of a comparison as comma-separated values (RFC 4180, lines ended by a line feed): a head with the names of

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io {
 
@@ -55,7 +56,7 @@ std::vector<Vec2> row_edges(const PatchFields& fields, double reference_s) {
     edges.push_back(edges.back() + grid.dy * Vec2(std::cos(angle), std::sin(angle)));
   // The reference lies between two edges.
   const double place = std::clamp((reference_s - first) / grid.dy, 0.0, static_cast<double>(grid.ny));
-  const auto below = std::min(static_cast<std::size_t>(place), edges.size() - 2);
+  const auto below = std::min(to_whole<std::size_t>(place), edges.size() - 2);
   const Vec2 reference = edges[below] + (place - static_cast<double>(below)) * (edges[below + 1] - edges[below]);
   for (Vec2& edge : edges) edge += Vec2(reference_s, 0.0) - reference;
   return edges;

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/tables/shown.hpp"
@@ -48,7 +49,7 @@ std::string in_digits(double value, Label::Digits digits) {
     case Label::Digits::four:
       return fmt::format("{:.4g}", size);
     case Label::Digits::whole:
-      return fmt::format("{}", static_cast<int>(value));
+      return fmt::format("{}", to_whole<int>(value));
   }
   return {};
 }

@@ -8,6 +8,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/tables/number.hpp"
@@ -33,7 +34,7 @@ void add_quantities(Json& out, const T& item, std::initializer_list<Block> block
     Json& target = row.object.empty() ? out : out[std::string(row.object)];
     const double value = row.access.get(item);
     target[std::string(row.key)] =
-        row.access.whole ? Json(static_cast<int>(value)) : number(row.unit_in(in_shift(item)).in_file(value));
+        row.access.whole ? Json(to_whole<int>(value)) : number(row.unit_in(in_shift(item)).in_file(value));
   }
 }
 

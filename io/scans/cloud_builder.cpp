@@ -9,6 +9,8 @@
 #include <functional>
 #include <utility>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::io::scans {
 
 CloudBuilder::CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& options, std::size_t least_bytes, Fail fail)
@@ -52,7 +54,7 @@ void CloudBuilder::grow() {
     const double density = static_cast<double>(have) / static_cast<double>(bytes_.offset() + 1);
     const double rest = 1.02 * density * static_cast<double>(bytes_.left());
     const double most = static_cast<double>(bytes_.left() / least_bytes_ + 1);
-    room = std::max(room, have + static_cast<std::size_t>(std::min(rest, most)));
+    room = std::max(room, have + to_whole<std::size_t>(std::min(rest, most)));
   }
   room = std::min(room, most_points_);
   cloud.points.reserve(room);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/points/sink.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
@@ -62,9 +63,9 @@ class CloudBuilder {
 
   /// The pass that a number of the file names; fails for what is no whole number up to 65535.
   std::uint16_t pass(double number) const {
-    if (!(number >= 0.0 && number <= 65535.0) || number != static_cast<double>(static_cast<std::uint16_t>(number)))
+    if (!(number >= 0.0 && number <= 65535.0) || number != static_cast<double>(to_whole<std::uint16_t>(number)))
       bad_pass(number);
-    return static_cast<std::uint16_t>(number);
+    return to_whole<std::uint16_t>(number);
   }
 
   Scan& scan() { return scan_; }

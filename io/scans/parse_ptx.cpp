@@ -5,6 +5,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/points/unit_words.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
@@ -58,7 +59,7 @@ class PtxReader {
   std::uint64_t count(std::size_t k) const {
     if (!is_whole(value_[k]) || value_[k] < 0.0 || value_[k] > static_cast<double>(kMostElements))
       fail(k, "a number of columns or rows of points is expected");
-    return static_cast<std::uint64_t>(value_[k]);
+    return to_whole<std::uint64_t>(value_[k]);
   }
 
   [[noreturn]] void fail(std::size_t k, const std::string& message, const std::string& advice = {}) const {

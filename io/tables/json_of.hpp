@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::io {
@@ -21,7 +22,7 @@ Json value_of(const Row& row, const Column<Row>& column, Digits digits = Digits:
   }
   const double value = column.in_file(row);
   if (column.access.flag) return value != 0.0;
-  return column.access.whole && std::isfinite(value) ? Json(static_cast<long long>(value)) : number(value, digits);
+  return column.access.whole && std::isfinite(value) ? Json(to_whole<long long>(value)) : number(value, digits);
 }
 
 /// The member of a key, which is one of an object for "object.member".

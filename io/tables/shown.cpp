@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,13 +50,34 @@ void add_column(std::vector<std::string>& lines, const std::vector<std::string>&
     lines[i] += gap + (texts ? fmt::format("{:<{}}", cells[i], width) : fmt::format("{:>{}}", cells[i], width));
 }
 
-std::string table_text(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::string> out(lines.size()), cells(lines.size());
-  for (std::size_t column = 0; column < lines.front().size(); ++column) {
-    for (std::size_t i = 0; i < lines.size(); ++i) cells[i] = lines[i][column];
-    add_column(out, cells, column == 0);
+std::string table_text(const std::vector<std::vector<std::string>>& lines, const std::vector<std::size_t>& blocks) {
+  constexpr std::size_t kWidest = 80;
+  const auto with = [&](std::vector<std::string> block, std::size_t column) {
+    std::vector<std::string> cells;
+    cells.reserve(lines.size());
+    for (const std::vector<std::string>& line : lines) cells.push_back(line[column]);
+    add_column(block, cells, column == 0);
+    return block;
+  };
+  std::vector<std::string> keys(lines.size());
+  for (std::size_t column = 0; column < blocks.front(); ++column) keys = with(keys, column);
+  std::string text;
+  const auto written = [&](std::vector<std::string> block) {
+    std::erase_if(block, [](const std::string& line) { return line.find_first_not_of(' ') == std::string::npos; });
+    text += joined_lines(block);
+  };
+  std::vector<std::string> block = keys;
+  for (std::size_t column = blocks.front(); column < lines.front().size(); ++column) {
+    std::vector<std::string> wider = with(block, column);
+    if (column > blocks.front() && (std::ranges::count(blocks, column) > 0 || width_of(wider.front()) > kWidest)) {
+      written(block);
+      text += '\n';
+      wider = with(keys, column);
+    }
+    block = std::move(wider);
   }
-  return joined_lines(out);
+  written(block);
+  return text;
 }
 
 std::string joined_lines(const std::vector<std::string>& lines) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,8 +23,10 @@ std::string text_line(std::string_view label, std::size_t width, const std::stri
 
 /// Adds a column to the lines of a table, two blanks before it: numbers to the right, texts to the left.
 void add_column(std::vector<std::string>& lines, const std::vector<std::string>& cells, bool texts);
-/// A table by its lines of equally many cells: a column of texts, then columns of numbers.
-std::string table_text(const std::vector<std::vector<std::string>>& lines);
+/// A table by its lines of equally many cells: a column of texts, then columns of numbers. It is cut into blocks, one
+/// below the other, that begin at these columns and where 80 characters are full; the columns before the first block
+/// stand in front of each. Lines without a cell are left out.
+std::string table_text(const std::vector<std::vector<std::string>>& lines, const std::vector<std::size_t>& blocks);
 /// Without blanks at the ends of lines.
 std::string joined_lines(const std::vector<std::string>& lines);
 

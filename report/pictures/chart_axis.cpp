@@ -120,7 +120,7 @@ std::vector<AxisTick> ChartAxis::log_ticks() const {
   const int first = to_whole<int>(std::floor(std::log10(low_) + kRounding));
   const int last = to_whole<int>(std::floor(std::log10(high_) + kRounding));
   const double decades = std::log10(high_) - std::log10(low_);
-  const int every = 1 + static_cast<int>(decades) / kMostDecades;
+  const int every = 1 + to_whole<int>(decades) / kMostDecades;
   const auto labelled = [&](int mantissa) {
     return mantissa == 1 || decades < 1.0 || (decades < 2.5 && (mantissa == 2 || mantissa == 5));
   };

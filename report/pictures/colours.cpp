@@ -37,7 +37,7 @@ std::array<std::uint8_t, 4> map_colour(double part, Palette palette) {
   const double clamped = std::isnan(part) ? 0.5 : std::clamp(part, 0.0, 1.0);
   const double position =
       (palette == Palette::from_white ? 0.5 + 0.5 * clamped : clamped) * static_cast<double>(anchors.size() - 1);
-  const auto lower = std::min(static_cast<std::size_t>(position), anchors.size() - 2);
+  const auto lower = std::min(to_whole<std::size_t>(position), anchors.size() - 2);
   const double mix = position - static_cast<double>(lower);
   std::array<std::uint8_t, 4> out{0, 0, 0, 255};
   for (std::size_t i = 0; i < 3; ++i)
@@ -54,7 +54,7 @@ std::string colour(double part, Palette palette) {
 std::size_t ColourScale::step(double value, std::size_t steps) const {
   const double part = (value - low) / (high - low);
   if (!(part > 0.0)) return 0;
-  return std::min(static_cast<std::size_t>(std::min(part, 1.0) * static_cast<double>(steps)), steps - 1);
+  return std::min(to_whole<std::size_t>(std::min(part, 1.0) * static_cast<double>(steps)), steps - 1);
 }
 
 ColourScale colour_scale(double low, double high, bool diverging) {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::pictures {
@@ -133,8 +134,8 @@ PaletteImage map_image(const Raster& map, const ColourScale& colours, PixelRule 
             ++known;
           }
       if (known == 0 || (rule == PixelRule::half && 2 * known < all)) continue;
-      image.index[j * image.width + i] =
-          static_cast<std::uint8_t>(colours.step(sum / static_cast<double>(known) * colours.factor, kImageSteps));
+      const double mean = sum / static_cast<double>(known);
+      image.index[j * image.width + i] = static_cast<std::uint8_t>(colours.step(mean * colours.factor, kImageSteps));
     }
   }
   return image;
@@ -143,7 +144,7 @@ PaletteImage map_image(const Raster& map, const ColourScale& colours, PixelRule 
 PaletteImage small_image(const Raster& map, const ColourScale& colours, PixelRule rule) {
   double part = 1.0;
   for (;; part *= 0.8) {
-    const auto limit = [part](std::size_t most) { return static_cast<std::size_t>(part * static_cast<double>(most)); };
+    const auto limit = [part](std::size_t most) { return to_whole<std::size_t>(part * static_cast<double>(most)); };
     PaletteImage image = map_image(map, colours, rule, limit(kMostPixelColumns), limit(kMostPixelRows));
     if (part < 0.2 || to_png(image).size() <= kMostBytes) return image;
   }

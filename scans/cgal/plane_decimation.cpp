@@ -12,6 +12,7 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/cgal/plane_points.hpp"
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
 
@@ -108,7 +109,7 @@ class GreedyInsertion {
       low.fill(kNone);
       high.fill(kNone);
       for (std::uint32_t rank = 0; rank < at_.size(); ++rank) {
-        const auto sector = static_cast<std::size_t>(at_[rank].x() / period_ * kSectors);
+        const auto sector = to_whole<std::size_t>(at_[rank].x() / period_ * kSectors);
         if (low[sector] == kNone || at_[rank].y() < at_[low[sector]].y()) low[sector] = rank;
         if (high[sector] == kNone || at_[rank].y() > at_[high[sector]].y()) high[sector] = rank;
       }

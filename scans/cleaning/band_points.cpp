@@ -139,8 +139,8 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
   const double coarse_columns = std::max(1.0, std::round(section.length() / kCoarseS));
   band.halvings_a = halvings(kCoarseA);
   band.halvings_s = halvings(kCoarseS);
-  band.rows = static_cast<std::size_t>(coarse_rows) << band.halvings_a;
-  band.columns = static_cast<std::size_t>(coarse_columns) << band.halvings_s;
+  band.rows = to_whole<std::size_t>(coarse_rows) << band.halvings_a;
+  band.columns = to_whole<std::size_t>(coarse_columns) << band.halvings_s;
   band.cell_a = out.band.length() / static_cast<double>(band.rows);
   band.cell_s = section.length() / static_cast<double>(band.columns);
   const double turn = 2.0 * std::numbers::pi * settings.radius;

@@ -157,7 +157,7 @@ class CoverageSearch {
         highs.back() = std::max(highs.back(), cell % columns_ + 1);
       }
     }
-    const auto reached = static_cast<std::ptrdiff_t>(settings_.least_filled * static_cast<double>(lows.size() - 1));
+    const auto reached = to_whole<std::ptrdiff_t>(settings_.least_filled * static_cast<double>(lows.size() - 1));
     std::nth_element(lows.begin(), lows.begin() + reached, lows.end());
     std::nth_element(highs.begin(), highs.begin() + reached, highs.end(), std::greater<>());
     const std::size_t low = lows[static_cast<std::size_t>(reached)], high = highs[static_cast<std::size_t>(reached)];

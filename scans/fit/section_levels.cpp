@@ -130,7 +130,7 @@ class StripFit {
     for (std::size_t k = 0; k < strips_.size(); ++k) {
       if (!(strips_[k].weight > 0.0)) continue;
       const double at = std::clamp(strips_[k].s / knot_, 0.0, static_cast<double>(intervals_));
-      const auto interval = std::min(intervals_ - 1, static_cast<std::size_t>(at));
+      const auto interval = std::min(intervals_ - 1, to_whole<std::size_t>(at));
       visit(k, static_cast<Eigen::Index>(interval),
             Eigen::Vector4d(cubic_basis(at - static_cast<double>(interval)).data()),
             1.0 / (1.0 / strips_[k].weight + kSystematic * kSystematic));

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::scans {
 namespace {
 
@@ -15,7 +17,7 @@ struct Place {
 
 Place place(double x, double knot, std::size_t intervals) {
   const double at = std::clamp(x / knot, 0.0, static_cast<double>(intervals));
-  const auto interval = std::min(intervals - 1, static_cast<std::size_t>(at));
+  const auto interval = std::min(intervals - 1, to_whole<std::size_t>(at));
   return {interval, at - static_cast<double>(interval)};
 }
 

@@ -14,6 +14,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/voxels.hpp"
 
 namespace treadmark::scans {
@@ -54,7 +55,7 @@ class Strips {
   std::size_t count() const { return count_; }
   std::size_t of(std::size_t i) const {
     const double place = (along_[i] - low_) / width_;
-    return place >= 0.0 && place < static_cast<double>(count_) ? static_cast<std::size_t>(place) : kNone;
+    return place >= 0.0 && place < static_cast<double>(count_) ? to_whole<std::size_t>(place) : kNone;
   }
   /// From the middle of the strip, in units of its width.
   double within(std::size_t i) const {
@@ -157,7 +158,7 @@ Circles circles_across(std::span<const Vec3> points, const Vec3& direction) {
   // what is not far off counts, flanks too, which tell most of the direction
   constexpr double kCounted = 0.9;
   out.scatter = kMad * median_of(sizes);
-  const auto last = sizes.begin() + static_cast<std::ptrdiff_t>(kCounted * static_cast<double>(sizes.size()));
+  const auto last = sizes.begin() + to_whole<std::ptrdiff_t>(kCounted * static_cast<double>(sizes.size()));
   std::nth_element(sizes.begin(), last, sizes.end());
   double sum = 0.0;
   for (auto size = sizes.begin(); size != last; ++size) sum += *size;

@@ -33,7 +33,7 @@ Limits limits(Body body) { return body == Body::wheel ? Limits{0.15, 0.75} : Lim
 const char* size_name(Body body) { return body == Body::wheel ? "radius" : "width of the section"; }
 
 double part_of(std::vector<double>& values, double part) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  const auto at = values.begin() + to_whole<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }

@@ -13,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -86,13 +87,13 @@ RoughAxis rough_revolution(const SurfaceElements& elements) {
   const std::size_t count = lines.moment_normal.size();
   Random random(1);
   std::vector<std::size_t> scored(std::min(count, kScored));
-  for (std::size_t& i : scored) i = static_cast<std::size_t>(random.uniform() * static_cast<double>(count));
+  for (std::size_t& i : scored) i = to_whole<std::size_t>(random.uniform() * static_cast<double>(count));
   std::optional<LineSolution> best;
   std::size_t best_count = 0;
   for (int sample = 0; sample < kSamples; ++sample) {
     Mat6 matrix = Mat6::Zero();
     for (int k = 0; k < 8; ++k) {
-      const Vec6& line = lines.moment_normal[static_cast<std::size_t>(random.uniform() * static_cast<double>(count))];
+      const Vec6& line = lines.moment_normal[to_whole<std::size_t>(random.uniform() * static_cast<double>(count))];
       matrix += line * line.transpose();
     }
     const auto axis = solve(matrix);
@@ -165,7 +166,7 @@ RoughAxis rough_sweep(const SurfaceElements& elements) {
   // directions of pairs of normals, scored by how many normals are perpendicular to them
   Random random(1);
   const std::size_t count = elements.position.size();
-  const auto any = [&] { return static_cast<std::size_t>(random.uniform() * static_cast<double>(count)); };
+  const auto any = [&] { return to_whole<std::size_t>(random.uniform() * static_cast<double>(count)); };
   std::vector<std::size_t> scored(std::min(count, kScored));
   for (std::size_t& i : scored) i = any();
   Vec3 direction = Vec3::Zero();

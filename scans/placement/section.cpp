@@ -91,7 +91,7 @@ Section::Section(std::span<const Vec2> points) {
 
 Section::Point Section::at(double s) const {
   const double place = std::clamp(s / step_, 0.0, static_cast<double>(y_.size() - 1));
-  const std::size_t i = std::min(static_cast<std::size_t>(place), y_.size() - 2);
+  const std::size_t i = std::min(to_whole<std::size_t>(place), y_.size() - 2);
   const double x = s - step_ * static_cast<double>(i);
   Value y, v;
   if (x < 0.0 || x > step_) {  // straight on beyond the ends
@@ -131,8 +131,8 @@ std::optional<Section::Foot> Section::foot(const Vec2& point, double farthest) c
   if (off > kFar) {
     const double reach = std::min(off, farthest) + 1e-3;
     const auto last = static_cast<double>(y_.size() - 1);
-    const auto low = static_cast<std::size_t>(std::clamp(s_at(point.x() - reach) / step_, 0.0, last));
-    const auto high = static_cast<std::size_t>(std::clamp(s_at(point.x() + reach) / step_, 0.0, last));
+    const auto low = to_whole<std::size_t>(s_at(point.x() - reach) / step_, 0.0, last);
+    const auto high = to_whole<std::size_t>(s_at(point.x() + reach) / step_, 0.0, last);
     double least = 1e300;
     for (std::size_t i = low; i <= high; i += 4) {
       const double square = (point - Vec2(y_[i], v_[i])).squaredNorm();

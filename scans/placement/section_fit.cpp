@@ -47,7 +47,7 @@ Strip strip_of(std::vector<Vec2>& points, double y_middle) {
     fullest = std::max(fullest, inside[i] = j - i);
   }
   if (fullest < kFewestInStrip) return out;
-  const auto enough = std::max(kFewestInStrip, static_cast<std::size_t>(kLeastShare * static_cast<double>(fullest)));
+  const auto enough = std::max(kFewestInStrip, to_whole<std::size_t>(kLeastShare * static_cast<double>(fullest)));
   std::size_t first = 0;
   while (inside[first] < enough) ++first;
   // on to where the layer is at its fullest, so that a few points above it do not cut it short
@@ -216,7 +216,7 @@ Section moved_along(const Section& section, const DistanceSpline& spline, std::s
   std::vector<Vec2> all(nodes + 1);
   for (std::size_t k = 0; k <= nodes; ++k) {
     const double place = static_cast<double>(k) * static_cast<double>(intervals) / static_cast<double>(nodes);
-    const auto interval = std::min(intervals - 1, static_cast<std::size_t>(place));
+    const auto interval = std::min(intervals - 1, to_whole<std::size_t>(place));
     const double d = spline.at(interval, place - static_cast<double>(interval));
     const Section::Point at = section.at(place * knot);
     all[k] = at.position + std::clamp(d, -farthest, farthest) * at.normal;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -75,7 +76,7 @@ Voxels::Voxels(std::span<const Vec3> points, const Vec3& origin, double size, st
       std::uint64_t key = 0;
       for (int axis = 2; axis >= 0 && key != kNone; --axis) {
         const double cell = std::floor((points[i][axis] - origin[axis]) / size) + kHalf;
-        key = cell >= 1.0 && cell < 2.0 * kHalf - 1.0 ? key << 21 | static_cast<std::uint64_t>(cell) : kNone;
+        key = cell >= 1.0 && cell < 2.0 * kHalf - 1.0 ? key << 21 | to_whole<std::uint64_t>(cell) : kNone;
       }
       if (!keep.empty() && keep[i] == 0) key = kNone;
       entries[i] = {key, static_cast<std::uint32_t>(i)};

@@ -9,6 +9,7 @@
 
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans::scanner {
 
@@ -27,7 +28,7 @@ class Draws {
   double uniform(double low, double high) { return low + (high - low) * random_.uniform(); }
   /// In [0, count), count > 0.
   std::size_t index(std::size_t count) {
-    const auto i = static_cast<std::size_t>(random_.uniform() * static_cast<double>(count));
+    const auto i = to_whole<std::size_t>(random_.uniform() * static_cast<double>(count));
     return i < count ? i : count - 1;
   }
   /// Mean 0, standard deviation 1 (Box and Muller 1958).

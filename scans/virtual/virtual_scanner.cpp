@@ -89,7 +89,7 @@ class Scan {
     scan_.cloud.name = "virtual scan";
     // counts differ by what the ends of lines add; what is lost needs no room
     const double left = plan_.points * (1.0 - settings_.holes) * (1.0 - settings_.drop_outs);
-    const auto room = static_cast<std::size_t>(1.01 * left) + 1000;
+    const auto room = to_whole<std::size_t>(1.01 * left) + 1000;
     scan_.cloud.points.reserve(room);
     if (passes_.size() > 1) scan_.cloud.passes.reserve(room);
     for (std::size_t i = 0; i < passes_.size(); ++i) run_pass(i);

@@ -10,6 +10,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::vehicle {
 
@@ -25,7 +26,7 @@ double cos_of_turns(double x) {
     for (int n = last; n > 1; n -= 2) sum = 1.0 - q / (n * (n - 1.0)) * sum;
     return factor * sum;
   };
-  switch (static_cast<int>(quarters) % 4) {
+  switch (to_whole<int>(quarters) % 4) {
     case 0:
       return series(1.0, 18);
     case 1:

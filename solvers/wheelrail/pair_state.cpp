@@ -92,13 +92,6 @@ Instant read_instant(ByteReader& in) {
   return instant;
 }
 
-/// A number damaged in place would go on as another contact. Fowler, Noll and Vo's hash (FNV-1a, 64 bits).
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const std::byte b : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(b)) * 0x100000001b3u;
-  return hash;
-}
-
 }  // namespace
 
 void write(const std::shared_ptr<const Pair::State>& state, ByteWriter& out) {
@@ -108,7 +101,7 @@ void write(const std::shared_ptr<const Pair::State>& state, ByteWriter& out) {
   write(written.last, content);
   content.put(written.side);
   out.put(kFormat);
-  out.put(checksum(content.bytes()));
+  out.put(check_sum(content.bytes()));
   out.put(std::span<const std::byte>(content.bytes()));
 }
 
@@ -119,7 +112,7 @@ std::shared_ptr<const Pair::State> read_state(ByteReader& in) {
   const auto expected = in.get<std::uint64_t>();
   std::vector<std::byte> bytes;
   in.get(bytes);
-  if (checksum(bytes) != expected) refuse_saved_state("its checksum differs");
+  if (check_sum(bytes) != expected) refuse_saved_state("its checksum differs");
   ByteReader content(bytes);
   auto state = std::make_shared<Pair::State>();
   state->previous = read_instant(content);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/element_choice.hpp"
 
@@ -15,7 +16,7 @@ int checked_count(double n) {
   if (!(n < 1e6))
     throw Error(ErrorKind::configuration, "the element sizes dx, ds are too small for the contact search", {},
                 "use elements of the order of a tenth of a millimetre or larger");
-  return static_cast<int>(n);
+  return to_whole<int>(n);
 }
 
 namespace {

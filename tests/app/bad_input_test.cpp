@@ -155,10 +155,26 @@ TEST_F(BadInput, OutputFolderThatCannotBeMade) {
 
 TEST_F(BadInput, WhatHasNoEndIsNotRead) {
   std::vector<std::vector<std::string>> commands{{"run", "@.toml"}, {"check", "@.toml"}, {"check", "@"}};
-  if (has_part("vehicle"))
-    for (const char* verb : {"simulate", "evolve", "stability", "track", "sweep"})
-      for (const char* name : {"@", "@.toml"})
-        commands.push_back({verb, name, "-o", (input.folder() / "out").string()});
+  const std::string out = (input.folder() / "out").string();
+  for (const char* name : {"@", "@.toml"}) {
+    commands.insert(commands.end(), {{"convert", name, out + ".csv"},
+                                     {"trace", name, "--body", "rail", "--section-mm", "0"},
+                                     {"measure", "wheel", name},
+                                     {"geometry", "--wheel", name, "--rail", "60E1", "--cant", "1:40"},
+                                     {"geometry", name},
+                                     {"compare", name},
+                                     {"bench", name},
+                                     {"diff", name, name}});
+    if (has_part("vehicle"))
+      for (const char* verb : {"simulate", "evolve", "stability", "track", "sweep"})
+        commands.push_back({verb, name, "-o", out});
+    if (has_part("vehicle")) commands.push_back({"assess", name});
+    if (has_part("scans")) commands.push_back({"scan", name, "-o", out + ".xyz", "--body", "rail"});
+    if (has_part("scans")) commands.push_back({"import", name, "-o", out + ".slcs", "--body", "rail"});
+    if (has_part("fmu")) commands.push_back({"fmu", name, "-o", out + ".fmu"});
+    if (has_part("report")) commands.push_back({"report", name, "-o", out + ".html"});
+    if (has_part("report")) commands.push_back({"plot", name, "-o", out + ".svg"});
+  }
   if (has_part("scans")) commands.push_back({"import", "a.ply", "--settings", "@"});
   for (const char* device : {"/dev/zero", "/dev/full"}) {
     if (!std::filesystem::is_character_file(device)) GTEST_SKIP() << "no " << device;

@@ -140,11 +140,13 @@ TEST_F(Mistakes, FilesThatAreNotThereAreLookedForBesideTheirName) {
     expect({"scan", "@/Wheel.csv", "-o", "@/x.xyz", "--body", "wheel"}, 3, {wheel});
   }
   if (has_part("vehicle")) {
-    expect({"simulate", "@/My.toml"}, 2, {near});
-    expect({"sweep", "@/My.toml", "-o", "@/x"}, 2, {near});
-    expect({"evolve", "@/My.toml", "-o", "@/x"}, 2, {near});
-    expect({"stability", "@/My.toml"}, 2, {near});
-    expect({"track", "@/My.toml"}, 2, {near});
+    for (const char* name : {"@/My.toml", "@/my.tml"}) {
+      expect({"simulate", name}, 2, {near});
+      expect({"sweep", name, "-o", "@/x"}, 2, {near});
+      expect({"evolve", name, "-o", "@/x"}, 2, {near});
+      expect({"stability", name}, 2, {near});
+      expect({"track", name}, 2, {near});
+    }
     write("sim.toml", "[simulation]\nvehicle = \"My.toml\"\nspeed_m_s = 1\ndistance_m = 1\n");
     expect({"check", "@/sim.toml"}, 2, {"sim.toml:2:11", "simulation.vehicle: there is no file", near});
     write("study.toml", "[study]\nbase = \"My.toml\"\n[[study.vary]]\nkey = \"wheelset.y_mm\"\nvalues = [1]\n");

@@ -80,9 +80,13 @@ class Planted(unittest.TestCase):
     def test_no_unchecked_casts(self):
         for cast in ("static_cast<int>(std::floor(x))", "static_cast<std::size_t>(std::max(1.0, std::round(a / b)))",
                      "static_cast<std::int32_t>(std::ceil(f(x) - 1e-9))", "static_cast<int>((x - x0) / step)",
-                     "static_cast<std::size_t>(s / points.cell_a)", "std::lround(x)", "std::llround(2.0 * x)"):
-            self.expect("detection/a.cpp", f"const auto n = {cast};\n", "to_whole")
+                     "static_cast<std::size_t>(s / points.cell_a)", "std::lround(x)", "std::llround(2.0 * x)",
+                     "static_cast<int>(x)", "int(x)", "static_cast<std::size_t>(std::clamp(x, 0.0, last))", "static_cast<long>(0.5 * n)",
+                     "static_cast<unsigned>(all[k])", "static_cast<int>(share * kMost)"):
+            self.expect("detection/a.cpp", f"double f(double x, double share, const std::vector<double>& all);\nconst auto n = {cast};\n", "to_whole")
         self.assertEqual(self.violations({"detection/a.cpp": "a = to_whole<int>(std::floor(x)) + static_cast<int>(i / 2);\n"
+                                          "std::vector<double> x; double y; d = static_cast<int>(x.size()) + static_cast<int>(place(y));\n"
+                                          "e = static_cast<int>(std::lower_bound(x.begin(), x.end(), y) - x.begin()) + static_cast<int>(s.y);\n"
                                           "b = static_cast<std::uint64_t>(to_whole<std::int64_t>(std::floor(x)));\n",
                                           "tests/core/a.cpp": "std::lround(x);\n"}), [])
 

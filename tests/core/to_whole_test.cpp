@@ -40,5 +40,12 @@ TEST(ToWhole, HoldsWhatTheTypeHolds) {
   EXPECT_EQ(to_whole<int>(-2147483649.0), -2147483647 - 1);
 }
 
+TEST(ToWhole, KeepsBetweenBounds) {
+  for (const double x : {-1e300, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(to_whole<int>(x, 0.0, 7.0), 0);
+  EXPECT_EQ(to_whole<std::size_t>(6.9, 0.0, 7.0), 6u);
+  EXPECT_EQ(to_whole<std::size_t>(1e300, 0.0, 7.0), 7u);
+}
+
 }  // namespace
 }  // namespace treadmark

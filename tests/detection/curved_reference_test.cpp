@@ -108,6 +108,11 @@ TEST(CurvedReference, GoesStraightOnBeyondTheSurfaces) {
   EXPECT_GT(std::abs(last.angle), 1.2);
   EXPECT_EQ(last.angle, before.angle);
   EXPECT_NEAR(std::hypot(last.y - before.y, last.n - before.n), grid.dy, 1e-12);
+  // however far: in steps of a quarter of a millimetre it would not end
+  const Grid2 wide{0.0, -1e5, 1e-3, 1e5, 1, 3};
+  const ReferenceRows far = curved_reference(pair.bodies, frame_at_bottom(0.0), wide);
+  EXPECT_NEAR(far.rows[2].angle, last.angle, 1e-9);
+  EXPECT_NEAR(std::hypot(far.rows[2].y, far.rows[2].n), wide.dy, 1.0);
 }
 
 TEST(CurvedReference, IsThePlaneBetweenFlatSurfaces) {

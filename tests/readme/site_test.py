@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: Treadmark contributors
 """The documents make a site without a warning, in which every link and picture is there, and nothing comes from elsewhere.
 
-usage: site_test.py ROOT
+usage: site_test.py ROOT [SITE]    SITE: where it was made already
 Exit status 77 where Sphinx is missing, unless CI=true. Where there is Node.js, the page's own search finds words first where they are explained.
 """
 import html.parser
@@ -30,7 +30,7 @@ class Page(html.parser.HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.names, self.links, self.loads = set(), [], []
+        self.names, self.links, self.loads, self.within, self.nested = set(), [], [], False, []
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
@@ -38,8 +38,13 @@ class Page(html.parser.HTMLParser):
         self.names.update(given[key] for key in ("id", "name") if given.get(key))
         if tag == "a" and given.get("href"):
             self.links.append(given["href"])
+            self.nested += [given["href"]] if self.within else []
+            self.within = True
         if tag in ("img", "script", "link") and (given.get("src") or given.get("href")):
             self.loads.append(given.get("src") or given["href"])
+
+    def handle_endtag(self, tag):
+        self.within = self.within and tag != "a"
 
 
 FIRST = {"wear": "docs/evolve", "conicity": "docs/geometry", "scan": "docs/scans", "stability": "docs/stability", "accuracy": "docs/verification",
@@ -65,14 +70,17 @@ def wrong_finds(site):
 
 
 with tempfile.TemporaryDirectory() as name:
-    site = pathlib.Path(name) / "site"
-    made = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", root / "docs", root, site], capture_output=True, text=True)
-    assert made.returncode == 0, made.stdout + made.stderr
+    site = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(name) / "site").resolve()
+    if len(sys.argv) == 2:
+        made = subprocess.run([sys.executable, "-m", "sphinx", "-q", "-W", "--keep-going", "-c", root / "docs", root, site], capture_output=True, text=True)
+        assert made.returncode == 0, made.stdout + made.stderr
+    assert (site / "index.html").exists(), "no page at the root"
     pages = {path: Page(path.read_text(encoding="utf-8")) for path in site.rglob("*.html")}
-    assert len(pages) > 40, len(pages)
+    assert len(pages) > 40 and pages[site / "index.html"].links == ["docs/index.html"], len(pages)
     wrong = []
     for path, page in pages.items():
         wrong += [f"{path.relative_to(site)} loads {load}" for load in page.loads if urllib.parse.urlparse(load).scheme in ("http", "https")]
+        wrong += [f"{path.relative_to(site)}: {link} is a link within a link" for link in page.nested]
         for link in page.links + page.loads:
             parts = urllib.parse.urlparse(link)
             if parts.scheme:

@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::app::pages {
 
@@ -139,7 +140,7 @@ MapView empty_map(const std::vector<Plane>& planes, const Direction& direction, 
   map.x = Axis{direction.axis, "mm"};
   map.y = Axis{"−n, height over the contact plane", "mm"};
   map.label = stress.label, map.unit = "MPa", map.diverging = stress.diverging;
-  map.nx = std::max(8, static_cast<int>(share * kColumns)), map.ny = std::max(8, static_cast<int>(share * kRows));
+  map.nx = std::max(8, to_whole<int>(share * kColumns)), map.ny = std::max(8, to_whole<int>(share * kRows));
   map.x0 = kMilli * x_low, map.dx = kMilli * (x_high - x_low) / (map.nx - 1);
   map.y0 = kMilli * h_low, map.dy = kMilli * (h_high - h_low) / (map.ny - 1);
   return map;

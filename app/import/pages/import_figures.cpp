@@ -10,6 +10,7 @@
 
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/pictures/imports/import_map.hpp"
 
@@ -181,7 +182,7 @@ std::vector<Block> residual_figure(const io::ImportReport& report) {
     note = fmt::format(
         "{} points: mean {} µm, rms {} µm; 95 % of them lie within {} µm of the surface, 99 % within {} µm, all within "
         "{} µm.",
-        static_cast<std::size_t>(total), um(d.mean), um(d.rms), um(d.within_95), um(d.within_99), um(d.largest));
+        to_whole<std::size_t>(total), um(d.mean), um(d.rms), um(d.within_95), um(d.within_99), um(d.largest));
     if (residuals.below + residuals.above > 0)
       note += fmt::format(" {} lie below and {} above what is drawn.", residuals.below, residuals.above);
   }
@@ -216,7 +217,7 @@ CloudView::Quantity quantity_of(const char* label, const std::vector<float>& met
   CloudView::Quantity out{label, "µm", 1e3};
   if (sizes.empty()) return out;
   std::ranges::sort(sizes);
-  const double usual = sizes[static_cast<std::size_t>(share * static_cast<double>(sizes.size() - 1))],
+  const double usual = sizes[to_whole<std::size_t>(share * static_cast<double>(sizes.size() - 1))],
                largest = sizes.back();
   const double span = usual > 0.0 && largest > far * usual ? usual : largest;
   if (span >= kSmall) out.unit = "mm", out.per_mm = 1.0;

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
 
@@ -53,9 +54,7 @@ WheelHull::Bin WheelHull::range(double y_low, double y_high) const {
   Bin sum{kInfinity, -kInfinity};
   if (!(y_high >= y_min_ && y_low <= y_max_)) return sum;
   const double last = static_cast<double>(bins_.size()) - 1.0;
-  const auto bin = [&](double y) {
-    return static_cast<std::size_t>(std::clamp((y - y_min_) * bins_per_length_, 0.0, last));
-  };
+  const auto bin = [&](double y) { return to_whole<std::size_t>((y - y_min_) * bins_per_length_, 0.0, last); };
   for (std::size_t i = bin(y_low), end = bin(y_high); i <= end; ++i)
     sum = {std::min(sum.low, bins_[i].low), std::max(sum.high, bins_[i].high)};
   return sum;

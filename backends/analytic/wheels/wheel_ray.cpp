@@ -9,6 +9,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
 
@@ -48,7 +49,7 @@ ChordSlopes::ChordSlopes(const GraphCurve& curve) {
 
 std::size_t ChordSlopes::cell(double y) const {
   const double i = (y - y_min_) * per_length_;
-  return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(right_.size()) - 1.0));
+  return to_whole<std::size_t>(i, 0.0, static_cast<double>(right_.size()) - 1.0);
 }
 
 WheelBody::WheelBody(GraphCurve profile, double radius, const std::vector<WheelFlat>& wheel_flats)

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
 #include "treadmark/core/kernel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 #include <cmath>
 #include <limits>
@@ -35,7 +36,7 @@ double greatest_facing(const BezierPatch& bezier) {
 }
 
 // Of a point, also one that is not over the view.
-int bin_of(double at, int bins) { return std::clamp(static_cast<int>(std::clamp(at, -1.0, 2000.0)), 0, bins - 1); }
+int bin_of(double at, int bins) { return std::clamp(to_whole<int>(at, -1.0, 2000.0), 0, bins - 1); }
 
 // In rows of so many.
 std::size_t index_of(int i, int j, int columns) {
@@ -123,8 +124,8 @@ void NurbsView::sort_into_bins() {
   const double width = rectangle_.x_max - rectangle_.x_min, height = rectangle_.y_max - rectangle_.y_min;
   // About four bins for every candidate, as square as can be.
   const double number = 4.0 * static_cast<double>(candidates_.size()) + 1.0;
-  bins_x_ = static_cast<int>(std::clamp(std::sqrt(number * width / height), 1.0, 1000.0));
-  bins_y_ = static_cast<int>(std::clamp(number / bins_x_, 1.0, 1000.0));
+  bins_x_ = to_whole<int>(std::sqrt(number * width / height), 1.0, 1000.0);
+  bins_y_ = to_whole<int>(number / bins_x_, 1.0, 1000.0);
   per_x_ = bins_x_ / width;
   per_y_ = bins_y_ / height;
   bin_begin_.assign(static_cast<std::size_t>(bins_x_ * bins_y_) + 1, 0);

@@ -16,6 +16,7 @@
 #include "treadmark/backends/spline/slices/slice_section.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -74,7 +75,8 @@ std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, c
   mark_cells_over(WindowOn<Geometry>(window), net, hulls, single_line, marks);
   std::vector<CellRun> runs;
   // memchr is quicker than a loop, and the last mark is never set
-  const char *const begin = marks.data(), *const end = begin + net.cells();
+  const char* const begin = marks.data();
+  const char* const end = begin + net.cells();
   for (const char* first = begin;
        (first = static_cast<const char*>(std::memchr(first, 1, static_cast<std::size_t>(end - first)))) != nullptr;) {
     const char* last = static_cast<const char*>(std::memchr(first, 0, static_cast<std::size_t>(end - first) + 1));
@@ -196,7 +198,7 @@ SliceSurface<Geometry>::SliceSurface(SliceNet net, double nominal_radius)
 
 template <class Geometry>
 Vec3 SliceSurface<Geometry>::point(double u, double v) const {
-  const int cell = std::clamp(static_cast<int>(v) - 1, 0, net_.cells() - 1);
+  const int cell = std::clamp(to_whole<int>(v) - 1, 0, net_.cells() - 1);
   return geometry_.derivatives(u, net_.at(net_.find(u), cell, v - (cell + 1)), {}).p;
 }
 
@@ -291,7 +293,7 @@ void SliceSurface<Geometry>::do_evaluate(std::span<const Vec2> uv, std::span<Sur
     out[i] = {};
     if (!std::isfinite(u) || !(v >= 1.0 && v <= net_.positions())) continue;
     const SliceNet::Place place = net_.find(u);
-    const int cell = std::clamp(static_cast<int>(v) - 1, 0, net_.cells() - 1);
+    const int cell = std::clamp(to_whole<int>(v) - 1, 0, net_.cells() - 1);
     const double f = v - (cell + 1);
     const SurfaceJet jet = jet_of(geometry_.derivatives(u, net_.at(place, cell, f), net_.second_at(place, cell, f)));
     if (jet.p.allFinite()) out[i] = jet;

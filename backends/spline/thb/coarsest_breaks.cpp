@@ -173,7 +173,7 @@ CoarsestBreaks coarsest_breaks(const FitPoints& points, Body body, int degree, c
     std::vector<PointLine> lines(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) {
       PointLine& line = lines[static_cast<std::size_t>(k)];
-      const int first = static_cast<int>((k + 0.5) * (all - width) / count);
+      const int first = to_whole<int>((k + 0.5) * (all - width) / count);
       const FitPoints::Block block =
           along ? FitPoints::Block{0, rows, first, first + width} : FitPoints::Block{first, first + width, 0, columns};
       line.points.reserve(points.count(block));

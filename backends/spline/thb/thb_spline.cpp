@@ -10,6 +10,7 @@
 
 #include "treadmark/backends/spline/cubic_pieces.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -87,7 +88,7 @@ NurbsNet listed_net(std::size_t count, const std::function<CubicPiece(std::size_
   const double per_u = length / along, per_v = width / across;
   const double extent = std::max((all.u1 - all.u0) * per_u, (all.v1 - all.v0) * per_v);
   const auto place = [&](double middle, double first, double per) {
-    return static_cast<std::uint32_t>((middle - first) * per / extent * 16'000'000.0);
+    return to_whole<std::uint32_t>((middle - first) * per / extent * 16'000'000.0);
   };
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
   order.reserve(cells.size());

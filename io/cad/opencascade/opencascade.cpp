@@ -250,7 +250,7 @@ class Shape {
   std::size_t strip(double y) const {
     const double low = kMillimetres * low_[1], high = kMillimetres * high_[1];
     const double share = high > low ? (y - low) / (high - low) : 0.0;
-    return static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * (kStrips - 1));
+    return to_whole<std::size_t>(share * (kStrips - 1), 0.0, kStrips - 1.0);
   }
   std::vector<std::vector<std::size_t>> strips_;  ///< boxes that reach into each
 };
@@ -383,6 +383,15 @@ class FaceTriangles {
     const auto length = [&](int a, int b) {
       return points_[static_cast<std::size_t>(a)].SquareDistance(points_[static_cast<std::size_t>(b)]);
     };
+    double area = 0.0;
+    for (const auto& [a, b, c] : triangles_) {
+      const auto side = [&](int to) {
+        return points_[static_cast<std::size_t>(to)].XYZ() - points_[static_cast<std::size_t>(a)].XYZ();
+      };
+      area += 0.5 * side(b).Crossed(side(c)).Modulus();
+    }
+    // of equal sides at best
+    if (area > 0.25 * std::sqrt(3.0) * longest * longest * static_cast<double>(most)) return false;
     for (;;) {
       std::unordered_map<std::uint64_t, int> middles;
       for (const auto& t : triangles_) {

@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/to_whole.hpp"
+
 namespace treadmark::io {
 
 namespace {
@@ -57,7 +59,7 @@ std::optional<long> to_integer(std::string_view word) {
   const auto real = to_real(word);
   constexpr double kLargest = 1e15;  // up to which a real holds every integer
   if (!real || *real != std::floor(*real) || std::abs(*real) > kLargest) return std::nullopt;
-  return static_cast<long>(*real);
+  return to_whole<long>(*real);
 }
 
 std::optional<double> to_angle(std::string_view word) {

@@ -13,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/results/field_table.hpp"
 
 namespace treadmark::io {
@@ -204,7 +205,7 @@ constexpr double kLargestWhole = 1e9;
 std::string column(double value) {
   if (std::isnan(value)) return fmt::format("{:>{}}", "NaN", kWidth);
   if (std::abs(value) < kLargestWhole && value == std::trunc(value))
-    return fmt::format("{:>{}d}", static_cast<long long>(value), kWidth);
+    return fmt::format("{:>{}d}", to_whole<long long>(value), kWidth);
   return fmt::format("{:>{}.12E}", value, kWidth);
 }
 

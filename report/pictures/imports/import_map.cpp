@@ -10,6 +10,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 
 namespace treadmark::pictures {
@@ -70,7 +71,7 @@ std::optional<MapExtent> map_extent(const io::BandMap& map, double outside) {
   if (known.empty()) return {};
   const auto [least, greatest] = std::minmax_element(known.begin(), known.end());
   MapExtent out{*least, *greatest, 0.0, 0.0};
-  const auto rank = static_cast<std::size_t>(outside * static_cast<double>(known.size() - 1));
+  const auto rank = to_whole<std::size_t>(outside * static_cast<double>(known.size() - 1));
   const auto low = known.begin() + static_cast<std::ptrdiff_t>(rank),
              high = known.end() - 1 - static_cast<std::ptrdiff_t>(rank);
   std::nth_element(known.begin(), low, known.end());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/report/pictures/imports/import_pictures.hpp"
 
 namespace treadmark::pictures {
@@ -34,8 +35,8 @@ void ImportPicture::add(ImportPanel panel, double left) {
     y += 16.0;
   }
   if (!panel.chart.top.empty()) y += 14.0;
-  panel.chart.x_ticks = std::max(3, static_cast<int>(panel.width / kPerTickX));
-  panel.chart.y_ticks = std::max(2, static_cast<int>(panel.height / kPerTickY));
+  panel.chart.x_ticks = std::max(3, to_whole<int>(panel.width / kPerTickX));
+  panel.chart.y_ticks = std::max(2, to_whole<int>(panel.height / kPerTickY));
   elements_ += draw_chart(panel.chart, {left + panel.indent, y, panel.width, panel.height});
   end(y + panel.height + (panel.chart.x_label.empty() ? 24.0 : kBelowFrame));
 }

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <limits>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/report/pictures/imports/import_map.hpp"
 
@@ -30,7 +31,7 @@ AxisRange usual_range(const SectionPoints& points, int axis, double left_out) {
     if (is_finite(p)) values.push_back(p[axis]);
   if (values.empty()) return {kNan, kNan};
   std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(left_out * static_cast<double>(values.size() - 1));
+  const auto rank = to_whole<std::size_t>(left_out * static_cast<double>(values.size() - 1));
   return {values[rank], values[values.size() - 1 - rank]};
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::kalker {
 
@@ -82,7 +83,7 @@ KalkerCoefficients kalker_coefficients(double a, double b, double poisson) {
   if (g < kLeastTableRatio) return asymptotic(narrow, g, poisson);
   const double position = 10.0 * g;
   // Rows count from 1; the offset keeps exact table ratios away from rounding to the row below or above.
-  const int row = static_cast<int>(position - 0.005);
+  const int row = to_whole<int>(position - 0.005);
   const double share = position - row;
   const auto& table = narrow ? kNarrow : kLong;
   const Row& low = table[static_cast<std::size_t>(row - 1)];

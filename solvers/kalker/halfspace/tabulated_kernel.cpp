@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::kalker {
 
@@ -57,8 +58,7 @@ InfluenceBlock between(const InfluenceBlock& a, const InfluenceBlock& b, double 
 struct Interval {
   Interval(double position, int count)
       : inside(position >= -kRounding && position <= count - 1 + kRounding),
-        index(std::clamp(static_cast<int>(std::clamp(position, 0.0, static_cast<double>(count))), 0,
-                         std::max(count - 2, 0))),
+        index(std::clamp(to_whole<int>(position, 0.0, static_cast<double>(count)), 0, std::max(count - 2, 0))),
         next(std::min(index + 1, count - 1)),
         share(std::clamp(position - index, 0.0, 1.0)) {}
   static constexpr double kRounding = 1e-6;

@@ -140,7 +140,7 @@ std::vector<double> carried(const Grid2& grid, const std::vector<double>& field,
   std::vector<double> out(grid.size());
   for (int iy = 0; iy < grid.ny; ++iy)
     for (int ix = 0; ix < grid.nx; ++ix) {
-      const long jx = ix + static_cast<long>(fx), jy = iy + static_cast<long>(fy);
+      const long jx = ix + to_whole<long>(fx), jy = iy + to_whole<long>(fy);
       double value = (1.0 - ty) * at(jx, jy);
       if (tx > 0.0) value += (1.0 - ty) * tx * (at(jx + 1, jy) - at(jx, jy));
       if (ty > 0.0) value += ty * ((1.0 - tx) * at(jx, jy + 1) + (tx > 0.0 ? tx * at(jx + 1, jy + 1) : 0.0));

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -57,6 +58,7 @@ class Search {
     Found found{start, residual(start).squaredNorm(), false};
     double lambda = 1e-2;
     for (int i = 0; i < kMost && !found.converged; ++i) {
+      check_cancelled();
       const Eigen::VectorXd r = residual(found.numbers);
       const Eigen::MatrixXd j = jacobian(found.numbers);
       const Eigen::MatrixXd normal = j.transpose() * j;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 
@@ -39,7 +40,7 @@ std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRa
   constexpr double kMostRows = 1e5;
   const double step = 0.3 * p.discretisation.ds, rows = std::ceil((rail.y_max - rail.y_min) / step) + 1.0;
   if (!(rows < kMostRows)) return std::nullopt;
-  return detection::LocusRows{rail.y_min, step, static_cast<int>(rows), p.wheelset.nominal_radius,
+  return detection::LocusRows{rail.y_min, step, to_whole<int>(rows), p.wheelset.nominal_radius,
                               p.roller ? p.roller->nominal_radius : 0.0};
 }
 

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -74,6 +77,39 @@ TEST(LeftOut, BackendsAreRefusedByName) {
                                HasSubstr(left_out_advice(part))));
     }
   }
+}
+
+/// Parts that packages of their own bring: what is built need not be installed.
+TEST(LeftOut, ModulesThatAreNotInstalledAreNamed) {
+  const SampleInput input;
+  const std::string inp = input.inp().string(), step = TREADMARK_SOURCE_DIR "/tests/io/cad/data/rail.step";
+  setenv("TREADMARK_MODULES", "/nowhere", 1);
+  for (const auto& [part, arguments] :
+       {std::pair{"openvdb", std::vector<std::string>{"run", inp, "--rail-backend", "offset", "--resolution", "2"}},
+        std::pair{"cad", std::vector<std::string>{"check", step}}}) {
+    if (!has_part(part)) continue;
+    const ProgramResult r = run_program(arguments);
+    EXPECT_EQ(r.status, 2) << part;
+    EXPECT_THAT(r.err, HasSubstr(std::string("install the Debian package treadmark-") + part));
+  }
+  unsetenv("TREADMARK_MODULES");
+}
+
+/// A program called by its name alone knows no more of its place than that.
+TEST(LeftOut, ModulesAreNotTakenFromTheWorkingDirectory) {
+  if (!has_part("cad")) GTEST_SKIP();
+  namespace fs = std::filesystem;
+  const SampleInput input;
+  const fs::path folder = input.inp().parent_path(), trap = folder / "treadmark" / "treadmark-opencascade";
+  fs::create_directory(folder / "bin");
+  fs::create_directory(folder / "treadmark");
+  fs::copy_file(TREADMARK_PROGRAM, folder / "bin" / "treadmark");
+  std::ofstream(trap) << "#!/bin/sh\ntouch '" << folder.string() << "/taken'\n";
+  fs::permissions(trap, fs::perms::owner_all);
+  const std::string call = "cd '" + folder.string() + "' && PATH=\"$PWD/bin:$PATH\" treadmark check " +
+                           TREADMARK_SOURCE_DIR "/tests/io/cad/data/rail.step >out 2>&1";
+  EXPECT_EQ(std::system(call.c_str()), 0);
+  EXPECT_FALSE(fs::exists(folder / "taken"));
 }
 
 TEST(LeftOut, SimulationsAreCheckedOrRefused) {

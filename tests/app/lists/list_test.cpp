@@ -139,6 +139,7 @@ TEST(ResultList, TablesBeginWithTheWorst) {
   EXPECT_THAT(list_csv(list), HasSubstr("two, \"\"or so\"\""));
   const std::string text = list_text(list);
   EXPECT_LT(text.find("row 4"), text.find("row 0"));
+  EXPECT_THAT(text, HasSubstr("row 2: failed: "));
   EXPECT_EQ(text.find("half_mm"), std::string::npos);
   EXPECT_THAT(text, HasSubstr("5 texts, 1 failed"));
   const report::Page page = list_page(list);

@@ -67,7 +67,8 @@ TEST(Measure, S1002ByItsName) {
   EXPECT_NEAR(m["wheel"]["diameter_mm"], 920.0, 1e-3);
   EXPECT_NEAR(m["wheel"]["diameter_lost_mm"], 0.0, 1e-3);
   EXPECT_TRUE(m["wheel"]["runout_mm"].is_null());
-  EXPECT_THAT(m["wheel"]["reasons"]["runout_mm"].get<std::string>(), HasSubstr("takes a scan round the wheel"));
+  EXPECT_THAT(m["wheel"]["reasons"]["runout_mm"].get<std::string>(),
+              HasSubstr("needs a scan of the full circumference"));
   EXPECT_EQ(m["status"], "no limits");
 }
 

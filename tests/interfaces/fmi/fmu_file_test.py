@@ -109,6 +109,21 @@ class FmuFiles(unittest.TestCase):
         force = float(re.search(r'"fz_tr_N": *([-+.e\d]+)', solved.stdout).group(1))
         self.assertAlmostEqual(float(host.stdout.split()[2]) / -force, 1.0, delta=1e-9)
 
+    def test_pairs_without_triangles_are_small(self):
+        def libraries(fmu):
+            with zipfile.ZipFile(fmu) as archive:
+                return " ".join(archive.namelist())
+        self.assertNotIn("embree", libraries(self.pair))
+        self.assertLess(self.pair.stat().st_size, 5e6)
+        if re.search("left out:.*Embree", subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout):
+            self.skipTest("this build leaves out triangles")
+        meshed = self.make("meshed", "--set", "wheel.backend=mesh")[0]
+        self.assertIn("embree", libraries(meshed))
+        with zipfile.ZipFile(meshed) as archive:
+            archive.extractall(self.folder / "meshed")
+        host = subprocess.run([HOST, self.folder / "meshed"], capture_output=True, text=True)
+        self.assertEqual(host.returncode, 0, host.stderr)
+
     def test_same_input_same_bytes(self):
         before = self.pair.read_bytes()
         self.assertEqual(self.make("pair")[0].read_bytes(), before)

@@ -35,8 +35,9 @@ def test_files_that_are_not_there(tmp_path):
         calls += [(tm.read_import,), (tm.read_simulation,), (tm.read_sweep,), (tm.track,), (tm.stability,), (tm.assess,), (tm.simulate,), (tm.evolve, tmp_path / "out"),
                   (tm.sweep, tmp_path / "out"), (tm.report, tmp_path / "out.html")]
     for function, *more in calls:
-        with pytest.raises(FileNotFoundError, match="nosuch"):
-            function("rail", "@nosuch") if function is tm.measure_files else function(str(tmp_path / "nosuch.toml"), *more)
+        for ending in ("toml", "csv"):
+            with pytest.raises(FileNotFoundError, match="nosuch"):
+                function("rail", "@nosuch") if function is tm.measure_files else function(str(tmp_path / f"nosuch.{ending}"), *more)
 
 
 def test_places_of_texts_and_dictionaries():

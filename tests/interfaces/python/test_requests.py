@@ -282,7 +282,7 @@ def test_a_wheel_by_its_name_has_the_printed_numbers():
     assert [numbers[name].value for name in ("flange_height", "flange_thickness", "flange_gradient")] == pytest.approx([28e-3, 32.5e-3, 10.794e-3], abs=5e-7)
     assert numbers["diameter"].value == pytest.approx(0.92, abs=1e-6) and numbers["flange_angle"].unit == "rad"
     assert numbers["flange_angle"].value == pytest.approx(math.radians(70), abs=1e-3)
-    assert found.verdict == "no limits" and found.limits == [] and found.error == "" and "takes a scan" in numbers["runout"].reason
+    assert found.verdict == "no limits" and found.limits == [] and found.error == "" and "needs a scan" in numbers["runout"].reason
     again = pickle.loads(pickle.dumps(found))
     assert again.document == found.document and again.numbers["flange_height"] == numbers["flange_height"]
     assert again.summary() == found.summary()

@@ -10,8 +10,10 @@
 
 #include "beam_on_bed.hpp"
 #include "small_vehicles.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/counting_token.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -126,6 +128,21 @@ TEST(FitLumped, RefusesWhatCannotBeFitted) {
   EXPECT_THROW(fit_lumped(f, std::span<const Complex>(h).first(19), 2), Error);
   h[3] = 0.0;
   EXPECT_THROW(fit_lumped(f, h, 2), Error);
+}
+
+TEST(FitLumped, AsksInEveryIterationWhetherItIsToEnd) {
+  const std::vector<double> f = frequencies(20);
+  const std::vector<Complex> h = on_bed(f);
+  const testing::CountingToken never;
+  {
+    const CancellationScope scope(&never);
+    fit_lumped(f, h, 2);
+  }
+  EXPECT_GT(never.passed(), 100);
+  const testing::CountingToken soon(50);
+  const CancellationScope scope(&soon);
+  EXPECT_THROW(fit_lumped(f, h, 2), Cancelled);
+  EXPECT_EQ(soon.passed(), 50);
 }
 
 }  // namespace
