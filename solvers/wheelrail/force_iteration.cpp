@@ -20,7 +20,7 @@ namespace {
 class Iteration {
  public:
   Iteration(PairStep& step, const Problem& problem, double stiffness, double end_slope, bool known)
-      : step_(step), p_(problem), known_(known) {
+      : step_(step), p_(problem), eps_(problem.solver.eps), known_(known) {
     out_.stiffness = stiffness;
     out_.end_slope = end_slope;
     out_.pitch_rate = p_.longitudinal_force ? free_rolling_rate() : p_.state.velocity.pitch;
@@ -54,17 +54,15 @@ class Iteration {
 
   /// Tractions, at the pitch rate that gives the prescribed longitudinal force.
   bool solve_tangential() {
-    step_.solve_tangential(out_.pitch_rate, p_.solver.eps);
+    step_.solve_tangential(out_.pitch_rate, eps_);
     if (!p_.longitudinal_force || step_.normal_force() <= 0.0) return true;
     const double friction = std::max(p_.friction.static_friction(), 1e-6), bound = friction * step_.normal_force();
     const double running = std::abs(free_rolling_rate());
     // Creepages of the order of a ten-thousandth; of a shift, displacements of the order of a thousandth of an element.
     const bool shift = p_.regime == kalker::Regime::shift;
     const double unit = shift ? p_.discretisation.dx / p_.wheelset.nominal_radius : running;
-    RootSearch search({.tolerance = p_.solver.eps * bound,
-                       .first_step = 1e-4 * unit,
-                       .reach = 0.5 * unit,
-                       .resolution = 1e-14 * unit});
+    RootSearch search(
+        {.tolerance = eps_ * bound, .first_step = 1e-4 * unit, .reach = 0.5 * unit, .resolution = 1e-14 * unit});
     RootSearch::State state = RootSearch::State::search;
     // A wheel that turns slower, its rate less negative, brakes: it pulls the rail forward.
     constexpr int kMost = 60;
@@ -73,7 +71,7 @@ class Iteration {
       state = search.add(out_.pitch_rate, step_.longitudinal_force() - *p_.longitudinal_force);
       if (state != RootSearch::State::search) break;
       out_.pitch_rate = search.next();
-      step_.solve_tangential(out_.pitch_rate, p_.solver.eps);
+      step_.solve_tangential(out_.pitch_rate, eps_);
     }
     if (state == RootSearch::State::found) return true;
     fail(Status::not_converged, fmt::format("no longitudinal balance: {:.6g} N are prescribed, the contact gives "
@@ -86,8 +84,7 @@ class Iteration {
   bool estimate_shares() {
     if (p_.longitudinal_force) return solve_tangential();
     constexpr double kLoosest = 1e-2, kPart = 0.3;
-    step_.solve_tangential(out_.pitch_rate,
-                           std::clamp(kPart * p_.solver.eps / step_.friction_share(), p_.solver.eps, kLoosest));
+    step_.solve_tangential(out_.pitch_rate, std::clamp(kPart * eps_ / step_.friction_share(), eps_, kLoosest));
     return true;
   }
 
@@ -162,11 +159,11 @@ class Iteration {
     return step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
   }
 
-  void keep_stiffness(const ForceBalance& balance, const ForceBalance::Target& target, double z) {
+  void keep_stiffness(const ForceBalance::Target& target, double z, const ForceBalance* balance = nullptr) {
     const double depth = z - step_.touching_z();
     if (!(depth > 0.0)) return;
     out_.stiffness = target.at(z) / std::pow(depth, 1.5), known_ = true;
-    out_.end_slope = balance.end_slope(depth);
+    if (balance) out_.end_slope = balance->end_slope(depth);
   }
 
   /// About the height, without tractions: near enough for the size of patches, and for the next search to start from.
@@ -176,24 +173,67 @@ class Iteration {
     double z = balance.first(step_.touching_z());
     for (int i = 0; i < p_.max_force_iterations; ++i) {
       check_cancelled();
-      step_.evaluate(z);
+      step_.evaluate(z, target.at(z));
+      if (step_.carries_load()) {
+        const double laid = std::exchange(z, step_.z());
+        keep_stiffness(target, z);
+        if (std::abs(z - laid) <= kNearEnough * (z - step_.touching_z())) return;
+        continue;
+      }
       const ForceBalance::State state = balance.add(z, force_at_height(), step_.least_gap());
-      if (state == ForceBalance::State::found && step_.too_deep() <= 0.0) keep_stiffness(balance, target, z);
+      if (state == ForceBalance::State::found && step_.too_deep() <= 0.0) keep_stiffness(target, z, &balance);
       if (state != ForceBalance::State::search) return;
       z = balance.next();
     }
   }
 
+  /// One patch: its normal problem finds the height with the pressures. Elements are laid again, and what lies under
+  /// them is measured again, until the height stays as it is to the accuracy of forces. Nothing where the height has to
+  /// be sought, from z on; evaluated: the step stands there.
+  std::optional<bool> iterate_under_load(const ForceBalance::Target& target, double& z, bool& evaluated) {
+    constexpr double kDeeper = 2.0;
+    constexpr int kMost = 16;
+    const double touching = step_.touching_z(), still = 2.0 * eps_;
+    double laid = z;
+    bool lay = true, shares_known = step_.knows_earlier_shares();
+    for (int i = 0; i < std::min(kMost, p_.max_force_iterations); ++i) {
+      check_cancelled();
+      if (lay)
+        step_.evaluate(laid = z, target.at(z));
+      else
+        step_.carry(target.at(z));
+      evaluated = lay && !step_.carries_load();
+      if (!step_.carries_load()) return std::nullopt;
+      z = step_.z();
+      out_.iterations.emplace_back(z, step_.force_T().z());
+      lay = shares_known && std::abs(z - laid) > still * (z - touching);
+      // Under far too large a load few elements sink in far too deep.
+      z = std::min(z, touching + kDeeper * (laid - touching));
+      if (lay) continue;
+      if (!(shares_known ? solve_tangential() : estimate_shares())) return false;
+      if (!std::exchange(shares_known, true)) continue;
+      out_.z = z;
+      out_.iterations.emplace_back(z, step_.force_T().z());
+      if (std::abs(step_.force_T().z() - target.at(z)) > eps_ * std::abs(target.at(z))) continue;
+      keep_stiffness(target, z);
+      return true;
+    }
+    return std::nullopt;
+  }
+
   bool iterate_height(const ForceBalance::Target& target) {
-    ForceBalance balance(target, p_.solver.eps, stiffness_for(target), out_.end_slope);
+    ForceBalance balance(target, eps_, stiffness_for(target), out_.end_slope);
     double z = balance.first(step_.touching_z());
+    bool evaluated = false;
+    if (const std::optional<bool> done = iterate_under_load(target, z, evaluated)) return *done;
     ForceBalance::State state = ForceBalance::State::search;
     bool tangential_done = false, shares_known = false, exact = false;
     // Where a flange carries load, tractions turn the force: heights and tractions come to terms in rounds, each with
     // iterations of its own. What tractions add to the force is known well enough from a height close to the balance.
     for (int i = 0, round = 0; i < p_.max_force_iterations && round < p_.max_force_iterations; ++i) {
       check_cancelled();
-      if (state == ForceBalance::State::search && !tangential_done) step_.evaluate(z);
+      if (state == ForceBalance::State::search && !tangential_done && !std::exchange(evaluated, false))
+        step_.evaluate(z);
       const double force = force_at_height();
       out_.iterations.emplace_back(z, force);
       out_.z = z;
@@ -222,7 +262,7 @@ class Iteration {
     if (inside_the_rail()) return false;
     if (!(tangential_done && exact) && !solve_tangential()) return false;
     if (state == ForceBalance::State::found) {
-      keep_stiffness(balance, target, out_.z);
+      keep_stiffness(target, out_.z, &balance);
       return true;
     }
     if (state == ForceBalance::State::no_balance) return no_balance(balance, target);
@@ -232,7 +272,7 @@ class Iteration {
 
   /// With tractions at every height: for forces that they turn so much that rounds go to and fro.
   bool iterate_with_tractions(const ForceBalance::Target& target, double z) {
-    ForceBalance balance(target, p_.solver.eps, out_.stiffness, out_.end_slope);
+    ForceBalance balance(target, eps_, out_.stiffness, out_.end_slope);
     balance.restart();
     for (int i = 0; i < p_.max_force_iterations; ++i) {
       check_cancelled();
@@ -248,7 +288,7 @@ class Iteration {
                               std::abs(force - target.at(z)) <= kSmallJump * std::abs(target.at(z));
       if (state == ForceBalance::State::no_balance && !small_jump) return no_balance(balance, target);
       if ((state == ForceBalance::State::found || small_jump) && step_.too_deep() <= 0.0) {
-        keep_stiffness(balance, target, z);
+        keep_stiffness(target, z, &balance);
         return true;
       }
       z = balance.next();
@@ -278,13 +318,22 @@ class Iteration {
         {.tolerance = p_.solver.eps * scale, .first_step = k.first_step_y, .reach = kReach, .resolution = 1e-12});
     RootSearch::State state = RootSearch::State::search;
     double dy = 0.0;
+    const auto residual_there = [&] { return k.stiffness_y * dy - step_.force_T().y() - k.force_y; };
+    // Far from the balance of the springs that of the other forces need not be more exact than it makes a difference.
+    constexpr double kPart = 0.1, kLoosest = 100.0;
+    eps_ = kLoosest * p_.solver.eps;
     constexpr int kMost = 60;
     for (int i = 0; i < kMost; ++i) {
       check_cancelled();
       out_.rail_dy = dy;
       if (!step_.place(dy)) return off_the_rail();
       if (!balance_vertical()) return;
-      const double residual = k.stiffness_y * dy - step_.force_T().y() - k.force_y;
+      double residual = residual_there();
+      if (std::abs(residual) <= p_.solver.eps * scale && std::exchange(eps_, p_.solver.eps) > p_.solver.eps) {
+        if (!balance_vertical()) return;
+        residual = residual_there();
+      }
+      eps_ = std::clamp(kPart * std::abs(residual) / scale, p_.solver.eps, kLoosest * p_.solver.eps);
       state = search.add(dy, residual);
       if (state != RootSearch::State::search) break;
       // The springs alone give the first step where the contact does not add to them.
@@ -301,6 +350,7 @@ class Iteration {
 
   PairStep& step_;
   const Problem& p_;
+  double eps_;  ///< of forces, relative
   bool known_;  ///< the stiffness, from a balance
   bool elements_sought_ = false;
   Balance out_;

@@ -24,7 +24,8 @@ struct Balance {
 
 /// Puts the bodies where vertical force, longitudinal force and the rail's springs are in balance, as far as they are
 /// prescribed, and solves the contact there. The pitch rate only acts on tractions, the height on everything, the
-/// lateral deflection on the contact search as well: three loops inside one another, the cheapest innermost. stiffness,
+/// lateral deflection on the contact search as well: three loops inside one another, the cheapest innermost. Of a
+/// single patch the height is no loop but an unknown of its normal problem. stiffness,
 /// end_slope: as in Balance; known: of a balance, else stiffer than the contact may be.
 Balance find_balance(PairStep& step, const Problem& right_hand_problem, double stiffness, double end_slope, bool known);
 

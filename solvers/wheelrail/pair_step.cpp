@@ -177,10 +177,53 @@ double PairStep::stiffness_guess(double z) {
   return force / std::pow(-found.least_gap, 1.5);
 }
 
-void PairStep::evaluate(double z) {
+/// The wheelset and what follows from its height alone.
+void PairStep::lower(double dz) {
+  for (Pose* pose : {&placement_.X_TWs, &placement_.X_TW, &placement_.X_TA}) pose->origin.z() += dz;
+  z_ += dz, least_gap_ -= dz, closest_ -= dz;
+}
+
+/// Of the pressures that carry a vertical load together with the tractions they cause [N]; none where that does not
+/// follow from one normal force, or takes solutions at many approaches.
+std::optional<double> PairStep::normal_load(const Patch& patch, double load) const {
+  if (problem_.normal_model != kalker::NormalModel::full || patch.reference || patch.parts.count > 1)
+    return std::nullopt;
+  constexpr double kUpright = 0.1;
+  const Vec3 force_C = Vec3::UnitZ() + share_near(patch.solution.region.extent.box);
+  const double upright = (patch.solution.frame.X_TC.rotation * force_C).z();
+  return upright > kUpright && load > 0.0 ? std::optional(load / upright) : std::nullopt;
+}
+
+/// Pressures of a patch at its approach, or under a vertical load where it can be given.
+void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
+  PatchSolution& s = patch.solution;
+  {
+    const Stopwatch watch(times_.normal_s);
+    ++times_.normal_solves;
+    kalker::ContactProblem problem = contact_problem(patch);
+    const std::optional<double> force = load ? normal_load(patch, *load) : std::nullopt;
+    problem.force_prescribed = force.has_value(), problem.normal_force = force.value_or(0.0);
+    s.contact = solver(i, patch).solve_normal(problem);
+    carries_load_ = force && s.contact.status == Status::ok;
+  }
+  if (s.contact.status == Status::no_contact) return;
+  if (carries_load_) {
+    lower((s.contact.approach - s.approach) / s.frame.X_TC.rotation(2, 2));
+    s.approach = s.contact.approach;
+  }
+  resolve_forces(patch);
+  patch.normal_force_C = patch.predicted_force_C = s.force_C;
+  patch.predicted_force_C += share_near(s.region.extent.box) * s.contact.force_n;
+  patch.normal = s.contact;
+}
+
+void PairStep::carry(double load) { press(0, patches_.front(), load); }
+
+void PairStep::evaluate(double z, std::optional<double> load) {
   placement_ = start_;
   const double dz = z - start_z_;
-  for (Pose* pose : {&placement_.X_TWs, &placement_.X_TW, &placement_.X_TA}) pose->origin.z() += dz;
+  lower(dz), z_ = z;
+  carries_load_ = false;
   patches_.clear();
   detection::SearchResult found;
   {
@@ -218,17 +261,8 @@ void PairStep::evaluate(double z) {
       continue;
     }
     move(patch);
-    {
-      const Stopwatch watch(times_.normal_s);
-      ++times_.normal_solves;
-      patch.solution.contact = solver(patches_.size(), patch).solve_normal(contact_problem(patch));
-    }
-    if (patch.solution.contact.status == Status::no_contact) continue;
-    resolve_forces(patch);
-    patch.normal_force_C = patch.predicted_force_C = patch.solution.force_C;
-    patch.predicted_force_C += share_near(patch.solution.region.extent.box) * patch.solution.contact.force_n;
-    patch.normal = patch.solution.contact;
-    patches_.push_back(std::move(patch));
+    press(patches_.size(), patch, located.size() == 1 ? load : std::nullopt);
+    if (patch.solution.contact.status != Status::no_contact) patches_.push_back(std::move(patch));
   }
 }
 

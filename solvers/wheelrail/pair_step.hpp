@@ -42,8 +42,14 @@ class PairStep {
   bool chooses_elements() const { return elements_.active(); }
   /// Chooses elements by the contact of the last evaluate(). False: they stay.
   bool learn_elements();
-  /// Patches and pressures with the wheelset at height z over the undeflected rail.
-  void evaluate(double z);
+  /// Patches and pressures with the wheelset at height z over the undeflected rail. One patch on a plane is solved
+  /// under the load, if given: force_T() has this vertical part [N], on elements that were laid for height z.
+  void evaluate(double z, std::optional<double> load = {});
+  /// Whether the last evaluate() found pressures under its load; then all but the elements' place is that of z().
+  bool carries_load() const { return carries_load_; }
+  double z() const { return z_; }
+  /// The same under another load, or with tractions found since; of a step that carries its load.
+  void carry(double load);
   /// Tractions at a pitch rate of the wheelset. eps: relative accuracy.
   void solve_tangential(double pitch_rate, double eps);
   /// Tractions were found before, in this step or at the instant before.
@@ -102,6 +108,9 @@ class PairStep {
   std::vector<Vec2> places_on_rail(const detection::BodyPair& bodies, const Patch& patch) const;
   double deepest() const;
   void move(Patch& patch) const;
+  std::optional<double> normal_load(const Patch& patch, double load) const;
+  void press(std::size_t i, Patch& patch, std::optional<double> load);
+  void lower(double dz);
   kalker::ContactProblem contact_problem(const Patch& patch) const;
   kalker::ContactSolver& solver(std::size_t i, const Patch& patch);
   void resolve_forces(Patch& patch) const;
@@ -113,7 +122,8 @@ class PairStep {
   PhaseTimes& times_;
 
   Placement start_, placement_;  ///< at z = start_z_, and as it is
-  double start_z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
+  double start_z_ = 0.0, z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
+  bool carries_load_ = false;
   double closest_ = std::numeric_limits<double>::quiet_NaN();
   detection::BodyPair bodies_;  ///< at z = start_z_
   std::unique_ptr<detection::Detector> search_;

@@ -70,6 +70,7 @@ void expect_spring_balance(const PairSolution& s, const RailSprings& k, double t
 
 TEST(TotalForces, RailOnSpringsUnderAPrescribedLoad) {
   Pair pair(standard_geometry());
+  PhaseTimes sum;
   for (const Side side : {Side::right, Side::left})
     for (const double stiffness_z : {0.0, 2e7}) {
       Problem p = standard_problem();
@@ -77,6 +78,7 @@ TEST(TotalForces, RailOnSpringsUnderAPrescribedLoad) {
       p.rail_springs =
           RailSprings{.stiffness_y = 2e7, .stiffness_z = stiffness_z, .force_y = 1500.0, .force_z = -800.0};
       const PairSolution s = pair.solve(p);
+      sum += s.times;
       expect_spring_balance(s, *p.rail_springs, 5e-5 * kLoad);
       EXPECT_NEAR(s.load.track.force.z(), kLoad, 2.0 * p.solver.eps * kLoad);
       // A rigid rail that lies where the springs let it go carries the same.
@@ -89,6 +91,9 @@ TEST(TotalForces, RailOnSpringsUnderAPrescribedLoad) {
       EXPECT_NEAR((r.load.track.force - s.load.track.force).norm(), 0.0, 1e-4 * kLoad);
       EXPECT_NEAR((r.patches.at(0).frame.X_TC.origin - s.patches.at(0).frame.X_TC.origin).norm(), 0.0, 1e-7);
     }
+  // Far from the springs' balance the height is found less exactly.
+  EXPECT_LE(sum.searches, 34);
+  EXPECT_LE(sum.tangential_solves, 26);
 }
 
 TEST(TotalForces, RailOnSpringsUnderAPrescribedHeight) {
@@ -115,6 +120,29 @@ TEST(TotalForces, SpringsAndLongitudinalForceAtOnce) {
   const PairSolution s = pair.solve(p);
   expect_spring_balance(s, *p.rail_springs, 5e-5 * kLoad);
   EXPECT_NEAR(s.load.wheelset.force.x(), 3000.0, 1.0);
+}
+
+// The normal problem finds the height: elements are laid where the contact may be, and where it is. 15 cases.
+TEST(TotalForces, AHeightTakesTwoLooks) {
+  Pair pair(standard_geometry());
+  PhaseTimes sum;
+  for (const double y : {-4e-3, -2e-3, 0.0, 1.5e-3, 3e-3})
+    for (const double load : {3e4, 6e4, 1.2e5}) {
+      Problem p = standard_problem();
+      p.state.position.y = y;
+      p.vertical_force = load;
+      const PairSolution s = pair.solve(p);
+      ASSERT_EQ(s.status, Status::ok) << s.message;
+      EXPECT_NEAR(s.load.track.force.z(), load, 2.0 * p.solver.eps * load);
+      p.vertical_force.reset();
+      p.state.position.z = s.z;
+      const PairSolution t = pair.solve(p);
+      EXPECT_NEAR(t.load.track.force.z(), load, 5.0 * p.solver.eps * load);
+      EXPECT_NEAR((t.patches.at(0).frame.X_TC.origin - s.patches.at(0).frame.X_TC.origin).norm(), 0.0, 1e-7);
+      sum += s.times;
+    }
+  for (const int searches : {sum.searches, sum.distances, sum.tangential_solves}) EXPECT_LE(searches, 40);
+  EXPECT_LE(sum.normal_solves, 65);
 }
 
 TEST(TotalForces, DissimilarBodiesReachThePrescribedLoad) {
