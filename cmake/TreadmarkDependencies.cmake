@@ -33,6 +33,12 @@ treadmark_require(ZLIB zlib1g-dev)
 
 treadmark_part_package(tbb TBB)
 treadmark_part_package(hdf5 HDF5 COMPONENTS C)
+if(TREADMARK_HAVE_HDF5)  # loaded at first use (io/hdf5), by these names
+  list(GET HDF5_C_LIBRARIES 0 TREADMARK_HDF5_FILE)
+  file(REAL_PATH "${TREADMARK_HDF5_FILE}" TREADMARK_HDF5_FILE)
+  execute_process(COMMAND "${CMAKE_READELF}" -d "${TREADMARK_HDF5_FILE}" OUTPUT_VARIABLE dynamic)
+  string(REGEX REPLACE ".*SONAME[^[]*\\[([^]]+)\\].*" "\\1" TREADMARK_HDF5_NAME "${dynamic}")
+endif()
 treadmark_part_package(embree embree 3)
 # OpenVDB ships a find module only.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")

@@ -69,6 +69,15 @@ install(DIRECTORY "${PROJECT_BINARY_DIR}/site/" DESTINATION "${CMAKE_INSTALL_DAT
   PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/api/html/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/html/api" COMPONENT documents OPTIONAL)
 
+# Of what is loaded at first use no tool sees that it is needed.
+if(TREADMARK_HAVE_HDF5)
+  execute_process(COMMAND dpkg-query -S "${TREADMARK_HDF5_FILE}" OUTPUT_VARIABLE owner ERROR_QUIET)
+  string(REGEX REPLACE "[:\n].*" "" owner "${owner}")
+  foreach(package IN ITEMS PROGRAM LIBRARY PYTHON)
+    string(JOIN ", " CPACK_DEBIAN_${package}_PACKAGE_DEPENDS ${CPACK_DEBIAN_${package}_PACKAGE_DEPENDS} ${owner})
+  endforeach()
+endif()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME treadmark)
 set(CPACK_PACKAGE_VENDOR "Treadmark contributors")

@@ -83,6 +83,7 @@ auto placed(const NominalOutline& n, const Turned& place) {
 RollFit fitted_to(const std::vector<Vec2>& points, const NominalOutline& n, Turned place, double most_roll) {
   constexpr int kSteps = 12;
   constexpr double kKept = 0.6, kInRange = 0.7;
+  constexpr double kSettled = 1e-9;  // [m], [rad]
   RollFit out;
   struct Residual {
     double r, by_y, by_z, by_roll;
@@ -115,8 +116,9 @@ RollFit fitted_to(const std::vector<Vec2>& points, const NominalOutline& n, Turn
     normal.diagonal() += Eigen::Vector3d(1e-9, 1e-9, 1e-12) * static_cast<double>(kept);
     const Eigen::Vector3d d = normal.ldlt().solve(right);
     if (!d.allFinite()) return out;
-    place.dy += d[0], place.dz += d[1];
-    place.roll = std::clamp(place.roll + d[2], -most_roll, most_roll);
+    const double roll = std::clamp(place.roll + d[2], -most_roll, most_roll);
+    if (std::max({std::fabs(d[0]), std::fabs(d[1]), std::fabs(roll - place.roll)}) < kSettled) return out;
+    place = {place.dy + d[0], place.dz + d[1], roll};
   }
   return out;
 }

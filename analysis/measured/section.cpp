@@ -22,11 +22,25 @@ constexpr double kBeyondRest = 15e-3;  ///< what reaches so far beyond the tread
 constexpr double kTapeToBack = 70e-3;  ///< from the back of the flange to the tape line [m]
 constexpr double kStep = 0.25e-3;      ///< of an envelope [m]
 
+/// The line along which most of an envelope lies, level or sloped as in a tilted frame: least median of squares
+/// (Rousseeuw 1984), which half of the section may miss.
+struct Rest {
+  double height = 0.0, slope = 0.0;  ///< at the first place; per step
+  double at(std::size_t i) const { return height + slope * static_cast<double>(i); }
+};
+
+/// What reaches beyond the rest: widest run, its middle, how far it reaches, and the same of another one beside it.
+struct Flange {
+  Rest rest;
+  double width = 0.0, middle = 0.0, reach = 0.0, second_width = 0.0, second_middle = 0.0;
+};
+
 /// The outer side of a section: over y at equal steps the greatest of sign * z, NaN where nothing was measured. The
 /// upright faces at both ends are left out.
 struct Envelope {
   double first = 0.0;
   std::vector<double> height;
+  mutable std::optional<Flange> flange;  ///< once it was looked for
 
   double y(std::size_t i) const { return first + kStep * static_cast<double>(i); }
 };
@@ -61,43 +75,40 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-/// The line along which most of an envelope lies, level or sloped as in a tilted frame: least median of squares
-/// (Rousseeuw 1984), which half of the section may miss.
-struct Rest {
-  double height = 0.0, slope = 0.0;  ///< at the first place; per step
-  double at(std::size_t i) const { return height + slope * static_cast<double>(i); }
-};
-
-/// What reaches beyond the rest: widest run, its middle, how far it reaches, and the same of another one beside it.
-struct Flange {
-  Rest rest;
-  double width = 0.0, middle = 0.0, reach = 0.0, second_width = 0.0, second_middle = 0.0;
-};
-
 Rest rest_of(const Envelope& e) {
   constexpr std::size_t kSamples = 64;
   constexpr int kSlopes = 40;  // to each side of level
   constexpr double kSteepest = 0.2;
-  std::vector<std::size_t> at;
+  struct Sample {
+    double place, height, rest;
+  };
+  std::vector<Sample> samples;
   for (std::size_t k = 0; k < kSamples && !e.height.empty(); ++k)
     if (const std::size_t i = k * (e.height.size() - 1) / (kSamples - 1); !std::isnan(e.height[i]))
-      if (at.empty() || at.back() != i) at.push_back(i);
-  if (at.empty()) return {};
-  const std::size_t half = at.size() / 2;
-  Rest best;
-  double narrowest = kInfinity;
-  std::vector<double> rest(at.size());
-  const auto attempt = [&](double slope) {
-    for (std::size_t k = 0; k < at.size(); ++k) rest[k] = e.height[at[k]] - slope * static_cast<double>(at[k]);
-    std::ranges::sort(rest);
-    for (std::size_t k = 0; k + half < rest.size(); ++k)
-      if (const double width = rest[k + half] - rest[k]; width < narrowest)
-        narrowest = width, best = {0.5 * (rest[k] + rest[k + half]), slope};
-  };
-  attempt(0.0);
+      if (const auto place = static_cast<double>(i); samples.empty() || samples.back().place != place)
+        samples.push_back({place, e.height[i], 0.0});
+  if (samples.empty()) return {};
+  const std::size_t half = samples.size() / 2;
+  std::array<std::pair<double, Rest>, 2 * kSlopes + 1> narrowest;  // of each slope
+  for (int k = -kSlopes; k <= kSlopes; ++k) {
+    const double slope = kStep * kSteepest * k / kSlopes;
+    for (Sample& sample : samples) sample.rest = sample.height - slope * sample.place;
+    // as slopes grow, two samples change their order once
+    for (std::size_t i = 1; i < samples.size(); ++i)
+      for (std::size_t j = i; j > 0 && samples[j].rest < samples[j - 1].rest; --j)
+        std::swap(samples[j], samples[j - 1]);
+    auto& [width, rest] = narrowest[static_cast<std::size_t>(k + kSlopes)];
+    width = kInfinity;
+    for (std::size_t i = 0; i + half < samples.size(); ++i)
+      if (const double between = samples[i + half].rest - samples[i].rest; between < width)
+        width = between, rest = {0.5 * (samples[i].rest + samples[i + half].rest), slope};
+  }
+  std::pair<double, Rest> best = narrowest[kSlopes];  // of equal ones the most level
   for (int k = 1; k <= kSlopes; ++k)
-    for (const double sign : {1.0, -1.0}) attempt(sign * kStep * kSteepest * k / kSlopes);
-  return best;
+    for (const int sign : {1, -1})
+      if (const auto& other = narrowest[static_cast<std::size_t>(kSlopes + sign * k)]; other.first < best.first)
+        best = other;
+  return best.second;
 }
 
 /// Of the places that belong (Theil 1950, Sen 1968); nothing where they are less than `least` wide.
@@ -117,8 +128,9 @@ std::optional<Trend> trend_of(const Envelope& e, double least, Belongs belongs) 
   return trend;
 }
 
-Flange flange_of(const Envelope& e) {
-  Flange f;
+const Flange& flange_of(const Envelope& e) {
+  if (e.flange) return *e.flange;
+  Flange& f = e.flange.emplace();
   const Rest& rest = f.rest = rest_of(e);
   std::size_t from = e.height.size();
   const auto close = [&](std::size_t to) {
@@ -155,7 +167,7 @@ double rise_of(const Envelope& e) {
 
 Readings wheel_z(const Envelope& down, const Envelope& up) {
   constexpr double kLeastWidth = 3e-3;
-  const Flange as_it_is = flange_of(down), turned = flange_of(up);
+  const Flange &as_it_is = flange_of(down), &turned = flange_of(up);
   if (std::max(as_it_is.width, turned.width) >= kLeastWidth) {
     const Flange& best = turned.width > as_it_is.width ? turned : as_it_is;
     return {kMilli * as_it_is.width, kMilli * turned.width,
@@ -242,7 +254,7 @@ Readings rail_z(const Envelope& down, const Envelope& up) {
 /// On which side the flange is: as_it_is on that of small y.
 Readings wheel_y(const Envelope& e, bool& second) {
   constexpr double kLeastWidth = 3e-3, kAsWide = 0.5;
-  const Flange f = flange_of(e);
+  const Flange& f = flange_of(e);
   const double middle = e.y(e.height.size() / 2);
   second = f.second_width > kLeastWidth && f.second_width > kAsWide * f.width &&
            (f.middle < middle) != (f.second_middle < middle);
@@ -366,7 +378,7 @@ std::optional<double> tape_height(const SectionPoints& p) {
 
 void find_marks(const SectionPoints& p, const Envelope& e, WheelMarks& marks) {
   constexpr double kOfTread = 5e-3, kLeastTread = 30e-3;
-  const Flange f = flange_of(e);
+  const Flange& f = flange_of(e);
   marks.tape_z = tape_height(p);
   marks.tread =
       trend_of(e, kLeastTread, [&](std::size_t i) { return std::fabs(e.height[i] - f.rest.at(i)) < kOfTread; });

@@ -67,6 +67,7 @@ void describe_results(const io::CaseFile& file, const ProfilesOfRun& profiles, S
                       io::RunResult& run) {
   const NeverCancelled never;
   const CancellationScope scope(&never);
+  run.doubts = profile_doubts(profiles);
   add_profile_doubts(file, profiles, store, run);
   auto c = file.cases.begin();
   for (io::CaseResult& result : run.cases) {

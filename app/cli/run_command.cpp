@@ -11,7 +11,6 @@
 #include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
@@ -101,7 +100,6 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     io::RunResult result =
         with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
     result.settings = settings_of(options);
-    result.doubts = app::profile_doubts(file);
 
     print_notes(file.notes, common.quiet);
     print_notes(result.doubts, common.quiet);

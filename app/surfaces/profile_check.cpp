@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "treadmark/analysis/measured/lumps.hpp"
@@ -444,6 +446,7 @@ bool may_touch(const io::CaseResult& result, Side side, Body body, const std::pa
 }  // namespace
 
 void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, SurfaceStore& store, io::RunResult& run) {
+  std::map<std::tuple<std::shared_ptr<const NaturalSurface>, bool, std::optional<double>>, std::string> of_slices;
   for (io::CaseResult& result : run.cases) {
     const auto given = std::ranges::find(file.cases, result.number, &io::Case::number);
     if (given == file.cases.end()) continue;
@@ -457,10 +460,11 @@ void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, Su
       const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
       if (slices == nullptr) continue;
       const std::optional<double> cant = body == Body::rail ? std::optional(input->track.cant) : std::nullopt;
-      if (std::string doubt =
-              doubt_of_slices(*slices, file_of->file.string(), body, {{}, {}, input->track.gauge_based, cant});
-          !doubt.empty())
-        result.remarks.push_back({RemarkKind::profile_doubtful, 0, std::move(doubt)});
+      const auto [doubt, fresh] = of_slices.try_emplace({natural, input->track.gauge_based, cant});
+      if (fresh)
+        doubt->second =
+            doubt_of_slices(*slices, file_of->file.string(), body, {{}, {}, input->track.gauge_based, cant});
+      if (!doubt->second.empty()) result.remarks.push_back({RemarkKind::profile_doubtful, 0, doubt->second});
     }
     for (const ProfileUse& use : uses_of(*given))
       for (const auto& [same, profile] : known) {
@@ -474,9 +478,9 @@ void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, Su
   }
 }
 
-std::vector<std::string> profile_doubts(const io::CaseFile& file) {
+std::vector<std::string> profile_doubts(const ProfilesOfRun& profiles) {
   std::vector<std::string> doubts;
-  for (const auto& [use, profile] : checked_uses(file, Nearest::no)) {
+  for (const auto& [use, profile] : profiles) {
     for (const io::ProfileRemark& remark : profile.judgement.remarks)
       doubts.push_back(fmt::format("{}: {}: {}", profile.name, remark.name, remark.text));
     for (const std::string& note : profile.judgement.notes) doubts.push_back(fmt::format("{}: {}", profile.name, note));

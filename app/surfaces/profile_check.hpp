@@ -52,9 +52,6 @@ std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Bod
 /// The doubts about the profile files or slices behind a wheel or rail. Errors as read_profile and read_slices.
 std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected);
 
-/// The doubts and notes of check_profiles as notes of a run.
-std::vector<std::string> profile_doubts(const io::CaseFile& file);
-
 /// One use of a file: the same file may be turned or scaled otherwise elsewhere.
 struct ProfileUse {
   io::GeometryFile file;
@@ -68,6 +65,9 @@ using ProfilesOfRun = std::vector<std::pair<ProfileUse, CheckedProfile>>;
 
 /// Errors as read_profile.
 ProfilesOfRun check_profiles_of_run(const io::CaseFile& file);
+
+/// Their doubts and notes as notes of a run.
+std::vector<std::string> profile_doubts(const ProfilesOfRun& profiles);
 
 /// The doubts of check_profiles as remarks on the cases of a run in which the profiles are used; those that a contact
 /// has remarks of its own for are left to it.

@@ -77,7 +77,7 @@ Run run_cases(const Source& source, const py::object& progress, int threads) {
     run.result = std::make_shared<io::RunResult>(app::run_cases(file, store, report));
     run.result->settings = source.overrides;
     run.notes = file.notes;
-    for (std::string& doubt : app::profile_doubts(file)) run.notes.push_back(std::move(doubt));
+    run.notes.insert(run.notes.end(), run.result->doubts.begin(), run.result->doubts.end());
     run.varied = varied_of(file, *run.result);
     return true;
   });

@@ -3,6 +3,7 @@
 
 #include "treadmark/io/hdf5/hdf5_file.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -41,6 +42,41 @@ struct Hdf5Chunk {
 
 namespace {
 
+/// Loaded when it is first used: it brings some thirty libraries along, most of them for networks. Nothing is left to
+/// be done at the end of a process: where a damaged file keeps it from closing its objects it would say so on the
+/// terminal.
+void* hdf5_library() {
+  static void* const library = [] {
+    void* loaded = nullptr;
+    for (const char* file : {TREADMARK_HDF5_NAME, TREADMARK_HDF5_FILE})
+      if (loaded == nullptr) loaded = dlopen(file, RTLD_LAZY | RTLD_LOCAL);
+    for (const char* first : {"H5dont_atexit", "H5open"}) {
+      void* const call = loaded != nullptr ? dlsym(loaded, first) : nullptr;
+      if (call == nullptr)
+        throw Error(ErrorKind::configuration, fmt::format("cannot load HDF5: {}", dlerror()), {},
+                    "install " TREADMARK_HDF5_NAME);
+      reinterpret_cast<herr_t (*)()>(call)();
+    }
+    return loaded;
+  }();
+  return library;
+}
+
+template <class Symbol>
+Symbol* hdf5_symbol(const char* name) {
+  if (void* const place = dlsym(hdf5_library(), name); place != nullptr) return reinterpret_cast<Symbol*>(place);
+  throw Error(ErrorKind::configuration, fmt::format("HDF5 has no {}", name), {}, "install " TREADMARK_HDF5_NAME);
+}
+
+/// A function or a number of the library.
+#define TREADMARK_TEXT(name) #name
+#define HDF5(name)                                                                       \
+  (*[] {                                                                                 \
+    static auto* const hdf5_place = hdf5_symbol<decltype(::name)>(TREADMARK_TEXT(name)); \
+    return hdf5_place;                                                                   \
+  }())
+
+constexpr unsigned kReadOnly = 0, kTruncate = 2;  // H5F_ACC_RDONLY, H5F_ACC_TRUNC, macros that call the library
 constexpr int kDeflateLevel = 4;
 constexpr hsize_t kLongestChunk = 16384;  // elements of a dataset of one dimension
 constexpr hsize_t kMaxChunk = 512;        // elements along a side: chunks stay below 3 MiB
@@ -73,24 +109,25 @@ void check_name(const std::string& name) {
 }
 
 Hdf5Id string_type() {
-  Hdf5Id type(H5Tcopy(H5T_C_S1));
-  if (type.get() < 0 || H5Tset_size(type.get(), H5T_VARIABLE) < 0 || H5Tset_cset(type.get(), H5T_CSET_UTF8) < 0)
+  Hdf5Id type(HDF5(H5Tcopy)(HDF5(H5T_C_S1_g)));
+  if (type.get() < 0 || HDF5(H5Tset_size)(type.get(), H5T_VARIABLE) < 0 ||
+      HDF5(H5Tset_cset)(type.get(), H5T_CSET_UTF8) < 0)
     cannot_write("texts");
   return type;
 }
 
 Hdf5Id make_space(const std::vector<hsize_t>& size, const std::string& name) {
-  return written(
-      size.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
-      name);
+  return written(size.empty() ? HDF5(H5Screate)(H5S_SCALAR)
+                              : HDF5(H5Screate_simple)(static_cast<int>(size.size()), size.data(), nullptr),
+                 name);
 }
 
 /// Properties of a new object: without times, so that equal contents give equal bytes; attributes in its header, which
 /// has a check sum.
 Hdf5Id timeless(hid_t kind, const std::string& name) {
-  Hdf5Id creation = written(H5Pcreate(kind), name);
-  if (H5Pset_obj_track_times(creation.get(), false) < 0 ||
-      H5Pset_attr_phase_change(creation.get(), kMostAttributes, 0) < 0)
+  Hdf5Id creation = written(HDF5(H5Pcreate)(kind), name);
+  if (HDF5(H5Pset_obj_track_times)(creation.get(), false) < 0 ||
+      HDF5(H5Pset_attr_phase_change)(creation.get(), kMostAttributes, 0) < 0)
     cannot_write(name);
   return creation;
 }
@@ -109,15 +146,15 @@ struct AttributeWriter {
   void write(hid_t type, const std::vector<hsize_t>& size, const void* data) const {
     const Hdf5Id space = make_space(size, name);
     const Hdf5Id attribute =
-        written(H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
-    if (H5Awrite(attribute.get(), type, data) < 0) cannot_write(name);
+        written(HDF5(H5Acreate2)(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    if (HDF5(H5Awrite)(attribute.get(), type, data) < 0) cannot_write(name);
   }
-  void operator()(int value) const { write(H5T_NATIVE_INT, {}, &value); }
-  void operator()(double value) const { write(H5T_NATIVE_DOUBLE, {}, &value); }
-  void operator()(const Vec3& value) const { write(H5T_NATIVE_DOUBLE, {3}, value.data()); }
+  void operator()(int value) const { write(HDF5(H5T_NATIVE_INT_g), {}, &value); }
+  void operator()(double value) const { write(HDF5(H5T_NATIVE_DOUBLE_g), {}, &value); }
+  void operator()(const Vec3& value) const { write(HDF5(H5T_NATIVE_DOUBLE_g), {3}, value.data()); }
   void operator()(const Mat3& value) const {
     const Mat3 rows = value.transpose();  // stored by columns: HDF5 counts by rows
-    write(H5T_NATIVE_DOUBLE, {3, 3}, rows.data());
+    write(HDF5(H5T_NATIVE_DOUBLE_g), {3, 3}, rows.data());
   }
   void operator()(const std::string& value) const {
     const char* text = value.c_str();
@@ -218,8 +255,8 @@ struct Hdf5Pending {
       });
     }
     for (const auto& [dataset, chunk] : all)
-      if (H5Dwrite_chunk(dataset->id.get(), H5P_DEFAULT, 0, chunk->offset.data(), chunk->bytes.size(),
-                         chunk->bytes.data()) < 0)
+      if (HDF5(H5Dwrite_chunk)(dataset->id.get(), H5P_DEFAULT, 0, chunk->offset.data(), chunk->bytes.size(),
+                               chunk->bytes.data()) < 0)
         cannot_write(dataset->name);
     datasets.clear();
     bytes = 0;
@@ -238,28 +275,26 @@ void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* 
   if (wanted != count)
     throw Error(ErrorKind::configuration,
                 fmt::format("{} has {} values where its shape asks for {}", what.name, count, wanted));
-  const Hdf5Id space = make_space(size, what.name), creation = timeless(H5P_DATASET_CREATE, what.name);
-  const bool compressed =
-      pending != nullptr && what.compressed && !size.empty() && count > 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0;
+  const Hdf5Id space = make_space(size, what.name), creation = timeless(HDF5(H5P_CLS_DATASET_CREATE_ID_g), what.name);
+  const bool compressed = pending != nullptr && what.compressed && !size.empty() && count > 0 &&
+                          HDF5(H5Zfilter_avail)(H5Z_FILTER_DEFLATE) > 0;
   const std::vector<hsize_t> chunk = compressed ? chunk_size(size) : std::vector<hsize_t>{};
-  if (compressed && (H5Pset_chunk(creation.get(), static_cast<int>(size.size()), chunk.data()) < 0 ||
-                     H5Pset_shuffle(creation.get()) < 0 || H5Pset_deflate(creation.get(), kDeflateLevel) < 0))
+  if (compressed &&
+      (HDF5(H5Pset_chunk)(creation.get(), static_cast<int>(size.size()), chunk.data()) < 0 ||
+       HDF5(H5Pset_shuffle)(creation.get()) < 0 || HDF5(H5Pset_deflate)(creation.get(), kDeflateLevel) < 0))
     cannot_write(what.name);
-  Hdf5Id dataset = written(
-      H5Dcreate2(group, what.name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), what.name);
-  if (!compressed && count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+  Hdf5Id dataset =
+      written(HDF5(H5Dcreate2)(group, what.name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+              what.name);
+  if (!compressed && count > 0 && HDF5(H5Dwrite)(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
     cannot_write(what.name);
   AttributeWriter{dataset.get(), "unit"}(what.unit);
   AttributeWriter{dataset.get(), "meaning"}(what.meaning);
   if (!compressed) return;
-  const std::size_t width = H5Tget_size(type);
+  const std::size_t width = HDF5(H5Tget_size)(type);
   pending->add(
       {std::move(dataset), what.name, width, cut(size, chunk, static_cast<const unsigned char*>(data), width)});
 }
-
-/// Before the library is first used: nothing is left to be done at the end of a process, and where a damaged file keeps
-/// the library from closing its objects it would say so on the terminal.
-void quiet_end() { [[maybe_unused]] static const herr_t once = H5dont_atexit(); }
 
 /// Memory of a file, which the library leaves to the image where it would free it at the end.
 void* grow(void* old, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(old, size); }
@@ -284,14 +319,16 @@ herr_t keep_image(void*) { return 0; }
 Hdf5Id open_in_memory(const std::string& name, Hdf5Image& image) {
   constexpr std::size_t kIncrement = std::size_t{1} << 20;
   H5FD_file_image_callbacks_t calls{begin_image, copy_image, grow, end_image, same_image, keep_image, &image};
-  const Hdf5Id creation = timeless(H5P_FILE_CREATE, name), access = written(H5Pcreate(H5P_FILE_ACCESS), name);
-  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
-      H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG) < 0 ||  // groups may still be open
+  const Hdf5Id creation = timeless(HDF5(H5P_CLS_FILE_CREATE_ID_g), name),
+               access = written(HDF5(H5Pcreate)(HDF5(H5P_CLS_FILE_ACCESS_ID_g)), name);
+  if (HDF5(H5Pset_libver_bounds)(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
+      HDF5(H5Pset_fclose_degree)(access.get(), H5F_CLOSE_STRONG) < 0 ||  // groups may still be open
       // nothing in reserve: the image ends where the file does
-      H5Pset_meta_block_size(access.get(), 0) < 0 || H5Pset_small_data_block_size(access.get(), 0) < 0 ||
-      H5Pset_fapl_core(access.get(), kIncrement, false) < 0 || H5Pset_file_image_callbacks(access.get(), &calls) < 0)
+      HDF5(H5Pset_meta_block_size)(access.get(), 0) < 0 || HDF5(H5Pset_small_data_block_size)(access.get(), 0) < 0 ||
+      HDF5(H5Pset_fapl_core)(access.get(), kIncrement, false) < 0 ||
+      HDF5(H5Pset_file_image_callbacks)(access.get(), &calls) < 0)
     cannot_write(name);
-  return written(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
+  return written(HDF5(H5Fcreate)(name.c_str(), kTruncate, creation.get(), access.get()), name);
 }
 
 // What stands behind the content of a file: this and eight hexadecimal digits (CRC-32 of ISO 3309).
@@ -351,37 +388,37 @@ Hdf5Id open_to_read(const std::filesystem::path& file) {
   };
   if (!check_sum_holds(file)) refuse("the file: it is damaged, or another program has changed it");
   if (!text_heaps_sound(file)) refuse("the file: it is damaged");
-  Hdf5Id id(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  Hdf5Id id(HDF5(H5Fopen)(file.c_str(), kReadOnly, H5P_DEFAULT));
   if (id.get() < 0) refuse("the file");
   return id;
 }
 
 /// Number of values in a data space; negative where it cannot be read.
 hssize_t count_of(const Hdf5Id& space) {
-  const hssize_t count = space.get() < 0 ? -1 : H5Sget_simple_extent_npoints(space.get());
+  const hssize_t count = space.get() < 0 ? -1 : HDF5(H5Sget_simple_extent_npoints)(space.get());
   return count > kMostValues ? -1 : count;
 }
 
 /// Reads count texts with read(type, where to put pointers); false where they are none.
 template <class Read>
 bool read_texts(const Hdf5Id& stored, hssize_t count, std::vector<std::string>& out, Read read) {
-  if (stored.get() < 0 || count < 0 || H5Tis_variable_str(stored.get()) <= 0) return false;
+  if (stored.get() < 0 || count < 0 || HDF5(H5Tis_variable_str)(stored.get()) <= 0) return false;
   std::vector<char*> texts(static_cast<std::size_t>(count), nullptr);
   const bool done = count == 0 || read(stored.get(), texts.data()) >= 0;  // as stored: ASCII is not converted to UTF-8
   for (char* text : texts) {
     if (done) out.emplace_back(text == nullptr ? "" : text);
-    H5free_memory(text);
+    HDF5(H5free_memory)(text);
   }
   return done;
 }
 
 std::vector<std::string> attribute_texts(hid_t object, const std::string& name, const std::string& file) {
   std::vector<std::string> out;
-  const Hdf5Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  const Hdf5Id attribute(HDF5(H5Aopen)(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) cannot_read(file, "the attribute " + name);
-  const Hdf5Id type(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
+  const Hdf5Id type(HDF5(H5Aget_type)(attribute.get())), space(HDF5(H5Aget_space)(attribute.get()));
   if (!read_texts(type, count_of(space), out,
-                  [&](hid_t text, char** to) { return H5Aread(attribute.get(), text, to); }))
+                  [&](hid_t text, char** to) { return HDF5(H5Aread)(attribute.get(), text, to); }))
     cannot_read(file, "the attribute " + name);
   return out;
 }
@@ -394,20 +431,20 @@ std::string first_text(std::vector<std::string> texts, const std::string& name, 
 /// Numbers of an attribute, exactly so many.
 void read_attribute(hid_t object, const std::string& name, H5T_class_t kind, hid_t type, hssize_t count, void* out,
                     const std::string& file) {
-  const Hdf5Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  const Hdf5Id attribute(HDF5(H5Aopen)(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) cannot_read(file, "the attribute " + name);
-  const Hdf5Id stored(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
-  if (stored.get() < 0 || H5Tget_class(stored.get()) != kind || count_of(space) != count ||
-      H5Aread(attribute.get(), type, out) < 0)
+  const Hdf5Id stored(HDF5(H5Aget_type)(attribute.get())), space(HDF5(H5Aget_space)(attribute.get()));
+  if (stored.get() < 0 || HDF5(H5Tget_class)(stored.get()) != kind || count_of(space) != count ||
+      HDF5(H5Aread)(attribute.get(), type, out) < 0)
     cannot_read(file, "the attribute " + name);
 }
 
 std::vector<std::size_t> shape_of(hid_t group, const std::string& name, const std::string& file) {
-  const Hdf5Id dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
+  const Hdf5Id dataset(HDF5(H5Dopen2)(group, name.c_str(), H5P_DEFAULT));
   if (dataset.get() < 0) cannot_read(file, name);
-  const Hdf5Id space(H5Dget_space(dataset.get()));
+  const Hdf5Id space(HDF5(H5Dget_space)(dataset.get()));
   hsize_t size[H5S_MAX_RANK] = {};
-  const int rank = space.get() < 0 ? -1 : H5Sget_simple_extent_dims(space.get(), size, nullptr);
+  const int rank = space.get() < 0 ? -1 : HDF5(H5Sget_simple_extent_dims)(space.get(), size, nullptr);
   if (rank < 0) cannot_read(file, name);
   return {size, size + rank};
 }
@@ -422,18 +459,19 @@ void require_shape(const std::vector<std::size_t>& found, const std::vector<std:
 /// A chunk whose place is lost would read as zeros, one whose filters are left out as noise: its index has no check
 /// sum.
 bool chunks_are_there(const Hdf5Id& dataset, const Hdf5Id& space) {
-  const Hdf5Id creation(H5Dget_create_plist(dataset.get()));
+  const Hdf5Id creation(HDF5(H5Dget_create_plist)(dataset.get()));
   if (creation.get() < 0) return false;
-  if (H5Pget_layout(creation.get()) != H5D_CHUNKED) return true;
+  if (HDF5(H5Pget_layout)(creation.get()) != H5D_CHUNKED) return true;
   hsize_t size[H5S_MAX_RANK] = {}, chunk[H5S_MAX_RANK] = {}, offset[H5S_MAX_RANK] = {};
-  const int rank = H5Sget_simple_extent_dims(space.get(), size, nullptr);
-  if (rank < 1 || H5Pget_chunk(creation.get(), rank, chunk) != rank) return false;
+  const int rank = HDF5(H5Sget_simple_extent_dims)(space.get(), size, nullptr);
+  if (rank < 1 || HDF5(H5Pget_chunk)(creation.get(), rank, chunk) != rank) return false;
   for (int k = rank - 1; k >= 0;) {
     haddr_t place = HADDR_UNDEF;
     hsize_t stored = 0, found = 0;  // the latter by the way that reading takes
     unsigned left_out = 0;          // of the filters, of which all are in use
-    if (H5Dget_chunk_info_by_coord(dataset.get(), offset, &left_out, &place, &stored) < 0 || place == HADDR_UNDEF ||
-        left_out != 0 || H5Dget_chunk_storage_size(dataset.get(), offset, &found) < 0 || found != stored)
+    if (HDF5(H5Dget_chunk_info_by_coord)(dataset.get(), offset, &left_out, &place, &stored) < 0 ||
+        place == HADDR_UNDEF || left_out != 0 || HDF5(H5Dget_chunk_storage_size)(dataset.get(), offset, &found) < 0 ||
+        found != stored)
       return false;
     for (k = rank - 1; k >= 0 && (offset[k] += chunk[k]) >= size[k]; --k) offset[k] = 0;
   }
@@ -442,40 +480,40 @@ bool chunks_are_there(const Hdf5Id& dataset, const Hdf5Id& space) {
 
 template <class Value>
 std::vector<Value> read_values(hid_t group, const std::string& name, hid_t type, const std::string& file) {
-  const Hdf5Id dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
+  const Hdf5Id dataset(HDF5(H5Dopen2)(group, name.c_str(), H5P_DEFAULT));
   if (dataset.get() < 0) cannot_read(file, name);
-  const Hdf5Id space(H5Dget_space(dataset.get()));
+  const Hdf5Id space(HDF5(H5Dget_space)(dataset.get()));
   const hssize_t count = count_of(space);
   if (count < 0) cannot_read(file, name);
   // A damaged file may claim any number of values.
-  const double stored = static_cast<double>(H5Dget_storage_size(dataset.get()));
+  const double stored = static_cast<double>(HDF5(H5Dget_storage_size)(dataset.get()));
   if (static_cast<double>(count) * static_cast<double>(sizeof(Value)) > kDensest * stored) cannot_read(file, name);
   if (count > 0 && !chunks_are_there(dataset, space)) cannot_read(file, name + ": a part of it is lost");
   std::vector<Value> out(static_cast<std::size_t>(count));
-  if (count > 0 && H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) cannot_read(file, name);
+  if (count > 0 && HDF5(H5Dread)(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0)
+    cannot_read(file, name);
   return out;
 }
 
 }  // namespace
 
 Hdf5Id::~Hdf5Id() {
-  if (id_ >= 0) H5Idec_ref(id_);
+  if (id_ >= 0) HDF5(H5Idec_ref)(id_);
 }
 
 Hdf5Silence::Hdf5Silence() {
-  quiet_end();
   H5E_auto2_t function = nullptr;
-  H5Eget_auto2(H5E_DEFAULT, &function, &data_);
+  HDF5(H5Eget_auto2)(H5E_DEFAULT, &function, &data_);
   function_ = reinterpret_cast<void*>(function);
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  HDF5(H5Eset_auto2)(H5E_DEFAULT, nullptr, nullptr);
 }
 
-Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, reinterpret_cast<H5E_auto2_t>(function_), data_); }
+Hdf5Silence::~Hdf5Silence() { HDF5(H5Eset_auto2)(H5E_DEFAULT, reinterpret_cast<H5E_auto2_t>(function_), data_); }
 
 Hdf5GroupWriter Hdf5GroupWriter::make_group(const std::string& name) const {
   check_name(name);
-  const Hdf5Id creation = timeless(H5P_GROUP_CREATE, name);
-  return {written(H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name), pending_};
+  const Hdf5Id creation = timeless(HDF5(H5P_CLS_GROUP_CREATE_ID_g), name);
+  return {written(HDF5(H5Gcreate2)(id_.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name), pending_};
 }
 
 void Hdf5GroupWriter::add(const Attribute& attribute) const {
@@ -487,11 +525,11 @@ void Hdf5GroupWriter::add(std::span<const Attribute> attributes) const {
 }
 
 void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const double> values) const {
-  write_values(id_.get(), dataset, H5T_NATIVE_DOUBLE, values.data(), values.size(), pending_.get());
+  write_values(id_.get(), dataset, HDF5(H5T_NATIVE_DOUBLE_g), values.data(), values.size(), pending_.get());
 }
 
 void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::uint8_t> values) const {
-  write_values(id_.get(), dataset, H5T_NATIVE_UINT8, values.data(), values.size(), pending_.get());
+  write_values(id_.get(), dataset, HDF5(H5T_NATIVE_UINT8_g), values.data(), values.size(), pending_.get());
 }
 
 void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::string> values) const {
@@ -501,20 +539,22 @@ void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::str
 void Hdf5GroupWriter::copy_file(const std::filesystem::path& source, const std::string& name) const {
   check_name(name);
   const Hdf5Id file = open_to_read(source);
-  if (H5Ocopy(file.get(), "/", id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+  if (HDF5(H5Ocopy)(file.get(), "/", id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
     cannot_read(source.string(), "the file: it is damaged");
 }
 
 Hdf5Writer::Hdf5Writer(std::filesystem::path file)
     : target_(std::move(file)),
       file_(open_in_memory(target_.string(), image_)),
-      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), target_.string()), std::make_shared<Hdf5Pending>()) {}
+      root_(written(HDF5(H5Gopen2)(file_.get(), "/", H5P_DEFAULT), target_.string()), std::make_shared<Hdf5Pending>()) {
+}
 
 void Hdf5Writer::commit() {
   root_.pending_->write();
   root_ = {Hdf5Id(), nullptr};
-  const ssize_t size = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(file_.get(), nullptr, 0);
-  if (size < 0 || H5Fclose(file_.release()) < 0 || !image_.bytes) cannot_write(target_.string());
+  const ssize_t size =
+      HDF5(H5Fflush)(file_.get(), H5F_SCOPE_GLOBAL) < 0 ? -1 : HDF5(H5Fget_file_image)(file_.get(), nullptr, 0);
+  if (size < 0 || HDF5(H5Fclose)(file_.release()) < 0 || !image_.bytes) cannot_write(target_.string());
   const std::string_view content(image_.bytes.get(), static_cast<std::size_t>(size));
   OutputFile file(target_);
   file.write(content);
@@ -524,13 +564,13 @@ void Hdf5Writer::commit() {
 }
 
 bool Hdf5GroupReader::has(const std::string& name) const {
-  const htri_t there = H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT);
+  const htri_t there = HDF5(H5Lexists)(id_.get(), name.c_str(), H5P_DEFAULT);
   if (there < 0) cannot_read(file_, name);
   return there > 0;
 }
 
 Hdf5GroupReader Hdf5GroupReader::open_group(const std::string& name) const {
-  Hdf5Id id(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT));
+  Hdf5Id id(HDF5(H5Gopen2)(id_.get(), name.c_str(), H5P_DEFAULT));
   if (id.get() < 0) cannot_read(file_, name);
   return {std::move(id), file_};
 }
@@ -546,38 +586,38 @@ std::vector<std::string> Hdf5GroupReader::names() const {
     }
     return static_cast<std::vector<std::string>*>(to)->back().size() <= kLongestName ? 0 : -1;
   };
-  if (H5Literate(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &out) < 0)
+  if (HDF5(H5Literate)(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &out) < 0)
     cannot_read(file_, "the names in a group");
   return out;
 }
 
 bool Hdf5GroupReader::has_attribute(const std::string& name) const {
-  const htri_t there = H5Aexists(id_.get(), name.c_str());
+  const htri_t there = HDF5(H5Aexists)(id_.get(), name.c_str());
   if (there < 0) cannot_read(file_, "the attribute " + name);
   return there > 0;
 }
 
 int Hdf5GroupReader::integer(const std::string& name) const {
   int value = 0;
-  read_attribute(id_.get(), name, H5T_INTEGER, H5T_NATIVE_INT, 1, &value, file_);
+  read_attribute(id_.get(), name, H5T_INTEGER, HDF5(H5T_NATIVE_INT_g), 1, &value, file_);
   return value;
 }
 
 double Hdf5GroupReader::number(const std::string& name) const {
   double value = 0.0;
-  read_attribute(id_.get(), name, H5T_FLOAT, H5T_NATIVE_DOUBLE, 1, &value, file_);
+  read_attribute(id_.get(), name, H5T_FLOAT, HDF5(H5T_NATIVE_DOUBLE_g), 1, &value, file_);
   return value;
 }
 
 Vec3 Hdf5GroupReader::vector(const std::string& name) const {
   Vec3 value;
-  read_attribute(id_.get(), name, H5T_FLOAT, H5T_NATIVE_DOUBLE, 3, value.data(), file_);
+  read_attribute(id_.get(), name, H5T_FLOAT, HDF5(H5T_NATIVE_DOUBLE_g), 3, value.data(), file_);
   return value;
 }
 
 Mat3 Hdf5GroupReader::matrix(const std::string& name) const {
   Mat3 rows;  // stored by columns: HDF5 counts by rows
-  read_attribute(id_.get(), name, H5T_FLOAT, H5T_NATIVE_DOUBLE, 9, rows.data(), file_);
+  read_attribute(id_.get(), name, H5T_FLOAT, HDF5(H5T_NATIVE_DOUBLE_g), 9, rows.data(), file_);
   return rows.transpose();
 }
 
@@ -588,17 +628,17 @@ std::vector<std::string> Hdf5GroupReader::texts(const std::string& name) const {
 }
 
 std::string Hdf5GroupReader::text_of(const std::string& dataset, const std::string& name) const {
-  const Hdf5Id object(H5Dopen2(id_.get(), dataset.c_str(), H5P_DEFAULT));
+  const Hdf5Id object(HDF5(H5Dopen2)(id_.get(), dataset.c_str(), H5P_DEFAULT));
   if (object.get() < 0) cannot_read(file_, dataset);
   return first_text(attribute_texts(object.get(), name, file_), name, file_);
 }
 
 std::vector<double> Hdf5GroupReader::numbers(const std::string& dataset) const {
-  return read_values<double>(id_.get(), dataset, H5T_NATIVE_DOUBLE, file_);
+  return read_values<double>(id_.get(), dataset, HDF5(H5T_NATIVE_DOUBLE_g), file_);
 }
 
 std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset) const {
-  return read_values<std::uint8_t>(id_.get(), dataset, H5T_NATIVE_UINT8, file_);
+  return read_values<std::uint8_t>(id_.get(), dataset, HDF5(H5T_NATIVE_UINT8_g), file_);
 }
 
 std::vector<std::size_t> Hdf5GroupReader::shape(const std::string& dataset) const {
@@ -617,19 +657,19 @@ std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset,
 }
 
 std::vector<std::string> Hdf5GroupReader::strings(const std::string& dataset) const {
-  const Hdf5Id object(H5Dopen2(id_.get(), dataset.c_str(), H5P_DEFAULT));
+  const Hdf5Id object(HDF5(H5Dopen2)(id_.get(), dataset.c_str(), H5P_DEFAULT));
   if (object.get() < 0) cannot_read(file_, dataset);
-  const Hdf5Id type(H5Dget_type(object.get())), space(H5Dget_space(object.get()));
+  const Hdf5Id type(HDF5(H5Dget_type)(object.get())), space(HDF5(H5Dget_space)(object.get()));
   std::vector<std::string> out;
   const auto read = [&](hid_t text, char** to) {
-    return H5Dread(object.get(), text, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
+    return HDF5(H5Dread)(object.get(), text, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
   };
   if (!read_texts(type, count_of(space), out, read)) cannot_read(file_, dataset);
   return out;
 }
 
 Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
-    : file_(open_to_read(file)), root_(Hdf5Id(H5Gopen2(file_.get(), "/", H5P_DEFAULT)), file.string()) {}
+    : file_(open_to_read(file)), root_(Hdf5Id(HDF5(H5Gopen2)(file_.get(), "/", H5P_DEFAULT)), file.string()) {}
 
 namespace {
 

@@ -169,7 +169,7 @@ measured::Words words_of(const ProfileOptions& options, const RawPoints& points,
   return words;
 }
 
-/// From points in mm to a profile in metres. own: what the file itself asks for has been done.
+/// From points in mm to a profile in metres, not smoothed. own: what the file itself asks for has been done.
 SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, const ProfileOptions& options,
                       ProfileSource&& source) {
   check_count(points);
@@ -195,9 +195,6 @@ SourcedProfile finish(RawPoints&& points, Body body, bool inverted, bool radii, 
   out.profile.z = std::move(points.z);
   out.profile.name = points.file;
   out.profile.smoothing = options.smoothing;
-  source.lump = measured::highest_lump(out.profile, measured::profile_noise(out.profile).across);
-  if (options.smoothing.method == SmoothingOptions::Method::by_noise)
-    out.profile = measured::smoothed_by_noise(std::move(out.profile));
   source.lines = std::move(points.line);
   out.source = std::move(source);
   return out;
@@ -316,6 +313,7 @@ ProfileFormat format_of(std::string_view text, ProfileFormat named) {
   return named;
 }
 
+/// Not smoothed.
 SourcedProfile parse_text(std::string_view text, const std::string& file, ProfileFormat named, Body body,
                           const ProfileOptions& options, int section) {
   check_options(options, file);
@@ -338,6 +336,19 @@ SourcedProfile parse_text(std::string_view text, const std::string& file, Profil
   return column_profile(profiles::parse_plain_columns(text, file), body, options);
 }
 
+Profile smoothed(Profile&& profile) {
+  if (profile.smoothing.method != SmoothingOptions::Method::by_noise) return std::move(profile);
+  return measured::smoothed_by_noise(std::move(profile));
+}
+
+SourcedProfile unsmoothed(const std::filesystem::path& file, Body body, const ProfileOptions& options,
+                          const SourcePosition& referenced_from) {
+  const NamedSection named = section_of(file);
+  check_file(named.file, body, referenced_from);
+  return parse_text(profiles::read_text(named.file, "profile", referenced_from), named.file.string(),
+                    profile_format(file), body, options, named.section);
+}
+
 }  // namespace
 
 ProfileFormat profile_format(const std::filesystem::path& file) {
@@ -357,7 +368,7 @@ std::optional<Body> profile_body(const std::filesystem::path& file) {
 
 Profile parse_profile(std::string_view text, const std::string& file, ProfileFormat format, Body body,
                       const ProfileOptions& options) {
-  return parse_text(text, file, format, body, options, 0).profile;
+  return smoothed(parse_text(text, file, format, body, options, 0).profile);
 }
 
 std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body body, const ProfileOptions& options,
@@ -382,15 +393,15 @@ std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body bo
 
 SourcedProfile read_sourced_profile(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                                     const SourcePosition& referenced_from) {
-  const NamedSection named = section_of(file);
-  check_file(named.file, body, referenced_from);
-  return parse_text(profiles::read_text(named.file, "profile", referenced_from), named.file.string(),
-                    profile_format(file), body, options, named.section);
+  SourcedProfile out = unsmoothed(file, body, options, referenced_from);
+  out.source.lump = measured::highest_lump(out.profile, measured::profile_noise(out.profile).across);
+  out.profile = smoothed(std::move(out.profile));
+  return out;
 }
 
 Profile read_profile(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                      const SourcePosition& referenced_from) {
-  return read_sourced_profile(file, body, options, referenced_from).profile;
+  return smoothed(unsmoothed(file, body, options, referenced_from).profile);
 }
 
 }  // namespace treadmark::io

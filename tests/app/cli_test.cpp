@@ -59,6 +59,13 @@ TEST(CommandLine, VersionForProgramsNamesEveryLibraryThatIsLoaded) {
   EXPECT_GT(found, 3);
 }
 
+TEST(CommandLine, LoadsNoLibrariesForNetworksAtItsStart) {
+  const ProgramResult loaded = RunningProgram({"ldd", TREADMARK_PROGRAM}).wait();
+  ASSERT_EQ(loaded.status, 0);
+  EXPECT_THAT(loaded.out, HasSubstr("libstdc++"));
+  for (const char* name : {"libhdf5", "libcurl", "libssl"}) EXPECT_THAT(loaded.out, Not(HasSubstr(name)));
+}
+
 TEST(CommandLine, BillOfMaterialsHoldsWhatTheVersionForProgramsTells) {
   const auto version = nlohmann::json::parse(run_program({"--version", "--json"}).out);
   const ProgramResult r = run_program({"--version", "--spdx"});

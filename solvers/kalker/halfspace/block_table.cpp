@@ -35,10 +35,11 @@ BlockTable::BlockTable(int nx, int ny, double dx, double dy, std::shared_ptr<con
 
 void BlockTable::fill() {
   const int first_x = fold_x_ ? 0 : 1 - nx_, first_y = fold_y_ ? 0 : 1 - ny_;
-  blocks_.reserve(static_cast<std::size_t>(nx_ - first_x) * static_cast<std::size_t>(ny_ - first_y));
-  for (int diy = first_y; diy < ny_; ++diy)
-    for (int dix = first_x; dix < nx_; ++dix)
-      blocks_.push_back(kernel_->at(dix * dx_ + shift_x_, diy * dy_ + shift_y_));
+  const auto columns = static_cast<std::size_t>(nx_ - first_x), rows = static_cast<std::size_t>(ny_ - first_y);
+  blocks_.resize(columns * rows);
+  for (std::size_t r = 0; r < rows; ++r)
+    kernel_->row(first_x, dx_, shift_x_, (first_y + static_cast<int>(r)) * dy_ + shift_y_,
+                 std::span(blocks_).subspan(r * columns, columns));
 }
 
 InfluenceBlock BlockTable::at(int dix, int diy) {

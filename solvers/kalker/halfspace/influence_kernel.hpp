@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "treadmark/model/contact/material.hpp"
 
@@ -39,6 +40,10 @@ class InfluenceKernel {
   virtual bool symmetric_in_y() const { return symmetric(); }
   /// Whether tangential tractions move surfaces normally and the other way round.
   virtual bool coupled() const = 0;
+  /// Coefficients at (k step + shift, Y) for k = first, first + 1 ... with step > 0.
+  virtual void row(int first, double step, double shift, double Y, std::span<InfluenceBlock> blocks) const {
+    for (InfluenceBlock& block : blocks) block = at(first++ * step + shift, Y);
+  }
 };
 
 /// The kernel for elements of dx by dy [m] of a pair of bodies; flexibilities of layers and sheets are not in it.

@@ -25,7 +25,9 @@ struct KernelBorders {
 /// Steady rolling of viscoelastic half-spaces: the sum over bodies of
 ///   weight (C(X, Y) + creep_ratio integral_0^inf exp(-q) C(X + ahead L q, Y) dq),
 /// because a particle was ahead by L q when it was loaded q relaxation times ago.
-/// The integral is accurate to about 1e-10 relative to the coefficient.
+/// The integral is accurate to about 1e-10 relative to the coefficient. Along a row it fades and grows from point to
+/// point (Taylor, Pister, Goudreau 1970): that from X on is the one over the step to X + ahead dx, plus exp(-dx / L)
+/// times the one from there on.
 class ViscoelasticKernel final : public InfluenceKernel {
  public:
   /// ahead: 1 for rolling in the direction of +x, -1 for -x. Errors: Error(configuration) without elastic kernels, for
@@ -33,6 +35,7 @@ class ViscoelasticKernel final : public InfluenceKernel {
   ViscoelasticKernel(std::vector<ViscoelasticBody> bodies, KernelBorders borders, double ahead);
 
   InfluenceBlock at(double X, double Y) const override;
+  void row(int first, double step, double shift, double Y, std::span<InfluenceBlock> blocks) const override;
   bool symmetric() const override { return false; }
   bool symmetric_in_y() const override { return true; }
   bool coupled() const override { return false; }

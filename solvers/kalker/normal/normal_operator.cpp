@@ -52,8 +52,13 @@ std::shared_ptr<NormalInfluence> NormalOperatorCache::make(int nx, int ny) {
   const double dx = table_->dx(), dy = table_->dy();
   auto made =
       std::make_shared<NormalInfluence>(NormalInfluence{ToeplitzTransform(nx, ny), {}, {}, ring_about(nx, ny), {}, {}});
+  std::shared_ptr<BlockTable> blocks;
+  if (kernel_) {
+    blocks = std::make_shared<BlockTable>(std::max(nx, made->ring.nx() / 2 + 1), ny, dx, dy, kernel_);
+    blocks->at(0, 0);  // filled before threads ask
+  }
   const auto coefficient = [&](int dix, int diy) {
-    const double c = kernel_ ? kernel_->at(dix * dx, diy * dy).nn : (*table_)(dix, diy);
+    const double c = blocks ? blocks->at(dix, diy).nn : (*table_)(dix, diy);
     return c / shear_modulus_ + (dix == 0 && diy == 0 ? sheet_ : 0.0);
   };
   if (kernel_) {
@@ -69,8 +74,7 @@ std::shared_ptr<NormalInfluence> NormalOperatorCache::make(int nx, int ny) {
     return 0.25 * (coefficient(dix, diy) + coefficient(-dix, diy) + coefficient(dix, -diy) + coefficient(-dix, -diy));
   };
   made->inverse_symbol = reciprocal(even_symbol(made->ring, even), made->ring);
-  if (turned_) {
-    const auto blocks = std::make_shared<BlockTable>(nx, ny, dx, dy, kernel_);
+  if (turned_)
     made->turned.emplace(
         made->transform,
         [blocks, g = shear_modulus_, sheet = sheet_](int dix, int diy) {
@@ -79,7 +83,6 @@ std::shared_ptr<NormalInfluence> NormalOperatorCache::make(int nx, int ny) {
           return block;
         },
         kernel_->coupled());
-  }
   return made;
 }
 

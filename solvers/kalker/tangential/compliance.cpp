@@ -59,13 +59,14 @@ Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx,
 void Compliance::tabulate() {
   const int tx = transform_.padded_nx() / 2 + 1, ty = transform_.padded_ny() / 2 + 1;
   const double g = key_.shear_modulus;
+  std::optional<BlockTable> blocks;
+  if (key_.kernel != nullptr) blocks.emplace(tx, ty, key_.dx, key_.dy, key_.kernel);
   const auto entry = [&](int ix, int iy) -> Entry {
-    const double x = ix * key_.dx, y = iy * key_.dy;
-    if (key_.kernel != nullptr) {
-      const InfluenceBlock b = key_.kernel->at(x, y);
+    if (blocks) {
+      const InfluenceBlock b = blocks->at(ix, iy);
       return {b.xx / g, b.xy / g, b.yx / g, b.yy / g};
     }
-    const UncoupledCoefficients c = influence(x, y, key_.dx, key_.dy, key_.poisson);
+    const UncoupledCoefficients c = influence(ix * key_.dx, iy * key_.dy, key_.dx, key_.dy, key_.poisson);
     return {c.xx / g, c.xy / g, c.xy / g, c.yy / g};
   };
   const int first_x = symmetric() ? 0 : 1 - tx, first_y = symmetric() ? 0 : 1 - ty;

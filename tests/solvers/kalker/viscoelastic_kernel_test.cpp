@@ -90,6 +90,41 @@ TEST(ViscoelasticKernel, SatisfiesTheRelaxationOverOneStep) {
   }
 }
 
+/// Elastic coefficients that count how often they are asked for.
+struct CountedElements final : InfluenceKernel {
+  InfluenceBlock at(double X, double Y) const override {
+    ++calls;
+    return elements.at(X, Y);
+  }
+  bool symmetric() const override { return true; }
+  bool coupled() const override { return false; }
+
+  ConstantElements elements{kDx, kDy, 0.4, 0.0};
+  mutable int calls = 0;
+};
+
+TEST(ViscoelasticKernel, FadesFromPointToPointAlongARow) {
+  constexpr int kCount = 241, kFirst = -120, kMostCallsEach = 12;
+  for (const double ahead : {1.0, -1.0})
+    for (const double L : {0.01 * kDx, kDx, 50.0 * kDx, 1e4 * kDx})
+      for (const double Y : {0.0, 0.5 * kDy, 3.0 * kDy}) {
+        const auto counted = std::make_shared<CountedElements>();
+        const ViscoelasticKernel kernel({{counted, 1.0, kCreepRatio, L}},
+                                        {.x = {-0.5 * kDx, 0.5 * kDx}, .y = {-0.5 * kDy, 0.5 * kDy}}, ahead);
+        for (const double shift : {0.0, 0.3 * kDx}) {
+          std::vector<InfluenceBlock> row(kCount);
+          counted->calls = 0;
+          kernel.row(kFirst, kDx, shift, Y, row);
+          if (L >= kDx) {
+            EXPECT_LT(counted->calls, kMostCallsEach * kCount) << L << ' ' << Y;
+          }
+          for (const int k : {kFirst, -3, -1, 0, 1, 2, kFirst + kCount - 1})
+            expect_near(row[static_cast<std::size_t>(k - kFirst)], kernel.at(k * kDx + shift, Y), 1e-10,
+                        k * kDx + shift, L);
+        }
+      }
+}
+
 TEST(ViscoelasticKernel, IsRubberyWhenSlowAndGlassyWhenFast) {
   const ConstantElements elastic(kDx, kDy, 0.4, 0.0);
   for (const auto& [X, Y] : {std::pair{0.0, 0.0}, {2.0 * kDx, -kDy}, {-5.0 * kDx, 0.0}}) {
