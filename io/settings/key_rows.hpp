@@ -46,20 +46,20 @@ class KeyRows : private SettingKeys<Root> {
   struct Row {
     SettingKey<Root>& key;
 
-    Row marked(unsigned marks, std::string missing) const {
+    Row marked(unsigned marks, std::string_view missing) const {
       key.info.required = (marks & kNeeded) != 0;
-      key.info.missing = std::move(missing);
+      key.info.missing = missing;
       if ((marks & (kNeeded | kNoDefault)) != 0) key.info.default_text.clear();
       key.factors = marks;
       return *this;
     }
-    Row shown(std::string default_text) const {
-      key.info.default_text = std::move(default_text);
+    Row shown(std::string_view default_text) const {
+      key.info.default_text = default_text;
       return *this;
     }
     /// Of a setting of a verb: name and value on the command line, where they do not follow from the key.
-    Row option(std::string words) const {
-      key.info.option = std::move(words);
+    Row option(std::string_view words) const {
+      key.info.option = words;
       return *this;
     }
     Row written(std::function<std::string(const Root&)> text) const {
@@ -76,21 +76,21 @@ class KeyRows : private SettingKeys<Root> {
   /// place: double or std::optional<double>.
   template <class Place>
   Row number(std::string name, KeyLimits limits, std::string doc, Place place, unsigned marks = 0,
-             std::string missing = {}) {
+             std::string_view missing = {}) {
     if constexpr (std::is_same_v<MemberOf<Place>, double>) {
       List::number(std::move(name), limits, std::move(doc), place);
-      return last().marked(marks, std::move(missing));
+      return last().marked(marks, missing);
     } else {
       const double unit = unit_of_key(name);
-      return value(key_info(std::move(name), KeyType::number, std::move(doc), limits), place, marks, std::move(missing))
+      return value(key_info(std::move(name), KeyType::number, std::move(doc), limits), place, marks, missing)
           .read_by([place, unit](Root& root, const CaseValue& v) { std::invoke(place, root) = v.number() * unit; });
     }
   }
   template <class Place>
   Row integer(std::string name, double least, double most, std::string doc, Place place, unsigned marks = 0,
-              std::string missing = {}) {
+              std::string_view missing = {}) {
     List::integer(std::move(name), least, most, std::move(doc), place);
-    return last().marked(marks, std::move(missing));
+    return last().marked(marks, missing);
   }
   template <class Place>
   Row flag(std::string name, std::string doc, Place place) {
@@ -113,8 +113,8 @@ class KeyRows : private SettingKeys<Root> {
   }
   /// place: std::string or path, which is as it stands in the file.
   template <class Place>
-  Row text(std::string name, std::string doc, Place place, unsigned marks = 0, std::string missing = {}) {
-    return value(key_info(std::move(name), KeyType::text, std::move(doc)), place, marks, std::move(missing))
+  Row text(std::string name, std::string doc, Place place, unsigned marks = 0, std::string_view missing = {}) {
+    return value(key_info(std::move(name), KeyType::text, std::move(doc)), place, marks, missing)
         .read_by([place](Root& root, const CaseValue& v) { std::invoke(place, root) = v.text(); })
         .written([place](const Root& root) {
           if constexpr (std::is_same_v<MemberOf<Place>, std::string>) return toml_text(std::invoke(place, root));
@@ -123,8 +123,8 @@ class KeyRows : private SettingKeys<Root> {
   }
   /// place: std::vector<std::string>.
   template <class Place>
-  Row words(std::string name, std::string doc, Place place, unsigned marks = 0, std::string missing = {}) {
-    return value(key_info(std::move(name), KeyType::text_list, std::move(doc)), place, marks, std::move(missing))
+  Row words(std::string name, std::string doc, Place place, unsigned marks = 0, std::string_view missing = {}) {
+    return value(key_info(std::move(name), KeyType::text_list, std::move(doc)), place, marks, missing)
         .read_by([place](Root& root, const CaseValue& v) {
           for (const CaseValue& one : v.list()) std::invoke(place, root).push_back(one.text());
         });
@@ -132,15 +132,15 @@ class KeyRows : private SettingKeys<Root> {
   /// place: std::vector<double>.
   template <class Place>
   Row number_list(std::string name, KeyLimits limits, std::string doc, Place place, unsigned marks = 0,
-                  std::string missing = {}) {
+                  std::string_view missing = {}) {
     List::number_list(std::move(name), std::move(doc), place, limits);
-    return last().marked(marks, std::move(missing));
+    return last().marked(marks, missing);
   }
   /// place: std::vector<Vec3>.
   template <class Place>
-  Row points(std::string name, std::string doc, Place place, unsigned marks = 0, std::string missing = {}) {
+  Row points(std::string name, std::string doc, Place place, unsigned marks = 0, std::string_view missing = {}) {
     const double unit = unit_of_key(name);
-    return value(key_info(std::move(name), KeyType::triple_list, std::move(doc)), place, marks, std::move(missing))
+    return value(key_info(std::move(name), KeyType::triple_list, std::move(doc)), place, marks, missing)
         .read_by([place, unit](Root& root, const CaseValue& v) {
           for (const CaseValue& one : v.list()) {
             const std::vector<double> numbers = numbers_of(one, unit);
@@ -157,7 +157,7 @@ class KeyRows : private SettingKeys<Root> {
   /// place: Vec3, or the first of three numbers. Zeros are not written.
   template <class Place>
   Row triple(std::string name, KeyLimits limits, std::string doc, Place place, unsigned marks = 0,
-             std::string missing = {}) {
+             std::string_view missing = {}) {
     const double unit = unit_of_key(name);
     const auto numbers = [place](Root& root) -> std::span<double> {
       if constexpr (std::is_same_v<MemberOf<Place>, double>)
@@ -165,8 +165,7 @@ class KeyRows : private SettingKeys<Root> {
       else
         return std::span(std::invoke(place, root).data(), 3);
     };
-    const Row row =
-        value(key_info(std::move(name), KeyType::triple, std::move(doc), limits), place, marks, std::move(missing));
+    const Row row = value(key_info(std::move(name), KeyType::triple, std::move(doc), limits), place, marks, missing);
     row.read_by([numbers, unit](Root& root, const CaseValue& v) {
       std::ranges::copy(numbers_of(v, unit), numbers(root).begin());
     });
@@ -180,19 +179,19 @@ class KeyRows : private SettingKeys<Root> {
   }
   /// What its reader takes apart: only type and member are known.
   template <class Place>
-  Row value(KeyInfo info, Place place, unsigned marks = 0, std::string missing = {}) {
+  Row value(KeyInfo info, Place place, unsigned marks = 0, std::string_view missing = {}) {
     List::add(std::move(info)).member = [place](const Root& root) -> const void* {
       return &std::invoke(place, const_cast<Root&>(root));
     };
-    return last().marked(marks, std::move(missing));
+    return last().marked(marks, missing);
   }
   /// A table or a list of tables, which its reader reads.
   template <class Place>
   Row table(std::string name, KeyType type, std::string doc, TableKeys elements, Place place, unsigned marks = 0,
-            std::string missing = {}) {
+            std::string_view missing = {}) {
     KeyInfo info = key_info(std::move(name), type, std::move(doc));
     info.elements = std::move(elements);
-    return value(std::move(info), place, marks, std::move(missing));
+    return value(std::move(info), place, marks, missing);
   }
 
   KeyTable<Root> done() && { return {List::keys, infos_of<Root>(List::keys)}; }
