@@ -449,13 +449,6 @@ const char* reason_of(AssessedStatus status) {
   return "";
 }
 
-double longest_step(std::optional<PointKind> of) {
-  double highest = 0.0;
-  for (const QuantityRow& row : kRows)
-    if (row.point == of) highest = std::max(highest, corners(row.samples).second);
-  return 1.0 / (kStepsOfPeriod * highest);
-}
-
 std::span<const QuantityInfo> assessed_quantities() {
   static const auto all = [] {
     std::vector<QuantityInfo> list;

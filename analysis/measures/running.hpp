@@ -81,10 +81,6 @@ std::span<const QuantityInfo> assessed_quantities();
 /// Errors: Error(configuration) for keys that are none.
 const QuantityInfo& quantity_info(const std::string& key);
 
-/// The longest step of a record from which forces of wheels, or accelerations of points of a kind, are all assessed
-/// [s]; infinite where nothing is filtered.
-double longest_step(std::optional<PointKind> of);
-
 /// Samples are taken at 1 kHz, sliding means every half metre. Errors: Error(input_data) for signals of different
 /// lengths, with fewer than two instants, or whose time does not increase.
 std::vector<Assessed> assess_run(const RunSignals& run, std::span<const AssessmentSection> sections,

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "treadmark/app/simulation/contact_tables.hpp"
@@ -28,8 +27,6 @@ struct BuiltVehicle {
   /// Of the wheels with defects; null where there are none.
   std::shared_ptr<const DefectDepth> defect_depth;
   double table_seconds = 0.0;  ///< spent on contact tables
-  /// With contact tables at all wheels, for the start in a curve; none where that is not wanted or not possible.
-  std::optional<vehicle::VehicleOnTrack> easy;
 };
 
 /// "ws1_right"

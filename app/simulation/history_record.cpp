@@ -5,14 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
-#include "treadmark/analysis/measures/running.hpp"
-#include "treadmark/core/error.hpp"
 #include "treadmark/io/histories/channels.hpp"
 
 namespace treadmark::app {
@@ -20,27 +16,6 @@ namespace treadmark::app {
 namespace {
 
 using vehicle::ContactReaction;
-
-/// Refuses a history that is written too seldom for what is to be assessed, even where the vehicle is fastest.
-void require_fine(const io::SimulationFile& file, const std::vector<io::HistoryColumn>& columns) {
-  const double every = file.settings.output_every, speed = highest_speed(file.settings.profile);
-  for (const io::HistoryColumn& column : columns) {
-    const std::string& name = column.name;
-    std::optional<PointKind> point;
-    for (std::size_t k = 0; k < kPointKinds.size(); ++k)
-      if (name.starts_with(fmt::format("{}.", kPointKinds[k]))) point = static_cast<PointKind>(k);
-    if (!point && !name.ends_with("Q_N") && !name.ends_with("Y_N")) continue;
-    const double longest = measures::longest_step(point);
-    if (!(every > longest * speed)) continue;
-    throw Error(ErrorKind::configuration,
-                fmt::format("the history is written every {:.6g} mm, {:.3g} ms at {:.6g} m/s: too seldom to assess {}, "
-                            "which takes {:.3g} ms",
-                            1e3 * every, 1e3 * every / speed, speed, io::channel_name(column), 1e3 * longest),
-                {file.path.string()},
-                fmt::format("simulation.output_every_mm = {:.4g} or less, or simulation.channels without it",
-                            std::floor(1e3 * longest * speed)));
-  }
-}
 
 using Motion = vehicle::PairMotion;
 constexpr MotionColumn kMotion[] = {
@@ -125,9 +100,7 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
   add_running(watched);
   add_accelerations(file.history);
   keep_only(file.history);  // the last
-  if (!file.assessment) return;
-  io::fitting_columns(columns(), file.assessment->spectra, {file.path.string()});
-  require_fine(file, columns());
+  if (file.assessment) io::fitting_columns(columns(), file.assessment->spectra, {file.path.string()});
 }
 
 std::vector<io::HistoryColumn> HistoryRecord::columns_of(const io::SimulationFile& file,

@@ -119,7 +119,7 @@ class Run {
 
   vehicle::Equilibrium balance() {
     const Stopwatch watch(times_.equilibrium_s);
-    vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle, {}, built_.easy ? &*built_.easy : nullptr);
+    vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle);
     if (e.report.status != Status::ok)
       throw Error(ErrorKind::numerical, e.report.message, {},
                   built_.vehicle.line && built_.vehicle.line->setup().path
@@ -175,7 +175,6 @@ class Run {
     record_.emplace(file_, *simulation_);
     summary_.emplace(file_, *simulation_);
     result_.columns = record_->columns();
-    result_.columns_chosen = !file_.history.channels.empty();
     if (kept_) return restore();
     record_->append(result_.values);
     summary_->note();

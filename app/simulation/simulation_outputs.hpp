@@ -12,8 +12,7 @@
 
 namespace treadmark::app {
 
-/// Columns and values of a history, and nothing else: what a table in text holds. Without the motions of the bodies,
-/// unless columns were chosen.
+/// Columns and values of a history, and nothing else, without the motions of the bodies: what a table in text holds.
 io::SimulationResult wheel_columns(const io::SimulationResult& result);
 
 /// Panels of the snapshots of the watched wheel, with the contact at the start as that of a round wheel. They point

@@ -59,8 +59,7 @@ struct SimulationResult : Origin {
   std::string status = "complete";  ///< "complete", "interrupted" or "failed"
   std::string message;
   std::vector<HistoryColumn> columns;
-  bool columns_chosen = false;  ///< by simulation.channels; not known of a store
-  std::vector<double> values;   ///< row by row: an instant a row, a value a column
+  std::vector<double> values;  ///< row by row: an instant a row, a value a column
   std::vector<HistoryEvent> events;
   std::vector<NamedValue> summary, statics;
   std::vector<ModeRow> modes;

@@ -67,8 +67,7 @@ struct Problem {
   std::optional<Thermal> thermal;
   std::optional<Damping> damping;
   bool sensitivities = false;
-  bool refinement = false;     ///< what smaller elements would change is estimated
-  bool surface_loads = false;  ///< PatchSolution::surface_loads is wanted
+  bool refinement = false;  ///< what smaller elements would change is estimated
   /// Friction at inclinations of the rail's surface [rad], increasing; between them every number of the law is
   /// interpolated, beyond them it stays. Empty: friction is the same everywhere.
   std::vector<double> friction_inclination;

@@ -151,34 +151,6 @@ TEST_F(AssessCommand, OnlyTheChannelsThatAreChosenAreWrittenDown) {
   EXPECT_THAT(spectra.err, HasSubstr("axle_bx.*"));
 }
 
-TEST_F(AssessCommand, TablesHoldEveryChannelThatIsChosen) {
-  const ProgramResult made =
-      simulate("a", {"--set", R"(simulation.channels=["ws1_left.Q_N", "mass.z_m", "axle.y_rate_m_s"])", "--set",
-                     "assessment.spectra=[]"});
-  ASSERT_EQ(made.status, 0) << made.err;
-  const std::string csv = input_.read("a/history.csv");
-  EXPECT_THAT(csv.substr(0, csv.find('\n')), "t_s,x_m,Q_N,mass.z_m,axle.y_rate_m_s");
-}
-
-/// At 20 m/s wheels need a line every 125 mm, the floor, weighted up to 100 Hz, every 25 mm.
-TEST_F(AssessCommand, HistoriesThatAreTooCoarseAreRefusedBeforeTheRun) {
-  const ProgramResult floor = simulate("a", {"--set", "simulation.output_every_mm=26"});
-  EXPECT_EQ(floor.status, 2);
-  EXPECT_THAT(floor.err, AllOf(HasSubstr("car_body.floor.ay_m_s2"), HasSubstr("output_every_mm = 25")));
-  EXPECT_FALSE(fs::exists(path("a") + "/simulation.h5"));
-  const std::vector<std::string> wheels{"--set", R"(simulation.channels=["ws1_*.Q_N"])", "--set",
-                                        "assessment.spectra=[]", "--set"};
-  const auto every = [&](const char* length) {
-    std::vector<std::string> arguments = wheels;
-    arguments.push_back("simulation.output_every_mm=" + std::string(length));
-    return simulate("b", arguments);
-  };
-  EXPECT_EQ(every("126").status, 2);
-  const ProgramResult fine = every("120");
-  EXPECT_EQ(fine.status, 0) << fine.err;
-  EXPECT_THAT(fine.out, Not(HasSubstr("too_coarse")));
-}
-
 TEST_F(AssessCommand, RunsStandSideBySide) {
   ASSERT_EQ(simulate("a").status, 0);
   ASSERT_EQ(simulate("b", {"--set", "simulation.speed_m_s=30"}).status, 0);
