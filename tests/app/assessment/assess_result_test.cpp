@@ -136,7 +136,7 @@ TEST(AssessResult, DoubtsAreNamed) {
   const AssessedRun run = assess_result("one", stopped, request);
   const std::string text = assessment_text(std::span(&run, 1));
   EXPECT_THAT(text, HasSubstr("warning: the run is interrupted"));
-  EXPECT_THAT(text, HasSubstr("are outside"));
+  EXPECT_THAT(text, HasSubstr("(outside)"));
   EXPECT_THAT(text, HasSubstr("(too_short)"));
   EXPECT_THAT(text, HasSubstr("for one-third octaves"));
   for (const measures::Assessed& a : run.quantities)
