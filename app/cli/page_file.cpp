@@ -36,8 +36,7 @@ fs::path find_browser() {
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');)
     for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
-      if (fs::path file = fs::path(folder) / name; !folder.empty() && ::access(file.c_str(), X_OK) == 0)
-        return file;
+      if (fs::path file = fs::path(folder) / name; !folder.empty() && ::access(file.c_str(), X_OK) == 0) return file;
   return {};
 }
 
