@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <charconv>
 #include <iostream>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include "treadmark/app/assessment/pages/assessment_page.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/core/output_file.hpp"
 
 namespace treadmark::cli {
@@ -24,12 +25,11 @@ struct AssessOptions {
 };
 
 double metres(std::string_view text, const std::string& section) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
+  const std::optional<double> value = finite_number(text);
+  if (!value)
     throw Error(ErrorKind::configuration, fmt::format("--section {}: '{}' is no number", section, text), {},
                 "write NAME:FROM:TO or NAME:FROM:TO:KIND, places in metres");
-  return value;
+  return *value;
 }
 
 /// "curve 1:20:80:curve"

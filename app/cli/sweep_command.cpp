@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 
@@ -37,9 +37,11 @@ struct SweepOptions {
 io::RunRange range_of(const std::string& text) {
   io::RunRange range;
   if (text.empty()) return range;
-  int end = 0;
-  if (std::sscanf(text.c_str(), "%d-%d%n", &range.first, &range.last, &end) != 2 ||
-      end != static_cast<int>(text.size()) || range.first < 1 || range.last < range.first)
+  const char* const end = text.data() + text.size();
+  const auto [dash, no_first] = std::from_chars(text.data(), end, range.first);
+  const auto [rest, no_last] = std::from_chars(std::min(dash + 1, end), end, range.last);
+  const bool read = no_first == std::errc() && dash != end && *dash == '-' && no_last == std::errc() && rest == end;
+  if (!read || range.first < 1 || range.last < range.first)
     throw Error(ErrorKind::configuration, "--runs " + text + " is no range of runs", {}, "for example --runs 11-20");
   return range;
 }

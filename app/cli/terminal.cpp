@@ -16,8 +16,6 @@ namespace {
 
 constexpr std::size_t kUsual = 80;  // of a terminal that does not tell
 
-bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }
-
 /// Where the rest of a line goes on: below its last column, which begins behind two blanks, unless that is far right.
 std::size_t indent_of(std::string_view line, std::size_t columns) {
   constexpr std::size_t kParagraph = 2, kListed = 8;
@@ -61,7 +59,7 @@ bool has_colours(int descriptor) {
 std::string_view cut(std::string_view line, std::size_t columns) {
   std::size_t at = 0;
   for (; at < line.size(); ++at)
-    if (begins_character(line[at]) && columns-- == 0) break;
+    if (io::begins_character(line[at]) && columns-- == 0) break;
   return line.substr(0, at);
 }
 

@@ -47,7 +47,7 @@ class Packer {
     for (io::SurfaceSource& part : source.parts) pack(part, body);
     auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
     if (geometry == nullptr || !source.parts.empty()) return;
-    if (io::extension_of(geometry->file) == ".vdb")
+    if (io::can_hold(geometry->file, io::kOffsetFile))
       throw Error(ErrorKind::configuration, "FMUs do not take OpenVDB with them, which offsets need", source.where,
                   "convert the surface to triangles or slices: treadmark convert");
     const fs::path original = geometry->file;

@@ -3,15 +3,16 @@
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "treadmark/analysis/measured/smoothing.hpp"
@@ -32,14 +33,6 @@ namespace treadmark::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A number that is all of the text.
-std::optional<double> whole_number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (trouble != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 NaturalSurface surface_of(const GeometryRequest& request, const std::string& name, Body body) {
   if (name == request.case_file) {
@@ -152,11 +145,11 @@ double parse_cant(const std::string& text) {
   };
   double tangent = 0.0;
   if (const auto colon = text.find(':'); colon != std::string::npos) {
-    const auto rise = whole_number(text.substr(0, colon)), run = whole_number(text.substr(colon + 1));
+    const auto rise = finite_number(text.substr(0, colon)), run = finite_number(text.substr(colon + 1));
     if (!rise || !run || *run == 0.0) return refuse();
     tangent = *rise / *run;
   } else {
-    const auto value = whole_number(text);
+    const auto value = finite_number(text);
     if (!value) return refuse();
     tangent = *value;
   }
@@ -174,7 +167,7 @@ std::vector<double> parse_numbers(const std::string& text) {
   const char between = text.find(':') != std::string::npos ? ':' : ',';
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(between, at), text.size());
-    const auto number = whole_number(std::string_view(text).substr(at, end - at));
+    const auto number = finite_number(std::string_view(text).substr(at, end - at));
     if (!number) refuse("not a number");
     numbers.push_back(*number);
     at = end + 1;

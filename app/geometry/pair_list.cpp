@@ -2,13 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app {
@@ -65,11 +66,10 @@ void set_cell(GeometryRequest& request, const PairKey* key, const std::string& c
   }
   io::CaseValue value{where, (key->factors & kFileOfPair) == kFileOfPair ? resolved(folder, cell) : cell};
   if (key->info.type == io::KeyType::number) {
-    double number = 0.0;
-    const auto [end, trouble] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (trouble != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number))
+    const std::optional<double> number = finite_number(cell);
+    if (!number)
       throw Error(ErrorKind::input_data, fmt::format("'{}' is no number for {}", cell, key->info.path), where);
-    value.data = number;
+    value.data = *number;
   }
   io::check_value(key->info, value);
   // one of the two places the rails

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <optional>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -15,6 +17,7 @@
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
@@ -442,12 +445,13 @@ void note_own_numbers(const WheelNumbers& wheel, MeasuredFile& out) {
   const auto own = std::find_if(out.said.begin(), out.said.end(), [](const auto& s) { return s.first == "Sd Sh qR"; });
   if (own == out.said.end()) return;
   const Measure* const measured[] = {&wheel.flange_thickness, &wheel.flange_height, &wheel.flange_gradient};
-  const char* at = own->second.c_str();
+  std::istringstream words(own->second);
   for (const Measure* m : measured) {
-    char* end = nullptr;
-    const double said = 1e-3 * std::strtod(at, &end);
-    if (end == at) return;
-    at = end;
+    std::string word;
+    words >> word;
+    const std::optional<double> said_mm = finite_number(word);
+    if (!said_mm) return;
+    const double said = 1e-3 * *said_mm;
     constexpr double kResolution = 0.05e-3;  // of what such instruments say
     if (m->known() && std::fabs(m->value - said) > kResolution + m->uncertainty) {
       out.notes.push_back(fmt::format(

@@ -33,7 +33,7 @@
 
 namespace treadmark::app {
 
-bool is_offset_file(const std::filesystem::path& file) { return io::extension_of(file) == ".vdb"; }
+bool is_offset_file(const std::filesystem::path& file) { return io::can_hold(file, io::kOffsetFile); }
 
 namespace {
 

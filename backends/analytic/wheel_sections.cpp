@@ -3,7 +3,6 @@
 #include "treadmark/backends/analytic/wheel_sections.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -16,6 +15,7 @@
 #include "treadmark/backends/analytic/curve_pieces.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
@@ -176,13 +176,6 @@ void append_eps(GraphCurve& curve, double thickness, double slope) {
   append_field_side(curve, kB1b, kLevel, slope);
 }
 
-std::optional<double> number(std::string_view text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 void check_range(double value, double low, double high, std::string_view what) {
   if (value >= low && value <= high) return;
   throw Error(ErrorKind::configuration,
@@ -209,7 +202,7 @@ std::optional<WheelSection> wheel_section(std::string_view name) {
       rest.remove_prefix(part.size());
       const bool slope = part.ends_with('%');
       if (part.empty() || (!slope && part.front() != 'H' && part.front() != 'E')) return std::nullopt;
-      const auto value = number(slope ? part.substr(0, part.size() - 1) : part.substr(1));
+      const auto value = finite_number(slope ? part.substr(0, part.size() - 1) : part.substr(1));
       if (!value) return std::nullopt;
       if (slope) {
         check_range(*value, 6.6, 15.0, "reverse slopes in per cent");

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +19,7 @@
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/to_whole.hpp"
 
@@ -188,16 +189,12 @@ class Reader {
   }
   std::vector<double> numbers(const std::string& name) const {
     std::vector<double> all;
-    const std::string& from = text(name);
-    const char* at = from.c_str();
-    const char* const end = at + from.size();
-    while (at < end) {
-      char* next = nullptr;
-      const double v = std::strtod(at, &next);
-      if (next == at || !std::isfinite(v) || (*next != ' ' && next != end))
-        refuse(fmt::format("the entry '{}' of the VDB file is not a list of numbers", name));
-      all.push_back(v);
-      at = next == end ? end : next + 1;
+    for (std::string_view rest = text(name); !rest.empty();) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      const std::optional<double> v = finite_number(rest.substr(0, end));
+      if (!v) refuse(fmt::format("the entry '{}' of the VDB file is not a list of numbers", name));
+      all.push_back(*v);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
     }
     return all;
   }

@@ -9,8 +9,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <system_error>
 
 #include "treadmark/core/cancellation.hpp"
@@ -168,13 +168,6 @@ std::string read_input(const std::filesystem::path& file, std::string_view what)
   return text;
 }
 
-namespace {
-
-/// UTF-8 goes on with a character in bytes 10xxxxxx.
-bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
-
-}  // namespace
-
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -204,9 +197,9 @@ std::string_view cut_to_bytes(std::string_view text, std::size_t most) {
 double rounded(double value, Digits digits) {
   if (digits == Digits::all || !std::isfinite(value)) return value + 0.0;
   char text[32];
-  const int length = std::snprintf(text, sizeof text, "%.*g", static_cast<int>(digits), value);
+  const auto written = std::to_chars(text, std::end(text), value, std::chars_format::general, static_cast<int>(digits));
   double rounded = value;
-  std::from_chars(text, text + length, rounded);
+  std::from_chars(text, written.ptr, rounded);
   return rounded + 0.0;
 }
 

@@ -39,6 +39,9 @@ std::string read_input(const std::filesystem::path& file, std::string_view what)
 /// Bytes of the UTF-8 character (RFC 3629) at the start of a text that is not empty; 0 where there is none.
 std::size_t utf8_length(std::string_view text);
 
+/// Whether a byte of UTF-8 begins a character: it goes on with one in bytes 10xxxxxx.
+constexpr bool begins_character(char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; }
+
 /// Characters of a text in UTF-8, not bytes.
 std::size_t characters_of(std::string_view text);
 

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include <fmt/format.h>
+
+#include "treadmark/core/number_text.hpp"
 
 namespace treadmark::io {
 
@@ -17,7 +18,7 @@ template <class Read>
 std::string exact_text(double value, double guess, Read read) {
   constexpr int kAllDigits = 17;
   for (int digits = 1; digits <= kAllDigits; ++digits) {
-    const double x = std::strtod(fmt::format("{:.{}g}", guess, digits).c_str(), nullptr);
+    const double x = finite_number(fmt::format("{:.{}g}", guess, digits)).value_or(guess);
     if (read(x) == value) return fmt::format("{}", x);
   }
   double below = guess, above = guess;

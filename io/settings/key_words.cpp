@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <iterator>
 #include <optional>
 #include <variant>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -38,12 +38,6 @@ std::string with_blanks(std::string_view text) {
   std::ranges::replace(out, '_', ' ');
   std::ranges::replace(out, '.', ' ');
   return out;
-}
-
-std::optional<double> number_in(const std::string& toml) {
-  char* end = nullptr;
-  const double value = std::strtod(toml.c_str(), &end);
-  return end != toml.c_str() && *end == '\0' ? std::optional(value) : std::nullopt;
 }
 
 /// Without quotes, and no longer than a line.
@@ -84,7 +78,7 @@ std::string words_of(const std::vector<std::string>& values, std::string unit) {
   constexpr std::size_t kMost = 6;
   std::vector<double> numbers;
   for (const std::string& value : values)
-    if (const auto number = number_in(value)) numbers.push_back(*number);
+    if (const auto number = finite_number(value)) numbers.push_back(*number);
   if (numbers.size() < values.size()) {
     const std::size_t shown = std::min(values.size(), kMost);
     std::string out;

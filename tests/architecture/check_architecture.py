@@ -89,6 +89,10 @@ MAY_CAST = ("tests", "bench", "examples")
 BOUNDED_BESIDE = ("core/to_whole.hpp", "backends/analytic/wheels/wheel_lanes_kernel.hpp", "backends/displacement/band_rows.hpp",
                   "backends/offset/sheet_points.hpp", "backends/spline/nurbs/nurbs_kernel.hpp")
 
+# Whoever loads the libraries may have set a locale that writes and reads 1,5.
+BY_LOCALE = re.compile(r"(?<!\w)(strto(?:d|f|ld)|atof|sto(?:d|f|ld)|[vs]n?printf|sscanf)\s*\(")
+MAY_FOLLOW_LOCALE = ("tests", "bench", "examples")
+
 # Put together here, so that this file does not contain them.
 HOSTS = [".".join(parts) for parts in (
     ("pypi", "org"), ("pythonhosted", "org"), ("anaconda", "org"), ("npmjs", "org"), ("npmjs", "com"), ("crates", "io"),
@@ -211,6 +215,8 @@ def check(root):
             found = STARTS_PROGRAMS.search(text)
             if found and layer(relative) not in MAY_START and relative not in STARTS_ITS_OWN:
                 violations.append(f"{relative}: {found.group(1)}: no other program is started")
+            if (found := BY_LOCALE.search(text)) and layer(relative) not in MAY_FOLLOW_LOCALE:
+                violations.append(f"{relative}: {found.group(1)} follows the locale: use finite_number (core/number_text.hpp) or fmt")
             if layer(relative) not in MAY_CAST and relative not in BOUNDED_BESIDE:
                 violations += [f"{relative}: {cast}: use to_whole (core/to_whole.hpp)" for cast in unchecked_casts(text)]
         if relative.endswith(LICENSED) and "SPDX-License-Identifier: Apache-2.0" not in text[:400]:

@@ -90,6 +90,12 @@ class Planted(unittest.TestCase):
                                           "b = static_cast<std::uint64_t>(to_whole<std::int64_t>(std::floor(x)));\n",
                                           "tests/core/a.cpp": "std::lround(x);\n"}), [])
 
+    def test_numbers_that_follow_the_locale(self):
+        for call in ("std::strtod(text, &end)", "atof(text)", "std::stod (text)", "std::snprintf(a, 9, b, x)", "sscanf(a, b, &x)"):
+            with self.subTest(call=call):
+                self.expect("io/results/a.cpp", f"x = {call};\n", "follows the locale")
+        self.assertEqual(self.violations({"tests/io/a.cpp": "std::strtod(text, &end);\n", "io/a.cpp": "strtol(text, &end, 10);\n"}), [])
+
     def test_spelling_of_includes(self):
         self.expect("core/a.cpp", '#include "pose.hpp"\n', "must read")
         self.expect("core/a.cpp", '#include "../app/run.hpp"\n', "must read")

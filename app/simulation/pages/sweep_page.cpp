@@ -15,6 +15,7 @@
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/app/simulation/pages/history_panels.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
@@ -35,19 +36,12 @@ const std::vector<std::pair<std::string, std::string>> kColumns{
 
 const std::string kDistance = "x_m", kCase = "case";  // what histories of simulations and of case files are over
 
-std::optional<double> to_number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
-}
-
 /// Values of a key in the runs; nothing unless all are numbers and some differ.
 std::optional<std::vector<double>> numbers_of(const io::StudyTable& table, const std::string& key) {
   std::vector<double> out;
   for (const io::SimulationRun* run : table.runs) {
     const std::string* text = io::swept_value(*run, key);
-    const auto number = text ? to_number(*text) : std::nullopt;
+    const auto number = text ? finite_number(*text) : std::nullopt;
     if (!number) return {};
     out.push_back(*number);
   }
@@ -159,7 +153,7 @@ Table run_table(const io::StudyTable& table) {
     Table::Row row{{Number{static_cast<double>(run.number)}}, static_cast<int>(i)};
     for (const std::string& key : table.keys) {
       const std::string* value = io::swept_value(run, key);
-      const auto number = value ? to_number(*value) : std::nullopt;
+      const auto number = value ? finite_number(*value) : std::nullopt;
       row.cells.emplace_back(number ? Cell(Number{*number}) : Cell(value ? *value : std::string()));
     }
     for (const io::NamedValue& quantity : table.quantities)

@@ -5,10 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/number_text.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::pictures {
@@ -21,12 +22,9 @@ constexpr double kStudyMargin = 0.04;  // of x, beyond the values
 }
 
 double number(const std::string& text, const std::string& key, int run) {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value))
-    refuse_study(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
-  return value;
+  const std::optional<double> value = finite_number(text);
+  if (!value) refuse_study(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
+  return *value;
 }
 
 struct SummaryPoint {
