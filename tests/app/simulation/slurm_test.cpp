@@ -43,7 +43,8 @@ TEST_F(SlurmSweep, SharesOfRunsMakeTheWhole) {
   EXPECT_EQ(early.status, 1);
   EXPECT_THAT(early.err, HasSubstr("nothing is gathered yet: 2 of 4 runs finished"));
   EXPECT_THAT(sweep("shared", {"--runs", "5-6"}).err, HasSubstr("its runs are 1 to 4"));
-  EXPECT_THAT(sweep("shared", {"--runs", "2"}).err, HasSubstr("for example --runs 11-20"));
+  for (const char* none : {"2", "1-99999999999", "1--5", "1-2x", "-"})
+    EXPECT_THAT(sweep("shared", {"--runs", none}).err, HasSubstr("for example --runs 11-20")) << none;
   ASSERT_EQ(sweep("shared", {"--runs", "4-9"}).status, 0);
   ASSERT_EQ(sweep("shared", {"--runs", "1-1"}).status, 0);
   ASSERT_EQ(sweep("shared", {"--merge"}).status, 0);
