@@ -69,6 +69,7 @@
 #include <ctime>
 #include <limits>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -584,6 +585,14 @@ CadFault too_many_faces(int faces) {
           "export the running surface alone, or triangles (.stl)"};
 }
 
+/// How far the edges are from the faces that they bound, at most [mm]: damaged edges are at no end of triangles.
+double gap_at_edges(const TopoDS_Shape& whole) {
+  double widest = 0.0;
+  for (TopExp_Explorer edges(whole, TopAbs_EDGE); edges.More(); edges.Next())
+    widest = std::max(widest, BRep_Tool::Tolerance(TopoDS::Edge(edges.Current())));
+  return widest;
+}
+
 std::unique_ptr<Shape> finished(XSControl_Reader& reader, std::string unit, CadFault& fault) {
   // before anything is made of them
   const Handle(Interface_InterfaceModel) model = reader.Model();
@@ -600,6 +609,13 @@ std::unique_ptr<Shape> finished(XSControl_Reader& reader, std::string unit, CadF
     return nullptr;
   }
   if (faces.Extent() > kMostFaces) return fault = too_many_faces(faces.Extent()), nullptr;
+  constexpr double kWidestGap = 1.0;  // [mm]
+  if (const double gap = gap_at_edges(whole); !(gap < kWidestGap)) {
+    std::ostringstream text;
+    text << "has an edge that lies " << 1e-3 * gap << " m beside the face that it bounds";
+    fault = {text.str(), "is the file damaged? export it again"};
+    return nullptr;
+  }
   return std::make_unique<Shape>(whole, std::move(unit), reader.WS());
 }
 

@@ -465,9 +465,17 @@ TEST_F(Cad, RefusesPointsThatLieNowhere) {
   }
 }
 
-/// Its triangles would take minutes.
+/// Their triangles would take minutes, or miss what the edges cut away.
+TEST_F(Cad, RefusesEdgesBesideTheirFaces) {
+  for (const char* middle : {"(0.,0.,65536)", "(0.,0.,85.)", "(0.,-70.,80.)"})
+    EXPECT_THAT(refusal(replaced(sample("nose.step"), "(0.,0.,80.)", middle), "nose.step"),
+                HasSubstr("m beside the face that it bounds"))
+        << middle;
+}
+
 TEST_F(Cad, RefusesWhatIsHigherThanAnyRail) {
-  EXPECT_THAT(refusal(replaced(sample("nose.step"), "(0.,0.,80.)", "(0.,0.,65536)"), "nose.step"), HasSubstr("m high"));
+  const std::string metres = "SI_UNIT(.MILLI.,.METRE.)";
+  EXPECT_THAT(refusal(replaced(sample("nose.step"), metres, "SI_UNIT($,.METRE.)"), "nose.step"), HasSubstr("m high"));
 }
 
 /// Waits for what the other end never says.
