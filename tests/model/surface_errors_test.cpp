@@ -34,7 +34,7 @@ SurfaceErrors sample(std::size_t places, std::size_t draws) {
 }
 
 TEST(SurfaceErrors, LinesHoldThem) {
-  for (const auto& [places, draws] : {std::pair{2u, 1u}, {50u, 7u}, {271u, 64u}}) {
+  for (const auto& [places, draws] : {std::pair{2u, 1u}, std::pair{50u, 7u}, std::pair{271u, 64u}}) {
     const SurfaceErrors errors = sample(places, draws);
     std::vector<std::string> lines = to_lines(errors);
     for (const std::string& line : lines) EXPECT_LE(line.size(), 200u);
@@ -100,8 +100,8 @@ TEST(SurfaceErrors, DamagedLinesAreRefused) {
 TEST(SurfaceErrors, NearestStationsAlsoRoundAWheel) {
   SurfaceErrors errors = sample(2, 5);
   errors.u = {-3.0, -1.0, 0.5, 2.0, 3.1};
-  EXPECT_THAT(nearest_draws(errors, 3.0, 3, 2.0 * std::numbers::pi), ElementsAre(4, 0, 3));
-  EXPECT_THAT(nearest_draws(errors, 3.0, 3, 0.0), ElementsAre(4, 3, 2));
+  EXPECT_THAT(nearest_draws(errors, 3.0, 3, 2.0 * std::numbers::pi), ElementsAre(4u, 0u, 3u));
+  EXPECT_THAT(nearest_draws(errors, 3.0, 3, 0.0), ElementsAre(4u, 3u, 2u));
   EXPECT_EQ(nearest_draws(errors, 0.0, 9, 0.0).size(), 5u);
 }
 
