@@ -48,7 +48,7 @@ struct SurfaceSpec {
   /// at the top. Negative: a ring with the material outside, in which a wheel runs; its axle lies above. Slices and
   /// defects do not fit it.
   double roller_radius = 0.0;
-  std::shared_ptr<const SurfaceErrors> errors;  ///< of an imported scan (surface_errors.hpp); may be missing
+  std::shared_ptr<const SurfaceErrors> errors = {};  ///< of an imported scan (surface_errors.hpp); may be missing
 };
 
 }  // namespace treadmark
