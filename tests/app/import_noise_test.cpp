@@ -10,7 +10,6 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "treadmark/app/import/scan_surface.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/surface_errors.hpp"
@@ -34,7 +34,7 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-constexpr double kPi = std::numbers::pi, kRadius = 0.46;
+constexpr double kScannedRadius = 0.46;
 
 io::RunResult run_text(const std::string& text, const fs::path& folder) {
   return run_cases(io::parse_case_text(text, folder / "case.toml"));
@@ -51,7 +51,7 @@ std::string case_text(const std::string& wheel, const std::string& rail, const s
 }
 
 std::vector<Vec2> wheel_points() {
-  const NaturalSurface wheel = create_natural({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
+  const NaturalSurface wheel = create_natural({Body::wheel, kScannedRadius, StandardProfile{"S1002"}, {}});
   std::vector<double> y, h;
   for (double at = 50e-3; at >= -28e-3; at -= 0.2e-3) y.push_back(at);
   h.resize(y.size());
@@ -59,7 +59,7 @@ std::vector<Vec2> wheel_points() {
   out.z = h;
   section_heights(*wheel.surface, Body::wheel, 0.0, y, out);
   std::vector<Vec2> points;
-  for (std::size_t k = 0; k < y.size(); ++k) points.emplace_back(y[k], h[k] - kRadius);
+  for (std::size_t k = 0; k < y.size(); ++k) points.emplace_back(y[k], h[k] - kScannedRadius);
   return points;
 }
 
@@ -97,7 +97,7 @@ TEST(NoiseOfScans, OfPressureIsWhatRipplesMakeOfIt) {
         squares[k] += std::pow(moved.cases[k].patches.at(0).pmax - base.cases[k].patches.at(0).pmax, 2) / kPhases;
     }
     NaturalSurface rail = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}}),
-                   wheel = create_natural({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
+                   wheel = create_natural({Body::wheel, kScannedRadius, StandardProfile{"S1002"}, {}});
     EXPECT_FALSE(NoiseOfResults(rail, wheel).any());
     wheel.spec.errors = errors;
     const NoiseOfResults noise(rail, wheel);
@@ -137,7 +137,7 @@ class ImportedNoise : public ::testing::Test {
     request.scans = {path("cloud.ply")};
     request.outputs = {path(output)};
     request.settings = settings;
-    request.settings.placement.nominal_radius_mm = body == Body::wheel ? 1e3 * kRadius : 0.0;
+    request.settings.placement.nominal_radius_mm = body == Body::wheel ? 1e3 * kScannedRadius : 0.0;
     return import_scan(request);
   }
 
