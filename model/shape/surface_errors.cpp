@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 
 namespace treadmark {
 namespace {
@@ -59,7 +61,7 @@ class Numbers {
     if (!(value >= static_cast<double>(least) && value <= static_cast<double>(values_.size())) ||
         value != std::floor(value))
       refuse_lines("they do not hold as much as they say");
-    return static_cast<std::size_t>(value);
+    return to_whole<std::size_t>(value);
   }
 
  private:
@@ -131,7 +133,8 @@ std::vector<std::string> to_lines(const SurfaceErrors& errors) {
   }
   for (std::size_t k = 0; k < errors.draws.size(); ++k) {
     put(fmt::format("{:.6f}", errors.u[k]));
-    for (const double error : errors.draws[k]) put(fmt::format("{}", std::llround(kDrawsPerMetre * error)));
+    for (const double error : errors.draws[k])
+      put(fmt::format("{}", to_whole<std::int64_t>(std::round(kDrawsPerMetre * error))));
   }
   out.push_back(std::move(line));
   return out;
