@@ -28,6 +28,7 @@ NaturalSurface add_offsets(const NaturalSurface& natural, const OffsetMap& map) 
   out.note = natural.note;
   out.spec.body = natural.spec.body;
   out.spec.nominal_radius = natural.spec.nominal_radius;
+  out.spec.errors = natural.spec.errors;
   out.spec.shape = SliceSet{};  // known no longer: resampled from the surface
   return out;
 }

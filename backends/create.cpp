@@ -71,6 +71,7 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
   // what lies below is known, but not what was added: it is resampled from the surface
   natural.spec.body = content.base.body;
   natural.spec.nominal_radius = content.base.nominal_radius;
+  natural.spec.errors = content.base.errors;
   natural.spec.shape = SliceSet{};
   return natural;
 }

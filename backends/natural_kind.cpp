@@ -118,6 +118,7 @@ void NaturalKind::write_offsets(const std::filesystem::path& file, const Natural
   offset::OffsetFile content;
   content.offsets = offsets_over(resampling, *below.surface, below.region_uy).offsets;
   content.base = std::move(below.spec);
+  content.base.errors = natural.spec.errors;
   content.notes = notes;
   if (sampled != nullptr) *sampled = resampling.sampled();
   offset::write_vdb(file, content);

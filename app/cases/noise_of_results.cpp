@@ -11,6 +11,7 @@
 #include "treadmark/analysis/measured/patch_spread.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/line.hpp"
 #include "treadmark/model/shape/profile_scatter.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
 
@@ -21,29 +22,61 @@ const Profile* noisy_profile(const NaturalSurface& natural) {
   return profile != nullptr && measured::is_smoothed(*profile) ? profile : nullptr;
 }
 
+namespace {
+
+constexpr std::size_t kNearestDraws = 8;
+
+/// Where on a body a patch lies along it: x of a rail [m], angle of a wheel [rad].
+double along(const io::PatchResult& patch, const Pose& X_TB, Body body) {
+  const Vec3 at = X_TB.inverse().apply({patch.x_tr, patch.y_tr, patch.z_tr});
+  return body == Body::wheel ? std::atan2(at.x(), at.z()) : at.x();
+}
+
+}  // namespace
+
 NoiseOfResults::Known NoiseOfResults::known_of(const NaturalSurface& natural) {
   Known side;
-  const Profile* profile = noisy_profile(natural);
-  if (profile == nullptr) return side;
-  side.scatter = profile->scatter;
-  side.draws.emplace(*profile);
-  side.y = profile->y;
-  side.z = profile->z;
+  if (const Profile* profile = noisy_profile(natural)) {
+    side.scatter = profile->scatter;
+    side.draws.emplace(*profile);
+    side.s = profile->scatter->s;
+    side.y = profile->y;
+    side.z = profile->z;
+  } else if (natural.spec.errors) {
+    side.surface = natural.spec.errors;
+    side.s = arc_lengths(*side.surface);
+    side.y = side.surface->y;
+    side.z = side.surface->z;
+  }
   return side;
 }
 
 NoiseOfResults::NoiseOfResults(const NaturalSurface& rail, const NaturalSurface& wheel)
     : rail_(known_of(rail)), wheel_(known_of(wheel)) {}
 
+std::size_t NoiseOfResults::Known::draws_count() const {
+  return draws ? draws->size() : surface ? std::min(kNearestDraws, surface->draws.size()) : 0;
+}
+
 double NoiseOfResults::Known::arc_at(double y_at, double z_at) const {
   std::size_t nearest = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.size(); ++i)
     if (const double d = std::hypot(y[i] - y_at, z[i] - z_at); d < least) least = d, nearest = i;
-  return scatter->s[nearest];
+  return s[nearest];
 }
 
-io::PatchResult::Noise NoiseOfResults::of_patch(const io::WheelRailCase& input, const io::PatchResult& patch) const {
+std::string NoiseOfResults::Known::in_words(const std::string& name) const {
+  if (scatter)
+    return fmt::format("the {}'s points scatter by {:.2g} mm at steps of {:.2g} mm", name, kMilli * scatter->white,
+                       kMilli * scatter->step);
+  const ErrorSize size = size_of(*surface);
+  return fmt::format("the {}, a scan, is known to {:.2g} um (up to {:.2g} um off)", name, kMicro * size.rms,
+                     kMicro * size.largest);
+}
+
+io::PatchResult::Noise NoiseOfResults::of_patch(const io::WheelRailCase& input, const io::CaseResult& result,
+                                                const io::PatchResult& patch) const {
   const Grid2& grid = patch.fields.grid;
   measured::PatchRows rows;
   rows.width = grid.dy;
@@ -58,18 +91,32 @@ io::PatchResult::Noise NoiseOfResults::of_patch(const io::WheelRailCase& input, 
   }
   // s of the contact grows with y; the points of a wheel run the other way, and a left-hand side is a mirror image
   const double side = input.side == Side::left ? -1.0 : 1.0;
-  std::vector<std::vector<double>> errors;
-  const auto add = [&](const NoiseOfResults::Known& body, double y, double z, double direction) {
-    if (!body.draws) return;
+  const std::size_t draws = std::max(rail_.draws_count(), wheel_.draws_count());
+  std::vector<std::vector<double>> errors(draws, std::vector<double>(rows.gap.size(), 0.0));
+  const auto add = [&](const NoiseOfResults::Known& body, const std::optional<double>& u, double period, double y,
+                       double z, double direction) {
+    if (!body.known()) return;
     const double middle = body.arc_at(side * y, z);
-    errors.resize(body.draws->size(), std::vector<double>(rows.gap.size(), 0.0));
-    for (std::size_t draw = 0; draw < errors.size(); ++draw)
-      for (int iy = 0; iy < grid.ny; ++iy)
+    const std::size_t own = body.draws_count();
+    const std::vector<std::size_t> near =
+        body.surface ? nearest_draws(*body.surface, u.value_or(0.0), own, period) : std::vector<std::size_t>();
+    for (std::size_t draw = 0; draw < draws; ++draw)
+      for (int iy = 0; iy < grid.ny; ++iy) {
+        const double s = middle + side * direction * (grid.y(iy) - patch.reference_s);
+        // the other body may have more draws: errors are as probable the other way round
+        const double sign = draw / own % 2 == 0 ? 1.0 : -1.0;
         errors[draw][static_cast<std::size_t>(iy)] +=
-            body.draws->at(draw, middle + side * direction * (grid.y(iy) - patch.reference_s));
+            sign * (body.draws ? body.draws->at(draw % own, s)
+                               : BrokenLine(body.s, body.surface->draws[near[draw % own]]).held_at(s));
+      }
   };
-  add(rail_, patch.y_rail, patch.z_rail, 1.0);
-  add(wheel_, patch.y_wheel, patch.z_wheel, -1.0);
+  std::optional<double> on_rail, on_wheel;
+  if (result.bodies) {
+    on_rail = along(patch, result.bodies->X_TS, Body::rail);
+    on_wheel = along(patch, result.bodies->X_TA, Body::wheel);
+  }
+  add(rail_, on_rail, 0.0, patch.y_rail, patch.z_rail, 1.0);
+  add(wheel_, on_wheel, 2.0 * kPi, patch.y_wheel, patch.z_wheel, -1.0);
   const measured::PatchSpread spread = measured::patch_spread(rows, errors);
   return {spread.pressure * patch.pmax, spread.area * patch.ncon * grid.cell_area(),
           input.vertical_force_prescribed ? 0.0 : spread.force * patch.fn, spread.shift};
@@ -81,20 +128,17 @@ void NoiseOfResults::add(const io::WheelRailCase& input, io::CaseResult& result)
   for (std::size_t k = 0; k < result.patches.size(); ++k) {
     io::PatchResult& patch = result.patches[k];
     if (patch.fields.gap.size() != patch.fields.grid.size() || !(patch.pmax > 0.0)) continue;
-    const io::PatchResult::Noise noise = of_patch(input, patch);
+    const io::PatchResult::Noise noise = of_patch(input, result, patch);
     patch.noise = noise;
     if (!(noise.pmax > kLarge * patch.pmax)) continue;
-    std::string points;
+    std::string why;
     for (const auto& [name, body] : {std::pair{"wheel", &wheel_}, std::pair{"rail", &rail_}})
-      if (body->scatter)
-        points +=
-            fmt::format("{}the {}'s points scatter by {:.2g} mm at steps of {:.2g} mm", points.empty() ? "" : ", ",
-                        name, kMilli * body->scatter->white, kMilli * body->scatter->step);
+      if (body->known()) why += (why.empty() ? "" : ", ") + body->in_words(name);
     result.remarks.push_back(
         {RemarkKind::noisy_profile, static_cast<int>(k) + 1,
          fmt::format("the largest pressure is known to +-{:.2g} % (standard deviation): {}; measure "
                      "with closer points or less noise, or take the mean of several measurements",
-                     100.0 * noise.pmax / patch.pmax, points)});
+                     100.0 * noise.pmax / patch.pmax, why)});
   }
 }
 

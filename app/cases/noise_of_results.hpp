@@ -2,12 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 
 namespace treadmark::app {
 
@@ -19,9 +23,9 @@ class NoiseOfResults {
  public:
   NoiseOfResults(const NaturalSurface& rail, const NaturalSurface& wheel);
 
-  /// Whether a profile of the pair was smoothed by its noise.
-  bool any() const { return rail_.draws || wheel_.draws; }
-  /// Adds to each patch the uncertainty that the noise of its profiles leaves, and a remark where it is large. Patches
+  /// Whether a profile of the pair was smoothed by its noise, or one of its surfaces imported with its errors.
+  bool any() const { return rail_.known() || wheel_.known(); }
+  /// Adds to each patch the uncertainty that noise leaves of its surfaces, and a remark where it is large. Patches
   /// without fields stay as they are.
   void add(const io::WheelRailCase& input, io::CaseResult& result) const;
 
@@ -29,12 +33,17 @@ class NoiseOfResults {
   struct Known {
     std::shared_ptr<const ProfileScatter> scatter;
     std::optional<measured::ErrorDraws> draws;
-    std::vector<double> y, z;  ///< points [m]
+    std::shared_ptr<const SurfaceErrors> surface;
+    std::vector<double> s, y, z;  ///< points, or places across, with their arc lengths [m]
+    bool known() const { return draws || surface; }
+    std::size_t draws_count() const;
     /// Arc length of the nearest point [m].
     double arc_at(double y_at, double z_at) const;
+    std::string in_words(const std::string& name) const;
   };
   static Known known_of(const NaturalSurface& natural);
-  io::PatchResult::Noise of_patch(const io::WheelRailCase& input, const io::PatchResult& patch) const;
+  io::PatchResult::Noise of_patch(const io::WheelRailCase& input, const io::CaseResult& result,
+                                  const io::PatchResult& patch) const;
 
   Known rail_, wheel_;
 };

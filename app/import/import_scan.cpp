@@ -6,10 +6,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/app/import/fill_report.hpp"
 #include "treadmark/app/import/find_place.hpp"
 #include "treadmark/app/import/read_map.hpp"
@@ -18,11 +24,15 @@
 #include "treadmark/app/surfaces/written_surface.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
+#include "treadmark/scans/fit/half_fits.hpp"
 #include "treadmark/scans/fit/section_levels.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
@@ -137,19 +147,73 @@ std::optional<scans::MeasuredSections> sections_to_keep(const PlacedScan& scan, 
   return found;
 }
 
+/// Moves the points of sections onto the curves that they stand for, and says by how much (rms) [m]; nothing where all
+/// are exact.
+std::optional<double> smooth_sections(SliceSet& slices) {
+  parallel_for(slices.profiles.size(), [&](std::size_t k) {
+    Profile smooth = measured::smoothed_by_noise(slices.profiles[k]);
+    if (measured::is_smoothed(smooth)) slices.profiles[k] = std::move(smooth);
+  });
+  double squares = 0.0;
+  for (const Profile& profile : slices.profiles)
+    if (measured::is_smoothed(profile)) squares += std::pow(profile.scatter->removed, 2);
+  if (squares == 0.0) return std::nullopt;
+  return std::sqrt(squares / static_cast<double>(slices.profiles.size()));
+}
+
+/// What noise leaves uncertain of smoothed sections, of those nearest to stations.
+std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, const scans::FittedBand& fitted,
+                                                        const std::vector<double>& stations) {
+  constexpr double kPlaces = 0.5e-3;  // across [m]
+  // of a section amid others when they are control points of cubic splines, one, four and one sixths of which count
+  const double mean = slices.approximate_u ? std::sqrt(18.0) / 6.0 : 1.0;
+  auto out = std::make_shared<SurfaceErrors>();
+  const Profile section =
+      scans::section_profile(fitted, slices.body == Body::wheel ? fitted.band.radius : 0.0, kPlaces, slices.name);
+  out->y = section.y;
+  out->z = section.z;
+  std::vector<std::size_t> chosen;
+  for (const double a : stations) {
+    const double u = fitted.u_at(a);
+    const auto distance = [&](double other) {
+      return std::fabs(slices.body == Body::wheel ? wrap_angle(other - u) : other - u);
+    };
+    chosen.push_back(static_cast<std::size_t>(std::ranges::min_element(slices.u, {}, distance) - slices.u.begin()));
+  }
+  std::ranges::sort(chosen);
+  const auto repeated = std::ranges::unique(chosen);
+  chosen.erase(repeated.begin(), repeated.end());
+  for (const std::size_t k : chosen) {
+    const Profile& profile = slices.profiles[k];
+    if (!measured::is_smoothed(profile)) continue;
+    const measured::ErrorDraws draws(profile);
+    out->u.push_back(slices.u[k]);
+    std::vector<double>& draw = out->draws.emplace_back();
+    for (std::size_t i = 0; i < out->y.size(); ++i) {
+      std::size_t nearest = 0;
+      double least = kInfinity;
+      for (std::size_t j = 0; j < profile.y.size(); ++j)
+        if (const double d = std::hypot(profile.y[j] - out->y[i], profile.z[j] - out->z[i]); d < least)
+          least = d, nearest = j;
+      draw.push_back(mean * draws.at(out->u.size() % draws.size(), profile.scatter->s[nearest]));
+    }
+  }
+  return out->draws.empty() ? nullptr : out;
+}
+
 /// Lines about the import that the surface file itself carries.
 std::vector<std::string> summary_lines(const io::ImportReport& report) {
   std::vector<std::string> out;
   out.push_back(fmt::format("scanned {}, imported by Treadmark {}", body_name(report.body), report.version));
   for (const auto& input : report.inputs) out.push_back(fmt::format("from {} (SHA-256 {})", input.file, input.sha256));
   out.push_back(fmt::format("unit of the scan: {} (from {}); this file: millimetres", report.unit, report.unit_from));
-  out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; error of the surface by points held out {}",
-                            report.points_read, report.points_used, 1e6 * report.noise,
-                            io::surface_error_text(report)));
+  out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; error of the surface {}", report.points_read,
+                            report.points_used, 1e6 * report.noise, io::surface_error_text(report)));
   if (report.sections)
-    out.push_back(fmt::format(
-        "the {} sections are the scan's own points: smooth them where they are used (smoothing_lambda_mm3, SMOOTH)",
-        report.sections->count));
+    out.push_back(fmt::format("the {} sections are the scan's own points{}", report.sections->count,
+                              report.sections->smoothed
+                                  ? ", smoothed by their noise"
+                                  : ": smooth them where they are used (smoothing_lambda_mm3, SMOOTH)"));
   if (report.body == Body::wheel) out.push_back(fmt::format("nominal radius: {:.4f} mm", 1e3 * report.nominal_radius));
   out.push_back(fmt::format("{}; holes up to {:.1f} mm filled", report.zero, 1e3 * report.hole_limit));
   for (std::string& line : out)
@@ -182,7 +246,9 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   const bool map =
       request.scans.size() == 1 && settings.map.values == "deviations" && io::is_deviation_map(request.scans.front());
   constexpr std::size_t kSteps = 6, kOfPlacing = 2;  // a map has neither stray points nor a placement
-  StepClock clock(report, progress, (map ? kSteps : kSteps + kOfPlacing) + (request.truth.empty() ? 0 : 1));
+  StepClock clock(
+      report, progress,
+      (map ? kSteps : kSteps + kOfPlacing) + (settings.fit.errors ? 1 : 0) + (request.truth.empty() ? 0 : 1));
   const CancellationScope scope(progress.stop);
   clock.begin("reading");
   std::optional<Truth> truth;
@@ -202,6 +268,8 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
   const double finest =
       settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : std::max(kFinest, 0.9 * report.spacing);
+  const bool errors_of_fit = settings.fit.errors && !sections;
+  std::optional<std::array<scans::Section, 2>> halves;  // the sections that halves of the points call for
   scan.placement.section = start_section(scan);
   scans::Projection projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section,
                                                 {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
@@ -211,6 +279,7 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
     const scans::Section section = scans::refine_section(projection.points, projection.band, finest, &moved);
     constexpr double kMatters = 1e-8;
     if (moved > kMatters) {
+      if (errors_of_fit) halves = scans::half_sections(projection.points, projection.band, finest);
       scan.placement.section = section;
       projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, section,
                                   {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
@@ -255,6 +324,13 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
     scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3::Zero(), rotation_y(u_zero)};
   else
     scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3(u_zero, 0.0, 0.0), Mat3::Identity()};
+  std::shared_ptr<const SurfaceErrors> errors;
+  if (settings.fit.errors) clock.begin("errors");
+  const std::vector<double> stations = scans::error_stations(projection.band, damage);
+  if (errors_of_fit)
+    errors = std::make_shared<const SurfaceErrors>(scans::half_fit_errors(fitted, projection.points, noise, how_fit,
+                                                                          halves ? &*halves : nullptr, stations,
+                                                                          scan.placement.nominal_radius, inner));
   fill_report({scan, projection, noise, coverage, fit, fitted, damage, sections ? &*sections : nullptr}, report);
 
   std::optional<SliceSet> kept;
@@ -265,8 +341,11 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
     kept = scans::sections_to_slices(from_zero, scan.points, scan.placement.X_CS, scan.body,
                                      scan.placement.nominal_radius, settings.fit.sections_along == "approximate",
                                      scan.body == Body::wheel ? "measured wheel" : "measured rail");
+    if (settings.fit.smoothing == "auto") report.sections->smoothed = smooth_sections(*kept);
+    if (settings.fit.errors && report.sections->smoothed) errors = errors_of_sections(*kept, fitted, stations);
   }
-  const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical, kept ? &*kept : nullptr};
+  if (errors) report.errors = size_of(*errors);
+  const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical, kept ? &*kept : nullptr, errors};
   for (const auto& file : request.outputs) check_holes(file, whole);
   if (truth) {
     clock.begin("truth");
@@ -277,6 +356,10 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   StagedOutputs staged;
   for (const auto& file : request.outputs) {
     clock.tell(file.filename().string());
+    if (errors && io::extension_of(file) == ".stl")
+      report.warnings.push_back(fmt::format(
+          "{} cannot hold how well the surface is known, and results that use it will not say so: write .ply",
+          file.filename().string()));
     report.outputs.push_back(write_output(file, staged.place(file), whole, settings, summary));
   }
   staged.commit();

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/mesh/make.hpp"
@@ -54,10 +55,11 @@ void refuse_holes(const FittedScan& fit, const std::filesystem::path& file, cons
                           std::ceil(1e3 * hole.diameter)));
 }
 
-/// What triangles and offsets of measured sections are made of.
+/// What triangles and offsets of measured sections are made of, unless their noise has smoothed them.
 SliceSet smoothed_sections(const SliceSet& sections, const io::ImportSettings& settings) {
   SliceSet out = sections;
-  for (Profile& profile : out.profiles) profile.smoothing.strength = 1e-9 * settings.fit.smoothing_lambda_mm3;
+  for (Profile& profile : out.profiles)
+    if (!measured::is_smoothed(profile)) profile.smoothing.strength = 1e-9 * settings.fit.smoothing_lambda_mm3;
   return out;
 }
 
@@ -152,6 +154,7 @@ void write_offset_file(const std::filesystem::path& file, const FittedScan& fit,
   spec.body = fit.scan.body;
   spec.nominal_radius = radius_of(fit);
   spec.shape = slices_of(fit, settings);
+  spec.errors = fit.errors;
   SurfaceSpec base;
   base.body = fit.scan.body;
   base.nominal_radius = radius_of(fit);
@@ -323,18 +326,21 @@ io::ImportReport::Output written(const std::filesystem::path& file, const std::f
                                  const std::vector<std::string>& summary, double share) {
   io::ImportReport::Output out;
   out.file = file.filename().string();
+  const std::vector<std::string> errors = fit.errors ? to_lines(*fit.errors) : std::vector<std::string>();
   try {
     if (io::is_slices_file(file)) {
       out.kind = "slices";
       const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings, share);
       check_angles(slices, file);
       out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
-      out.bytes = io::write_slices(place, slices, summary);
+      out.bytes = io::write_slices(place, slices, summary, errors);
     } else if (io::is_mesh_file(file)) {
       out.kind = "triangles";
       const TriangleMesh mesh = triangles_of(fit, settings);
       out.details = fmt::format("{} triangles over {} vertices", mesh.triangles.size(), mesh.vertices.size());
-      io::write_mesh(place, mesh, summary);
+      std::vector<std::string> comments = summary;
+      comments.insert(comments.end(), errors.begin(), errors.end());
+      io::write_mesh(place, mesh, comments);
     } else {
       out.kind = "offsets";
       out.details = fmt::format("over the {} section", settings.fit.base);

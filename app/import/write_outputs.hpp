@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "treadmark/app/import/find_place.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 #include "treadmark/scans/cleaning/coverage.hpp"
 #include "treadmark/scans/fit/band_surface.hpp"
 
@@ -18,8 +20,9 @@ struct FittedScan {
   const scans::FittedBand& fitted;
   const scans::BandPoints& points;
   const scans::Coverage& coverage;
-  double noise = 0.0;                  ///< [m]
-  const SliceSet* sections = nullptr;  ///< measured ones that are the surface; not smoothed
+  double noise = 0.0;                                ///< [m]
+  const SliceSet* sections = nullptr;                ///< measured ones that are the surface
+  std::shared_ptr<const SurfaceErrors> errors = {};  ///< not known where null
 };
 
 /// Refuses outputs that mean nothing or cannot hold the surface, before any work. Errors: Error(configuration).

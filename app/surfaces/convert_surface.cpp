@@ -29,6 +29,7 @@
 #include "treadmark/io/results/write_vtk.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/shape/body_name.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -106,6 +107,8 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
   std::filesystem::path place = own ? own->path() / output.filename() : staged.place(output);
   if (view) place.replace_extension(".ply");
   std::string to_view;
+  const std::shared_ptr<const SurfaceErrors>& errors = out.source.spec.errors;
+  const std::vector<std::string> lines = errors ? to_lines(*errors) : std::vector<std::string>();
   const auto write = [&] {
     if (cad) {
       out.kind = "CAD";
@@ -119,11 +122,11 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
     } else if (triangles) {
       out.kind = "triangles";
       const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);
-      io::write_mesh(place, mesh);
+      io::write_mesh(place, mesh, extension == ".stl" ? std::vector<std::string>() : lines);
       if (view) to_view = io::triangles_to_vtp(mesh);
     } else if (slices) {
       out.kind = "slices";
-      io::write_slices(place, to_slices(out.source, wanted, &sampled));
+      io::write_slices(place, to_slices(out.source, wanted, &sampled), {}, lines);
     } else {
       out.kind = "offsets";
       if (added)
@@ -135,6 +138,8 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
   naming(output, place, [&] {
     const auto start = Clock::now();
     write();
+    if (errors && (extension == ".stl" || view || cad || splines))
+      sampled.note += "what scatter of the scan leaves uncertain of the surface has no place in such a file. ";
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     // measured on the surface that a reader of the file gets
     io::SurfaceSource again;

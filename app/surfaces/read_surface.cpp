@@ -25,6 +25,7 @@
 #include "treadmark/io/cases/shape_keys.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
+#include "treadmark/io/files/surface_errors.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -130,6 +131,15 @@ SliceSet slices_of(const io::GeometryFile& file, Body body, const SourcePosition
   SliceSet slices = io::read_slices(file.file, body, file.options, where);
   slices.open_seam = file.open_seam;
   return slices;
+}
+
+/// As the keys of the shape change the surface.
+std::shared_ptr<const SurfaceErrors> errors_of(const io::GeometryFile& file, Body body) {
+  const io::ProfileOptions& how = file.options;
+  const auto errors = io::read_surface_errors(file.file);
+  if (!errors || (how.scale == 1.0 && how.mirror_y != 1 && how.mirror_z != 1)) return errors;
+  return std::make_shared<const SurfaceErrors>(
+      changed(*errors, how.scale, how.mirror_y == 1, how.mirror_z == 1, body == Body::wheel));
 }
 
 decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body body, double radius,
@@ -244,6 +254,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
       spec.shape = slices_of(*file, body, source.where);
     else
       spec.shape = placed_profile(*file, body, source.where, note);
+    spec.errors = errors_of(*file, body);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
     if (!library_body(standard->name)) {
       const std::string near = nearest_library_name(standard->name);

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +23,7 @@
 #include "treadmark/core/number_text.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/to_whole.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 
 namespace treadmark::offset {
 
@@ -267,6 +269,7 @@ Metadata to_metadata(const SparseOffsets& offsets, const SurfaceSpec& base) {
   m.emplace("nominal_radius", number(wheel ? base.nominal_radius : 0.0));
   m.emplace("frame", list({f.u0, f.y0, f.du, f.dy, static_cast<double>(f.turn), f.first, f.last}));
   m.emplace("tolerance", number(offsets.tolerance));
+  if (base.errors) m.emplace(kSurfaceErrors, fmt::format("{}", fmt::join(to_lines(*base.errors), "\n")));
   if (const auto* points = std::get_if<Profile>(&base.shape))
     write_shape(*points, m);
   else if (const auto* standard = std::get_if<StandardProfile>(&base.shape))
@@ -304,6 +307,16 @@ void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec
   f.first = frame[5], f.last = frame[6];
   if (f.turn != frame[4] || (f.turn > 0 && std::fabs(f.turn * f.du - 2.0 * std::numbers::pi) > 1e-9))
     in.refuse("the voxels in the VDB file do not fill the turn");
+  if (const auto errors = metadata.find(std::string(kSurfaceErrors)); errors != metadata.end()) {
+    std::vector<std::string> lines;
+    std::istringstream text(errors->second);
+    for (std::string line; std::getline(text, line);) lines.push_back(line);
+    try {
+      base.errors = errors_of_lines(lines);
+    } catch (const Error& error) {
+      in.refuse(error.message());
+    }
+  }
   const std::string& kind = in.text("base");
   if (kind == "points")
     base.shape = read_points(in, f.body);

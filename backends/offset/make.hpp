@@ -61,7 +61,7 @@ std::size_t active_count(const SparseOffsets& offsets);
 /// nominal radius and the base (a constant section: standard profile, arcs or points).
 struct OffsetFile {
   std::shared_ptr<const SparseOffsets> offsets;
-  SurfaceSpec base;      ///< without defects
+  SurfaceSpec base;      ///< without defects; with the errors of the surface over it
   std::string notes{};   ///< for people: kept in the file as its entry 'notes'; not read back
   std::string remark{};  ///< of reading: a sentence about what another program changed; may be empty
 };

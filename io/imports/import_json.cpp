@@ -205,6 +205,7 @@ void fit(const File& file, Report& report) {
   file.value("held_out_points", report.held_out_points);
   file.number("held_out_rms_mm", report.held_out_rms, kMilli);
   file.number("held_out_error_mm", report.held_out_error, kMilli);
+  optional(file, "surface_errors", report.errors, kRows);
   file.number("histogram_range_mm", report.residual_range, kMilli);
   file.value("histogram", report.residual_histogram);
   optional(file, "residuals", report.residuals, [](const File& node, auto& residuals) {

@@ -14,6 +14,7 @@
 #include "treadmark/core/pose.hpp"
 #include "treadmark/model/rows.hpp"
 #include "treadmark/model/shape/profile.hpp"
+#include "treadmark/model/shape/surface_errors.hpp"
 
 namespace treadmark::io {
 
@@ -125,18 +126,20 @@ struct ImportReport {
   double noise = 0.0;                              ///< standard deviation of the points [m]
   double area = 0.0, hole_area = 0.0, hole_limit = 0.0;
   std::vector<Hole> holes;  ///< largest first
-  // points in cross-sections that became slices as they are; the fit below then serves pictures, damage and zero alone
+  // points in cross-sections that became slices; the fit below then serves pictures, damage and zero alone
   struct Sections {
     std::size_t count = 0, fewest_points = 0, most_points = 0;
     double least_gap = 0.0, widest_gap = 0.0, spread = 0.0;  ///< between them; of their points along the band [m]
-    double smoothing = 0.0;                                  ///< lambda, of triangles and offsets made of them [m^3]
+    double smoothing = 0.0;          ///< lambda, of triangles and offsets made of sections not smoothed by noise [m^3]
+    std::optional<double> smoothed;  ///< by noise: root mean square of what points were moved by [m]
   };
   std::optional<Sections> sections;
   // fit
   std::vector<Level> levels;
   std::size_t fitted_points = 0, held_out_points = 0;
   double residual_rms = 0.0, residual_max = 0.0, held_out_rms = 0.0, held_out_error = 0.0;
-  std::vector<Damage> damage;  ///< largest first
+  std::optional<ErrorSize> errors;  ///< of the surface, by fits of halves of the points or by the noise of sections
+  std::vector<Damage> damage;       ///< largest first
   double damage_threshold = 0.0;
   double y_min = 0.0, y_max = 0.0, u_min = 0.0, u_max = 0.0;
   bool closed = false;  ///< a whole wheel
@@ -209,5 +212,7 @@ template <>
 std::span<const Column<io::ImportReport::Distances>> columns();
 template <>
 std::span<const Column<io::ImportReport::Sections>> columns();
+template <>
+std::span<const Column<ErrorSize>> columns();
 
 }  // namespace treadmark

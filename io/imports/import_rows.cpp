@@ -92,7 +92,12 @@ constexpr Column<Kept> kKept[] = {
     {"least_gap_mm", kMm, "", of<&Kept::least_gap>()},
     {"widest_gap_mm", kMm, "", of<&Kept::widest_gap>()},
     {"spread_mm", kMm, "", of<&Kept::spread>()},
-    {"smoothing_lambda_mm3", kMm3, "", of<&Kept::smoothing>()}};
+    {"smoothing_lambda_mm3", kMm3, "", of<&Kept::smoothing>()},
+    {"smoothed_um", kUm, "", of<&Kept::smoothed>()}};
+
+constexpr Column<ErrorSize> kErrors[] = {
+    {"rms_um", kUm, "", of<&ErrorSize::rms>()},
+    {"largest_um", kUm, "", of<&ErrorSize::largest>()}};
 
 }  // namespace
 
@@ -105,6 +110,7 @@ template <> std::span<const Column<Output>> columns() { return kOutputs; }
 template <> std::span<const Column<Step>> columns() { return kSteps; }
 template <> std::span<const Column<Distances>> columns() { return kDistances; }
 template <> std::span<const Column<Kept>> columns() { return kKept; }
+template <> std::span<const Column<ErrorSize>> columns() { return kErrors; }
 // clang-format on
 
 }  // namespace treadmark

@@ -87,19 +87,23 @@ std::vector<ImportKey> listed_keys() {
             at(&S::fit, &S::Fit::follow));
   list.number("fit.held_out", {{}, 0.0, 0.5}, "part of the points that the fit does not see, which judge it",
               at(&S::fit, &S::Fit::held_out));
+  list.flag("fit.errors", "fit each half of the points, too, which tells results how well the surface is known",
+            at(&S::fit, &S::Fit::errors));
   list.number("fit.tolerance_um", kNotNegative,
               "changes along the band below this need no slices of their own; 0: a fiftieth of the noise, 0.02 to 0.5",
               at(&S::fit, &S::Fit::tolerance_um));
-  list.word(
-      "fit.sections", {"auto", "keep", "fit"},
-      "points that lie in cross-sections: keep (slices with their own points) or fit; auto: keep those with points at "
-      "the same places across",
-      at(&S::fit, &S::Fit::sections));
+  list.word("fit.sections", {"auto", "keep", "fit"},
+            "points that lie in cross-sections: keep (each becomes a slice) or fit; auto: keep those with points at "
+            "the same places across",
+            at(&S::fit, &S::Fit::sections));
   list.word("fit.sections_along", {"approximate", "interpolate"},
             "splines along the band through kept sections: approximate or interpolate",
             at(&S::fit, &S::Fit::sections_along));
+  list.word("fit.smoothing", {"auto", "none"},
+            "kept sections: auto: points move onto the curve that they stand for, as far as their noise asks for; none",
+            at(&S::fit, &S::Fit::smoothing));
   list.number("fit.smoothing_lambda_mm3", kNotNegative,
-              "smoothing across kept sections before triangles or offsets are made of them; slices stay as measured",
+              "smoothing across kept sections that noise does not smooth, before triangles or offsets are made of them",
               at(&S::fit, &S::Fit::smoothing_lambda_mm3));
   list.word("fit.base", {"fitted", "nominal"}, "section below offsets: fitted or nominal", at(&S::fit, &S::Fit::base));
   list.word("fit.mesh", {"band", "free"},

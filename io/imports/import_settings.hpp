@@ -41,9 +41,11 @@ struct ImportSettings {
     double significance = 1.0;
     bool follow = true;
     double held_out = 0.02;
+    bool errors = true;
     double tolerance_um = 0.0;
     std::string sections = "auto";
     std::string sections_along = "approximate";
+    std::string smoothing = "auto";
     double smoothing_lambda_mm3 = 5.0;
     std::string base = "fitted";
     std::string mesh = "band";

@@ -149,13 +149,15 @@ void add_fit(Page& page, const ImportReport& report) {
   if (report.sections) {
     const ImportReport::Sections& s = *report.sections;
     page.row("sections kept",
-             fmt::format("{} of {} points, {} to {} apart; slices are these points, not the fit", s.count,
+             fmt::format("{} of {} points, {} to {} apart; slices are {}, not the fit", s.count,
                          s.fewest_points == s.most_points ? grouped(s.most_points)
                                                           : fmt::format("{} to {}", s.fewest_points, s.most_points),
-                         length_text(s.least_gap), length_text(s.widest_gap)));
-    page.row("",
-             fmt::format("smooth slices where they are used; triangles and offsets are smoothed with lambda = {:g} mm3",
-                         1e9 * s.smoothing));
+                         length_text(s.least_gap), length_text(s.widest_gap),
+                         s.smoothed ? "smooth curves through these points" : "these points"));
+    page.row("", s.smoothed ? fmt::format("smoothed by their noise: points moved by {} (rms)", length_text(*s.smoothed))
+                            : fmt::format("smooth slices where they are used; triangles and offsets are smoothed with "
+                                          "lambda = {:g} mm3",
+                                          1e9 * s.smoothing));
     page.row("fit for damage and zero", "");
   }
   if (!report.levels.empty()) {
@@ -167,8 +169,8 @@ void add_fit(Page& page, const ImportReport& report) {
                                     length_text(report.residual_max), grouped(report.fitted_points)));
   if (report.held_out_points > 0)
     page.row("points held out",
-             fmt::format("{} of {} points; error of the surface {}", length_text(report.held_out_rms),
-                         grouped(report.held_out_points), surface_error_text(report)));
+             fmt::format("{} of {} points", length_text(report.held_out_rms), grouped(report.held_out_points)));
+  page.row("error of the surface", surface_error_text(report));
   add_holes(page, report);
 }
 

@@ -36,6 +36,9 @@ std::string percent(std::size_t part, std::size_t whole) {
 }
 
 std::string surface_error_text(const ImportReport& report, std::string_view micro) {
+  if (report.errors)
+    return fmt::format("{} rms, {} largest", length_text(report.errors->rms, micro),
+                       length_text(report.errors->largest, micro));
   if (report.held_out_points == 0) return "not known";
   // The mean square of n residuals scatters by sqrt(2/n) of itself; two of these standard errors are told from nothing.
   const double squared = report.held_out_error * report.held_out_error,

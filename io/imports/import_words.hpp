@@ -23,8 +23,8 @@ std::string percent(double part);
 /// A length [m] with three digits in um, mm or m, or "-" where it is not finite; micro is how the u of um is written.
 std::string length_text(double metres, std::string_view micro = "u");
 
-/// What points held out tell of the error of the surface's heights (rms): "6 um"; "below 2.6 um" where it does not
-/// stand out of the noise; "not known" where no points were held out.
+/// The error of the surface's heights: "3 um rms, 12 um largest"; where halves were not fitted what points held out
+/// tell, "6 um", or "below 2.6 um" where it does not stand out of the noise; "not known" without such points.
 std::string surface_error_text(const ImportReport& report, std::string_view micro = "u");
 
 /// "mm" and "um" with what a length in metres is multiplied by; um for lengths below 0.2 mm.

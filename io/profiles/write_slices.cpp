@@ -53,7 +53,7 @@ void check(const std::filesystem::path& file, const SliceSet& slices) {
 }  // namespace
 
 std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& slices,
-                            std::span<const std::string> comments) {
+                            std::span<const std::string> comments, std::span<const std::string> covered) {
   check(file, slices);
   const bool rail = slices.body == Body::rail;
   OutputFolder folder(file.parent_path() / (file.filename().string() + "-slices"), OutputFolder::Old::replaced);
@@ -79,7 +79,9 @@ std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& s
   const std::string sum = sha256_hex(sums);
   const std::string name = fmt::format("{}-{}", file.filename().string(), sum.substr(0, kDigitsOfFolder));
 
-  std::string list = fmt::format(
+  std::string list;
+  for (const std::string& comment : covered) list += fmt::format("% {}\n", comment);
+  list += fmt::format(
       "\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, NACCEL\n"
       "       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
       rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH", slices.u.size(),

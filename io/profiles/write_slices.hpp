@@ -16,10 +16,10 @@ namespace treadmark::io {
 /// their check sum. Positions are in mm or mrad. Without features. Until the new file stands the old one and its slices
 /// stay; then folders of earlier writings go. Errors: Error(configuration) for an extension of the other body, fewer
 /// than four slices, features, slices nearer than 1e-6 m or rad, or a file that cannot be written. comments: lines put
-/// at the top of the slices file, without line ends.
+/// at the top of the slices file, without line ends; covered: the same behind the check sum, which covers them.
 /// Returns the number of bytes of all of it.
 std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& slices,
-                            std::span<const std::string> comments = {});
+                            std::span<const std::string> comments = {}, std::span<const std::string> covered = {});
 
 /// Removes the folders of slices that earlier writings of a slices file made: those NAME-SUM beside it that it does not
 /// name. For one that was written elsewhere and moved. Never throws.

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -34,6 +35,8 @@ struct ArcChain {
   std::vector<Segment> segments;
 };
 
+struct SurfaceErrors;
+
 /// Everything a backend needs to build one wheel or rail surface.
 struct SurfaceSpec {
   Body body = Body::rail;
@@ -45,6 +48,7 @@ struct SurfaceSpec {
   /// at the top. Negative: a ring with the material outside, in which a wheel runs; its axle lies above. Slices and
   /// defects do not fit it.
   double roller_radius = 0.0;
+  std::shared_ptr<const SurfaceErrors> errors = {};  ///< of an imported scan (surface_errors.hpp); may be missing
 };
 
 }  // namespace treadmark

@@ -315,7 +315,7 @@ void write_sections(const fs::path& file, const SurfaceSpec& spec, double rough)
   }
 }
 
-TEST_F(ImportCommand, SectionsThatSomebodyResampledStayAsTheyAre) {
+TEST_F(ImportCommand, SectionsThatSomebodyResampledAreSlices) {
   write_sections(input.folder() / "gauge.xyz", wheel(), 3e-6);
   const auto r = import({path("gauge.xyz"), "-o", path("kept.slcw"), "-o", path("kept.vdb"), "--json",
                          path("kept.json"), "--set", "clean.strays=false"});
@@ -333,6 +333,22 @@ TEST_F(ImportCommand, SectionsThatSomebodyResampledStayAsTheyAre) {
   EXPECT_EQ(slices.u.size(), 360u);
   EXPECT_EQ(slices.profiles.front().y.size(), 61u);
   EXPECT_TRUE(slices.approximate_u);
+  // rough by 1.9 um (rms): smoothed, and results know what that leaves
+  EXPECT_NEAR(kept["fit"]["kept_sections"]["smoothed_um"].get<double>(), 1.7, 0.5);
+  EXPECT_GT(kept["fit"]["surface_errors"]["rms_um"].get<double>(), 0.2);
+  ASSERT_NE(back.spec.errors, nullptr);
+  // exact points stay where they are, as they all do if that is wanted
+  write_sections(input.folder() / "exact.xyz", wheel(), 0.0);
+  std::vector<std::string> written;
+  for (const char* smoothing : {"auto", "none"}) {
+    const auto exact = import({path("exact.xyz"), "-o", path("exact.slcw"), "--json", path("exact.json"), "--set",
+                               std::string("fit.smoothing=") + smoothing, "--set", "clean.strays=false"});
+    ASSERT_EQ(exact.status, 0) << exact.err;
+    EXPECT_FALSE(json("exact.json")["fit"]["kept_sections"].contains("smoothed_um"));
+    EXPECT_TRUE(json("exact.json")["fit"]["surface_errors"].is_null());
+    written.push_back(bytes("exact.slcw"));
+  }
+  EXPECT_EQ(written[0], written[1]) << "with the check sum of all slices";
   // fitted if that is wanted, and other settings that have no meaning are refused
   const auto fitted = import({path("gauge.xyz"), "-o", path("fit.slcw"), "--json", path("fit.json"), "--set",
                               "fit.sections=fit", "--set", "clean.strays=false"});
@@ -370,7 +386,7 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
   direction.precision(12);
   direction << "placement.zero_direction=[" << zero.x() << ", " << zero.y() << ", " << zero.z() << "]";
   const auto r = import({path("flat.xyz"), "-o", path("flat.slcw"), "--set", "placement.zero=direction", "--set",
-                         direction.str(), "--json", path("flat.json")});
+                         direction.str(), "--set", "fit.smoothing=none", "--json", path("flat.json")});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NEAR(json("flat.json")["frame"]["nominal_radius_mm"].get<double>(), 490.0, 0.03);
   const auto results = [&](const std::string& wheel_file, const std::string& name) {
@@ -411,8 +427,8 @@ TEST_F(ImportCommand, OnATerminalStepsAndFilesAreToldWithoutAGuessOfTheRest) {
                                           path("wheel.ply"), path("wheel.slcw"), path("seen.txt"));
   ASSERT_EQ(std::system(command.c_str()), 0);
   const std::string seen = bytes("seen.txt");
-  EXPECT_THAT(seen, HasSubstr("step 1 of 8: reading, 0 s so far"));
-  EXPECT_THAT(seen, HasSubstr("step 8 of 8: writing wheel.slcw, "));
+  EXPECT_THAT(seen, HasSubstr("step 1 of 9: reading, 0 s so far"));
+  EXPECT_THAT(seen, HasSubstr("step 9 of 9: writing wheel.slcw, "));
   EXPECT_THAT(seen, ::testing::Not(HasSubstr("left")));
 }
 

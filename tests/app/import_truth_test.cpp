@@ -252,7 +252,7 @@ TEST_F(ImportTruth, StepsAreAsManyAsWereSaid) {
   input_.write("map.csv", (map + "\n").c_str());
   scan("60E1", "rail.ply", {"--range-mm", "0,300", "--points", "60000"});
   for (const auto& [file, truth, count] : std::vector<std::tuple<std::string, std::string, std::size_t>>{
-           {"map.csv", "", 6}, {"map.csv", "60E1", 7}, {"rail.ply", "", 8}, {"rail.ply", "60E1", 9}}) {
+           {"map.csv", "", 7}, {"map.csv", "60E1", 8}, {"rail.ply", "", 9}, {"rail.ply", "60E1", 10}}) {
     ImportRequest request;
     request.scans = {path(file)};
     request.outputs = {path("steps.slcs")};

@@ -67,7 +67,8 @@ Cards cards_of(const io::ImportReport& report) {
                  {"Noise", in_um(report.noise), "standard deviation of the points"},
                  // A fit whose heights show no error may still err in curvatures.
                  {"Error of the surface", io::surface_error_text(report, "\u00b5"),
-                  "of heights, by points held out; curvatures and with them pressures err more"},
+                  report.errors ? "of heights; results that use it state what this leaves uncertain"
+                                : "of heights, by points held out; curvatures and with them pressures err more"},
                  {"Holes", fmt::format("{}", report.holes.size()),
                   fmt::format("{} in all", in_unit(in_file(1e6 * report.hole_area), "mm²"))},
                  {"Damage", fmt::format("{}", report.damage.size()),
@@ -176,12 +177,19 @@ Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
   Section section{"fit", "Fit"};
   if (const auto& kept = report.sections)
     section.blocks.emplace_back(
-        Banner{Banner::Kind::note, "The scan's own sections are the surface.",
+        Banner{Banner::Kind::note,
+               kept->smoothed ? "The scan's own sections, smoothed by their noise, are the surface."
+                              : "The scan's own sections are the surface.",
                fmt::format("{} sections of {} to {} points; the fit below serves pictures, damage and zero alone.",
                            kept->count, kept->fewest_points, kept->most_points)});
   section.blocks.emplace_back(
       Paragraph{fmt::format("{} points were fitted, {} held out; these lie {} (rms) from the surface.",
                             report.fitted_points, report.held_out_points, in_um(report.held_out_rms))});
+  if (report.errors)
+    section.blocks.emplace_back(
+        Paragraph{fmt::format("The surface is known to {} (rms), at most {} were found. Results that use it have "
+                              "standard deviations from this.",
+                              in_um(report.errors->rms), in_um(report.errors->largest))});
   append(section.blocks,
          map_figure(report.noise_map, report.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
   section.blocks.emplace_back(level_table(report));

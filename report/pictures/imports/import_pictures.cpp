@@ -179,7 +179,7 @@ std::string import_residual_svg(const io::ImportReport& report) {
                      {"residuals, largest", length(report.residual_max)},
                      {"points held out of the fit", grouped(report.held_out_points)},
                      {"residuals of these, rms", length(report.held_out_rms)},
-                     {"error of the surface they tell of", io::surface_error_text(report, "\u00b5")}});
+                     {"error of the surface", io::surface_error_text(report, "\u00b5")}});
   return picture.finish(report);
 }
 

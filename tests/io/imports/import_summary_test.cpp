@@ -88,6 +88,8 @@ TEST(ImportWords, Numbers) {
   EXPECT_EQ(io::surface_error_text(held), "below 5.20 um");
   held.held_out_error = 6e-6;
   EXPECT_EQ(io::surface_error_text(held), "6.00 um");
+  held.errors = ErrorSize{3e-6, 12e-6};
+  EXPECT_EQ(io::surface_error_text(held), "3.00 um rms, 12.0 um largest");
   EXPECT_EQ(io::length_text(35e-6), "35.0 um");
   EXPECT_EQ(io::length_text(12.0), "12.0 m");
   EXPECT_EQ(io::length_text(std::nan("")), "-");

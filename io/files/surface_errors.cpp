@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/files/surface_errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/text.hpp"
+
+namespace treadmark::io {
+namespace {
+
+struct CommentStyle {
+  std::string_view extension, sign, other;  ///< other: how further lines of the head begin, blanks between them
+};
+constexpr CommentStyle kCommentStyles[] = {{".slcs", "%", ""},
+                                           {".slcw", "%", ""},
+                                           {".ply", "comment", "ply format obj_info"},
+                                           {".obj", "#", ""},
+                                           {".off", "#", "OFF"}};
+
+bool is_one_of(std::string_view word, std::string_view words) {
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    if (word == words.substr(0, end)) return true;
+    words.remove_prefix(std::min(words.size(), end + 1));
+  }
+  return false;
+}
+
+}  // namespace
+
+std::shared_ptr<const SurfaceErrors> read_surface_errors(const std::filesystem::path& file) {
+  const auto style = std::ranges::find(kCommentStyles, extension_of(file), &CommentStyle::extension);
+  if (style == std::end(kCommentStyles)) return nullptr;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) stream.open(profiles::portable_path(file.string()), std::ios::binary);
+  std::vector<std::string> comments;
+  std::array<char, 4096> buffer{};
+  // a longer line is none of ours, and ends the head
+  while (stream.getline(buffer.data(), buffer.size())) {
+    std::string_view line(buffer.data());
+    const auto skip_blanks = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size())); };
+    skip_blanks();
+    if (line.starts_with(style->sign)) {
+      line.remove_prefix(style->sign.size());
+      skip_blanks();
+      comments.emplace_back(line);
+    } else if (!line.empty() && !is_one_of(line.substr(0, line.find_first_of(" \t\r")), style->other)) {
+      break;
+    }
+  }
+  try {
+    return errors_of_lines(comments);
+  } catch (const Error& error) {
+    throw Error(error.kind(), error.message(), {file.string(), 0, 0}, error.advice());
+  }
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "treadmark/model/shape/surface_errors.hpp"
+
+namespace treadmark::io {
+
+/// What comments at the top of a file of slices or triangles say of the surface's errors (to_lines); null for files of
+/// other kinds, those that cannot be read, and where nothing is said. Errors: Error(input_data) for damaged lines.
+std::shared_ptr<const SurfaceErrors> read_surface_errors(const std::filesystem::path& file);
+
+}  // namespace treadmark::io

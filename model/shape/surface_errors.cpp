@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/model/shape/surface_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
+
+namespace treadmark {
+namespace {
+
+constexpr double kVersion = 1.0;
+constexpr double kDrawsPerMetre = 1e8;
+constexpr double kFarthest = 10.0;  ///< of any number [m], [rad]
+
+[[noreturn]] void refuse_lines(const std::string& why) {
+  throw Error(ErrorKind::input_data, fmt::format("the lines '{}' are damaged: {}", kSurfaceErrors, why), {},
+              "take the file as it was written, or remove all of these lines; results then do not say what scatter of "
+              "the scan leaves uncertain");
+}
+
+/// Numbers one after the other.
+class Numbers {
+ public:
+  void add(std::string_view line) {
+    const char *at = line.data(), *const end = at + line.size();
+    while (true) {
+      while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) ++at;
+      if (at == end) return;
+      double value = 0.0;
+      const auto [next, error] = std::from_chars(at, end, value);
+      if (error != std::errc{} || !std::isfinite(value) ||
+          (next < end && *next != ' ' && *next != '\t' && *next != '\r'))
+        refuse_lines("a number is expected");
+      values_.push_back(value);
+      at = next;
+    }
+  }
+  std::size_t left() const { return values_.size() - at_; }
+  double take() {
+    if (left() == 0) refuse_lines("they end too early");
+    return values_[at_++];
+  }
+  /// [m] or [rad]
+  double take(double factor) {
+    const double value = factor * take();
+    if (!(std::fabs(value) <= kFarthest)) refuse_lines("a number is too large");
+    return value;
+  }
+  std::size_t count(std::size_t least) {
+    const double value = take();
+    if (!(value >= static_cast<double>(least) && value <= static_cast<double>(values_.size())) ||
+        value != std::floor(value))
+      refuse_lines("they do not hold as much as they say");
+    return to_whole<std::size_t>(value);
+  }
+
+ private:
+  std::vector<double> values_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::vector<double> arc_lengths(const SurfaceErrors& errors) {
+  std::vector<double> out(errors.y.size(), 0.0);
+  for (std::size_t i = 1; i < out.size(); ++i)
+    out[i] = out[i - 1] + std::hypot(errors.y[i] - errors.y[i - 1], errors.z[i] - errors.z[i - 1]);
+  return out;
+}
+
+std::vector<std::size_t> nearest_draws(const SurfaceErrors& errors, double u, std::size_t most, double period) {
+  std::vector<std::size_t> out(errors.u.size());
+  std::iota(out.begin(), out.end(), std::size_t{0});
+  const auto distance = [&](std::size_t k) {
+    return std::fabs(period > 0.0 ? std::remainder(errors.u[k] - u, period) : errors.u[k] - u);
+  };
+  std::ranges::stable_sort(out, {}, distance);
+  out.resize(std::min(most, out.size()));
+  return out;
+}
+
+ErrorSize size_of(const SurfaceErrors& errors) {
+  ErrorSize out;
+  double squares = 0.0, count = 0.0;
+  for (const std::vector<double>& draw : errors.draws)
+    for (const double error : draw) {
+      squares += error * error;
+      count += 1.0;
+      out.largest = std::max(out.largest, std::fabs(error));
+    }
+  if (count > 0.0) out.rms = std::sqrt(squares / count);
+  return out;
+}
+
+SurfaceErrors changed(SurfaceErrors errors, double factor, bool mirror_y, bool mirror_z, bool wheel) {
+  for (double& y : errors.y) y *= mirror_y ? -factor : factor;
+  for (double& z : errors.z) z *= mirror_z && !wheel ? -factor : factor;
+  for (double& u : errors.u) u = !wheel ? factor * u : mirror_z ? kPi - u : u;
+  for (std::vector<double>& draw : errors.draws)
+    for (double& error : draw) error *= factor;
+  if (!mirror_y) return errors;
+  std::ranges::reverse(errors.y);
+  std::ranges::reverse(errors.z);
+  for (std::vector<double>& draw : errors.draws) std::ranges::reverse(draw);
+  return errors;
+}
+
+std::vector<std::string> to_lines(const SurfaceErrors& errors) {
+  constexpr std::size_t kLongest = 200;
+  std::vector<std::string> out{"what scatter of the scan leaves uncertain of this surface, for results of contacts:"};
+  std::string line{kSurfaceErrors};
+  const auto put = [&](const std::string& number) {
+    if (line.size() + 1 + number.size() > kLongest) out.push_back(std::exchange(line, std::string(kSurfaceErrors)));
+    line += ' ';
+    line += number;
+  };
+  put(fmt::format("{:g}", kVersion));
+  put(fmt::format("{}", errors.y.size()));
+  put(fmt::format("{}", errors.draws.size()));
+  for (std::size_t i = 0; i < errors.y.size(); ++i) {
+    put(fmt::format("{:.4f}", kMilli * errors.y[i]));
+    put(fmt::format("{:.4f}", kMilli * errors.z[i]));
+  }
+  for (std::size_t k = 0; k < errors.draws.size(); ++k) {
+    put(fmt::format("{:.6f}", errors.u[k]));
+    for (const double error : errors.draws[k])
+      put(fmt::format("{}", to_whole<std::int64_t>(std::round(kDrawsPerMetre * error))));
+  }
+  out.push_back(std::move(line));
+  return out;
+}
+
+std::shared_ptr<const SurfaceErrors> errors_of_lines(std::span<const std::string> lines) {
+  Numbers numbers;
+  for (const std::string& line : lines)
+    if (line.starts_with(kSurfaceErrors)) numbers.add(std::string_view(line).substr(kSurfaceErrors.size()));
+  if (numbers.left() == 0) return nullptr;
+  if (numbers.take() != kVersion) refuse_lines("they are of another version");
+  auto out = std::make_shared<SurfaceErrors>();
+  const std::size_t places = numbers.count(2), draws = numbers.count(1);
+  if (numbers.left() < 2 * places || (numbers.left() - 2 * places) / (places + 1) != draws ||
+      (numbers.left() - 2 * places) % (places + 1) != 0)
+    refuse_lines("they do not hold as much as they say");
+  for (std::size_t i = 0; i < places; ++i) {
+    out->y.push_back(numbers.take(kMillimetre));
+    out->z.push_back(numbers.take(kMillimetre));
+  }
+  for (std::size_t k = 0; k < draws; ++k) {
+    out->u.push_back(numbers.take(1.0));
+    std::vector<double>& draw = out->draws.emplace_back();
+    for (std::size_t i = 0; i < places; ++i) draw.push_back(numbers.take(1.0 / kDrawsPerMetre));
+  }
+  return out;
+}
+
+}  // namespace treadmark
