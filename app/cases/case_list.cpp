@@ -35,6 +35,10 @@ struct ListedCase {
   const io::Case* judged;    ///< with the same surfaces: its profiles were judged
 };
 
+std::string si_name(const io::CaseKey& key) {
+  return key.info.path.substr(0, key.info.path.size() - io::unit_at_end(key.info.path).ending.size());
+}
+
 bool is_shift(const io::Case& c) {
   return std::visit([](const auto& content) { return content.regime == Regime::shift; }, c.content);
 }
@@ -74,8 +78,8 @@ void add_hashes(const io::InfluenceInput& influence, std::string& identity) {
 /// Cases in parts of about as many as a block of rows; those of a sequence in time are in one part.
 class SolvedList::Source {
  public:
-  Source(const io::ListedCases& given, SurfaceStore& store)
-      : file_(given.file), rows_(given.rows), notes_(profiles_, store) {
+  Source(io::ListedCases given, SurfaceStore& store)
+      : file_(std::move(given.file)), rows_(std::move(given.rows)), notes_(profiles_, store) {
     const SampledRegions regions = rows_ != nullptr ? regions_of_rows() : sampled_regions(file_);
     for (const io::Case& c : file_.cases) {
       check_cancelled();
@@ -158,8 +162,7 @@ class SolvedList::Source {
 
 SolvedList::~SolvedList() = default;
 
-SolvedList::SolvedList(const io::ListedCases& given, SurfaceStore& store, const ListOptions& options,
-                       const Progress& progress)
+SolvedList::SolvedList(io::ListedCases given, SurfaceStore& store, const ListOptions& options, const Progress& progress)
     : json_(options.json) {
   const CancellationScope scope(progress.stop);
   const auto start = SteadyClock::now();
@@ -168,27 +171,30 @@ SolvedList::SolvedList(const io::ListedCases& given, SurfaceStore& store, const 
   if (given.rows) given_keys_ = given.rows->numbers();
   for (const std::string& name : options.numbers) numbers_.push_back(io::listed_number(name));
   if (numbers_.empty()) numbers_ = io::usual_numbers(wheel_on_rail);
-  std::erase_if(numbers_, [&](const io::ListedNumber& number) {
-    return std::ranges::any_of(given_keys_, [&](const io::CaseKey* key) { return key->info.path == number.name; });
+  std::erase_if(numbers_, [&](const io::ListedNumber& number) {  // what rows give is there, in their unit
+    return std::ranges::any_of(given_keys_, [&](const io::CaseKey* key) { return si_name(*key) == number.si_name; });
   });
 
   store.begin_run();
-  source_ = std::make_unique<const Source>(given, store);
-  size_ = source_->cases();
   head_ = head_of(given.file);
+  std::string files;
+  for (const io::Case& c : given.file.cases)
+    std::visit([&](const auto& content) { add_hashes(content.influence, files); }, c.content);
+  const std::shared_ptr<const CaseRows> rows = given.rows;
+  source_ = std::make_unique<const Source>(std::move(given), store);
+  size_ = source_->cases();
   head_.cases_total = static_cast<int>(size_);
   head_.complete = true;
   head_.settings = options.settings;
   head_.doubts = profile_doubts(source_->profiles());
   head_.geometry_sha256 = store.hashes();
-  if (given.rows) head_.geometry_sha256.emplace_back(given.rows->file().string(), given.rows->sha256());
+  if (rows) head_.geometry_sha256.emplace_back(rows->file().string(), rows->sha256());
 
-  std::string identity = fmt::format("{} {}\n{}\n{}\n", head_.version, head_.git, head_.input_sha256, options.json);
+  std::string identity =
+      fmt::format("{} {}\n{}\n{}\n{}", head_.version, head_.git, head_.input_sha256, options.json, files);
   for (const std::string& setting : options.settings) identity += setting + '\n';
   for (const auto& [file, hash] : head_.geometry_sha256) identity += file + ' ' + hash + '\n';
   for (const io::ListedNumber& number : numbers_) identity += number.name + '\n';
-  for (const io::Case& c : given.file.cases)
-    std::visit([&](const auto& content) { add_hashes(content.influence, identity); }, c.content);
   log_ = std::make_unique<io::PartLog>(options.kept, identity);
 
   std::vector<std::size_t> wanted;

@@ -56,7 +56,7 @@ class SolvedList {
   /// on. After a stop request Cancelled is thrown once finished rows are kept. progress gets the number found, with an
   /// empty text, first. Errors: Error for geometry that cannot be read, names that are no numbers of results, and files
   /// that cannot be written.
-  SolvedList(const io::ListedCases& given, SurfaceStore& store, const ListOptions& options, const Progress& progress);
+  SolvedList(io::ListedCases given, SurfaceStore& store, const ListOptions& options, const Progress& progress);
   ~SolvedList();
 
   const io::RunResult& head() const { return head_; }  ///< where results come from; without cases

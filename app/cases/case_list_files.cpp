@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "treadmark/app/cases/case_list.hpp"
@@ -191,6 +192,9 @@ ListSummary write_list(const SolvedList& list, const std::filesystem::path& fold
   else
     notes.push_back(left_out_message("hdf5", "cases.h5") + ": " + left_out_advice("hdf5"));
   write_file(output->path() / "cases.json", head_text(list, summary));
+  // what an earlier run of few cases left must not pass for results of these
+  std::error_code ignored;
+  for (const char* name : {"result.json", "fields.h5", "pressure.svg"}) std::filesystem::remove(folder / name, ignored);
   output->move_into("cases.json");
   return summary;
 }

@@ -104,8 +104,9 @@ int run_list(io::ListedCases given, const std::filesystem::path& folder, const R
   app::ListSummary summary;
   std::vector<std::string> notes;
   try {
-    with_progress(common.quiet, [&](const Progress& progress) { list.emplace(given, store, wanted, progress); });
     print_notes(given.file.notes, common.quiet);
+    with_progress(common.quiet,
+                  [&](const Progress& progress) { list.emplace(std::move(given), store, wanted, progress); });
     print_notes(list->head().doubts, common.quiet);
     if (list->found() > 0)
       print_notes({fmt::format("{} of {} cases were finished before", list->found(), list->size())}, common.quiet);

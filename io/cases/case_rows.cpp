@@ -138,16 +138,10 @@ void CaseRows::take_heads(const std::string& line, int number) {
     if (std::ranges::find(columns_, key, &Column::key) != columns_.end())
       throw Error(ErrorKind::configuration, fmt::format("two columns have the name {}", head), at(number));
     check_exclusive(key->info, at(number), chosen);
-    columns_.push_back({key, i});
+    columns_.push_back({key, i, numbers_.size()});
+    if (is_number(*key)) numbers_.push_back(key);
   }
   std::ranges::sort(columns_, {}, &Column::key);  // keys stand in the order in which they are applied
-}
-
-std::vector<const CaseKey*> CaseRows::numbers() const {
-  std::vector<const CaseKey*> out;
-  for (const Column& column : columns_)
-    if (is_number(*column.key)) out.push_back(column.key);
-  return out;
 }
 
 std::vector<CaseRow> CaseRows::block(std::size_t k) const {
@@ -164,20 +158,20 @@ std::vector<CaseRow> CaseRows::block(std::size_t k) const {
   return out;
 }
 
-CaseRow CaseRows::row(const std::string& line, std::size_t index, int number) const {
-  const SourcePosition where = at(number);
+CaseRow CaseRows::row(const std::string& line, std::size_t index, int line_number) const {
+  const SourcePosition where = at(line_number);
   const std::vector<std::string> cells = csv_cells(line);
   if (cells.size() != heads_.size())
     throw Error(ErrorKind::configuration,
                 fmt::format("{} cells where there are {} columns", cells.size(), heads_.size()), where);
-  CaseRow out{common_, {}};
-  for (const auto& [key, cell] : columns_) {
+  CaseRow out{common_, std::vector<double>(numbers_.size(), NAN)};
+  for (const auto& [key, cell, number] : columns_) {
     if (cells[cell].empty())
       throw Error(ErrorKind::configuration, fmt::format("{} is empty", key->info.path), where,
                   "every row gives every column");
     const CaseValue value = cell_value(key->info, cells[cell], where);
     apply_value(out.content, *key, value, folder_);
-    if (is_number(*key)) out.numbers.push_back(std::holds_alternative<std::string>(value.data) ? NAN : value.number());
+    if (is_number(*key) && !std::holds_alternative<std::string>(value.data)) out.numbers[number] = value.number();
   }
   for (const CaseOverride& change : changes_) apply_assignment(out.content, change, folder_);
   out.content.number = static_cast<int>(index) + 1;

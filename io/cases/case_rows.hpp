@@ -15,7 +15,7 @@ namespace treadmark::io {
 /// A case that a row of a table makes, and the numbers that the row gives, in the units of their keys.
 struct CaseRow {
   Case content;
-  std::vector<double> numbers;  ///< in the order of CaseRows::numbers()
+  std::vector<double> numbers;  ///< in the order of the columns, CaseRows::numbers()
 };
 
 /// The cases of a table (cases_file): the first line names keys of case files, every other one that is not empty and
@@ -31,7 +31,7 @@ class CaseRows {
   const std::filesystem::path& file() const { return file_; }
   const std::string& sha256() const { return sha256_; }
   /// The keys with a number in every row.
-  std::vector<const CaseKey*> numbers() const;
+  const std::vector<const CaseKey*>& numbers() const { return numbers_; }
 
   /// So many rows belong together in reading.
   static constexpr std::size_t kBlock = 64;
@@ -46,12 +46,12 @@ class CaseRows {
   };
   struct Column {
     const CaseKey* key;
-    std::size_t cell;
+    std::size_t cell, number;  ///< places in the line, and among the numbers that it gives
   };
 
   void index();
   void take_heads(const std::string& line, int number);
-  CaseRow row(const std::string& line, std::size_t index, int number) const;
+  CaseRow row(const std::string& line, std::size_t index, int line_number) const;
   SourcePosition at(int line) const { return {file_.string(), line, 0}; }
 
   std::filesystem::path file_;
@@ -59,6 +59,7 @@ class CaseRows {
   std::filesystem::path folder_;
   std::vector<CaseOverride> changes_;
   std::vector<Column> columns_;  ///< in the order in which keys are applied
+  std::vector<const CaseKey*> numbers_;
   std::vector<std::string> heads_;
   std::vector<Place> blocks_;
   std::size_t count_ = 0;
