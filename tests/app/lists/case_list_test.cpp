@@ -212,6 +212,7 @@ TEST(CaseList, IsWrittenAsTables) {
   const io::RunResult run = run_cases(io::read_any_case(file));
   const std::string bad(io::status_word(run.cases[3]));
   ASSERT_NE(bad, "ok");
+  folder.write("out/fields.h5", "of another run");
   const auto result = run_program(
       {"run", file.string(), "-o", out.string(), "--numbers", "wheelset.z_mm,npatch,pmax_MPa,patch_2.fn_N"});
   EXPECT_EQ(result.status, run_program({"run", file.string(), "--fields"}).status) << result.err;
