@@ -55,14 +55,13 @@ class SolvedList {
   /// themselves. A case that cannot be solved, for whatever reason, has Status::failed and its message; the others go
   /// on. After a stop request Cancelled is thrown once finished rows are kept. progress gets the number found, with an
   /// empty text, first. Errors: Error for geometry that cannot be read, names that are no numbers of results, and files
-  /// that cannot be written.
+  /// that cannot be written, or where rows of something else are kept.
   SolvedList(io::ListedCases given, SurfaceStore& store, const ListOptions& options, const Progress& progress);
   ~SolvedList();
 
   const io::RunResult& head() const { return head_; }  ///< where results come from; without cases
   std::size_t size() const { return size_; }
   std::size_t found() const { return found_; }      ///< cases that were finished before
-  bool dropped() const { return log_->dropped(); }  ///< whether rows of another list were kept there
   const std::vector<const io::CaseKey*>& given_keys() const { return given_keys_; }
   const std::vector<io::ListedNumber>& numbers() const { return numbers_; }
 

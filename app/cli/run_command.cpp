@@ -110,7 +110,6 @@ int run_list(io::ListedCases given, const std::filesystem::path& folder, const R
     print_notes(list->head().doubts, common.quiet);
     if (list->found() > 0)
       print_notes({fmt::format("{} of {} cases were finished before", list->found(), list->size())}, common.quiet);
-    if (list->dropped()) print_notes({"the unfinished rows of another run were dropped"}, common.quiet);
     const CancellationScope scope(&interrupted());
     std::optional<OutputFile> json;
     if (!options.json_file.empty() && options.json_file != "-") json.emplace(options.json_file);

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -100,22 +101,25 @@ void PartLog::open() {
 
 void PartLog::find_parts(const std::string& head) {
   const std::uint64_t size = size_of(descriptor_);
-  std::string found(head.size(), '\0');
-  if (read_at(descriptor_, 0, found.data(), found.size()) && found == head) {
-    end_ = head.size();
-    std::vector<std::byte> bytes;
-    for (Head part{}; read_at(descriptor_, end_, &part, sizeof part);) {
-      const std::uint64_t at = end_ + sizeof part;
-      if (part.size > size - at) break;
-      bytes.resize(part.size);
-      if (!read_at(descriptor_, at, bytes.data(), bytes.size()) || check_sum(bytes) != part.sum) break;
-      places_[part.part] = {at, part.size, part.sum};
-      end_ = at + part.size;
-    }
-  } else {
-    dropped_ = size > 0;
-    if (!write_at(descriptor_, 0, head.data(), head.size())) fail("write", errno);
-    end_ = head.size();
+  std::string found(std::min<std::uint64_t>(size, head.size()), '\0');
+  if (!read_at(descriptor_, 0, found.data(), found.size())) fail("read", errno);
+  if (!head.starts_with(found))
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format(
+            "{} holds something else that is unfinished: input, files, settings or version of the program differ",
+            file_.string()),
+        {}, "go on with what they were, remove it, or choose another output");
+  end_ = head.size();
+  if (found.size() < head.size() && !write_at(descriptor_, 0, head.data(), head.size())) fail("write", errno);
+  std::vector<std::byte> bytes;
+  for (Head part{}; read_at(descriptor_, end_, &part, sizeof part);) {
+    const std::uint64_t at = end_ + sizeof part;
+    if (part.size > size - at) break;
+    bytes.resize(part.size);
+    if (!read_at(descriptor_, at, bytes.data(), bytes.size()) || check_sum(bytes) != part.sum) break;
+    places_[part.part] = {at, part.size, part.sum};
+    end_ = at + part.size;
   }
   if (::ftruncate(descriptor_, static_cast<off_t>(end_)) != 0) fail("write", errno);
 }

@@ -18,9 +18,8 @@ namespace treadmark::io {
 /// Memory grows by some bytes a part. Errors: Error(configuration) that names the file. Thread-safe.
 class PartLog {
  public:
-  /// identity: everything that the parts depend on. What the file holds of another work, or in a form that this program
-  /// does not know, is dropped. Empty: a file without a name, which nobody goes on with.
-  /// Errors: also where another process is at the same work.
+  /// identity: everything that the parts depend on. An empty name: a file that has none, which nobody goes on with.
+  /// Errors: also where the file holds something else, or another process is at the same work.
   PartLog(std::filesystem::path file, const std::string& identity);
   ~PartLog();
   PartLog(const PartLog&) = delete;
@@ -28,7 +27,6 @@ class PartLog {
 
   bool has(std::size_t part) const;
   std::size_t parts() const;
-  bool dropped() const { return dropped_; }  ///< whether there was another work
 
   void add(std::size_t part, std::span<const std::byte> content);
   /// Of a part that is there. Errors: also where the file has changed since.
@@ -48,7 +46,6 @@ class PartLog {
   std::filesystem::path file_;
   bool named_ = true;
   int descriptor_ = -1;
-  bool dropped_ = false;
   mutable std::mutex mutex_;
   std::uint64_t end_ = 0;
   std::unordered_map<std::size_t, Place> places_;

@@ -40,7 +40,6 @@ TEST_F(PartLogFile, KeepsPartsFromAnyThread) {
   }
   PartLog again(file_, "work");
   EXPECT_EQ(again.parts(), 200u);
-  EXPECT_FALSE(again.dropped());
   for (std::size_t k = 0; k < 200; ++k) EXPECT_EQ(again.content(k), bytes_of(k));
   EXPECT_FALSE(again.has(200));
   again.remove();
@@ -48,15 +47,13 @@ TEST_F(PartLogFile, KeepsPartsFromAnyThread) {
 }
 
 TEST_F(PartLogFile, GoesOnBeforeWhatIsBroken) {
-  { PartLog log(file_, "work"); }
-  const std::size_t empty = content_of(file_).size();
   {
     PartLog log(file_, "work");
     for (std::size_t k = 0; k < 5; ++k) log.add(k, bytes_of(k));
   }
   const std::string whole = content_of(file_);
   // wherever it ends: parts before are there, those behind are not, and it goes on
-  for (std::size_t size = empty; size <= whole.size(); ++size) {
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
     std::ofstream(file_, std::ios::binary) << whole.substr(0, size);
     PartLog log(file_, "work");
     const std::size_t there = log.parts();
@@ -73,16 +70,15 @@ TEST_F(PartLogFile, GoesOnBeforeWhatIsBroken) {
   EXPECT_LT(PartLog(file_, "work").parts(), 5u);
 }
 
-TEST_F(PartLogFile, DropsAnotherWork) {
+TEST_F(PartLogFile, RefusesAnotherWork) {
   { PartLog(file_, "one").add(0, bytes_of(0)); }
-  {
-    const PartLog other(file_, "other");
-    EXPECT_TRUE(other.dropped());
-    EXPECT_EQ(other.parts(), 0u);
+  EXPECT_THAT(error_of([&] { PartLog(file_, "other"); }), HasSubstr("something else"));
+  EXPECT_EQ(PartLog(file_, "one").parts(), 1u);
+  for (const std::string& text : {std::string("something else"), std::string(1000, 'x')}) {
+    const std::filesystem::path other = folder_.write("text", text);
+    EXPECT_THAT(error_of([&] { PartLog(other, "one"); }), HasSubstr("something else"));
+    EXPECT_EQ(content_of(other), text);
   }
-  folder_.write("text",
-                "something else, and longer than the head of a file of parts, which it must not pass for, ever");
-  EXPECT_TRUE(PartLog(folder_.path() / "text", "one").dropped());
 }
 
 TEST_F(PartLogFile, MayHaveNoName) {
