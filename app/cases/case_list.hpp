@@ -61,7 +61,7 @@ class SolvedList {
 
   const io::RunResult& head() const { return head_; }  ///< where results come from; without cases
   std::size_t size() const { return size_; }
-  std::size_t found() const { return found_; }      ///< cases that were finished before
+  std::size_t found() const { return found_; }  ///< cases that were finished before
   const std::vector<const io::CaseKey*>& given_keys() const { return given_keys_; }
   const std::vector<io::ListedNumber>& numbers() const { return numbers_; }
 
