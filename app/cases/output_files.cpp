@@ -68,10 +68,11 @@ void write_side_by_side(const std::vector<std::function<void()>>& parts) {
   parallel_for(parts.size(), [&](std::size_t k) { parts[k](); });
 }
 
-/// Fields of an earlier run must not pass for those of one without any.
+/// Fields of an earlier run must not pass for those of one without any, nor tables of a list for those of this run.
 void remove_unmade(const std::filesystem::path& folder, const std::filesystem::path& made) {
   std::error_code ignored;
-  if (!std::filesystem::exists(made / "fields.h5", ignored)) std::filesystem::remove(folder / "fields.h5", ignored);
+  for (const char* name : {"fields.h5", "cases.json", "cases.csv", "cases.h5"})
+    if (!std::filesystem::exists(made / name, ignored)) std::filesystem::remove(folder / name, ignored);
 }
 
 /// Text tables for other people's tools, of the cases that ask for them.

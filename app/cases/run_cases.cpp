@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <exception>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -14,18 +13,16 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/case_sequence.hpp"
-#include "treadmark/app/cases/data_ends.hpp"
-#include "treadmark/app/cases/noise_of_results.hpp"
+#include "treadmark/app/cases/run_parts.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
-#include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/solvers/wheelrail/usual_values.hpp"
 
 namespace treadmark::app {
@@ -35,64 +32,17 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& store, const SampledRegions& all) {
-  const SampledRegions regions = regions_of(input, all);
-  const StoredSurface& rail = store.get(input.rail, Body::rail, profile_radius(input, Body::rail), regions.rail);
-  const StoredSurface& wheel = store.get(input.wheel, Body::wheel, profile_radius(input, Body::wheel), regions.wheel);
-  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !input.roller,
-          wheel.constant_profile()};
-}
-
-/// What noise of measured profiles leaves uncertain, of all cases that were solved.
-void add_noise(const io::CaseFile& file, SurfaceStore& store, io::RunResult& run) {
-  std::map<std::pair<const NaturalSurface*, const NaturalSurface*>, NoiseOfResults> pairs;
-  std::size_t next = 0;
-  for (io::CaseResult& result : run.cases) {
-    while (next < file.cases.size() && file.cases[next].number != result.number) ++next;
-    const auto* input = next < file.cases.size() ? std::get_if<io::WheelRailCase>(&file.cases[next].content) : nullptr;
-    if (input == nullptr) continue;
-    const auto rail = store.natural(input->rail, Body::rail, profile_radius(*input, Body::rail));
-    const auto wheel = store.natural(input->wheel, Body::wheel, profile_radius(*input, Body::wheel));
-    pairs.try_emplace({rail.get(), wheel.get()}, *rail, *wheel).first->second.add(*input, result);
-  }
-}
-
-class NeverCancelled final : public CancellationToken {
- public:
-  bool requested() const noexcept override { return false; }
-};
-
 /// What is to be said of results on surfaces that are there: moments, for which those of a cancelled run are kept.
 void describe_results(const io::CaseFile& file, const ProfilesOfRun& profiles, SurfaceStore& store,
                       io::RunResult& run) {
-  const NeverCancelled never;
-  const CancellationScope scope(&never);
+  const NeverCancelled whole;
   run.doubts = profile_doubts(profiles);
-  add_profile_doubts(file, profiles, store, run);
+  ResultNotes notes(profiles, store);
   auto c = file.cases.begin();
   for (io::CaseResult& result : run.cases) {
     while (c->number != result.number) ++c;
-    if (const auto* input = std::get_if<io::WheelRailCase>(&c->content)) {
-      doubt_contact_beyond_data(*input, store, result);
-      doubt_contact_between_sections(*input, store, result);
-    }
+    notes.add(*c, *c, result);
   }
-  add_noise(file, store, run);
-}
-
-/// A result that says where it comes from, without cases.
-io::RunResult head_of(const io::CaseFile& file) {
-  io::RunResult run;
-  run.version = version();
-  run.git = git_revision();
-  run.threads = thread_count();
-  run.title = file.title;
-  run.input_file = file.path.string();
-  run.input_sha256 = file.sha256;
-  run.inputs = io::inputs_of(file.cases, file.path.parent_path());
-  run.cases_total = static_cast<int>(file.cases.size());
-  run.complete = file.cases.empty();
-  return run;
 }
 
 }  // namespace

@@ -170,6 +170,14 @@ void ProgressLine::draw(const std::string& text) {
   std::fflush(stderr);
 }
 
+std::string time_left(double seconds) {
+  constexpr double kMinute = 60.0, kHour = 3600.0;
+  if (seconds < kMinute) return fmt::format("{:.1f} s", seconds);
+  const auto whole = to_whole<long>(std::min(seconds, 1e9));
+  if (seconds < kHour) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+  return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
+}
+
 void ProgressLine::update(std::size_t finished, std::size_t total, const std::string& what) {
   using namespace std::chrono_literals;
   if (!visible_) return;
@@ -190,6 +198,7 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
       });
     return;
   }
+  if (what.empty()) found_ = finished, start_ = now;
   if (drawn_ && finished < total && now - last_ < 100ms) return;
   last_ = now;
   constexpr double kCells = 20.0;
@@ -197,9 +206,9 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
   std::string line =
       fmt::format("[{:.<20}] {}/{} ({:.0f} %) {}", std::string(to_whole<std::size_t>(kCells * share), '#'), finished,
                   total, 100.0 * share, what);
-  if (finished > 0)
-    line += fmt::format(", {:.1f} s left",
-                        seconds() / static_cast<double>(finished) * static_cast<double>(total - finished));
+  if (finished > found_)
+    line += fmt::format(", {} left", time_left(seconds() / static_cast<double>(finished - found_) *
+                                               static_cast<double>(total - finished)));
   draw(line);
 }
 

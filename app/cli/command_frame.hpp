@@ -32,12 +32,16 @@ void catch_interrupt();
 /// Whether units of work take about equally long, so that what is left can be told from what is done.
 enum class Units { alike, different };
 
+/// A time for people: "12.3 s", "4 min 05 s", "2 h 10 min".
+std::string time_left(double seconds);
+
 /// One line on stderr with count and estimated time left, redrawn at most ten times a second; of different units with
 /// the time so far, redrawn every second. Silent off a terminal.
 class ProgressLine {
  public:
   ProgressLine(bool quiet, Units units);
   ~ProgressLine();
+  /// what: the unit; empty: so many were finished before the work began.
   void update(std::size_t finished, std::size_t total, const std::string& what);
 
  private:
@@ -47,6 +51,7 @@ class ProgressLine {
   Units units_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point start_, last_;
+  std::size_t found_ = 0;  ///< units that were finished at the start: they say nothing of the time that others take
   std::mutex mutex_;
   std::string step_;  ///< of different units
   std::jthread clock_;

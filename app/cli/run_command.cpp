@@ -3,17 +3,24 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/case_list.hpp"
 #include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/backends/registry.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/summary.hpp"
@@ -30,15 +37,11 @@ struct RunOptions {
   double resolution_mm = 0.0;          ///< of re-represented surfaces, 0 = their default
   std::vector<std::string> overrides;  ///< key=value
   std::string report_file;             ///< HTML; empty = none
+  std::vector<std::string> numbers;    ///< of lists; empty: usual ones
+  bool fields = false;                 ///< of patches, also of long lists
   bool verbose = false;                ///< all numbers of all cases
   bool bodies = false;                 ///< wheel and rail of every case for ParaView
 };
-
-/// Whether a resolution means something to it.
-bool is_sampled(const io::SurfaceSource& source) {
-  return (!source.backend.empty() && backend_of(source.backend).resample) ||
-         std::ranges::any_of(source.parts, is_sampled);
-}
 
 void choose_backends(io::CaseFile& file, const RunOptions& options) {
   constexpr double kMetres = 1e-3;
@@ -50,7 +53,7 @@ void choose_backends(io::CaseFile& file, const RunOptions& options) {
       if (!rail.empty()) input->rail.backend = rail;
       bool idle = options.resolution_mm > 0.0;
       for (io::SurfaceSource* source : {&input->wheel, &input->rail})
-        if (options.resolution_mm > 0.0 && is_sampled(*source)) {
+        if (options.resolution_mm > 0.0 && app::is_sampled(*source)) {
           source->resolution = kMetres * options.resolution_mm;
           idle = false;
         }
@@ -76,6 +79,57 @@ int exit_status(const io::RunResult& result) {
   return status;
 }
 
+bool is_list(const io::ListedCases& given, const RunOptions& options) {
+  return !options.fields && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
+}
+
+/// Where finished rows are kept while the work goes on.
+std::filesystem::path kept_rows(const std::filesystem::path& folder, const std::string& json_file) {
+  if (!folder.empty()) return folder / "unfinished.rows";
+  return json_file.empty() || json_file == "-" || is_stream(json_file) ? "" : json_file + ".unfinished";
+}
+
+/// Cases of which there are many: their numbers go to files row by row.
+int run_list(io::ListedCases given, const std::filesystem::path& folder, const RunOptions& options,
+             const CommonOptions& common) {
+  if (!options.report_file.empty() || options.bodies)
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} shows fields, which are left out of lists", options.bodies ? "--vtk" : "--report"), {},
+                "add --fields, with memory for all of them");
+  choose_backends(given.file, options);
+  const std::filesystem::path kept = kept_rows(folder, options.json_file);
+  const app::ListOptions wanted{options.numbers, kept, !options.json_file.empty(), settings_of(options)};
+  app::SurfaceStore store;
+  std::optional<app::SolvedList> list;
+  app::ListSummary summary;
+  std::vector<std::string> notes;
+  try {
+    print_notes(given.file.notes, common.quiet);
+    with_progress(common.quiet,
+                  [&](const Progress& progress) { list.emplace(std::move(given), store, wanted, progress); });
+    print_notes(list->head().doubts, common.quiet);
+    if (list->found() > 0)
+      print_notes({fmt::format("{} of {} cases were finished before", list->found(), list->size())}, common.quiet);
+    const CancellationScope scope(&interrupted());
+    std::optional<OutputFile> json;
+    if (!options.json_file.empty() && options.json_file != "-") json.emplace(options.json_file);
+    std::function<void(std::string_view)> write;
+    if (json) write = [&](std::string_view bytes) { json->write(bytes); };
+    if (options.json_file == "-") write = [](std::string_view bytes) { std::cout << bytes; };
+    summary = app::write_list(*list, folder, write, notes);
+    if (json) json->commit();
+    list->forget();
+  } catch (const Cancelled&) {
+    std::cerr << (kept.empty() ? std::string("interrupted: nothing is kept without -o FOLDER or --json FILE\n")
+                               : fmt::format("interrupted: finished cases are in {}, the same command goes on\n",
+                                             kept.string()));
+    return kFailed;
+  }
+  print_notes(notes, common.quiet);
+  if (options.json_file != "-") print(app::list_summary_text(summary));
+  return summary.failed ? kFailed : summary.not_converged ? kNotConverged : kOk;
+}
+
 int run_command(const RunOptions& options, const CommonOptions& common) {
   if (options.cases.size() > 1 && !options.json_file.empty())
     throw Error(ErrorKind::configuration, "--json takes the results of one case file only", {},
@@ -94,7 +148,20 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
   int status = kOk;
   for (std::size_t k = 0; k < options.cases.size(); ++k) {
     const std::string& name = options.cases[k];
-    io::CaseFile file = io::read_any_case(name, options.overrides);
+    io::ListedCases given = [&] {
+      const CancellationScope scope(&interrupted());  // a long table is checked row by row
+      return io::read_listed_cases(name, options.overrides);
+    }();
+    if (is_list(given, options)) {
+      const int list_status = run_list(std::move(given), folders.empty() ? "" : folders[k], options, common);
+      if (list_status != kOk && (status == kOk || list_status == kFailed)) status = list_status;
+      if (interrupted()) break;
+      continue;
+    }
+    if (!options.numbers.empty())
+      throw Error(ErrorKind::configuration, "--numbers chooses columns of lists, this has all of them", {name},
+                  fmt::format("leave it out: a list has cases_file, or more than {} cases", app::kLongList));
+    io::CaseFile file = io::all_cases(std::move(given));
     choose_backends(file, options);
     app::SurfaceStore store;
     io::RunResult result =
@@ -136,7 +203,7 @@ Command add_run(CLI::App& verb) {
   auto options = std::make_shared<RunOptions>();
   add_case_files(verb, options->cases, options->overrides);
   verb.add_option("-o,--output", options->output_folder,
-                  "Folder for result.json, fields.h5, ParaView files, pressure.svg")
+                  "Folder for result.json, fields.h5, ParaView files, pressure.svg; of lists for cases.csv, cases.h5")
       ->check(is_output())
       ->type_name("FOLDER");
   verb.add_option("--json", options->json_file,
@@ -144,6 +211,9 @@ Command add_run(CLI::App& verb) {
       ->check(is_output())
       ->type_name("FILE");
   verb.add_flag("--vtk", options->bodies, "Write wheel and rail of every case for ParaView too: FOLDER/vtk/bodies.pvd");
+  add_values(verb, "--numbers", options->numbers,
+             "Of lists: columns, by their names in results (pmax_MPa, patch_2.fn_N, ...)", "NAME,...");
+  verb.add_flag("--fields", options->fields, "Of lists too: all fields and pictures, which stay in memory");
   verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)")
       ->type_name(kBackendName);

@@ -30,28 +30,6 @@ const PairKey* key_of(const std::string& column, const SourcePosition& where) {
               "the first line names the columns: " + names);
 }
 
-/// The cells of a line; a quoted cell may hold commas and doubled quotes (RFC 4180), not line ends.
-std::vector<std::string> cells_of(std::string_view line) {
-  std::vector<std::string> out(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
-      out.back() += '"', ++i;
-    else if (c == '"')
-      quoted = !quoted;
-    else if (c == ',' && !quoted)
-      out.emplace_back();
-    else
-      out.back() += c;
-  }
-  for (std::string& cell : out) {
-    const auto from = cell.find_first_not_of(" \t\r"), to = cell.find_last_not_of(" \t\r");
-    cell = from == std::string::npos ? std::string() : cell.substr(from, to - from + 1);
-  }
-  return out;
-}
-
 /// A name in the list: a file beside it, or the name of a profile.
 std::string resolved(const std::filesystem::path& folder, const std::string& cell) {
   const std::filesystem::path file = io::profiles::portable_path(cell);
@@ -93,7 +71,7 @@ std::vector<GeometryRequest> read_pair_list(const std::string& file, const Geome
     at = end + 1;
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = io::csv_cells(line);
     const SourcePosition where{file, number, 0};
     if (columns.empty()) {
       for (const std::string& cell : cells) columns.push_back(key_of(cell, where));

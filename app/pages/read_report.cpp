@@ -92,6 +92,7 @@ constexpr KindRow kKinds[] = {
     {"simulation.h5", "a simulation", [](const Found& f) { return simulation_in(f.store()); }, overlaid_simulations},
     {"unfinished.h5", "a simulation", [](const Found& f) { return simulation_in(f.store()); }, overlaid_simulations},
     {"fields.h5", "a run", [](const Found& f) { return run_in(f.folder); }, overlaid_runs},
+    {"cases.json", "a list of cases", plain},
     {"geometry.json", "the geometry of a wheelset on its track", plain},
     {"track.json", "how a track gives way", plain},
     {"stability.json", "the stability of a vehicle", plain},

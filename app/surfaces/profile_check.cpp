@@ -445,37 +445,31 @@ bool may_touch(const io::CaseResult& result, Side side, Body body, const std::pa
 
 }  // namespace
 
-void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& known, SurfaceStore& store, io::RunResult& run) {
-  std::map<std::tuple<std::shared_ptr<const NaturalSurface>, bool, std::optional<double>>, std::string> of_slices;
-  for (io::CaseResult& result : run.cases) {
-    const auto given = std::ranges::find(file.cases, result.number, &io::Case::number);
-    if (given == file.cases.end()) continue;
-    const auto* input = std::get_if<io::WheelRailCase>(&given->content);
-    if (input == nullptr) continue;
-    for (const Body body : {Body::rail, Body::wheel}) {
-      const io::SurfaceSource& source = body == Body::wheel ? input->wheel : input->rail;
-      const io::GeometryFile* file_of = slices_file(source);
-      if (file_of == nullptr) continue;
-      const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, profile_radius(*input, body));
-      const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
-      if (slices == nullptr) continue;
-      const std::optional<double> cant = body == Body::rail ? std::optional(input->track.cant) : std::nullopt;
-      const auto [doubt, fresh] = of_slices.try_emplace({natural, input->track.gauge_based, cant});
-      if (fresh)
-        doubt->second =
-            doubt_of_slices(*slices, file_of->file.string(), body, {{}, {}, input->track.gauge_based, cant});
-      if (!doubt->second.empty()) result.remarks.push_back({RemarkKind::profile_doubtful, 0, doubt->second});
-    }
-    for (const ProfileUse& use : uses_of(*given))
-      for (const auto& [same, profile] : known) {
-        if (!same_use(same, use)) continue;
-        for (const io::ProfileRemark& remark : profile.judgement.remarks)
-          if (remark.name != "gauge_point" &&
-              (!remark.place || may_touch(result, input->side, same.body, *remark.place)))
-            result.remarks.push_back(
-                {RemarkKind::profile_doubtful, 0, fmt::format("{}: {}: {}", profile.name, remark.name, remark.text)});
-      }
+void add_profile_doubts(const io::Case& given, const ProfilesOfRun& profiles, SurfaceStore& store, SliceDoubts& known,
+                        io::CaseResult& result) {
+  const auto* input = std::get_if<io::WheelRailCase>(&given.content);
+  if (input == nullptr) return;
+  for (const Body body : {Body::rail, Body::wheel}) {
+    const io::SurfaceSource& source = body == Body::wheel ? input->wheel : input->rail;
+    const io::GeometryFile* file_of = slices_file(source);
+    if (file_of == nullptr) continue;
+    const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, profile_radius(*input, body));
+    const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
+    if (slices == nullptr) continue;
+    const std::optional<double> cant = body == Body::rail ? std::optional(input->track.cant) : std::nullopt;
+    const auto [doubt, fresh] = known.try_emplace({natural, input->track.gauge_based, cant});
+    if (fresh)
+      doubt->second = doubt_of_slices(*slices, file_of->file.string(), body, {{}, {}, input->track.gauge_based, cant});
+    if (!doubt->second.empty()) result.remarks.push_back({RemarkKind::profile_doubtful, 0, doubt->second});
   }
+  for (const ProfileUse& use : uses_of(given))
+    for (const auto& [same, profile] : profiles) {
+      if (!same_use(same, use)) continue;
+      for (const io::ProfileRemark& remark : profile.judgement.remarks)
+        if (remark.name != "gauge_point" && (!remark.place || may_touch(result, input->side, same.body, *remark.place)))
+          result.remarks.push_back(
+              {RemarkKind::profile_doubtful, 0, fmt::format("{}: {}: {}", profile.name, remark.name, remark.text)});
+    }
 }
 
 std::vector<std::string> profile_doubts(const ProfilesOfRun& profiles) {

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -69,10 +72,14 @@ ProfilesOfRun check_profiles_of_run(const io::CaseFile& file);
 /// Their doubts and notes as notes of a run.
 std::vector<std::string> profile_doubts(const ProfilesOfRun& profiles);
 
-/// The doubts of check_profiles as remarks on the cases of a run in which the profiles are used; those that a contact
-/// has remarks of its own for are left to it.
-/// store: of the surfaces of the run; slices are judged by one in their middle.
-void add_profile_doubts(const io::CaseFile& file, const ProfilesOfRun& profiles, SurfaceStore& store,
-                        io::RunResult& run);
+/// What slices are doubted for, by surface, whether the track has a gauge, and cant; empty: nothing.
+using SliceDoubts =
+    std::map<std::tuple<std::shared_ptr<const NaturalSurface>, bool, std::optional<double>>, std::string>;
+
+/// The doubts of check_profiles as remarks on the result of a case; those that a contact has remarks of its own for are
+/// left to it.
+/// store: of the surfaces of the run; slices are judged by one in their middle. known: what was found before.
+void add_profile_doubts(const io::Case& given, const ProfilesOfRun& profiles, SurfaceStore& store, SliceDoubts& known,
+                        io::CaseResult& result);
 
 }  // namespace treadmark::app

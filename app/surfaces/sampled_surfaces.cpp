@@ -136,40 +136,6 @@ constexpr double kSearchAngle = 0.2;  // of the contact search, to both sides [r
 constexpr double kMarginAngle = 0.05;
 constexpr double kHalfGauge = 0.8;  // lever arm of the yaw angle [m]
 
-/// Grows to hold the interval round a value.
-struct Interval {
-  double low = 0.0, high = 0.0;
-  bool any = false;
-  void include(double middle, double half) {
-    low = any ? std::min(low, middle - half) : middle - half;
-    high = any ? std::max(high, middle + half) : middle + half;
-    any = true;
-  }
-};
-
-/// Both bodies of a case.
-void include(const io::WheelRailCase& input, Interval& theta, Interval& x) {
-  const WheelsetState& w = input.state;
-  const double turned = std::fabs(w.position.yaw) + std::fabs(w.wheel_offset.yaw);
-  const double sideways = std::fabs(w.position.roll) + std::fabs(w.wheel_offset.roll) + std::fabs(input.track.cant);
-  theta.include(wrap_angle(-(w.position.pitch + w.wheel_offset.pitch)),
-                kSearchAngle + kMarginAngle + turned + 0.2 * sideways);
-  x.include(w.position.x + w.wheel_offset.x,
-            (kSearchAngle + kMarginAngle) * input.wheelset.nominal_radius + kHalfGauge * turned);
-}
-
-SampledRegions regions_within(const Interval& theta, const Interval& x) {
-  SampledRegions regions;
-  if (!x.any) return regions;
-  regions.rail.u_min = x.low;
-  regions.rail.u_max = x.high;
-  if (theta.high - theta.low < std::numbers::pi) {
-    regions.wheel.u_min = theta.low;
-    regions.wheel.u_max = theta.high;
-  }
-  return regions;
-}
-
 bool made_for_one_place(const std::string& backend) { return !backend.empty() && backend_of(backend).one_place; }
 
 bool made_for_one_place(const io::SurfaceSource& source) {
@@ -179,20 +145,53 @@ bool made_for_one_place(const io::SurfaceSource& source) {
 
 }  // namespace
 
+void RegionsOfCases::Interval::include(double middle, double half) {
+  low = any ? std::min(low, middle - half) : middle - half;
+  high = any ? std::max(high, middle + half) : middle + half;
+  any = true;
+}
+
+void RegionsOfCases::add(const io::WheelRailCase& input) {
+  const WheelsetState& w = input.state;
+  const double turned = std::fabs(w.position.yaw) + std::fabs(w.wheel_offset.yaw);
+  const double sideways = std::fabs(w.position.roll) + std::fabs(w.wheel_offset.roll) + std::fabs(input.track.cant);
+  theta_.include(wrap_angle(-(w.position.pitch + w.wheel_offset.pitch)),
+                 kSearchAngle + kMarginAngle + turned + 0.2 * sideways);
+  x_.include(w.position.x + w.wheel_offset.x,
+             (kSearchAngle + kMarginAngle) * input.wheelset.nominal_radius + kHalfGauge * turned);
+}
+
+SampledRegions RegionsOfCases::regions() const {
+  SampledRegions regions;
+  if (!x_.any) return regions;
+  regions.rail.u_min = x_.low;
+  regions.rail.u_max = x_.high;
+  if (theta_.high - theta_.low < std::numbers::pi) {
+    regions.wheel.u_min = theta_.low;
+    regions.wheel.u_max = theta_.high;
+  }
+  return regions;
+}
+
+bool is_sampled(const io::SurfaceSource& source) {
+  return (!source.backend.empty() && backend_of(source.backend).resample) ||
+         std::ranges::any_of(source.parts, [](const io::SurfaceSource& part) { return is_sampled(part); });
+}
+
 SampledRegions sampled_regions(const io::CaseFile& file) {
-  Interval theta, x;
+  RegionsOfCases all;
   for (const io::Case& c : file.cases)
-    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) include(*input, theta, x);
-  return regions_within(theta, x);
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) all.add(*input);
+  return all.regions();
 }
 
 SampledRegions regions_of(const io::WheelRailCase& input, const SampledRegions& all) {
   SampledRegions out = all;
   const bool wheel = made_for_one_place(input.wheel), rail = made_for_one_place(input.rail);
   if (!wheel && !rail) return out;
-  Interval theta, x;
-  include(input, theta, x);
-  const SampledRegions own = regions_within(theta, x);
+  RegionsOfCases one;
+  one.add(input);
+  const SampledRegions own = one.regions();
   if (wheel) out.wheel = own.wheel;
   if (rail) out.rail = own.rail;
   return out;

@@ -38,6 +38,25 @@ struct SampledRegions {
   sampling::Region wheel, rail;
 };
 
+/// Of cases that come one by one.
+class RegionsOfCases {
+ public:
+  void add(const io::WheelRailCase& input);
+  SampledRegions regions() const;
+
+ private:
+  /// Grows to hold the interval round a value.
+  struct Interval {
+    double low = 0.0, high = 0.0;
+    bool any = false;
+    void include(double middle, double half);
+  };
+  Interval theta_, x_;
+};
+
+/// Whether a body is in a representation that is made from samples.
+bool is_sampled(const io::SurfaceSource& source);
+
 /// Wheel: angles round the lowest point of every case, as far as the contact search looks; from half a turn on the
 /// whole wheel. Rail: positions along the track likewise. Without a wheel-rail case everything.
 SampledRegions sampled_regions(const io::CaseFile& file);

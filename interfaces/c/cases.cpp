@@ -11,6 +11,7 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
+#include "treadmark/interfaces/c/many.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -45,6 +46,8 @@ void require_scope(const tm_case& c, const CaseNumber& number) {
     throw Error(ErrorKind::configuration, fmt::format("{} does not belong to this kind of case", number.name));
 }
 
+}  // namespace
+
 void set_number(tm_case& c, const CaseNumber& number, double value) {
   require_scope(c, number);
   io::CaseValue given;
@@ -67,7 +70,6 @@ void set_number(tm_case& c, const CaseNumber& number, double value) {
   c.checked = checked && number.motion && height_is_found(*c.content) == found;
 }
 
-}  // namespace
 }  // namespace treadmark::c
 
 using namespace treadmark;

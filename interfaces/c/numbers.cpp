@@ -24,17 +24,6 @@ Names names_of(const Rows& rows) {
   return names;
 }
 
-/// Endings of the keys of result files.
-constexpr std::string_view kEndings[] = {"_N_mm", "_Nmm", "_mm_s", "_rad_s", "_rad_mm", "_mm2", "_mm",
-                                         "_rad",  "_MPa", "_N",    "_J",     "_W",      "_s",   "_C"};
-
-std::string without_ending(const io::Unit& unit, std::string_view key) {
-  if (!unit.si.empty() && unit.si != "1")
-    for (const std::string_view ending : kEndings)
-      if (key.ends_with(ending)) return std::string(key.substr(0, key.size() - ending.size()));
-  return std::string(key);
-}
-
 bool is_motion(std::string_view name) {
   constexpr std::string_view kMotions[] = {"s",  "y",  "z",     "roll", "yaw",   "pitch",
                                            "vy", "vz", "vroll", "vyaw", "vpitch"};
@@ -48,9 +37,7 @@ template <class Result>
 std::vector<ResultNumber<Result>> named_rows() {
   std::vector<ResultNumber<Result>> rows;
   for (const io::Quantity<Result>& q : io::quantities<Result>()) {
-    if (q.key.empty()) continue;
-    const std::string object = q.object.empty() ? std::string() : std::string(q.object) + '.';
-    rows.push_back({{object + without_ending(q.unit, q.key), std::string(q.unit.si), std::string(q.meaning)}, &q});
+    if (!q.key.empty()) rows.push_back({{io::si_name(q), std::string(q.unit.si), std::string(q.meaning)}, &q});
   }
   return rows;
 }

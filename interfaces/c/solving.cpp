@@ -13,6 +13,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
+#include "treadmark/interfaces/c/many.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 
@@ -99,6 +100,13 @@ bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 }  // namespace
+
+const io::WheelRailCase& checked_for(const tm_pair& pair, const tm_case* c) {
+  const auto& given = checked<io::WheelRailCase>(c, "the case is one of a patch");
+  require_radii(pair, given);
+  return given;
+}
+
 }  // namespace treadmark::c
 
 using namespace treadmark;
@@ -129,8 +137,7 @@ tm_status tm_pair_of_case(const tm_case* c, tm_pair** out) {
 tm_status tm_pair_solve(tm_pair* p, const tm_case* c, tm_solution** out) {
   return solve_into(out, [&](tm_solution& made) {
     require(p != nullptr, "pair must not be null");
-    const auto& given = checked<io::WheelRailCase>(c, "the case is one of a patch");
-    require_radii(*p, given);
+    const auto& given = checked_for(*p, c);
     made.input = c->content;
     const auto before = p->pair.save();
     try {

@@ -77,8 +77,8 @@ TM_API const char *tm_status_name(tm_status status);
 TM_API tm_status tm_set_threads(int count);
 /* From any thread: while *flag is not 0, calls of this thread end with TM_CANCELLED; null: never. The flag stays the caller's. */
 TM_API void tm_set_cancel_flag(const volatile int *flag);
-/* Is told by tm_run and tm_surface_from_scan called from this thread how far they are, on any thread but one call at a time; not 0 =
- * give up, the call returns TM_CANCELLED. what: the part just finished, lent for the call. Null: nobody is told. */
+/* Is told by tm_run, tm_pair_solve_many and tm_surface_from_scan called from this thread how far they are, on any thread but one call
+ * at a time; not 0 = give up, the call returns TM_CANCELLED. what: the part just finished, lent for the call. Null: nobody is told. */
 typedef int (*tm_progress)(void *user, size_t finished, size_t total, const char *what);
 TM_API void tm_set_progress(tm_progress function, void *user);
 
@@ -149,6 +149,17 @@ TM_API tm_status tm_pair_of_case(const tm_case *c, tm_pair **out);
  * have a solution too, whose message says why. A NaN is TM_BAD_REQUEST, and so are nominal radii that are not those of the
  * surfaces. */
 TM_API tm_status tm_pair_solve(tm_pair *p, const tm_case *c, tm_solution **out);
+/* Many instants that do not depend on each other, on all threads (tm_set_threads), each to the bits of tm_pair_solve. Row i is the
+ * case with in[k][i] in place of its number in_names[k] ("wheelset.y", as tm_case_set_number). out[k][i] becomes the number
+ * out_names[k]: of the solution ("force_on_rail.fz_tr"), "npatch", of the patch with the greatest normal force ("pmax"), or of one
+ * patch, counted from 1 ("patch_2.pmax"); NaN where there is none. status: of every row, null: not wanted; rows that make no sense
+ * are TM_FAILED. told hears why rows are not TM_OK, and grave warnings about those that are, on any thread but one call at a time;
+ * null: nobody does. The pair keeps what its last solution left, which no row goes on from. Returns TM_OK however rows end. After
+ * TM_CANCELLED the other rows have NaN and the status TM_CANCELLED. Memory does not grow with rows. */
+typedef void (*tm_row_message)(void *user, size_t row, tm_status status, const char *message);
+TM_API tm_status tm_pair_solve_many(const tm_pair *p, const tm_case *c, size_t rows, const char *const *in_names,
+                                    const double *const *in, size_t n_in, const char *const *out_names, double *const *out,
+                                    size_t n_out, tm_status *status, tm_row_message told, void *user);
 /* Forgets the last solution. */
 TM_API tm_status tm_pair_reset(tm_pair *p);
 TM_API tm_status tm_pair_save(const tm_pair *p, tm_state **out);

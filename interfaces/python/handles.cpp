@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <pybind11/numpy.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -13,6 +15,7 @@
 #include "treadmark/app/surfaces/trace_line.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parametric.hpp"
+#include "treadmark/interfaces/c/many.hpp"
 #include "treadmark/interfaces/c/surfaces.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
@@ -224,6 +227,41 @@ py::list solve_all(const tm_pair& pair, const std::vector<tm_case*>& cases) {
   return to_python(results, *results);
 }
 
+/// Independent instants, row by row: arrays of the numbers wanted (SI), codes of statuses, and (row, text) of those
+/// that are not ok. given: a number of cases by its id, and an array of it.
+py::tuple solve_many(const tm_pair& pair, const tm_case& common,
+                     const std::vector<std::pair<std::size_t, Numbers>>& given, const Strings& wanted, std::size_t rows,
+                     const py::object& progress, int threads) {
+  c::ManyRows many{rows, {}, {}};
+  for (const auto& [id, values] : given) {
+    c::require(id < c::case_numbers().size(), "no number of cases has this id");
+    c::require(static_cast<std::size_t>(values.size()) == rows, "an array has another length than there are rows");
+    many.given.emplace_back(&c::case_numbers()[id], values.data());
+  }
+  py::list numbers;
+  for (const std::string& name : wanted) {
+    Numbers made(static_cast<py::ssize_t>(rows));
+    many.wanted.emplace_back(io::listed_number(name, io::Names::si), made.mutable_data());
+    numbers.append(made);
+  }
+  py::array_t<std::uint8_t> codes(static_cast<py::ssize_t>(rows));
+  std::uint8_t* const code = codes.mutable_data();
+  auto said = with_progress(progress, threads, [&](const Progress& report) {
+    std::vector<std::pair<std::size_t, std::string>> texts;
+    c::solve_many(
+        pair, common, many,
+        [&](std::size_t row, Status end, const std::string& message) {
+          constexpr std::uint8_t kDoubtful = 4;
+          code[row] = end == Status::ok && !message.empty() ? kDoubtful : static_cast<std::uint8_t>(end);
+          if (!message.empty()) texts.emplace_back(row, message);
+        },
+        report);
+    std::ranges::sort(texts);
+    return texts;
+  });
+  return py::make_tuple(numbers, codes, said);
+}
+
 py::bytes bytes_of(const tm_state& state) {
   std::size_t size = 0;
   check([&] { return tm_state_to_bytes(&state, nullptr, &size); });
@@ -361,6 +399,7 @@ void add_handles(py::module_& module) {
              return solved(*solution);
            })
       .def("solve_all", solve_all)
+      .def("solve_many", solve_many)
       .def("reset", [](tm_pair& pair) { check([&] { return tm_pair_reset(&pair); }); })
       .def("save",
            [](const tm_pair& pair) { return made<tm_state>([&](auto out) { return tm_pair_save(&pair, out); }); })

@@ -69,8 +69,11 @@ py::dict tables() {
   py::list numbers, keys, fields;
   for (const c::CaseNumber& number : c::case_numbers())
     numbers.append(py::make_tuple(number.name, number.unit, number.meaning, static_cast<int>(number.key->info.scope)));
-  for (const io::CaseKey& key : io::case_keys())
-    keys.append(py::make_tuple(key.info.path, key.info.doc, key.info.default_text, static_cast<int>(key.info.scope)));
+  for (const io::CaseKey& key : io::case_keys()) {
+    const io::KeyUnit unit = io::unit_at_end(key.info.path);  // of numbers: their name without it
+    keys.append(py::make_tuple(key.info.path, key.info.doc, key.info.default_text, static_cast<int>(key.info.scope),
+                               key.info.path.substr(0, key.info.path.size() - unit.ending.size()), unit.si));
+  }
   for (const io::FieldColumn& field : io::kFieldColumns)
     fields.append(py::make_tuple(std::string(field.name), std::string(field.unit), std::string(field.meaning)));
   using namespace py::literals;

@@ -185,6 +185,21 @@ void apply_table(Case& target, const CaseTable& table, const std::filesystem::pa
   for (const Assignment& a : assignments) a.key->set(target, *a.value, folder);
 }
 
+const CaseKey* case_key(std::string_view path) {
+  const auto found = keys_by_path().find(path);
+  return found == keys_by_path().end() ? nullptr : found->second;
+}
+
+void refuse_unknown_case_key(std::string_view path, const SourcePosition& where) {
+  refuse_unknown_key(path, all_paths(), where);
+}
+
+void apply_value(Case& target, const CaseKey& key, const CaseValue& value, const std::filesystem::path& folder) {
+  check_scope(target, key.info, value.where);
+  check_meant(key.info, value);
+  key.set(target, value, folder);
+}
+
 Case case_without_keys(bool patch) {
   Case c;
   if (patch) {
@@ -199,14 +214,8 @@ Case case_without_keys(bool patch) {
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder) {
   const SourcePosition& where = assignment.value.where;
   const std::string& path = assignment.path;
-  if (const auto found = keys_by_path().find(path); found != keys_by_path().end()) {
-    check_scope(target, found->second->info, where);
-    const KeyInfo& key = found->second->info;
-    const CaseValue value = meant_value(key, assignment);
-    check_meant(key, value);
-    found->second->set(target, value, folder);
-    return;
-  }
+  if (const CaseKey* key = case_key(path); key != nullptr)
+    return apply_value(target, *key, meant_value(key->info, assignment), folder);
   // list.index.key, for example wheel.flats.0.depth_mm
   for (const CaseKey& key : case_keys()) {
     if (key.info.type != KeyType::table_list || !path.starts_with(key.info.path + '.')) continue;
@@ -216,7 +225,7 @@ void apply_assignment(Case& target, const CaseOverride& assignment, const std::f
     key.set_element(target, place.index, {{place.key, where, element_value(key.info, place.key, assignment)}}, where);
     return;
   }
-  refuse_unknown_key(path, all_paths(), where);
+  refuse_unknown_case_key(path, where);
 }
 
 std::string case_file_schema() {
@@ -226,6 +235,9 @@ std::string case_file_schema() {
   schema.update(tables(false));
   Json& properties = schema["properties"];
   properties["title"] = {{"type", "string"}, {"description", "name of the study; without it the name of the file"}};
+  properties["cases_file"] = {
+      {"type", "string"},
+      {"description", "table with commas whose heads are keys: every row is a case, in place of cases"}};
   properties["cases"] = {{"type", "array"},
                          {"minItems", 1},
                          {"items", tables(true)},

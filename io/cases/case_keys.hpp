@@ -29,6 +29,14 @@ inline constexpr ExclusiveSections kExclusiveSections[] = {{"patch", "hertz", "g
 /// exclusions first, so that a Case is changed only when everything is right.
 void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder);
 
+/// Sets one key after checking scope, type and range.
+void apply_value(Case& target, const CaseKey& key, const CaseValue& value, const std::filesystem::path& folder);
+
+/// The key of this path; null: there is none.
+const CaseKey* case_key(std::string_view path);
+/// Throws Error(configuration), which names the nearest key.
+[[noreturn]] void refuse_unknown_case_key(std::string_view path, const SourcePosition& where);
+
 /// Applies one override; its path may also name a key of a list element ("wheel.flats.0.depth_mm",
 /// "rail.corrugations.0.waves.1.phase_deg").
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder);

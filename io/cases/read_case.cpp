@@ -29,8 +29,12 @@ std::string advice_on_kind(const std::filesystem::path& file) {
 }  // namespace
 
 CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return all_cases(read_listed_cases(file, overrides));
+}
+
+ListedCases read_listed_cases(const std::filesystem::path& file, std::span<const std::string> overrides) {
   const std::string extension = extension_of(file);
-  if (extension == ".toml") return read_case_file(file, overrides);
+  if (extension == ".toml") return parse_listed_cases(read_text(file), file, overrides);
   std::error_code ignored;
   if (const std::string name = file.string();
       name.find('=') != std::string::npos && !std::filesystem::exists(file, ignored))
@@ -45,7 +49,7 @@ CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::s
   }
   CaseFile result = read_contact_input(file);
   apply_overrides(result, overrides);
-  return result;
+  return {std::move(result), nullptr};
 }
 
 std::string read_text(const std::filesystem::path& file) { return read_input(file, "file"); }

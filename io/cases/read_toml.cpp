@@ -14,11 +14,13 @@
 #include <utility>
 
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/cases/case_rows.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
 
 namespace treadmark::io {
@@ -207,7 +209,18 @@ void refuse_steps(const std::vector<CaseOverride>& changes) {
 
 }  // namespace
 
-/// Where the case says where a wheel's file has the back of the flange, the file is not moved.
+CaseFile all_cases(ListedCases listed) {
+  CaseFile& file = listed.file;
+  if (listed.rows == nullptr) return std::move(file);
+  if (listed.rows->size() > kMostCases)
+    throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), {listed.rows->file().string()},
+                "treadmark run takes tables of any length");
+  file.cases.clear();
+  for (std::size_t k = 0; k < listed.rows->blocks(); ++k)
+    for (CaseRow& row : listed.rows->block(k)) file.cases.push_back(std::move(row.content));
+  return std::move(file);
+}
+
 void take_as_told(Case& c) {
   constexpr double kSame = 1e-6;
   auto* input = std::get_if<WheelRailCase>(&c.content);
@@ -217,9 +230,10 @@ void take_as_told(Case& c) {
         std::fabs(input->wheelset.flange_back_position - WheelsetDimensions{}.flange_back_position) > kSame;
 }
 
-CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name,
-                      std::span<const std::string> overrides) {
-  CaseFile result;
+ListedCases listed_cases_of(const CaseTable& document, const std::filesystem::path& name,
+                            std::span<const std::string> overrides) {
+  ListedCases listed;
+  CaseFile& result = listed.file;
   result.path = name;
   result.title = name.stem().string();
   const std::vector<CaseOverride> changes = parse_overrides(overrides);
@@ -227,7 +241,7 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
 
   // Title and cases apart, everything at the top is common to all cases.
   CaseTable common;
-  const CaseEntry* entries = nullptr;
+  const CaseEntry *entries = nullptr, *table = nullptr;
   Case defaults = case_without_keys(false);
   defaults.where = {name.string(), 1, 1};
   for (const CaseEntry& entry : document) {
@@ -240,12 +254,33 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
       if (!entry.value.is_list() || entry.value.list().empty())
         throw Error(ErrorKind::configuration, "cases must be a list of tables, [[cases]]", entry.value.where);
       entries = &entry;
+    } else if (entry.key == "cases_file") {
+      if (!std::holds_alternative<std::string>(entry.value.data))
+        throw Error(ErrorKind::configuration, fmt::format("cases_file must be text, found {}", entry.value.kind()),
+                    entry.value.where, "give the name of a table: cases_file = \"places.csv\"");
+      table = &entry;
     } else {
       if (entry.key == "patch") defaults.content = case_without_keys(true).content;
       common.push_back(entry);
     }
   }
   apply_table(defaults, common, folder);
+
+  const auto note_motion = [&] {
+    const auto still = [](const Case& c) { return !doubt_about_motion(c).empty(); };
+    if (const auto first = std::ranges::find_if(result.cases, still); first != result.cases.end())
+      result.notes.push_back(fmt::format("case {}: {}", first->number, doubt_about_motion(*first)));
+  };
+  if (table != nullptr) {
+    if (entries != nullptr)
+      throw Error(ErrorKind::configuration, "cases and cases_file exclude each other", table->key_where,
+                  "give one of them");
+    listed.rows = std::make_shared<const CaseRows>(folder / profiles::portable_path(table->value.text()), defaults,
+                                                   folder, changes);
+    result.cases.push_back(std::move(listed.rows->block(0).front().content));
+    note_motion();
+    return listed;
+  }
 
   Expansion expansion{defaults, folder, changes, result.cases, {}, {}, {}};
   if (entries == nullptr) {
@@ -272,10 +307,13 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
     validate_case(c);
   }
   settle_sequences(result.cases, &result.notes);
-  const auto still = [](const Case& c) { return !doubt_about_motion(c).empty(); };
-  if (const auto first = std::ranges::find_if(result.cases, still); first != result.cases.end())
-    result.notes.push_back(fmt::format("case {}: {}", first->number, doubt_about_motion(*first)));
-  return result;
+  note_motion();
+  return listed;
+}
+
+CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name,
+                      std::span<const std::string> overrides) {
+  return all_cases(listed_cases_of(document, name, overrides));
 }
 
 namespace {
@@ -298,13 +336,18 @@ void refuse_other_kinds(const CaseTable& document, const std::filesystem::path& 
 
 }  // namespace
 
-CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name,
-                         std::span<const std::string> overrides) {
+ListedCases parse_listed_cases(std::string_view text, const std::filesystem::path& name,
+                               std::span<const std::string> overrides) {
   const CaseTable document = parse_toml(text, name.string());
   refuse_other_kinds(document, name);
-  CaseFile result = case_file_of(document, name, overrides);
-  result.sha256 = sha256_hex(text);
+  ListedCases result = listed_cases_of(document, name, overrides);
+  result.file.sha256 = sha256_hex(text);
   return result;
+}
+
+CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name,
+                         std::span<const std::string> overrides) {
+  return all_cases(parse_listed_cases(text, name, overrides));
 }
 
 void apply_overrides(CaseFile& target, std::span<const std::string> overrides) {

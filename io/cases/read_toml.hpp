@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,14 @@
 #include "treadmark/io/settings/toml_value.hpp"
 
 namespace treadmark::io {
+
+class CaseRows;
+
+/// A file whose cases may be rows of a table.
+struct ListedCases {
+  CaseFile file;                         ///< with the first row alone where there is a table
+  std::shared_ptr<const CaseRows> rows;  ///< null: none
+};
 
 /// Reads a Treadmark case file (TOML, docs/case-file.md). Tables at the top hold what is common to all cases, every
 /// [[cases]] entry overrides some keys; a list where one value is expected makes one case for each of its values.
@@ -28,6 +37,18 @@ CaseFile parse_case_text(std::string_view text, const std::filesystem::path& nam
 /// The same for tables that have been parsed already (and perhaps changed); sha256 stays empty.
 CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name,
                       std::span<const std::string> overrides = {});
+
+/// The same, but the rows of a table (cases_file) stay in their file.
+ListedCases listed_cases_of(const CaseTable& document, const std::filesystem::path& name,
+                            std::span<const std::string> overrides = {});
+
+ListedCases parse_listed_cases(std::string_view text, const std::filesystem::path& name,
+                               std::span<const std::string> overrides = {});
+/// With all rows. Errors: Error(configuration) for more of them than a CaseFile may have.
+CaseFile all_cases(ListedCases listed);
+
+/// Where the case says where a wheel's file has the back of the flange, the file is not moved.
+void take_as_told(Case& c);
 
 /// Applies one "key.path=value" to a case from any kind of file; the case is checked again. Relative paths count from
 /// the folder of the file that the case came from. Keys of list elements are written with their number from 0:

@@ -252,6 +252,27 @@ std::string csv_cell(const std::string& text) {
   return out + '"';
 }
 
+std::vector<std::string> csv_cells(std::string_view line) {
+  std::vector<std::string> out(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      out.back() += '"', ++i;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      out.emplace_back();
+    else
+      out.back() += c;
+  }
+  for (std::string& cell : out) {
+    const auto from = cell.find_first_not_of(" \t\r"), to = cell.find_last_not_of(" \t\r");
+    cell = from == std::string::npos ? std::string() : cell.substr(from, to - from + 1);
+  }
+  return out;
+}
+
 std::string csv_number(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
 
 std::string csv_cell(double value, Digits digits) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/model/rows.hpp"
@@ -64,6 +65,10 @@ std::string to_base64(std::span<const std::byte> bytes);
 /// A text as a cell of a table with commas (RFC 4180): in quotes where it needs them, after an apostrophe where a
 /// spreadsheet would take it for a formula. Thread-safe.
 std::string csv_cell(const std::string& text);
+
+/// The cells of a line of such a table without the blanks around them; a quoted cell may hold commas and doubled
+/// quotes, no line ends. Thread-safe.
+std::vector<std::string> csv_cells(std::string_view line);
 
 /// The shortest number that reads back exactly, "nan", "inf" or "-inf". Thread-safe.
 std::string csv_number(double value);

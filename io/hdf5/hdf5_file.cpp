@@ -563,6 +563,122 @@ void Hdf5Writer::commit() {
   image_.bytes.reset();
 }
 
+namespace {
+
+Hdf5Id type_of(const Hdf5Column& column) {
+  using Kind = Hdf5Column::Kind;
+  Hdf5Id type = written(HDF5(H5Tcopy)(column.kind == Kind::text   ? HDF5(H5T_C_S1_g)
+                                      : column.kind == Kind::byte ? HDF5(H5T_NATIVE_UINT8_g)
+                                                                  : HDF5(H5T_NATIVE_DOUBLE_g)),
+                        column.name);
+  if (column.kind == Kind::text &&
+      (HDF5(H5Tset_size)(type.get(), column.width) < 0 || HDF5(H5Tset_cset)(type.get(), H5T_CSET_UTF8) < 0 ||
+       HDF5(H5Tset_strpad)(type.get(), H5T_STR_NULLPAD) < 0))
+    cannot_write(column.name);
+  return type;
+}
+
+/// Makes a column without values; where they are to stand.
+std::uint64_t make_column(hid_t group, const Hdf5Column& column) {
+  check_name(column.name);
+  const Hdf5Id space = make_space({column.rows}, column.name), type = type_of(column),
+               creation = timeless(HDF5(H5P_CLS_DATASET_CREATE_ID_g), column.name);
+  if (HDF5(H5Pset_alloc_time)(creation.get(), H5D_ALLOC_TIME_EARLY) < 0 ||
+      HDF5(H5Pset_fill_time)(creation.get(), H5D_FILL_TIME_NEVER) < 0)
+    cannot_write(column.name);
+  const Hdf5Id dataset = written(
+      HDF5(H5Dcreate2)(group, column.name.c_str(), type.get(), space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT),
+      column.name);
+  AttributeWriter{dataset.get(), "unit"}(column.unit);
+  AttributeWriter{dataset.get(), "meaning"}(column.meaning);
+  if (column.rows == 0) return 0;
+  const haddr_t place = HDF5(H5Dget_offset)(dataset.get());
+  if (place == HADDR_UNDEF) cannot_write(column.name);
+  return place;
+}
+
+/// The heads of the columns are small; what they make room for must be there before the library begins.
+void require_room(const std::filesystem::path& file, std::span<const Hdf5Column> columns) {
+  constexpr std::uintmax_t kHead = 4096, kMega = 1000000;
+  std::uintmax_t wanted = kHead;
+  for (const Hdf5Column& column : columns) wanted += kHead + column.rows * column.width;
+  std::error_code unknown;
+  const std::filesystem::space_info room = std::filesystem::space(file.parent_path(), unknown);
+  if (!unknown && room.available < wanted)
+    throw Error(ErrorKind::configuration, fmt::format("HDF5: {} MB do not fit on the disk", wanted / kMega), {},
+                "make room there, or choose another folder");
+}
+
+}  // namespace
+
+Hdf5ColumnFile::Hdf5ColumnFile(std::filesystem::path file, std::span<const Attribute> attributes,
+                               std::span<const Hdf5Column> columns)
+    : file_(std::move(file)) {
+  const Hdf5Silence silence;
+  require_room(file_, columns);
+  {
+    const Hdf5Id creation = timeless(HDF5(H5P_CLS_FILE_CREATE_ID_g), file_.string()),
+                 access = written(HDF5(H5Pcreate)(HDF5(H5P_CLS_FILE_ACCESS_ID_g)), file_.string());
+    if (HDF5(H5Pset_libver_bounds)(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
+        HDF5(H5Pset_fclose_degree)(access.get(), H5F_CLOSE_STRONG) < 0)
+      cannot_write(file_.string());
+    Hdf5Id made = written(HDF5(H5Fcreate)(file_.c_str(), kTruncate, creation.get(), access.get()), file_.string());
+    {
+      const Hdf5Id root = written(HDF5(H5Gopen2)(made.get(), "/", H5P_DEFAULT), file_.string());
+      for (const Attribute& attribute : attributes)
+        std::visit(AttributeWriter{root.get(), attribute.name}, attribute.value);
+      for (const Hdf5Column& column : columns) places_.push_back({make_column(root.get(), column), column.width});
+    }
+    if (HDF5(H5Fclose)(made.release()) < 0) cannot_write(file_.string());
+  }
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor_ < 0) cannot_write(file_.string());
+}
+
+Hdf5ColumnFile::~Hdf5ColumnFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void Hdf5ColumnFile::put(std::uint64_t at, const void* bytes, std::size_t size) {
+  const char* from = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t done = ::pwrite(descriptor_, from, size, static_cast<off_t>(at));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) cannot_write(file_.string());
+    from += done, at += static_cast<std::uint64_t>(done), size -= static_cast<std::size_t>(done);
+  }
+}
+
+void Hdf5ColumnFile::write(std::size_t column, std::size_t row, std::span<const double> values) {
+  put(places_.at(column).offset + row * sizeof(double), values.data(), values.size_bytes());
+}
+
+void Hdf5ColumnFile::write(std::size_t column, std::size_t row, std::span<const std::uint8_t> values) {
+  put(places_.at(column).offset + row, values.data(), values.size());
+}
+
+void Hdf5ColumnFile::write(std::size_t column, std::size_t row, const std::string& text) {
+  std::string padded = text;
+  padded.resize(places_.at(column).width, '\0');
+  put(places_[column].offset + row * padded.size(), padded.data(), padded.size());
+}
+
+void Hdf5ColumnFile::finish() {
+  uLong crc = 0;
+  std::uint64_t at = 0;
+  for (std::string piece(std::size_t{1} << 20, '\0');;) {
+    const ssize_t count = ::pread(descriptor_, piece.data(), piece.size(), static_cast<off_t>(at));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) cannot_write(file_.string());
+    if (count == 0) break;
+    crc = crc_of(crc, {piece.data(), static_cast<std::size_t>(count)});
+    at += static_cast<std::uint64_t>(count);
+  }
+  const std::string sum = check_sum_text(crc);
+  put(at, sum.data(), sum.size());
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP) cannot_write(file_.string());
+}
+
 bool Hdf5GroupReader::has(const std::string& name) const {
   const htri_t there = HDF5(H5Lexists)(id_.get(), name.c_str(), H5P_DEFAULT);
   if (there < 0) cannot_read(file_, name);

@@ -78,4 +78,44 @@ class Hdf5Writer {
   Hdf5GroupWriter root_;
 };
 
+/// A column of a file that is filled piece by piece.
+struct Hdf5Column {
+  enum class Kind { number, byte, text };
+  std::string name, unit, meaning;
+  Kind kind = Kind::number;
+  std::size_t rows = 0;
+  std::size_t width = sizeof(double);  ///< bytes of a value: 8, 1, or those of the longest text (UTF-8)
+};
+
+/// An HDF5 file of columns that need not fit into memory. The library makes it without values, which then are put to
+/// their places, so that a disk that is full is an error as of any other file. Not compressed; equal values give equal
+/// bytes. Written straight: for files within an OutputFolder. Errors of all functions: Error(configuration). Not to be
+/// made from two threads at once.
+class Hdf5ColumnFile {
+ public:
+  Hdf5ColumnFile(std::filesystem::path file, std::span<const Attribute> attributes,
+                 std::span<const Hdf5Column> columns);
+  ~Hdf5ColumnFile();
+  Hdf5ColumnFile(const Hdf5ColumnFile&) = delete;
+  Hdf5ColumnFile& operator=(const Hdf5ColumnFile&) = delete;
+
+  /// Values from this row on.
+  void write(std::size_t column, std::size_t row, std::span<const double> values);
+  void write(std::size_t column, std::size_t row, std::span<const std::uint8_t> values);
+  void write(std::size_t column, std::size_t row, const std::string& text);
+  /// Adds the check sum. No value is written afterwards.
+  void finish();
+
+ private:
+  struct Place {
+    std::uint64_t offset;
+    std::size_t width;
+  };
+  void put(std::uint64_t at, const void* bytes, std::size_t size);
+
+  std::filesystem::path file_;
+  std::vector<Place> places_;  ///< by column
+  int descriptor_ = -1;
+};
+
 }  // namespace treadmark::io

@@ -301,6 +301,19 @@ bool C::*flag_of(Block block) {
   return block == B::wheelset ? &C::has_wheelset : nullptr;
 }
 
+std::string name_in_file(std::string_view object, std::string_view key) {
+  return object.empty() ? std::string(key) : fmt::format("{}.{}", object, key);
+}
+
+std::string name_in_si(std::string_view object, std::string_view key, const Unit& unit) {
+  constexpr std::string_view kEndings[] = {"_N_mm", "_Nmm", "_mm_s", "_rad_s", "_rad_mm", "_mm2", "_mm",
+                                           "_rad",  "_MPa", "_N",    "_J",     "_W",      "_s",   "_C"};
+  if (!unit.si.empty() && unit.si != "1")
+    for (const std::string_view ending : kEndings)
+      if (key.ends_with(ending)) return name_in_file(object, key.substr(0, key.size() - ending.size()));
+  return name_in_file(object, key);
+}
+
 std::string patch_quantity_table() { return markdown<P>(kPatchQuantities); }
 std::string case_quantity_table() { return markdown<C>(kCaseQuantities); }
 

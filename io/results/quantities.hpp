@@ -112,6 +112,18 @@ void for_each_stored(Block block, Visit&& visit) {
   }
 }
 
+/// A name of JSON with its object, "force_on_rail.fz_tr_N", and without the unit, for the number in SI.
+std::string name_in_file(std::string_view object, std::string_view key);
+std::string name_in_si(std::string_view object, std::string_view key, const Unit& unit);
+template <class T>
+std::string name_of(const Quantity<T>& row) {
+  return name_in_file(row.object, row.key);
+}
+template <class T>
+std::string si_name(const Quantity<T>& row) {
+  return name_in_si(row.object, row.key, row.unit);
+}
+
 /// All rows with a key in JSON as Markdown table (docs/results.md).
 std::string patch_quantity_table();
 std::string case_quantity_table();

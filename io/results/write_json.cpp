@@ -132,9 +132,8 @@ Json surface_json(const SurfaceUse& use) {
   return out;
 }
 
-}  // namespace
-
-std::string to_json(const RunResult& run) {
+/// All but its cases, whose list stands last.
+Json head_json(const RunResult& run) {
   Json out = Json::object();
   out["treadmark"] = {
       {"version", run.version}, {"git", run.git}, {"threads", run.threads}, {"seconds", number(run.seconds)}};
@@ -148,8 +147,28 @@ std::string to_json(const RunResult& run) {
   out["complete"] = run.complete;
   out["cases_total"] = run.cases_total;
   out["cases"] = Json::array();
+  return out;
+}
+
+}  // namespace
+
+std::string to_json(const RunResult& run) {
+  Json out = head_json(run);
   for (const CaseResult& result : run.cases) out["cases"].push_back(case_json(result));
   return dumped(out) + "\n";
+}
+
+std::string case_text(const CaseResult& result) {
+  std::string out;
+  for (const char c : dumped(case_json(result))) out += c == '\n' ? "\n  " : std::string_view(&c, 1);
+  return out;
+}
+
+std::string text_before_cases(const RunResult& run) {
+  std::string text = dumped(head_json(run));
+  constexpr std::string_view kNoCases = "]\n}";
+  text.resize(text.size() - kNoCases.size());
+  return text + "\n  ";
 }
 
 void write_json(const std::filesystem::path& path, const RunResult& run) { write_file(path, to_json(run)); }

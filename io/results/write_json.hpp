@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "treadmark/io/results/result_model.hpp"
 
@@ -13,6 +14,13 @@ namespace treadmark::io {
 /// Numbers have 12 significant digits; what is not finite becomes null. Field arrays are not part of it.
 /// Thread-safe.
 std::string to_json(const RunResult& run);
+
+/// The same piece by piece, for more cases than fit into memory: what stands before the cases, each of them as it
+/// stands there, commas and line ends between them (kBetweenCases), and what stands behind the last one. run: without
+/// cases.
+std::string case_text(const CaseResult& result);
+std::string text_before_cases(const RunResult& run);
+inline constexpr std::string_view kBetweenCases = ",\n  ", kBehindCases = "\n ]\n}\n";
 
 /// Writes the text to a file that appears only when complete. Errors: Error(configuration).
 void write_json(const std::filesystem::path& path, const RunResult& run);

@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -10,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/progress.hpp"
 #include "treadmark/detection/contact_frame.hpp"
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/model/remarks.hpp"
@@ -97,6 +100,14 @@ class Pair {
   /// Errors: Error(configuration) for inconsistent input or numbers that are not finite. Lack of contact or of
   /// convergence, forces that cannot be balanced, a wheel inside the rail or beside it are statuses.
   PairSolution solve(const Problem& problem);
+
+  /// Solves many problems that do not depend on each other, on all threads with pairs of their own: the bits of
+  /// solve(), whatever their number and order, and the history stays as it was. problem(i) and take(i, solution) are
+  /// called on any thread, once for each i, and take() once for each. What problem(i) or solve() refuse with an Error,
+  /// and what is to go on from a history, has Status::failed and the error as its message; the others go on. Memory
+  /// does not grow with count. Throws Cancelled after a stop request, of progress or of the scope that holds.
+  void solve_many(std::size_t count, const std::function<Problem(std::size_t)>& problem,
+                  const std::function<void(std::size_t, PairSolution&&)>& take, const Progress& progress = {}) const;
 
   /// Forgets the history: the bodies come together from rest.
   void reset();

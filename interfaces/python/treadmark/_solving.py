@@ -6,14 +6,15 @@ from __future__ import annotations
 import functools
 import threading
 import warnings
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _treadmark
 from ._errors import ConvergenceWarning, InputError
 from ._inputs import Changes, Input, Newton, Path, assignments, checked, number as as_number, toml_value
-from ._records import Case, Result, Solution, case_of
+from ._records import Case, Patch, Result, Solution, case_of
 from ._surfaces import Surface, case_of_input
 
 _numbers: dict[str, int] = {}
@@ -21,11 +22,15 @@ _units: dict[int, str] = {}
 for _id, _row in enumerate(_treadmark.tables()["case_numbers"]):
     _numbers.setdefault(_row[0], _id)
     _units[_id] = _row[1]
-_keys = {row[0] for row in _treadmark.tables()["case_keys"]}
+#: Keys of case files; of those that hold a number its name, and how much one of their unit is in SI.
+_keys: dict[str, tuple[str, float]] = {row[0]: (row[4], row[5]) for row in _treadmark.tables()["case_keys"]}
 _WHEEL_RAIL = ("wheelset", "friction", "discretisation", "material", "case", "contact", "solver", "track", "damping", "influence", "heat", "roller")
 _PATCH = ("patch", "patch.hertz", "patch.gap", "friction", "material", "case", "solver", "influence", "heat")
 _ALIASES = {"speed": "wheelset.velocity", "pitch_rate": "wheelset.vpitch", "roll_rate": "wheelset.vroll", "yaw_rate": "wheelset.vyaw",
-            "friction": "friction.coefficient"}
+            "friction": "friction.coefficient", "load": "wheelset.vertical_force"}
+_STATUSES = np.array(["ok", "no_contact", "not_converged", "failed", "doubtful"], dtype=object)
+#: What solve_many returns unless it is asked for others.
+_USUAL = ("z", "npatch", "fx_tr", "fy_tr", "fz_tr", "fn", "fx", "fs", "mn", "xi", "eta", "phi", "pmax", "approach", "dissipated", "x_tr", "y_tr", "z_tr", "angle")
 
 
 @functools.lru_cache(maxsize=None)
@@ -46,6 +51,25 @@ def _find(name: str, patch: bool) -> tuple[int | None, str]:
 
     near = difflib.get_close_matches(name, [*_numbers, *_keys, *{n.rpartition(".")[2] for n in _numbers}], 3)
     raise InputError(f"no setting has the name {name!r}", advice="did you mean " + " or ".join(near) if near else "treadmark.settings() lists them")
+
+
+def _array_number(name: str) -> tuple[int, float]:
+    """Number of a name that may end with a unit ("y_mm"), and how much one of it is in SI."""
+    number, full = _find(name, False)
+    base, si = ("", 0.0) if number is not None else _keys[full]
+    if number is None and base in _numbers:
+        return _numbers[base], si
+    if number is None:
+        raise InputError(f"{full} cannot differ from row to row")
+    return number, 1.0
+
+
+def _listed(name: str) -> str:
+    """The full name of a number of results, which may be given by its last part."""
+    patch, dot, rest = name.partition(".")
+    if dot and patch.startswith("patch_"):
+        return f"{patch}.{Patch._short.get(rest, rest)}"
+    return Case._short.get(name) or Patch._short.get(name, name)
 
 
 def settings() -> list[tuple[str, str, str]]:
@@ -200,6 +224,45 @@ class Pair:
             raws = self._open().solve_all(cases)
         named = {_find(name, False)[1]: array.ravel().tolist() for name, array in zip(varied, arrays)}
         return Result([_warned(case_of(raw)) for raw in raws], cases_total=len(raws), varied=named)
+
+    def solve_many(self, problem: Problem | None = None, *, quantities: Sequence[str] = _USUAL, set: Changes = None,
+                   progress: Callable[[int, int, str], Any] | None = None, threads: int = 0, **values: Any) -> dict[str, npt.NDArray[Any]]:
+        """Solves any number of instants that do not depend on each other, on all threads, for some numbers of each:
+        ``pair.solve_many(y_mm=y, yaw=yaw, load=80e3, quantities=["fz_tr", "pmax", "patch_2.pmax"])``.
+
+        Keywords as in solve(); arrays are broadcast, and names may end with a unit of case files. Returns arrays of one length, in C order,
+        as a dictionary that ``pandas.DataFrame`` takes: what was varied, as it was given, then the quantities in SI: of the case, "npatch",
+        of the patch with the greatest normal force ("pmax") or of one patch ("patch_2.pmax", from 1), NaN where there is none, then
+        "status" and "message". A row that cannot be solved, or makes no sense, is "failed", and the others go on; "doubtful": the numbers
+        may be wrong. Of such rows there is one ConvergenceWarning. Each row has the bits of solve(), the last solution stays as it was, and memory does not grow beyond the arrays.
+        progress and threads as in run(). Errors: InputError for names and arrays that make no sense. Ctrl-C ends it, other threads go on.
+        """
+        base = problem or self.problem
+        varied = {name: np.asarray(value) for name, value in values.items() if not isinstance(value, (float, int, str)) and np.ndim(value) > 0}
+        if not varied:
+            raise InputError("nothing differs from row to row", advice="give an array, or use solve")
+        try:
+            arrays = np.broadcast_arrays(*varied.values())
+            given = []
+            for name, array in zip(varied, arrays):
+                number, si = _array_number(name)
+                given.append((number, np.ascontiguousarray(array.ravel(), dtype=np.float64) * si))
+        except (TypeError, ValueError) as error:
+            if isinstance(error, InputError):
+                raise
+            raise InputError(f"the arrays do not fit each other, or are no numbers: {error}") from None
+        common = base.replace(set, **{name: value for name, value in values.items() if name not in varied})
+        rows = arrays[0].size
+        with self._lock:
+            numbers, codes, said = self._open().solve_many(common._case, given, [_listed(name) for name in quantities], rows, progress, threads)
+        message = np.full(rows, "", dtype=object)
+        for row, text in said:
+            message[row] = text
+        bad = [entry for entry in said if codes[entry[0]] > 1]
+        if bad:
+            warnings.warn(f"{len(bad)} of {rows} rows are not converged, failed or doubtful, the first of them {bad[0][0]}: {bad[0][1]}", ConvergenceWarning, stacklevel=3)
+        return {**{name: array.ravel() for name, array in zip(varied, arrays)}, **dict(zip(quantities, numbers)), "status": _STATUSES[codes],
+                "message": message}
 
     def step(self, problem: Problem | None = None, *, set: Changes = None, **values: Any) -> Solution:
         """Solves the next instant: goes on from the last solution. Keywords as in solve(), for example regime="transient"."""

@@ -53,6 +53,17 @@ def test_many_problems_end(interrupt_soon, pair):
     assert interrupt_soon() < 2 * SOON
 
 
+def test_many_rows_end_and_leave_other_threads_to_work(interrupt_soon, pair):
+    counted = []
+    thread = threading.Thread(target=lambda: [counted.append(time.sleep(0.01)) for _ in range(10)])
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        pair.solve_many(y_mm=[1e-5 * k for k in range(100000)], quantities=["pmax"])
+    assert interrupt_soon() < SOON and counted
+    thread.join()
+    assert pair.solve().ok
+
+
 def test_a_handler_of_ones_own_is_called():
     called = []
     before = signal.signal(signal.SIGINT, lambda *what: called.append(what))

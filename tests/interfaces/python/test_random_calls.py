@@ -97,6 +97,7 @@ class Calls:
             lambda: n.Pair(surface, self.of(n.Surface)),
             lambda: self.solve(lambda: n.Pair.solve(pair, case)),
             lambda: self.solve(lambda: n.Pair.solve_all(pair, [case] * r.randrange(3))),
+            lambda: self.solve(lambda: n.Pair.solve_many(pair, case, [(r.randrange(400), np.zeros(r.randrange(4)))], [r.choice(["fn", "wheelset.z", ""])], 3, None, 0)),
             lambda: n.Pair.reset(pair),
             lambda: n.Pair.save(pair),
             lambda: n.Pair.restore(pair, self.of(n.State)),

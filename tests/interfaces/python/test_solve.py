@@ -57,6 +57,37 @@ def test_arrays_make_independent_problems(pair):
         pair.solve(y=[0.0, float("nan")])
 
 
+def test_many_rows_have_the_numbers_of_single_ones(pair):
+    y, yaw = np.linspace(-3.0, 3.0, 30), 1e-3 * np.arange(2)[:, None]
+    rows = pair.solve_many(y_mm=y, yaw=yaw, load=70e3, quantities=["z", "fz_tr", "npatch", "pmax", "patch_2.pmax"])
+    assert list(rows) == ["y_mm", "yaw", "z", "fz_tr", "npatch", "pmax", "patch_2.pmax", "status", "message"]
+    assert all(isinstance(column, np.ndarray) and column.shape == (60,) for column in rows.values())
+    for k in (0, 17, 44, 59):
+        alone = pair.solve(y=rows["y_mm"][k] * 1e-3, yaw=rows["yaw"][k], vertical_force=70e3)
+        most = max(alone.patches, key=lambda patch: patch.fn)
+        assert (rows["z"][k], rows["fz_tr"][k], rows["npatch"][k]) == (alone.z, alone.force[2], len(alone.patches))
+        assert rows["pmax"][k] == most.pmax
+        assert len(alone.patches) > 1 or np.isnan(rows["patch_2.pmax"][k])
+    assert (pair.solve_many(y_mm=y, yaw=yaw, load=70e3, quantities=["pmax"], threads=1)["pmax"] == rows["pmax"]).all()
+    assert "fn" in pair.solve_many(y=[0.0, 1e-3])
+
+
+def test_rows_that_fail_do_not_stop_the_others(pair):
+    before = pair.save().to_bytes()
+    with pytest.warns(tm.ConvergenceWarning, match="1 of 3 rows"):
+        rows = pair.solve_many(y=[0.0, float("nan"), 1e-3], quantities=["pmax"])
+    assert rows["status"].tolist()[1] == "failed" and rows["message"][1] and rows["message"][0] == ""
+    assert np.isnan(rows["pmax"]).tolist() == [False, True, False]
+    assert pair.save().to_bytes() == before
+    told = []
+    pair.solve_many(y=np.zeros(200), progress=lambda *what: told.append(what))
+    assert told[-1] == (200, 200, "contacts")
+    for wrong in ({"y": [0.0], "quantities": ["pmaximum"]}, {"y": 0.0}, {"y": [0.0, 1.0], "yaw": [0.0, 1.0, 2.0]}, {"y": ["far"]}, {"law": ["coulomb"]},
+                  {"y": [0.0], "history": "continue"}):
+        with pytest.raises(tm.InputError):
+            pair.solve_many(**wrong)
+
+
 def test_sequences_in_time_and_states(pair):
     steps = [dict(pitch=-1e-3 * k / 0.46, s=1e-3 * k) for k in range(4)]
     going = pair.problem.replace(regime="transient", vertical_force=80e3)

@@ -36,6 +36,55 @@ class Hdf5File : public ::testing::Test {
   std::filesystem::path path_ = folder_.path() / "a.h5";
 };
 
+TEST_F(Hdf5File, ColumnsAreFilledInAnyOrder) {
+  using Kind = io::Hdf5Column::Kind;
+  constexpr std::size_t kRows = 100000;
+  const std::vector<io::Hdf5Column> columns{{"a.b", "m", "length", Kind::number, kRows, 8},
+                                            {"code", "1", "0 good", Kind::byte, kRows, 1},
+                                            {"text", "1", "said", Kind::text, 3, 12},
+                                            {"none", "1", "", Kind::number, 0, 8}};
+  const std::vector<io::Attribute> head{{"format", std::string("x")}, {"count", 3}};
+  const auto write = [&](const std::filesystem::path& file, std::size_t piece) {
+    io::Hdf5ColumnFile out(file, head, columns);
+    for (std::size_t end = kRows; end > 0; end -= piece) {  // the last rows first
+      std::vector<double> numbers;
+      std::vector<std::uint8_t> codes;
+      for (std::size_t i = end - piece; i < end; ++i) {
+        numbers.push_back(static_cast<double>(i) / 3.0);
+        codes.push_back(static_cast<std::uint8_t>(i % 251));
+      }
+      out.write(0, end - piece, numbers);
+      out.write(1, end - piece, codes);
+    }
+    out.write(2, 2, "größe <12");
+    out.write(2, 0, "");
+    out.write(2, 1, "twelve bytes");
+    out.finish();
+  };
+  write(path_, 1000);
+  {
+    const io::Hdf5Reader file(path_);
+    EXPECT_EQ(file.root().text("format"), "x");
+    EXPECT_EQ(file.root().text_of("a.b", "unit"), "m");
+    const std::vector<double> numbers = file.root().numbers("a.b", {kRows});
+    const std::vector<std::uint8_t> codes = file.root().bytes("code");
+    for (std::size_t i = 0; i < kRows; i += 777) {
+      EXPECT_EQ(numbers[i], static_cast<double>(i) / 3.0);
+      EXPECT_EQ(codes[i], i % 251);
+    }
+    EXPECT_TRUE(file.root().numbers("none").empty());
+  }
+  write(folder_.path() / "other.h5", kRows);
+  const std::string bytes = content_of(path_);
+  EXPECT_EQ(content_of(folder_.path() / "other.h5"), bytes);
+  EXPECT_NE(bytes.find("twelve bytes"), std::string::npos);
+  // a changed byte is noticed
+  std::string damaged = bytes;
+  damaged[damaged.size() / 2] = static_cast<char>(damaged[damaged.size() / 2] ^ 1);
+  std::ofstream(path_, std::ios::binary) << damaged;
+  EXPECT_EQ(kind_of_error([&] { io::Hdf5Reader{path_}; }), ErrorKind::input_data);
+}
+
 TEST_F(Hdf5File, ValuesOfEveryKindComeBack) {
   std::vector<double> numbers;
   for (int i = 0; i < 40000; ++i) numbers.push_back(i / 7.0);  // more than a chunk

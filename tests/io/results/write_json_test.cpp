@@ -290,5 +290,15 @@ TEST(WriteJson, SaysWhichFileCannotBeWritten) {
   EXPECT_EQ(folder.count_files(), 2u);
 }
 
+TEST(WriteJson, PieceByPieceIsTheSame) {
+  io::RunResult run = testing::sample_run();
+  const std::string whole = io::to_json(run);
+  std::string pieces;
+  for (const io::CaseResult& c : run.cases)
+    pieces += (pieces.empty() ? "" : std::string(io::kBetweenCases)) + io::case_text(c);
+  run.cases.clear();
+  EXPECT_EQ(io::text_before_cases(run) + pieces + std::string(io::kBehindCases), whole);
+}
+
 }  // namespace
 }  // namespace treadmark
