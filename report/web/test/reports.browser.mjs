@@ -129,8 +129,9 @@ async function screenshot(page, name, options = {}) {
   await page.screenshot({ path: join(pictures, `${name}.png`), ...options });
 }
 
-/** The page at both widths in both themes; nothing sticks out at the side. */
+/** The page at both widths in both themes, if somebody asked for pictures. */
 async function photograph(file, name, selector) {
+  if (!process.env.PICTURES) return;
   for (const size of Object.keys(sizes)) {
     const tab = await Tab.open(file, { size });
     if (selector) {
@@ -140,21 +141,24 @@ async function photograph(file, name, selector) {
         window.scrollBy({ top: -60, behavior: "instant" });
       });
     }
-    const [wide, window] = await tab.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
-    assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
     for (const theme of ["light", "dark"]) {
-      await tab.page.emulateMedia({ colorScheme: theme });
-      await tab.page.waitForFunction(
-        (wanted) => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) < 380 === wanted,
-        theme === "dark",
-      );
+      await showTheme(tab.page, theme);
       await screenshot(tab.page, `${name}-${size}-${theme}`);
     }
     await tab.close();
   }
 }
 
-/** Every view of a page drawn at both widths and on A4: no text is cut off. `steps`: what the reader chooses for paper. */
+/** In the colours of a theme, which is dark or light indeed. */
+async function showTheme(page, theme) {
+  await page.emulateMedia({ colorScheme: theme });
+  await page.waitForFunction(
+    (wanted) => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) < 380 === wanted,
+    theme === "dark",
+  );
+}
+
+/** Every view of a page drawn at both widths, in both themes, and on A4: no text is cut off, nothing sticks out at the side. `steps`: what the reader chooses for paper. */
 async function readWhole(file, name, steps = "") {
   for (const size of [...Object.keys(sizes), "paper"]) {
     const paper = size === "paper";
@@ -163,6 +167,11 @@ async function readWhole(file, name, steps = "") {
     for (const view of await page.locator("figure.view").all()) {
       await view.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
       await page.waitForTimeout(paper ? 0 : 250);
+    }
+    if (!paper) {
+      const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+      assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
+      for (const theme of ["dark", "light"]) await showTheme(page, theme);
     }
     if (paper) {
       if (steps) {
