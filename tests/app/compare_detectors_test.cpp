@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kCase = R"(
+constexpr const char* kTwoDetectors = R"(
 rail.shape.standard = "60E1"
 wheel.shape.standard = "S1002"
 track.cant = "1:40"
@@ -50,7 +50,7 @@ class FineGrid final : public detection::Detector {
 
 io::CaseFile read(const std::string& more = "") {
   const treadmark::testing::TemporaryFolder folder;
-  return io::read_any_case(folder.write("case.toml", more + kCase), {});
+  return io::read_any_case(folder.write("case.toml", more + kTwoDetectors), {});
 }
 
 TEST(CompareDetectors, AgreeOnTheSameCaseAlsoWithOneFromOutside) {

@@ -33,7 +33,7 @@ std::string wheel_text() {
   return out.str();
 }
 
-const char* kCase = R"(
+const char* kInpCase = R"(
   1 MODULE
  1203100    C-P-B-T-N-F-S
  0022033    V-L-D-C-M-Z-E
@@ -69,7 +69,7 @@ SampleInput::SampleInput() {
   std::filesystem::create_directories(folder_);
   write("rail.prr", rail_text());
   write("wheel.txt", wheel_text());
-  write("case.inp", kCase);
+  write("case.inp", kInpCase);
 }
 
 SampleInput::~SampleInput() {

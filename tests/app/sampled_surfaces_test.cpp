@@ -19,7 +19,7 @@
 namespace treadmark::app {
 namespace {
 
-constexpr double kRadius = 0.46, kFlat = 60e-3;
+constexpr double kFlatRadius = 0.46, kFlat = 60e-3;
 
 struct Wanted {
   std::string side = "right", wheel{}, rail{}, more = "cant = \"1:40\"\n", cases = "wheelset.pitch_deg = [0.5]";
@@ -89,7 +89,7 @@ void expect_contacts_on_surfaces(const io::RunResult& result) {
       const Vec3 on_wheel = c.bodies->X_TA.apply_inverse(reference), on_rail = c.bodies->X_TS.apply_inverse(reference);
       const int station = nearest_station(wheel, std::atan2(on_wheel.x(), on_wheel.z()));
       const double theta = std::atan2(on_wheel.x(), on_wheel.z());
-      EXPECT_NEAR(wheel.u[static_cast<std::size_t>(station)], theta, 0.6e-3 / kRadius) << "dense at contacts";
+      EXPECT_NEAR(wheel.u[static_cast<std::size_t>(station)], theta, 0.6e-3 / kFlatRadius) << "dense at contacts";
       const auto radius = between(wheel, station, on_wheel.y(), [&](std::size_t i) { return wheel_radius(wheel, i); });
       ASSERT_TRUE(radius);
       EXPECT_NEAR(*radius, std::hypot(on_wheel.x(), on_wheel.z()), p.approach + 15e-6);
@@ -113,11 +113,11 @@ TEST(SampledSurfaces, AFreshFlatIsAsDeepAsItsChord) {
   EXPECT_GE(wheel.nv, 100);
   EXPECT_LE(wheel.nu * wheel.nv, 60000);
   ASSERT_EQ(wheel.deviation.size(), wheel.x.size());
-  const double inner = std::sqrt(kRadius * kRadius - kFlat * kFlat / 4.0);
+  const double inner = std::sqrt(kFlatRadius * kFlatRadius - kFlat * kFlat / 4.0);
   double deepest = 0.0, longest = 0.0;
   for (int i = 0; i < wheel.nu; ++i) {
     const double u = wheel.u[static_cast<std::size_t>(i)],
-                 depth = std::fabs(u) < 1.0 ? std::max(0.0, kRadius - inner / std::cos(u)) : 0.0;
+                 depth = std::fabs(u) < 1.0 ? std::max(0.0, kFlatRadius - inner / std::cos(u)) : 0.0;
     longest = std::max(
         longest,
         (i + 1 < wheel.nu ? wheel.u[static_cast<std::size_t>(i) + 1] : wheel.u[0] + 2.0 * std::numbers::pi) - u);
@@ -132,9 +132,9 @@ TEST(SampledSurfaces, AFreshFlatIsAsDeepAsItsChord) {
     }
     // The profile crosses the nominal radius at y = 0, where its cone is nearly straight.
     EXPECT_NEAR(between(wheel, i, 0.0, [&](std::size_t at) { return wheel_radius(wheel, at); }).value(),
-                kRadius - depth, 2e-6);
+                kFlatRadius - depth, 2e-6);
   }
-  EXPECT_NEAR(deepest, -(kRadius - inner), 3e-6);
+  EXPECT_NEAR(deepest, -(kFlatRadius - inner), 3e-6);
   EXPECT_NEAR(longest, 2.0 * std::numbers::pi / 180.0, 1e-9);
   EXPECT_EQ(result.cases[2].wheel_surface, "wheel_1");
   EXPECT_TRUE(surface(result, "rail_1").deviation.empty());
@@ -213,7 +213,7 @@ TEST(SampledSurfaces, APartlySampledWheelIsCompletedAsGiven) {
     int middle = 0;
     while (!(wheel.y[wheel.index(0, middle)] > 0.0)) ++middle;
     for (int i = 0; i < wheel.nu; ++i) ASSERT_FALSE(std::isnan(wheel.x[wheel.index(i, middle)])) << i;
-    const double depth = kRadius - std::sqrt(kRadius * kRadius - kFlat * kFlat / 4.0);
+    const double depth = kFlatRadius - std::sqrt(kFlatRadius * kFlatRadius - kFlat * kFlat / 4.0);
     for (const double degrees : {0.0, 120.0}) {
       const int at_flat = nearest_station(wheel, degrees * std::numbers::pi / 180.0);
       EXPECT_NEAR(wheel.deviation[wheel.index(at_flat, middle)], -depth, 3e-6) << degrees;
