@@ -19,7 +19,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::string kBallCase =
+const std::string kWheelCase =
     "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\ntrack.cant = \"1:40\"\n"
     "discretisation.dx_mm = 1\ndiscretisation.ds_mm = 1\n"
     "[wheelset]\nnominal_radius_mm = 460\nvertical_force_N = 1e5\nvelocity_km_h = 100\nrolling = \"nominal\"\n"
@@ -35,7 +35,7 @@ std::map<double, std::vector<std::string>> collection(const std::string& text) {
 }
 
 std::vector<double> times_of(const SampleInput& input, const std::string& cases) {
-  input.write("case.toml", kBallCase + cases);
+  input.write("case.toml", kWheelCase + cases);
   const std::string folder = (input.folder() / "out").string();
   const ProgramResult r = run_program({"run", (input.folder() / "case.toml").string(), "-o", folder, "--vtk"});
   EXPECT_EQ(r.status, 0) << r.err;
