@@ -18,7 +18,7 @@ target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic
   $<$<BOOL:${TREADMARK_WARNINGS_AS_ERRORS}>:-Werror>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees bounds in std::string that are not there (its bug 105329), here or there as sources are put together.
-  target_compile_options(treadmark_warnings INTERFACE -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+  target_compile_options(treadmark_warnings INTERFACE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
 endif()
 
 set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")
