@@ -12,7 +12,7 @@
 namespace treadmark::testing {
 namespace {
 
-constexpr double kRadius = 0.2e-3, kLedge = 1e-3, kFlank = 3e-3;  // [m]
+constexpr double kArc = 0.2e-3, kLedge = 1e-3, kFlank = 3e-3;  // [m]
 constexpr double kSteep = 80.0 * std::numbers::pi / 180.0;
 constexpr double kSpacing = 0.02e-3;
 
@@ -21,12 +21,9 @@ SurfaceSpec ledge() {
   SurfaceSpec spec;
   ArcChain chain;
   chain.start_angle = -kSteep;
-  chain.start_y = -(kFlank * std::cos(kSteep) + kRadius * std::sin(kSteep) + 0.5 * kLedge);
-  chain.segments = {{kFlank, 0.0},
-                    {kRadius * kSteep, 1.0 / kRadius},
-                    {kLedge, 0.0},
-                    {kRadius * kSteep, 1.0 / kRadius},
-                    {kFlank, 0.0}};
+  chain.start_y = -(kFlank * std::cos(kSteep) + kArc * std::sin(kSteep) + 0.5 * kLedge);
+  chain.segments = {
+      {kFlank, 0.0}, {kArc * kSteep, 1.0 / kArc}, {kLedge, 0.0}, {kArc * kSteep, 1.0 / kArc}, {kFlank, 0.0}};
   spec.shape = chain;
   return spec;
 }
@@ -59,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, Inversion, ::testing::Values("nurbs", "thb", 
 TEST_P(Inversion, ConvergesWhereCurvatureIsLarge) {
   constexpr double kOnLine = 1e-10;
   // chords of such arcs are off by spacing^2 / (8 radius)
-  constexpr double kOff = 2.0 * kSpacing * kSpacing / (8.0 * kRadius);
+  constexpr double kOff = 2.0 * kSpacing * kSpacing / (8.0 * kArc);
   const NaturalSurface natural = create_natural(ledge());
   const auto surface = represent(natural, {GetParam(), kSpacing, {-2e-3, 2e-3, -1.3e-3, 1.3e-3}}).surface;
   const Pose X{Vec3(0.0, 0.0, 1e-3), rotation({0.08, 0.0, 0.1})};
@@ -78,7 +75,7 @@ TEST_P(Inversion, ConvergesWhereCurvatureIsLarge) {
     EXPECT_LT(std::abs(exact[k].normal_S.dot(found[k].position_S - exact[k].position_S)), kOff) << lines[k].transpose();
     sharpest = std::max(sharpest, found[k].curvature_1);
   }
-  EXPECT_GT(sharpest, 0.5 / kRadius);
+  EXPECT_GT(sharpest, 0.5 / kArc);
   const auto* spline = dynamic_cast<const spline::NurbsSurface*>(surface.get());
   if (spline == nullptr) return;
   double v_end = 0.0;

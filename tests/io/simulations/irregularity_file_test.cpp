@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::string kMeasured =
+const std::string kTable =
     "# made up\n"
     "distance_m,longitudinal_level_mm,cross_level_mm,alignment_mm,gauge_mm\n"
     "0.00, 0.1, -0.2, 0.3, 1.5\n"
@@ -27,7 +27,7 @@ const std::string kMeasured =
     "1.00, 0.4,  0.1, 0.6, -1.2e0\n";
 
 TEST(IrregularityFile, ColumnsAreReadByName) {
-  const IrregularityTable table = parse_irregularity_text(kMeasured, "t.csv");
+  const IrregularityTable table = parse_irregularity_text(kTable, "t.csv");
   EXPECT_THAT(table.distance, ::testing::ElementsAre(0.0, 0.25, 0.75, 1.0));
   EXPECT_THAT(table.values[0], ::testing::Pointwise(::testing::DoubleEq(), {1e-4, 2e-4, 3e-4, 4e-4}));
   EXPECT_THAT(table.values[1], ::testing::Pointwise(::testing::DoubleEq(), {-2e-4, -1e-4, 0.0, 1e-4}));
@@ -66,12 +66,12 @@ TEST(IrregularityFile, WhatIsWrittenIsReadAgainToTheBit) {
   EXPECT_EQ(again.values, table.values);
 }
 
-struct Wrong {
+struct WrongTable {
   std::string part, other, expected;
 };
-class IrregularityFileError : public ::testing::TestWithParam<Wrong> {};
+class IrregularityFileError : public ::testing::TestWithParam<WrongTable> {};
 TEST_P(IrregularityFileError, TellsPlaceAndReason) {
-  std::string text = kMeasured;
+  std::string text = kTable;
   const std::size_t at = text.find(GetParam().part);
   ASSERT_NE(at, std::string::npos);
   text.replace(at, GetParam().part.size(), GetParam().other);
@@ -87,31 +87,33 @@ TEST_P(IrregularityFileError, TellsPlaceAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     All, IrregularityFileError,
     ::testing::Values(
-        Wrong{"0.25, 0.2", "0.25, x2", "t.csv:4:7: a number is expected, this is 'x2'"},
-        Wrong{"0.25, 0.2", "0.25, 700", "t.csv:4:7: longitudinal_level = 700 mm is more than 500 mm (look at the unit"},
-        Wrong{"1.3\n", "1435\n", "t.csv:6:23: gauge = 1435 mm is more than 500 mm (the gauge is that beyond"},
-        Wrong{"0.25,", "0.00,", "t.csv:4:1: the distance goes from 0 to 0 m, it must increase"},
-        Wrong{"0.75,", "0.10,", "t.csv:6:1: the distance goes from 0.25 to 0.1 m"},
-        Wrong{" 0.4, 1.4", " 0.4", "t.csv:4:18: the line has 4 fields, 5 columns have names"},
-        Wrong{"1.4\n", "1.4, 7\n", "the line has 6 fields, 5 columns have names"},
-        Wrong{"gauge_mm", "gauge", "t.csv:2:62: the column gauge has no unit (call it gauge_mm, or write the unit"},
-        Wrong{"alignment_mm", "alignement_mm", "unknown column 'alignement_mm' (did you mean alignment_mm?)"},
-        Wrong{"alignment_mm", "alignment_left_mm", "t.csv:2: alignment is given of the left rail only"},
-        Wrong{"alignment_mm", "cross_level_um", "two columns hold the cross_level"},
-        Wrong{"distance_m,", "place,", "t.csv:2: no column holds the distance (call it distance_m)"},
-        Wrong{"longitudinal_level_mm,cross_level_mm,alignment_mm,gauge_mm", "a,b,c,d",
-              "no column holds an irregularity"},
-        Wrong{"distance_m,longitudinal_level_mm,cross_level_mm,alignment_mm,gauge_mm\n", "",
-              "t.csv:2:1: a line with the names of the columns must stand before"},
-        Wrong{"0.75, 0.3,  0.0, 0.5, 1.3\n", "", "t.csv: the file has 3 lines of numbers, at least 4"},
-        Wrong{"0.25", std::string("0.\0", 3), "t.csv"}));
+        WrongTable{"0.25, 0.2", "0.25, x2", "t.csv:4:7: a number is expected, this is 'x2'"},
+        WrongTable{"0.25, 0.2", "0.25, 700",
+                   "t.csv:4:7: longitudinal_level = 700 mm is more than 500 mm (look at the unit"},
+        WrongTable{"1.3\n", "1435\n", "t.csv:6:23: gauge = 1435 mm is more than 500 mm (the gauge is that beyond"},
+        WrongTable{"0.25,", "0.00,", "t.csv:4:1: the distance goes from 0 to 0 m, it must increase"},
+        WrongTable{"0.75,", "0.10,", "t.csv:6:1: the distance goes from 0.25 to 0.1 m"},
+        WrongTable{" 0.4, 1.4", " 0.4", "t.csv:4:18: the line has 4 fields, 5 columns have names"},
+        WrongTable{"1.4\n", "1.4, 7\n", "the line has 6 fields, 5 columns have names"},
+        WrongTable{"gauge_mm", "gauge",
+                   "t.csv:2:62: the column gauge has no unit (call it gauge_mm, or write the unit"},
+        WrongTable{"alignment_mm", "alignement_mm", "unknown column 'alignement_mm' (did you mean alignment_mm?)"},
+        WrongTable{"alignment_mm", "alignment_left_mm", "t.csv:2: alignment is given of the left rail only"},
+        WrongTable{"alignment_mm", "cross_level_um", "two columns hold the cross_level"},
+        WrongTable{"distance_m,", "place,", "t.csv:2: no column holds the distance (call it distance_m)"},
+        WrongTable{"longitudinal_level_mm,cross_level_mm,alignment_mm,gauge_mm", "a,b,c,d",
+                   "no column holds an irregularity"},
+        WrongTable{"distance_m,longitudinal_level_mm,cross_level_mm,alignment_mm,gauge_mm\n", "",
+                   "t.csv:2:1: a line with the names of the columns must stand before"},
+        WrongTable{"0.75, 0.3,  0.0, 0.5, 1.3\n", "", "t.csv: the file has 3 lines of numbers, at least 4"},
+        WrongTable{"0.25", std::string("0.\0", 3), "t.csv"}));
 
 TEST(IrregularityFile, AnyTextIsReadOrRefused) {
   std::mt19937 random(5);
   for (int i = 0; i < treadmark::testing::mutants(3000); ++i) {
-    const std::string text = i % 3 == 0   ? treadmark::testing::with_other_numbers(kMeasured, random)
-                             : i % 3 == 1 ? treadmark::testing::with_other_lines(kMeasured, random)
-                                          : treadmark::testing::with_other_bytes(kMeasured, random);
+    const std::string text = i % 3 == 0   ? treadmark::testing::with_other_numbers(kTable, random)
+                             : i % 3 == 1 ? treadmark::testing::with_other_lines(kTable, random)
+                                          : treadmark::testing::with_other_bytes(kTable, random);
     try {
       IrregularitySpec spec;
       spec.table = parse_irregularity_text(text, "t.csv");

@@ -32,7 +32,7 @@ double level(double x) { return wave(1.5, 9.2, x) + wave(0.7, 21.0, x); }
 double cross(double x) { return wave(0.8, 9.0, x); }
 double align(double x) { return wave(1.0, 17.0, x); }
 double gauge(double x) { return 1.0 + wave(0.6, 21.0, x); }
-const std::array<double (*)(double), kIrregularities> kTrack{level, cross, align, gauge};
+const std::array<double (*)(double), kIrregularities> kDeviations{level, cross, align, gauge};
 
 constexpr double kStep = 0.25;
 constexpr int kRows = 401;
@@ -55,8 +55,8 @@ double deviation(const IrregularityTable& table, double from, const std::vector<
     const auto& values = table.values[static_cast<std::size_t>(f)];
     if (values.size() != table.distance.size()) return kInfinity;
     for (std::size_t i = 0; i < values.size(); ++i)
-      most =
-          std::max(most, std::abs(values[i] * kMilli - kTrack[static_cast<std::size_t>(f)](table.distance[i] - from)));
+      most = std::max(
+          most, std::abs(values[i] * kMilli - kDeviations[static_cast<std::size_t>(f)](table.distance[i] - from)));
   }
   return most;
 }

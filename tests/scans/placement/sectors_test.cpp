@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using tests::kPi;
 
-constexpr double kRadius = 0.46, kNoise = 20e-6;
+constexpr double kRunningRadius = 0.46, kNoise = 20e-6;
 
 struct Sector {
   double arc = 0.7;       // [rad]
@@ -34,10 +34,10 @@ std::vector<Vec3> points_of(const Sector& sector, const Section& section, const 
   const auto add = [&](double u, double s) {
     const Section::Point at = section.at(s);
     const Vec2 p = at.position + sector.noise * tests::gaussian(random) * at.normal;
-    const double r = kRadius + p.y();
+    const double r = kRunningRadius + p.y();
     out.push_back(X.apply(Vec3(r * std::sin(u), p.x(), r * std::cos(u))));
   };
-  const double s_max = section.s_at(60e-3), length = sector.arc * kRadius;
+  const double s_max = section.s_at(60e-3), length = sector.arc * kRunningRadius;
   if (sector.lines) {
     const int lines = static_cast<int>(length / sector.spacing), points = static_cast<int>(s_max / sector.spacing);
     for (int i = 0; i <= lines; ++i)
@@ -72,7 +72,7 @@ struct Wrong {
 };
 Wrong wrong(const Placement& found, const Pose& X) {
   const Vec3 a = found.X_CS.rotation.col(1), b = X.rotation.col(1);
-  return {a.cross(b).norm() + (a.dot(b) < 0.0 ? 10.0 : 0.0), found.nominal_radius - kRadius,
+  return {a.cross(b).norm() + (a.dot(b) < 0.0 ? 10.0 : 0.0), found.nominal_radius - kRunningRadius,
           b.dot(found.X_CS.origin - X.origin)};
 }
 
@@ -117,7 +117,7 @@ TEST_F(Sectors, AreFoundAsWellAsTheySay) {
 TEST_F(Sectors, AKnownRadiusHelpsWhereTheArcIsShort) {
   const Pose X = tests::some_frame(12);
   const auto points = points_of({20.0 * kPi / 180.0, 3e-3, true}, nominal, X, 12);
-  const Placement alone = placed(points), helped = placed(points, kRadius);
+  const Placement alone = placed(points), helped = placed(points, kRunningRadius);
   EXPECT_GT(alone.radius_error, 0.1e-3);
   EXPECT_LT(helped.radius_error, 0.05e-3);
   EXPECT_LT(std::fabs(wrong(helped, X).radius), 0.1e-3);
@@ -131,7 +131,7 @@ TEST_F(Sectors, AKnownRadiusHelpsWhereTheArcIsShort) {
   ASSERT_TRUE(error);
   EXPECT_THAT(error->message(), HasSubstr("9 degrees is too short to find the axle"));
   EXPECT_THAT(error->advice(), HasSubstr("placement.nominal_radius_mm"));
-  EXPECT_LT(std::fabs(wrong(placed(shorter, kRadius), X).radius), 0.15e-3);
+  EXPECT_LT(std::fabs(wrong(placed(shorter, kRunningRadius), X).radius), 0.15e-3);
 }
 
 TEST_F(Sectors, AWornWheelKeepsItsOwnSection) {
