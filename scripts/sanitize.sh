@@ -50,7 +50,7 @@ case "$kind" in
 esac
 
 # Targets of readers whose tests are built here anyway, and of what reads TOML.
-cmake --preset $preset -DTREADMARK_REPORT=OFF -DTREADMARK_BUILD_BENCH=OFF \
+cmake --preset $preset -DTREADMARK_REPORT=OFF -DTREADMARK_BUILD_BENCH=OFF -DTREADMARK_TESTS_AT_ONCE=16 \
   "-DTREADMARK_REPLAYED=cases;json;meshes;profiles;scans;simulations"
 export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp"
 targets=("${programs[@]##*/}")

@@ -21,7 +21,7 @@ next build
 export CCACHE_BASEDIR=$PWD CCACHE_SLOPPINESS=pch_defines,time_macros
 # The folder of scripts/main-job.sh: what that has compiled is not compiled again.
 cmake --preset release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON \
-  -DTREADMARK_WITH_FFTW=ON -DTREADMARK_WITH_CGAL=ON
+  -DTREADMARK_WITH_FFTW=ON -DTREADMARK_WITH_CGAL=ON -DTREADMARK_TESTS_AT_ONCE=16
 cmake --build --preset release
 next tests
 # One more at a time than there are processors: some wait for a browser, a cluster, a disk or a lock. A browser or a cluster that
