@@ -241,15 +241,13 @@ std::vector<std::byte> SolvedList::solve(std::size_t part) const {
                        result.status,
                        result.status == Status::ok && any_grave(result.remarks),
                        is_shift(one.content),
-                       result.message,
+                       with_grave(result.message, result.remarks),
                        {},
                        one.given,
                        {},
                        {}};
-      for (const Remark& remark : result.remarks) {
+      for (const Remark& remark : result.remarks)
         row.remarks += (row.remarks.empty() ? "" : " ") + std::string(remark.row().name);
-        if (remark.grave()) row.message += (row.message.empty() ? "" : "; ") + remark.text;
-      }
       for (const io::ListedNumber& number : numbers_) row.numbers.push_back(number.si(result));
       if (!result.shown) result.patches.clear();
       if (json_) row.json = io::case_text(result);

@@ -45,9 +45,7 @@ void solve_many(const tm_pair& pair, const tm_case& common, const ManyRows& rows
       for (const auto& [number, values] : rows.wanted) values[i] = number.si(result);
     } catch (const Error&) {  // the row was refused: there are no numbers
     }
-    std::string said = std::move(solution.message);
-    for (const Remark& remark : solution.remarks)
-      if (remark.grave()) said += (said.empty() ? "" : "; ") + remark.text;
+    const std::string said = with_grave(std::move(solution.message), solution.remarks);
     const std::lock_guard lock(ending);
     end(i, solution.status, said);
   };
