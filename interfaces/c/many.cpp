@@ -39,15 +39,20 @@ void solve_many(const tm_pair& pair, const tm_case& common, const ManyRows& rows
     return app::to_problem(checked_for(pair, &own), pair.geometry.round_wheel);
   };
   const auto take = [&](std::size_t i, wheelrail::PairSolution&& solution) {
+    Status ended = solution.status;
+    std::string said = with_grave(solution.message, solution.remarks);
     try {
-      const tm_case own = row_case(common, rows, i);
-      const io::CaseResult result = app::to_result(std::get<io::WheelRailCase>(own.content->content), solution);
-      for (const auto& [number, values] : rows.wanted) values[i] = number.si(result);
-    } catch (const Error&) {  // the row was refused: there are no numbers
+      if (!solution.refused) {
+        const tm_case own = row_case(common, rows, i);
+        const io::CaseResult result = app::to_result(std::get<io::WheelRailCase>(own.content->content), solution);
+        for (const auto& [number, values] : rows.wanted) values[i] = number.si(result);
+      }
+    } catch (const Error& error) {  // solved, but for what was asked of it, as stresses below the surface
+      ended = Status::failed;
+      said = error.what();
     }
-    const std::string said = with_grave(std::move(solution.message), solution.remarks);
     const std::lock_guard lock(ending);
-    end(i, solution.status, said);
+    end(i, ended, said);
   };
   pair.pair.solve_many(rows.rows, problem, take, progress);
 }
