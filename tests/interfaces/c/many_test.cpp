@@ -137,8 +137,7 @@ TEST(CManyInstants, EndAtTheFlagAndByProgress) {
 TEST(CManyInstants, RefuseWhatMakesNoSense) {
   const CaseOf given = case_of(kText);
   const PairOf pair = pair_of(given.get());
-  const double y = 0.0;
-  double z = 5.0;
+  double y = 0.0, z = 5.0;
   const double* in[] = {&y};
   double* out[] = {&z};
   const auto solve = [&](const tm_case* c, const char* in_name, const char* out_name) {
@@ -150,6 +149,18 @@ TEST(CManyInstants, RefuseWhatMakesNoSense) {
   EXPECT_THAT(tm_message(), HasSubstr("wheelset.z"));
   EXPECT_EQ(solve(nullptr, "wheelset.y", "wheelset.z"), TM_BAD_ARGUMENT);
   EXPECT_EQ(solve(given.get(), nullptr, "wheelset.z"), TM_BAD_ARGUMENT);
+  // the same number or the same array twice
+  const char* twice[] = {"wheelset.y", "wheelset.y"};
+  const double* both[] = {&y, &y};
+  double* over[] = {&y};
+  const char* out_name = "wheelset.z";
+  EXPECT_EQ(
+      tm_pair_solve_many(pair.get(), given.get(), 1, twice, both, 2, &out_name, out, 1, nullptr, nullptr, nullptr),
+      TM_BAD_REQUEST);
+  EXPECT_THAT(tm_message(), HasSubstr("two arrays give wheelset.y"));
+  EXPECT_EQ(tm_pair_solve_many(pair.get(), given.get(), 1, twice, in, 1, &out_name, over, 1, nullptr, nullptr, nullptr),
+            TM_BAD_ARGUMENT);
+  EXPECT_EQ(y, 0.0);
   const CaseOf patch = [] {
     tm_case* made = nullptr;
     EXPECT_EQ(tm_case_create(1, &made), TM_OK);
