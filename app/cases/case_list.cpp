@@ -46,7 +46,7 @@ bool is_shift(const io::Case& c) {
 void put(ByteWriter& out, const ListedResult& row) {
   out.put(row.number);
   out.put(row.status);
-  out.put(row.doubtful);
+  out.put(row.grave);
   out.put(row.shift);
   for (const std::string* text : {&row.message, &row.remarks, &row.json}) out.put(*text);
   out.put(row.given);
@@ -59,7 +59,7 @@ std::vector<ListedResult> rows_in(std::span<const std::byte> bytes) {
     ListedResult& row = out.emplace_back();
     in.get(row.number);
     in.get(row.status);
-    in.get(row.doubtful);
+    in.get(row.grave);
     in.get(row.shift);
     for (std::string* text : {&row.message, &row.remarks, &row.json}) in.get(*text);
     in.get(row.given);
@@ -239,7 +239,7 @@ std::vector<std::byte> SolvedList::solve(std::size_t part) const {
       result.seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
       ListedResult row{result.number,
                        result.status,
-                       result.status == Status::ok && any_grave(result.remarks),
+                       any_grave(result.remarks),
                        is_shift(one.content),
                        with_grave(result.message, result.remarks),
                        {},

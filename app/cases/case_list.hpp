@@ -36,7 +36,7 @@ struct ListOptions {
 struct ListedResult {
   int number = 0;
   Status status = Status::ok;
-  bool doubtful = false;        ///< ok, but for a grave remark
+  bool grave = false;           ///< a remark says that numbers may be wrong
   bool shift = false;           ///< creepages are lengths, power is work
   std::string message;          ///< why it is not ok, and grave remarks
   std::string remarks;          ///< names of all remarks, with blanks between them
@@ -44,7 +44,8 @@ struct ListedResult {
   std::vector<double> numbers;  ///< SI; NaN: not known
   std::string json;             ///< as it stands in result.json; empty unless asked for
 
-  std::string_view status_word() const { return doubtful ? "doubtful" : to_string(status); }
+  bool doubtful() const { return grave && status == Status::ok; }
+  std::string_view status_word() const { return doubtful() ? "doubtful" : to_string(status); }
 };
 
 /// Any number of cases, solved on all threads, whose results stand in a file: memory does not grow with their number,
@@ -87,7 +88,7 @@ class SolvedList {
 struct ListSummary {
   std::vector<std::pair<std::string, std::size_t>> statuses;  ///< word and number of cases
   std::vector<std::string> said;                              ///< about the first ones that did not end as ok
-  bool failed = false, not_converged = false;                 ///< failed: doubtful ones count
+  bool failed = false, not_converged = false;                 ///< failed: grave remarks count, of any status
 };
 
 /// Writes results in one go, with little memory: into the folder, unless its name is empty, cases.csv, cases.h5 and,
