@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/cases/case_rows.hpp"
@@ -54,9 +55,10 @@ class SolvedList {
  public:
   /// Solves what is not kept yet. Cases that go on from the one before them are solved in order, all others by
   /// themselves. A case that cannot be solved, for whatever reason, has Status::failed and its message; the others go
-  /// on. After a stop request Cancelled is thrown once finished rows are kept. progress gets the number found, with an
-  /// empty text, first. Errors: Error for geometry that cannot be read, names that are no numbers of results, and files
-  /// that cannot be written, or where rows of something else are kept.
+  /// on. After a stop request Cancelled is thrown once finished rows are kept (of sequences in time: whole ones); a
+  /// kill costs those of the last second. progress gets the number found, with an empty text, first. Errors: Error for
+  /// geometry that cannot be read, names that are no numbers of results, and files that cannot be written, or where
+  /// rows of something else are kept.
   SolvedList(io::ListedCases given, SurfaceStore& store, const ListOptions& options, const Progress& progress);
   ~SolvedList();
 
@@ -73,7 +75,12 @@ class SolvedList {
 
  private:
   class Source;
-  std::vector<std::byte> solve(std::size_t part) const;
+  struct ListedCase;
+  std::size_t begun(std::size_t part) const;
+  /// Rows of a part that are in the log.
+  std::size_t kept_of(std::size_t part) const;
+  void solve(std::size_t part) const;
+  ListedResult solved(const ListedCase& one, CaseSequence& sequence) const;
 
   io::RunResult head_;
   std::size_t size_ = 0, found_ = 0;

@@ -148,6 +148,39 @@ TEST(CaseList, GoesOnWhereItWasInterrupted) {
   EXPECT_THAT(treadmark::testing::error_of([&] { solved(file, options, progress); }), HasSubstr("something else"));
 }
 
+TEST(CaseList, LosesNoCaseOfAPartThatIsNotThrough) {
+  const TemporaryFolder folder;
+  constexpr int kRows = 60;  // one part
+  folder.write("places.csv", places(kRows));
+  const fs::path file = folder.write("list.toml", "cases_file = \"places.csv\"\n" + standard_case("0.7"));
+  const std::vector<Row> whole = solved(file);
+  ListOptions options;
+  options.kept = folder.path() / "kept.rows";
+  const ThreadLimit one(1);
+  std::size_t found = 0, times_within = 0;
+  for (std::chrono::milliseconds pause = 20ms;; pause += 20ms) {
+    std::atomic<bool> stop{false};
+    const std::jthread timer([&] {
+      std::this_thread::sleep_for(pause);
+      stop = true;
+    });
+    Progress progress;
+    progress.stop = &stop;
+    progress.report = [&](std::size_t finished, std::size_t, const std::string& what) {
+      if (!what.empty()) return;
+      EXPECT_GE(finished, found);
+      found = finished;
+    };
+    try {
+      EXPECT_EQ(solved(file, options, progress), whole);
+      break;
+    } catch (const Cancelled&) {
+      if (found > 0 && found < kRows) ++times_within;
+    }
+  }
+  EXPECT_GT(times_within, 0u);
+}
+
 TEST(CaseList, TakesNoMoreMemoryForMoreRows) {
   const TemporaryFolder folder;
   const auto most_in_use = [&](int rows) {
