@@ -9,7 +9,8 @@
 #include <cmath>
 #include <exception>
 #include <fstream>
-#include <initializer_list>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "treadmark/core/missing_file.hpp"
@@ -18,6 +19,7 @@
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/points/line_blocks.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -42,11 +44,20 @@ bool holds_row(std::string_view line) {
   return first != std::string_view::npos && line[first] != '#';
 }
 
-std::ifstream opened(const std::filesystem::path& file) {
+void require_table(const std::filesystem::path& file) {
   require_file(file, "table of cases", ErrorKind::configuration);
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(ErrorKind::configuration, "cannot read the table of cases", {file.string()});
-  return in;
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown))
+    throw Error(ErrorKind::configuration, "a table of cases is read more than once, which this cannot be",
+                {file.string()}, "copy it into a file");
+  if (!std::ifstream(file, std::ios::binary))
+    throw Error(ErrorKind::configuration, "the table of cases cannot be opened", {file.string()},
+                "check its permissions");
+}
+
+[[noreturn]] void refuse_empty(const SourcePosition& where) {
+  throw Error(ErrorKind::configuration, "the table has no rows", where,
+              "its first line names keys with commas between them, every other one is a case");
 }
 
 /// A cell as what its key takes; where that cannot be, as text, which check_value refuses in words.
@@ -96,31 +107,24 @@ CaseRows::CaseRows(std::filesystem::path file, Case common, std::filesystem::pat
 }
 
 void CaseRows::index() {
-  std::ifstream in = opened(file_);
-  std::uint64_t offset = 0;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    const std::uint64_t begin = offset;
-    offset += line.size() + 1;
-    ++number;
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
-    if (line.find('\0') != std::string::npos)
-      throw Error(ErrorKind::configuration, "the table holds zero bytes, which no text does", at(number),
+  require_table(file_);
+  if (std::filesystem::file_size(file_) == 0) refuse_empty(at(0));
+  points::ByteBlocks bytes(file_, {}, {});
+  points::LineBlocks lines(bytes);
+  for (std::string_view line; lines.next(line);) {
+    if (line.find('\0') != std::string_view::npos)
+      throw Error(ErrorKind::configuration, "the table holds zero bytes, which no text does", at(lines.number()),
                   "save it as UTF-8 text with commas");
     if (!holds_row(line)) continue;
-    if (heads_.empty()) {
-      take_heads(line, number);
-      continue;
-    }
-    if (count_++ % kBlock == 0) blocks_.push_back({begin, number});
+    if (heads_.empty())
+      take_heads(line, lines.number());
+    else if (count_++ % kBlock == 0)
+      blocks_.push_back({lines.start(), lines.number()});
   }
-  if (count_ == 0)
-    throw Error(ErrorKind::configuration, "the table has no rows", at(number),
-                "its first line names keys with commas between them, every other one is a case");
+  if (count_ == 0) refuse_empty(at(lines.number()));
 }
 
-void CaseRows::take_heads(const std::string& line, int number) {
+void CaseRows::take_heads(std::string_view line, int number) {
   heads_ = csv_cells(line);
   ChosenKeys chosen;
   for (std::size_t i = 0; i < heads_.size(); ++i) {
@@ -145,20 +149,25 @@ void CaseRows::take_heads(const std::string& line, int number) {
 }
 
 std::vector<CaseRow> CaseRows::block(std::size_t k) const {
-  std::ifstream in = opened(file_);
-  in.seekg(static_cast<std::streamoff>(blocks_[k].offset));
+  constexpr std::size_t kPiece = std::size_t{1} << 16;
+  const auto changed = [&] {
+    throw Error(ErrorKind::configuration, "the table of cases has changed while it was read", {file_.string()});
+  };
+  require_table(file_);
+  points::ByteBlocks bytes(file_, {}, {}, kPiece);
+  if (blocks_[k].offset >= bytes.size()) changed();
+  bytes.seek(blocks_[k].offset);
+  points::LineBlocks lines(bytes, blocks_[k].line);
   const std::size_t first = k * kBlock, count = std::min(kBlock, count_ - first);
   std::vector<CaseRow> out;
   out.reserve(count);
-  int number = blocks_[k].line;
-  for (std::string line; out.size() < count && std::getline(in, line); ++number)
-    if (holds_row(line)) out.push_back(row(line, first + out.size(), number));
-  if (out.size() < count)
-    throw Error(ErrorKind::configuration, "the table of cases has changed while it was read", {file_.string()});
+  for (std::string_view line; out.size() < count && lines.next(line);)
+    if (holds_row(line)) out.push_back(row(line, first + out.size(), lines.number()));
+  if (out.size() < count) changed();
   return out;
 }
 
-CaseRow CaseRows::row(const std::string& line, std::size_t index, int line_number) const {
+CaseRow CaseRows::row(std::string_view line, std::size_t index, int line_number) const {
   const SourcePosition where = at(line_number);
   const std::vector<std::string> cells = csv_cells(line);
   if (cells.size() != heads_.size())

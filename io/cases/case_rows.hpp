@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/io/cases/case_keys.hpp"
@@ -24,7 +25,8 @@ struct CaseRow {
 class CaseRows {
  public:
   /// common: what the rows share; changes: what is set in every row after all else. All rows are read and checked once.
-  /// Errors: Error(configuration) with file and line, of several the first.
+  /// Errors: Error(configuration) with file and line, of several the first; Error(input_data) for what is no text, as
+  /// lines without end (io/points/line_blocks.hpp).
   CaseRows(std::filesystem::path file, Case common, std::filesystem::path folder, std::vector<CaseOverride> changes);
 
   std::size_t size() const { return count_; }
@@ -50,8 +52,8 @@ class CaseRows {
   };
 
   void index();
-  void take_heads(const std::string& line, int number);
-  CaseRow row(const std::string& line, std::size_t index, int line_number) const;
+  void take_heads(std::string_view line, int number);
+  CaseRow row(std::string_view line, std::size_t index, int line_number) const;
   SourcePosition at(int line) const { return {file_.string(), line, 0}; }
 
   std::filesystem::path file_;

@@ -66,6 +66,19 @@ TEST_F(CaseTableFile, MakesTheCasesOfLists) {
   EXPECT_THAT(rows[1].numbers, ::testing::UnorderedElementsAre(2.5, -0.2, 0.25));
 }
 
+TEST_F(CaseTableFile, MayHaveLineEndsOfAnySystem) {
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    std::string table = "wheelset.y_mm";
+    for (int i = 0; i < 100; ++i) table += end + std::to_string(i);
+    const ListedCases given = listed(table);
+    ASSERT_EQ(given.rows->size(), 100u);
+    const std::vector<CaseRow> rows = given.rows->block(1);
+    ASSERT_EQ(rows.size(), 36u);
+    EXPECT_EQ(rows.back().numbers, std::vector<double>{99.0});
+    EXPECT_EQ(rows.back().content.where.line, 101);
+  }
+}
+
 TEST_F(CaseTableFile, IsReadInBlocks) {
   std::string table = "wheelset.y_mm\n";
   for (int i = 0; i < 150; ++i) table += std::to_string(0.01 * i) + "\n";
@@ -108,6 +121,11 @@ TEST_F(CaseTableFile, RefusesWithThePlace) {
   for (const char* head :
        {"wheel.shape.standard", "wheelset.nominal_radius_mm", "case.steps", "case.history", "rail.flats"})
     EXPECT_THAT(refusal(std::string(head) + "\n1\n"), HasSubstr("places.csv:1: ")) << head;
+  EXPECT_THAT(refusal(""), HasSubstr("no rows"));
+  EXPECT_THAT(refusal("\xFF\xFEw\0"), HasSubstr("UTF-16"));
+  constexpr std::size_t kEndless = 70'000'000;
+  EXPECT_THAT(refusal("wheelset.y_mm\n0\n" + std::string(kEndless, '1')),
+              HasSubstr("places.csv:3: a line of more than 64 million characters"));
   // of several the first
   std::string table = "wheelset.y_mm\n";
   for (int i = 0; i < 500; ++i) table += i == 170 || i == 333 ? "x\n" : "0\n";
