@@ -9,10 +9,12 @@
 #include <cmath>
 #include <exception>
 #include <fstream>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
@@ -55,6 +57,12 @@ void require_table(const std::filesystem::path& file) {
                 "check its permissions");
 }
 
+/// The check sum of rows one after the other.
+std::uint64_t with_row(std::uint64_t sum, std::string_view line) {
+  constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;
+  return kOdd * sum + check_sum(std::as_bytes(std::span(line)));
+}
+
 [[noreturn]] void refuse_empty(const SourcePosition& where) {
   throw Error(ErrorKind::configuration, "the table has no rows", where,
               "its first line names keys with commas between them, every other one is a case");
@@ -93,7 +101,7 @@ CaseRows::CaseRows(std::filesystem::path file, Case common, std::filesystem::pat
                   fmt::format("a list of {} makes cases, and so does cases_file", change.path), change.value.where,
                   "give one value, which all rows get, or leave cases_file out");
   index();
-  sha256_ = sha256_file(file_);
+  sha256_ = sha256_file(file_);  // between two readings of all rows that must be the same
   std::vector<std::exception_ptr> errors(blocks());
   parallel_for(blocks(), [&](std::size_t k) {
     try {
@@ -116,10 +124,12 @@ void CaseRows::index() {
       throw Error(ErrorKind::configuration, "the table holds zero bytes, which no text does", at(lines.number()),
                   "save it as UTF-8 text with commas");
     if (!holds_row(line)) continue;
-    if (heads_.empty())
+    if (heads_.empty()) {
       take_heads(line, lines.number());
-    else if (count_++ % kBlock == 0)
-      blocks_.push_back({lines.start(), lines.number()});
+      continue;
+    }
+    if (count_++ % kBlock == 0) blocks_.push_back({lines.start(), lines.number(), 0});
+    blocks_.back().sum = with_row(blocks_.back().sum, line);
   }
   if (count_ == 0) refuse_empty(at(lines.number()));
 }
@@ -151,7 +161,8 @@ void CaseRows::take_heads(std::string_view line, int number) {
 std::vector<CaseRow> CaseRows::block(std::size_t k) const {
   constexpr std::size_t kPiece = std::size_t{1} << 16;
   const auto changed = [&] {
-    throw Error(ErrorKind::configuration, "the table of cases has changed while it was read", {file_.string()});
+    throw Error(ErrorKind::configuration, "the table of cases has changed while it was read", {file_.string()},
+                "leave it alone until the work is done, and start anew");
   };
   require_table(file_);
   points::ByteBlocks bytes(file_, {}, {}, kPiece);
@@ -159,11 +170,17 @@ std::vector<CaseRow> CaseRows::block(std::size_t k) const {
   bytes.seek(blocks_[k].offset);
   points::LineBlocks lines(bytes, blocks_[k].line);
   const std::size_t first = k * kBlock, count = std::min(kBlock, count_ - first);
+  std::vector<std::pair<int, std::string>> rows;
+  std::uint64_t sum = 0;
+  for (std::string_view line; rows.size() < count && lines.next(line);)
+    if (holds_row(line)) {
+      sum = with_row(sum, line);
+      rows.emplace_back(lines.number(), line);
+    }
+  if (rows.size() < count || sum != blocks_[k].sum) changed();
   std::vector<CaseRow> out;
   out.reserve(count);
-  for (std::string_view line; out.size() < count && lines.next(line);)
-    if (holds_row(line)) out.push_back(row(line, first + out.size(), lines.number()));
-  if (out.size() < count) changed();
+  for (const auto& [number, line] : rows) out.push_back(row(line, first + out.size(), number));
   return out;
 }
 

@@ -45,6 +45,7 @@ class CaseRows {
   struct Place {
     std::uint64_t offset;
     int line;
+    std::uint64_t sum;  ///< of the rows, by which it is known that they are still the same
   };
   struct Column {
     const CaseKey* key;

@@ -35,6 +35,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using treadmark::testing::content_of;
+using treadmark::testing::error_of;
 using treadmark::testing::run_program;
 using treadmark::testing::RunningProgram;
 using treadmark::testing::standard_case;
@@ -145,7 +146,21 @@ TEST(CaseList, GoesOnWhereItWasInterrupted) {
   EXPECT_GE(found, 130u);
   // another list is not taken for it
   options.numbers = {"fn_N"};
-  EXPECT_THAT(treadmark::testing::error_of([&] { solved(file, options, progress); }), HasSubstr("something else"));
+  EXPECT_THAT(error_of([&] { solved(file, options, progress); }), HasSubstr("something else"));
+  // nor the same one with another row
+  options.numbers = {};
+  EXPECT_EQ(solved(file, options, progress), whole);
+  folder.write("places.csv", places(400, 399));
+  EXPECT_THAT(error_of([&] { solved(file, options, progress); }), HasSubstr("something else"));
+}
+
+TEST(CaseList, NoticesATableThatChangesMeanwhile) {
+  const TemporaryFolder folder;
+  const fs::path file = pair_list(folder, places(10));
+  SurfaceStore store;
+  io::ListedCases given = io::read_listed_cases(file);
+  folder.write("places.csv", places(10, 9));
+  EXPECT_THAT(error_of([&] { SolvedList(std::move(given), store, {}, {}); }), HasSubstr("changed while it was read"));
 }
 
 TEST(CaseList, LosesNoCaseOfAPartThatIsNotThrough) {

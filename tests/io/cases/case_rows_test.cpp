@@ -92,6 +92,12 @@ TEST_F(CaseTableFile, IsReadInBlocks) {
                   1e-12);
     }
   EXPECT_EQ(number, 150u);
+  // another number in its place, and no less a row of the table
+  std::string other = table;
+  other[table.find("\n0.7") + 3] = '8';
+  folder_.write("places.csv", other);
+  EXPECT_THAT(error_of([&] { given.rows->block(1); }), HasSubstr("changed while it was read"));
+  EXPECT_EQ(given.rows->block(0).size(), 64u);
   folder_.write("places.csv", "wheelset.y_mm\n1\n");
   EXPECT_THAT(error_of([&] { given.rows->block(2); }), HasSubstr("changed while it was read"));
 }
