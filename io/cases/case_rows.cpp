@@ -22,6 +22,7 @@
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/points/line_blocks.hpp"
+#include "treadmark/io/settings/toml_faults.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -38,6 +39,8 @@ bool is_shared(std::string_view path) {
   return std::ranges::any_of(kSections, [&](std::string_view section) { return path.starts_with(section); }) ||
          std::ranges::find(kKeys, path) != std::end(kKeys);
 }
+
+constexpr std::size_t kLongestShown = 40;
 
 bool is_number(const CaseKey& key) { return key.info.type == KeyType::number || key.info.type == KeyType::integer; }
 
@@ -68,13 +71,26 @@ std::uint64_t with_row(std::uint64_t sum, std::string_view line) {
               "its first line names keys with commas between them, every other one is a case");
 }
 
-/// A cell as what its key takes; where that cannot be, as text, which check_value refuses in words.
+std::vector<std::string> cells_of(std::string_view line, const SourcePosition& where) {
+  if (std::ranges::count(line, '"') % 2 != 0)
+    throw Error(ErrorKind::configuration, "a quote is not closed", where, "quotes stand in pairs, within one line");
+  return csv_cells(line);
+}
+
+/// A cell as what its key takes; a word where numbers stand is text, which check_value refuses in words.
 CaseValue cell_value(const KeyInfo& key, const std::string& cell, const SourcePosition& where) {
-  const char *const first = cell.data() + (cell.starts_with('+') ? 1 : 0), *const last = cell.data() + cell.size();
+  const bool plus = cell.starts_with('+') && !cell.starts_with("+-");
+  const char *const first = cell.data() + (plus ? 1 : 0), *const last = cell.data() + cell.size();
   const auto parsed = [&](auto value) -> CaseValue {
     const auto [end, trouble] = std::from_chars(first, last, value);
     if (trouble == std::errc() && end == last) return {where, value};
-    return {where, cell};
+    if (!key.choices.empty()) return {where, cell};
+    const TextFault fault = number_fault(cell);
+    const std::string_view shown = cut_to_bytes(cell, kLongestShown);
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} = '{}{}' is no {}", key.path, shown, shown.size() < cell.size() ? "..." : "",
+                            key.type == KeyType::integer ? "whole number" : "number"),
+                where, fault.message.empty() ? "" : fault.message + ": " + fault.advice);
   };
   switch (key.type) {
     case KeyType::number:
@@ -135,7 +151,7 @@ void CaseRows::index() {
 }
 
 void CaseRows::take_heads(std::string_view line, int number) {
-  heads_ = csv_cells(line);
+  heads_ = cells_of(line, at(number));
   ChosenKeys chosen;
   for (std::size_t i = 0; i < heads_.size(); ++i) {
     const std::string& head = heads_[i];
@@ -143,6 +159,9 @@ void CaseRows::take_heads(std::string_view line, int number) {
     if (key == nullptr && head.find(';') != std::string::npos)
       throw Error(ErrorKind::configuration, "semicolons stand between the names of columns", at(number),
                   "put commas between cells, and points into numbers");
+    if (head.empty())
+      throw Error(ErrorKind::configuration, fmt::format("column {} has no name", i + 1), at(number),
+                  "is there a comma too many?");
     if (key == nullptr) refuse_unknown_case_key(head, at(number));
     const KeyType type = key->info.type;
     if (is_shared(head) || !(is_number(*key) || type == KeyType::flag || type == KeyType::choice))
@@ -155,6 +174,10 @@ void CaseRows::take_heads(std::string_view line, int number) {
     columns_.push_back({key, i, numbers_.size()});
     if (is_number(*key)) numbers_.push_back(key);
   }
+  const SourcePosition where = at(number);
+  std::vector<GivenKey> given;
+  for (const std::string& head : heads_) given.push_back({head, &where});
+  check_exclusive_sections(given);
   std::ranges::sort(columns_, {}, &Column::key);  // keys stand in the order in which they are applied
 }
 
@@ -186,7 +209,7 @@ std::vector<CaseRow> CaseRows::block(std::size_t k) const {
 
 CaseRow CaseRows::row(std::string_view line, std::size_t index, int line_number) const {
   const SourcePosition where = at(line_number);
-  const std::vector<std::string> cells = csv_cells(line);
+  const std::vector<std::string> cells = cells_of(line, where);
   if (cells.size() != heads_.size())
     throw Error(ErrorKind::configuration,
                 fmt::format("{} cells where there are {} columns", cells.size(), heads_.size()), where);
@@ -202,9 +225,10 @@ CaseRow CaseRows::row(std::string_view line, std::size_t index, int line_number)
   for (const CaseOverride& change : changes_) apply_assignment(out.content, change, folder_);
   out.content.number = static_cast<int>(index) + 1;
   out.content.where = where;
-  if (std::visit([](const auto& content) { return content.history != HistoryUse::start; }, out.content.content))
+  if (out.content.steps > 0 ||
+      std::visit([](const auto& content) { return content.history != HistoryUse::start; }, out.content.content))
     throw Error(ErrorKind::configuration, "rows of cases_file do not follow each other in time", where,
-                "leave case.history out, or use [[cases]]");
+                "leave case.history and case.steps out, or use [[cases]]");
   take_as_told(out.content);
   validate_case(out.content);
   std::vector<Case> alone{std::move(out.content)};

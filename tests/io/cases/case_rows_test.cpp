@@ -16,6 +16,7 @@
 namespace treadmark::io {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using treadmark::testing::error_of;
 using treadmark::testing::TemporaryFolder;
@@ -127,6 +128,17 @@ TEST_F(CaseTableFile, RefusesWithThePlace) {
   for (const char* head :
        {"wheel.shape.standard", "wheelset.nominal_radius_mm", "case.steps", "case.history", "rail.flats"})
     EXPECT_THAT(refusal(std::string(head) + "\n1\n"), HasSubstr("places.csv:1: ")) << head;
+  EXPECT_THAT(refusal("wheelset.y_mm,\n0,1\n"), HasSubstr("places.csv:1: column 2 has no name"));
+  for (const char* cell : {"\"0,5\"", "3 mm", "+-3", "++3", "1e", "0x1", "1e999"})
+    EXPECT_THAT(refusal(std::string("wheelset.y_mm\n0\n") + cell + "\n"),
+                AllOf(HasSubstr("places.csv:3: wheelset.y_mm = '"), HasSubstr("is no number")))
+        << cell;
+  EXPECT_THAT(refusal("discretisation.max_elements\n1.5\n"), HasSubstr("is no whole number"));
+  EXPECT_THAT(refusal("wheelset.y_mm\n\"0\n1\"\n"), HasSubstr("places.csv:2: a quote is not closed"));
+  EXPECT_THAT(refusal("wheelset.y_mm\n" + std::string(1000, 'x') + "\n"), HasSubstr("xxx...' is no number"));
+  EXPECT_THAT(refusal("wheelset.y_mm\n0\n", {"case.steps=4"}), HasSubstr("do not follow each other"));
+  EXPECT_THAT(refusal("patch.hertz.semi_axis_x_mm,patch.gap.kind\n1,quadratic\n"),
+              HasSubstr("places.csv:1: [patch.hertz] and [patch.gap] exclude each other"));
   EXPECT_THAT(refusal(""), HasSubstr("no rows"));
   EXPECT_THAT(refusal("\xFF\xFEw\0"), HasSubstr("UTF-16"));
   constexpr std::size_t kEndless = 70'000'000;
