@@ -150,6 +150,15 @@ void CaseRows::index() {
   if (count_ == 0) refuse_empty(at(lines.number()));
 }
 
+/// By a change of the key itself, or of another alternative of its group.
+bool CaseRows::is_overridden(const CaseKey& key) const {
+  return std::ranges::any_of(changes_, [&](const CaseOverride& change) {
+    const CaseKey* other = case_key(change.path);
+    return other != nullptr && (other == &key || (!key.info.group.empty() && other->info.group == key.info.group &&
+                                                  other->info.alternative != key.info.alternative));
+  });
+}
+
 void CaseRows::take_heads(std::string_view line, int number) {
   heads_ = cells_of(line, at(number));
   ChosenKeys chosen;
@@ -171,8 +180,13 @@ void CaseRows::take_heads(std::string_view line, int number) {
     if (std::ranges::find(columns_, key, &Column::key) != columns_.end())
       throw Error(ErrorKind::configuration, fmt::format("two columns have the name {}", head), at(number));
     check_exclusive(key->info, at(number), chosen);
-    columns_.push_back({key, i, numbers_.size()});
-    if (is_number(*key)) numbers_.push_back(key);
+    Column& column = columns_.emplace_back(Column{key, i, {}});
+    if (is_overridden(*key)) {
+      overridden_.push_back(head);
+    } else if (is_number(*key)) {
+      column.number = numbers_.size();
+      numbers_.push_back(key);
+    }
   }
   const SourcePosition where = at(number);
   std::vector<GivenKey> given;
@@ -220,7 +234,7 @@ CaseRow CaseRows::row(std::string_view line, std::size_t index, int line_number)
                   "every row gives every column");
     const CaseValue value = cell_value(key->info, cells[cell], where);
     apply_value(out.content, *key, value, folder_);
-    if (is_number(*key) && !std::holds_alternative<std::string>(value.data)) out.numbers[number] = value.number();
+    if (number && !std::holds_alternative<std::string>(value.data)) out.numbers[*number] = value.number();
   }
   for (const CaseOverride& change : changes_) apply_assignment(out.content, change, folder_);
   out.content.number = static_cast<int>(index) + 1;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +33,10 @@ class CaseRows {
   std::size_t size() const { return count_; }
   const std::filesystem::path& file() const { return file_; }
   const std::string& sha256() const { return sha256_; }
-  /// The keys with a number in every row.
+  /// The keys with a number in every row which that row has: no change takes its place.
   const std::vector<const CaseKey*>& numbers() const { return numbers_; }
+  /// The columns whose place changes take.
+  const std::vector<std::string>& overridden() const { return overridden_; }
 
   /// So many rows belong together in reading.
   static constexpr std::size_t kBlock = 64;
@@ -49,10 +52,12 @@ class CaseRows {
   };
   struct Column {
     const CaseKey* key;
-    std::size_t cell, number;  ///< places in the line, and among the numbers that it gives
+    std::size_t cell;                   ///< its place in the line
+    std::optional<std::size_t> number;  ///< among numbers()
   };
 
   void index();
+  bool is_overridden(const CaseKey& key) const;
   void take_heads(std::string_view line, int number);
   CaseRow row(std::string_view line, std::size_t index, int line_number) const;
   SourcePosition at(int line) const { return {file_.string(), line, 0}; }
@@ -63,7 +68,7 @@ class CaseRows {
   std::vector<CaseOverride> changes_;
   std::vector<Column> columns_;  ///< in the order in which keys are applied
   std::vector<const CaseKey*> numbers_;
-  std::vector<std::string> heads_;
+  std::vector<std::string> heads_, overridden_;
   std::vector<Place> blocks_;
   std::size_t count_ = 0;
   std::string sha256_;

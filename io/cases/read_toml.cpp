@@ -278,6 +278,9 @@ ListedCases listed_cases_of(const CaseTable& document, const std::filesystem::pa
     listed.rows = std::make_shared<const CaseRows>(folder / profiles::portable_path(table->value.text()), defaults,
                                                    folder, changes);
     result.cases.push_back(std::move(listed.rows->block(0).front().content));
+    for (const std::string& column : listed.rows->overridden())
+      result.notes.push_back(fmt::format("the column {} of {} has no effect: an override takes its place", column,
+                                         listed.rows->file().string()));
     note_motion();
     return listed;
   }

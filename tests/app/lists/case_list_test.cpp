@@ -290,6 +290,17 @@ TEST(CaseList, IsWrittenAsTables) {
   EXPECT_FALSE(fs::exists(out / "fields.h5"));
 }
 
+TEST(CaseList, HasNumbersAsTheyAreInPlaceOfOverriddenColumns) {
+  const TemporaryFolder folder;
+  const fs::path file = pair_list(folder, places(2)), out = folder.path() / "out";
+  const auto result = run_program({"run", file.string(), "-o", out.string(), "--set", "wheelset.y_mm=1.5"});
+  EXPECT_THAT(result.err, HasSubstr("the column wheelset.y_mm of"));
+  const std::string csv = content_of(out / "cases.csv");
+  EXPECT_TRUE(csv.starts_with("case,status,wheelset.yaw_deg,wheelset.vertical_force_N,wheelset.y_mm,")) << csv;
+  EXPECT_THAT(csv, HasSubstr("\n1,ok,0,80000,1.5,"));
+  EXPECT_THAT(csv, HasSubstr("\n2,ok,0.02,81000,1.5,"));
+}
+
 /// Whether a file grows beyond a size while the program runs.
 bool grows(const fs::path& file, std::uintmax_t size, RunningProgram& program) {
   for (int i = 0; i < 6000 && program.running(); ++i) {

@@ -17,6 +17,7 @@ namespace treadmark::io {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using treadmark::testing::error_of;
 using treadmark::testing::TemporaryFolder;
@@ -110,6 +111,15 @@ TEST_F(CaseTableFile, OverridesHoldForEveryRow) {
     EXPECT_DOUBLE_EQ(c.state.position.y, 3e-3);
     EXPECT_DOUBLE_EQ(c.friction.static_friction(), 0.2);
   }
+  // what rows say of it is not told as theirs
+  EXPECT_TRUE(given.rows->numbers().empty());
+  EXPECT_THAT(given.file.notes, ElementsAre(HasSubstr("the column wheelset.y_mm of")));
+  const ListedCases angles = listed("wheelset.s_mm,wheelset.yaw_deg\n7,1\n", {"wheelset.yaw_rad=0.002"});
+  ASSERT_EQ(angles.rows->numbers().size(), 1u);
+  const CaseRow first = angles.rows->block(0).front();
+  EXPECT_EQ(first.numbers, std::vector<double>{7.0});
+  EXPECT_DOUBLE_EQ(std::get<WheelRailCase>(first.content.content).state.position.yaw, 2e-3);
+  EXPECT_TRUE(listed("wheelset.y_mm\n0\n", {"friction.coefficient=0.2"}).file.notes.empty());
   EXPECT_THAT(refusal("wheelset.y_mm\n0\n", {"wheelset.y_mm=[0, 1]"}), HasSubstr("makes cases, and so does"));
 }
 
