@@ -20,6 +20,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -96,6 +97,8 @@ int run_list(io::ListedCases given, const std::filesystem::path& folder, const R
     throw Error(ErrorKind::configuration,
                 fmt::format("{} shows fields, which are left out of lists", options.bodies ? "--vtk" : "--report"), {},
                 "add --fields, with memory for all of them");
+  const OutputClaim claim(app::result_files(folder, true));
+  if (given.rows) refuse_output_as_input(given.rows->file());
   choose_backends(given.file, options);
   const std::filesystem::path kept = kept_rows(folder, options.json_file);
   const app::ListOptions wanted{options.numbers, kept, !options.json_file.empty(), settings_of(options)};
@@ -161,6 +164,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (!options.numbers.empty())
       throw Error(ErrorKind::configuration, "--numbers chooses columns of lists, this has all of them", {name},
                   fmt::format("leave it out: a list has cases_file, or more than {} cases", app::kLongList));
+    const OutputClaim claim(app::result_files(folders.empty() ? "" : folders[k], false));
     io::CaseFile file = io::all_cases(std::move(given));
     choose_backends(file, options);
     app::SurfaceStore store;

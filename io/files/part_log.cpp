@@ -106,7 +106,8 @@ void PartLog::find_parts(const std::string& head) {
   const std::uint64_t size = size_of(descriptor_);
   std::string found(std::min<std::uint64_t>(size, head.size()), '\0');
   if (!read_at(descriptor_, 0, found.data(), found.size())) fail("read", errno);
-  if (!head.starts_with(found))
+  const bool empty = size <= head.size() && found.starts_with(kFormat);  // nothing is lost with one of other work
+  if (!head.starts_with(found) && !empty)
     throw Error(
         ErrorKind::configuration,
         fmt::format(
@@ -114,7 +115,7 @@ void PartLog::find_parts(const std::string& head) {
             file_.string()),
         {}, "go on with what they were, remove it, or choose another output");
   end_ = head.size();
-  if (found.size() < head.size() && !write_at(descriptor_, 0, head.data(), head.size())) fail("write", errno);
+  if (found != head && !write_at(descriptor_, 0, head.data(), head.size())) fail("write", errno);
   std::vector<std::byte> bytes;
   for (Head part{}; read_at(descriptor_, end_, &part, sizeof part);) {
     const std::uint64_t at = end_ + sizeof part;

@@ -290,6 +290,27 @@ TEST(CaseList, IsWrittenAsTables) {
   EXPECT_FALSE(fs::exists(out / "fields.h5"));
 }
 
+TEST(CaseList, OverwritesNoInput) {
+  const TemporaryFolder folder;
+  const std::string table = places(3), here = folder.path().string();
+  folder.write("cases.csv", table);
+  const std::string file = folder.write("list.toml", "cases_file = \"cases.csv\"\n" + standard_case("1.5")).string();
+  const auto refused = [&](const std::vector<std::string>& words) {
+    const auto result = run_program(words);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("would overwrite"));
+    EXPECT_EQ(content_of(folder.path() / "cases.csv"), table);
+    EXPECT_FALSE(fs::exists(folder.path() / "unfinished.rows"));
+  };
+  refused({"run", file, "-o", here});
+  refused({"run", file, "--json", (folder.path() / "cases.csv").string()});
+  // results of few cases leave a table alone that no list has written
+  EXPECT_EQ(run_program({"run", file, "--fields", "-o", here}).status, 0);
+  EXPECT_EQ(content_of(folder.path() / "cases.csv"), table);
+  folder.write("cases.json", "{}");
+  refused({"run", file, "--fields", "-o", here});
+}
+
 TEST(CaseList, HasNumbersAsTheyAreInPlaceOfOverriddenColumns) {
   const TemporaryFolder folder;
   const fs::path file = pair_list(folder, places(2)), out = folder.path() / "out";

@@ -84,6 +84,12 @@ TEST_F(PartLogFile, RefusesAnotherWork) {
   }
 }
 
+TEST_F(PartLogFile, TakesTheNameOfWorkThatHasNoParts) {
+  { PartLog(file_, "one"); }
+  { PartLog(file_, "other").add(0, bytes_of(0)); }
+  EXPECT_EQ(PartLog(file_, "other").parts(), 1u);
+}
+
 TEST_F(PartLogFile, MayHaveNoName) {
   PartLog log({}, "work"), other({}, "work");
   log.add(3, bytes_of(3));
