@@ -168,7 +168,11 @@ SolvedList::SolvedList(io::ListedCases given, SurfaceStore& store, const ListOpt
   const bool wheel_on_rail =
       std::ranges::any_of(given.file.cases, [](const io::Case& c) { return c.content.index() == 0; });
   if (given.rows) given_keys_ = given.rows->numbers();
-  for (const std::string& name : options.numbers) numbers_.push_back(io::listed_number(name));
+  for (const std::string& name : options.numbers) {
+    if (std::ranges::find(numbers_, name, &io::ListedNumber::name) != numbers_.end())
+      throw Error(ErrorKind::configuration, fmt::format("{} stands twice among the numbers of the list", name));
+    numbers_.push_back(io::listed_number(name));
+  }
   if (numbers_.empty()) numbers_ = io::usual_numbers(wheel_on_rail);
   std::erase_if(numbers_, [&](const io::ListedNumber& number) {  // what rows give is there, in their unit
     return std::ranges::any_of(given_keys_, [&](const io::CaseKey* key) { return si_name(*key) == number.si_name; });

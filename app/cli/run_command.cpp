@@ -81,7 +81,8 @@ int exit_status(const io::RunResult& result) {
 }
 
 bool is_list(const io::ListedCases& given, const RunOptions& options) {
-  return !options.fields && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
+  const bool all_shown = options.fields || options.verbose || options.bodies || !options.report_file.empty();
+  return !all_shown && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
 }
 
 /// Where finished rows are kept while the work goes on.
@@ -93,10 +94,6 @@ std::filesystem::path kept_rows(const std::filesystem::path& folder, const std::
 /// Cases of which there are many: their numbers go to files row by row.
 int run_list(io::ListedCases given, const std::filesystem::path& folder, const RunOptions& options,
              const CommonOptions& common) {
-  if (!options.report_file.empty() || options.bodies)
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} shows fields, which are left out of lists", options.bodies ? "--vtk" : "--report"), {},
-                "add --fields, with memory for all of them");
   const OutputClaim claim(app::result_files(folder, true));
   if (given.rows) refuse_output_as_input(given.rows->file());
   choose_backends(given.file, options);
@@ -163,7 +160,9 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     }
     if (!options.numbers.empty())
       throw Error(ErrorKind::configuration, "--numbers chooses columns of lists, this has all of them", {name},
-                  fmt::format("leave it out: a list has cases_file, or more than {} cases", app::kLongList));
+                  fmt::format("leave it out: a list has cases_file, or more than {} cases, and no --fields, --report, "
+                              "--vtk or --verbose",
+                              app::kLongList));
     const OutputClaim claim(app::result_files(folders.empty() ? "" : folders[k], false));
     io::CaseFile file = io::all_cases(std::move(given));
     choose_backends(file, options);
@@ -217,7 +216,8 @@ Command add_run(CLI::App& verb) {
   verb.add_flag("--vtk", options->bodies, "Write wheel and rail of every case for ParaView too: FOLDER/vtk/bodies.pvd");
   add_values(verb, "--numbers", options->numbers,
              "Of lists: columns, by their names in results (pmax_MPa, patch_2.fn_N, ...)", "NAME,...");
-  verb.add_flag("--fields", options->fields, "Of lists too: all fields and pictures, which stay in memory");
+  verb.add_flag("--fields", options->fields,
+                "Of lists too: all fields and pictures, which stay in memory; so do --report, --vtk and --verbose");
   verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)")
       ->type_name(kBackendName);

@@ -290,6 +290,16 @@ TEST(CaseList, IsWrittenAsTables) {
   EXPECT_FALSE(fs::exists(out / "fields.h5"));
 }
 
+TEST(CaseList, HasFieldsWhereTheyAreShown) {
+  const TemporaryFolder folder;
+  const fs::path file = pair_list(folder, places(2)), out = folder.path() / "out";
+  for (const std::string option : {"--vtk", "--fields", "--verbose"}) {
+    EXPECT_EQ(run_program({"run", file.string(), "-o", out.string(), option}).status, 0) << option;
+    EXPECT_TRUE(fs::exists(out / "result.json") && !fs::exists(out / "cases.csv")) << option;
+    fs::remove_all(out);
+  }
+}
+
 TEST(CaseList, OverwritesNoInput) {
   const TemporaryFolder folder;
   const std::string table = places(3), here = folder.path().string();
@@ -374,7 +384,8 @@ TEST(CaseList, AsksForWhatItNeeds) {
     return result.err;
   };
   EXPECT_THAT(refused({"--numbers", "pmax"}), HasSubstr("'pmax'"));
-  EXPECT_THAT(refused({"-o", (folder.path() / "out").string(), "--vtk"}), HasSubstr("--fields"));
+  EXPECT_THAT(refused({"--numbers", "npatch,pmax_MPa,npatch"}), HasSubstr("npatch stands twice"));
+  EXPECT_THAT(refused({"--numbers", "npatch", "--fields"}), HasSubstr("--fields"));
   folder.write("places.csv", "wheelset.y_mm\n0\nx\n");
   EXPECT_THAT(refused({}), HasSubstr("places.csv:3"));
 }
