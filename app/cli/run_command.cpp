@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -85,6 +86,12 @@ bool is_list(const io::ListedCases& given, const RunOptions& options) {
   return !all_shown && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
 }
 
+/// How surfaces were fitted.
+void print_fits(const std::vector<io::SurfaceUse>& surfaces, bool quiet) {
+  for (const io::SurfaceUse& use : surfaces)
+    if (use.fit.points > 0) print_notes({io::summary(use)}, quiet);
+}
+
 /// Where finished rows are kept while the work goes on.
 std::filesystem::path kept_rows(const std::filesystem::path& folder, const std::string& json_file) {
   if (!folder.empty()) return folder / "unfinished.rows";
@@ -108,6 +115,7 @@ int run_list(io::ListedCases given, const std::filesystem::path& folder, const R
     with_progress(common.quiet,
                   [&](const Progress& progress) { list.emplace(std::move(given), store, wanted, progress); });
     print_notes(list->head().doubts, common.quiet);
+    print_fits(list->head().surfaces, common.quiet);
     if (list->found() > 0)
       print_notes({fmt::format("{} of {} cases were finished before", list->found(), list->size())}, common.quiet);
     const CancellationScope scope(&interrupted());
@@ -120,9 +128,12 @@ int run_list(io::ListedCases given, const std::filesystem::path& folder, const R
     if (json) json->commit();
     list->forget();
   } catch (const Cancelled&) {
+    std::error_code unknown;
     std::cerr << (kept.empty() ? std::string("interrupted: nothing is kept without -o FOLDER or --json FILE\n")
-                               : fmt::format("interrupted: finished cases are in {}, the same command goes on\n",
-                                             kept.string()));
+                  : !std::filesystem::exists(kept, unknown)
+                      ? std::string("interrupted: no case was begun\n")
+                      : fmt::format("interrupted: finished cases are in {}, the same command goes on\n",
+                                    kept.string()));
     return kFailed;
   }
   print_notes(notes, common.quiet);
@@ -164,18 +175,18 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
                               "--vtk or --verbose",
                               app::kLongList));
     const OutputClaim claim(app::result_files(folders.empty() ? "" : folders[k], false));
+    const auto rows = given.rows;
     io::CaseFile file = io::all_cases(std::move(given));
     choose_backends(file, options);
     app::SurfaceStore store;
     io::RunResult result =
         with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
     result.settings = settings_of(options);
+    if (rows) result.geometry_sha256.emplace_back(rows->file().string(), rows->sha256());
 
     print_notes(file.notes, common.quiet);
     print_notes(result.doubts, common.quiet);
-    if (!common.quiet)
-      for (const io::SurfaceUse& use : result.surfaces)
-        if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
+    print_fits(result.surfaces, common.quiet);
     if (!folders.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
     if (!folders.empty()) print_notes(app::write_result_folder(folders[k], result, options.bodies), common.quiet);
     write_report_file(options.report_file, [&] {
