@@ -216,7 +216,7 @@ CaseFile all_cases(ListedCases listed) {
     throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), {listed.rows->file().string()},
                 "treadmark run takes tables of any length, but for --fields, --report, --vtk and --verbose");
   file.cases.clear();
-  for (std::size_t k = 0; k < listed.rows->blocks(); ++k)
+  for (std::size_t k = 0; k < listed.rows->blocks(); ++k)  // a check point in each
     for (CaseRow& row : listed.rows->block(k)) file.cases.push_back(std::move(row.content));
   return std::move(file);
 }
