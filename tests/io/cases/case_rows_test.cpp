@@ -43,7 +43,7 @@ class CaseTableFile : public ::testing::Test {
 TEST_F(CaseTableFile, MakesTheCasesOfLists) {
   const std::string table =
       "\xEF\xBB\xBF"
-      "wheelset.y_mm, wheelset.yaw_deg ,friction.coefficient,friction.kind\r\n"
+      "wheelset.y_mm, wheelset.yaw_deg ,friction.coefficient,friction.law\r\n"
       "# places of a curve\r\n"
       "0,0.1,0.3,coulomb\r\n"
       "\r\n"
