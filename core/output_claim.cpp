@@ -61,6 +61,7 @@ OutputClaim::OutputClaim(const std::vector<std::string>& outputs) {
     if (const auto [other, is_new] = taken.emplace(place_of(output), output); !is_new) refuse(output, other->second);
   }
   const std::lock_guard lock(claims_mutex);
+  before_ = claims.size();
   for (const auto& [place, output] : taken) {
     const int descriptor = ::open(output.c_str(), O_PATH | O_CLOEXEC);
     if (descriptor < 0) continue;
@@ -74,8 +75,7 @@ OutputClaim::OutputClaim(const std::vector<std::string>& outputs) {
 
 OutputClaim::~OutputClaim() {
   const std::lock_guard lock(claims_mutex);
-  for (const Claim& claim : claims) ::close(claim.descriptor);
-  claims.clear();
+  for (; claims.size() > before_; claims.pop_back()) ::close(claims.back().descriptor);
 }
 
 void refuse_output_as_input(const fs::path& input) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace treadmark {
 
 /// While it lives, no file that was there under the name of an output is read, whatever name it is read by: a command
-/// would overwrite its input. One at a time, made before anything is read.
+/// would overwrite its input. Made before anything is read; one made while another lives ends before it.
 class OutputClaim {
  public:
   /// Names that are empty, "-" or those of devices do not count. Errors: Error(configuration) where two are the same.
@@ -17,6 +18,9 @@ class OutputClaim {
   ~OutputClaim();
   OutputClaim(const OutputClaim&) = delete;
   OutputClaim& operator=(const OutputClaim&) = delete;
+
+ private:
+  std::size_t before_ = 0;  ///< files that others claim
 };
 
 /// Readers call it before they open a file. Errors: Error(configuration) where an output is claimed there; writing that

@@ -18,6 +18,12 @@ bool any_grave(std::span<const Remark> remarks) {
   return std::ranges::any_of(remarks, [](const Remark& r) { return r.grave(); });
 }
 
+std::string with_grave(std::string message, std::span<const Remark> remarks) {
+  for (const Remark& remark : remarks)
+    if (remark.grave()) message += (message.empty() ? "" : "; ") + remark.text;
+  return message;
+}
+
 std::string to_line(const Remark& remark) {
   return fmt::format("{}: {}{}", remark.grave() ? "warning" : "minor warning",
                      remark.patch > 0 ? fmt::format("patch {}: ", remark.patch) : "", remark.text);

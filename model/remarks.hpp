@@ -158,6 +158,8 @@ struct Remark {
 std::optional<RemarkKind> remark_named(std::string_view name);
 /// Whether one of them is grave.
 bool any_grave(std::span<const Remark> remarks);
+/// A message and behind it what grave ones say, with semicolons between them.
+std::string with_grave(std::string message, std::span<const Remark> remarks);
 /// "warning: patch 2: ..." or, where it is not grave, "minor warning: ...".
 std::string to_line(const Remark& remark);
 

@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/run_parts.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -27,14 +26,6 @@ using io::CaseRows;
 using Geometry = wheelrail::Geometry;
 using SteadyClock = std::chrono::steady_clock;
 
-/// A case of a part, and what it is solved with.
-struct ListedCase {
-  io::Case content;
-  std::vector<double> given;
-  const Geometry* geometry;  ///< null: of a patch
-  const io::Case* judged;    ///< with the same surfaces: its profiles were judged
-};
-
 std::string si_name(const io::CaseKey& key) {
   return key.info.path.substr(0, key.info.path.size() - io::unit_at_end(key.info.path).ending.size());
 }
@@ -46,7 +37,7 @@ bool is_shift(const io::Case& c) {
 void put(ByteWriter& out, const ListedResult& row) {
   out.put(row.number);
   out.put(row.status);
-  out.put(row.doubtful);
+  out.put(row.grave);
   out.put(row.shift);
   for (const std::string* text : {&row.message, &row.remarks, &row.json}) out.put(*text);
   out.put(row.given);
@@ -59,7 +50,7 @@ std::vector<ListedResult> rows_in(std::span<const std::byte> bytes) {
     ListedResult& row = out.emplace_back();
     in.get(row.number);
     in.get(row.status);
-    in.get(row.doubtful);
+    in.get(row.grave);
     in.get(row.shift);
     for (std::string* text : {&row.message, &row.remarks, &row.json}) in.get(*text);
     in.get(row.given);
@@ -74,6 +65,14 @@ void add_hashes(const io::InfluenceInput& influence, std::string& identity) {
 }
 
 }  // namespace
+
+/// A case of a part, and what it is solved with.
+struct SolvedList::ListedCase {
+  io::Case content;
+  std::vector<double> given;
+  const Geometry* geometry;  ///< null: of a patch
+  const io::Case* judged;    ///< with the same surfaces: its profiles were judged
+};
 
 /// Cases in parts of about as many as a block of rows; those of a sequence in time are in one part.
 class SolvedList::Source {
@@ -169,7 +168,11 @@ SolvedList::SolvedList(io::ListedCases given, SurfaceStore& store, const ListOpt
   const bool wheel_on_rail =
       std::ranges::any_of(given.file.cases, [](const io::Case& c) { return c.content.index() == 0; });
   if (given.rows) given_keys_ = given.rows->numbers();
-  for (const std::string& name : options.numbers) numbers_.push_back(io::listed_number(name));
+  for (const std::string& name : options.numbers) {
+    if (std::ranges::find(numbers_, name, &io::ListedNumber::name) != numbers_.end())
+      throw Error(ErrorKind::configuration, fmt::format("{} stands twice among the numbers of the list", name));
+    numbers_.push_back(io::listed_number(name));
+  }
   if (numbers_.empty()) numbers_ = io::usual_numbers(wheel_on_rail);
   std::erase_if(numbers_, [&](const io::ListedNumber& number) {  // what rows give is there, in their unit
     return std::ranges::any_of(given_keys_, [&](const io::CaseKey* key) { return si_name(*key) == number.si_name; });
@@ -198,65 +201,88 @@ SolvedList::SolvedList(io::ListedCases given, SurfaceStore& store, const ListOpt
   log_ = std::make_unique<io::PartLog>(options.kept, identity);
 
   std::vector<std::size_t> wanted;
-  for (std::size_t k = 0; k < source_->parts(); ++k)
-    if (log_->has(k))
-      found_ += source_->size_of(k);
-    else
-      wanted.push_back(k);
+  for (std::size_t k = 0; k < source_->parts(); ++k) {
+    found_ += kept_of(k);
+    if (!log_->has(k)) wanted.push_back(k);
+  }
   std::mutex reporting;
   std::size_t finished = found_;
   if (progress.report) progress.report(finished, size_, "");
   parallel_for(wanted.size(), [&](std::size_t i) {
-    const std::vector<std::byte> done = solve(wanted[i]);
-    log_->add(wanted[i], done);
+    const std::size_t fresh = source_->size_of(wanted[i]) - kept_of(wanted[i]);
+    solve(wanted[i]);
     const std::lock_guard lock(reporting);
-    finished += source_->size_of(wanted[i]);
+    finished += fresh;
     if (progress.report) progress.report(finished, size_, "cases");
   });
   head_.surfaces = store.uses();
   head_.seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
-std::vector<std::byte> SolvedList::solve(std::size_t part) const {
-  ByteWriter out;
-  for (const std::vector<ListedCase>& group : source_->part(part)) {
-    CaseSequence sequence(source_->pool());
-    for (const ListedCase& one : group) {
-      check_cancelled();
-      const auto start = SteadyClock::now();
-      io::CaseResult result;
-      try {
-        result = sequence.solve(one.content, one.geometry);
-        result.number = one.content.number;
-        source_->notes().add(*one.judged, one.content, result);
-      } catch (const Error& error) {
-        result = {};
-        result.number = one.content.number;
-        result.status = Status::failed;
-        result.message = error.what();
+/// Where groups of a part stand that are finished while the part is not.
+std::size_t SolvedList::begun(std::size_t part) const { return source_->parts() + part; }
+
+std::size_t SolvedList::kept_of(std::size_t part) const {
+  if (log_->has(part)) return source_->size_of(part);
+  return log_->has(begun(part)) ? rows_in(log_->content(begun(part))).size() : 0;
+}
+
+void SolvedList::solve(std::size_t part) const {
+  using namespace std::chrono_literals;
+  constexpr SteadyClock::duration kOften = 1s;  // what a kill may cost
+  std::size_t kept = kept_of(part);
+  std::vector<std::byte> done;
+  if (kept > 0) done = log_->content(begun(part));
+  SteadyClock::time_point last = SteadyClock::now();
+  try {
+    for (const std::vector<ListedCase>& group : source_->part(part)) {
+      if (kept > 0) {
+        kept -= group.size();
+        continue;
       }
-      result.shown = one.content.shown;
-      result.seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
-      ListedResult row{result.number,
-                       result.status,
-                       result.status == Status::ok && any_grave(result.remarks),
-                       is_shift(one.content),
-                       result.message,
-                       {},
-                       one.given,
-                       {},
-                       {}};
-      for (const Remark& remark : result.remarks) {
-        row.remarks += (row.remarks.empty() ? "" : " ") + std::string(remark.row().name);
-        if (remark.grave()) row.message += (row.message.empty() ? "" : "; ") + remark.text;
-      }
-      for (const io::ListedNumber& number : numbers_) row.numbers.push_back(number.si(result));
-      if (!result.shown) result.patches.clear();
-      if (json_) row.json = io::case_text(result);
-      put(out, row);
+      CaseSequence sequence(source_->pool());
+      ByteWriter rows;
+      for (const ListedCase& one : group) put(rows, solved(one, sequence));
+      done.insert(done.end(), rows.bytes().begin(), rows.bytes().end());
+      if (SteadyClock::now() - last < kOften) continue;
+      log_->add(begun(part), done);
+      last = SteadyClock::now();
     }
+  } catch (const Cancelled&) {
+    if (!done.empty()) log_->add(begun(part), done);
+    throw;
   }
-  return out.bytes();
+  log_->add(part, done);
+}
+
+ListedResult SolvedList::solved(const ListedCase& one, CaseSequence& sequence) const {
+  check_cancelled();
+  const auto start = SteadyClock::now();
+  io::CaseResult result;
+  try {
+    result = sequence.solve(one.content, one.geometry);
+  } catch (const Error& error) {
+    result = {};
+    result.status = Status::failed;
+    result.message = error.what();
+  }
+  result.number = one.content.number;
+  result.shown = one.content.shown;
+  if (!result.shown) result.patches.clear();
+  source_->notes().add(*one.judged, one.content, result);
+  result.seconds = std::chrono::duration<double>(SteadyClock::now() - start).count();
+  ListedResult row;
+  row.number = result.number;
+  row.status = result.status;
+  row.grave = any_grave(result.remarks);
+  row.shift = is_shift(one.content);
+  row.message = with_grave(result.message, result.remarks);
+  for (const Remark& remark : result.remarks)
+    row.remarks += (row.remarks.empty() ? "" : " ") + std::string(remark.row().name);
+  row.given = one.given;
+  for (const io::ListedNumber& number : numbers_) row.numbers.push_back(number.si(result));
+  if (json_) row.json = io::case_text(result);
+  return row;
 }
 
 void SolvedList::for_each(const std::function<void(const ListedResult&)>& visit) const {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/cases/case_rows.hpp"
@@ -36,7 +37,7 @@ struct ListOptions {
 struct ListedResult {
   int number = 0;
   Status status = Status::ok;
-  bool doubtful = false;        ///< ok, but for a grave remark
+  bool grave = false;           ///< a remark says that numbers may be wrong
   bool shift = false;           ///< creepages are lengths, power is work
   std::string message;          ///< why it is not ok, and grave remarks
   std::string remarks;          ///< names of all remarks, with blanks between them
@@ -44,7 +45,8 @@ struct ListedResult {
   std::vector<double> numbers;  ///< SI; NaN: not known
   std::string json;             ///< as it stands in result.json; empty unless asked for
 
-  std::string_view status_word() const { return doubtful ? "doubtful" : to_string(status); }
+  bool doubtful() const { return grave && status == Status::ok; }
+  std::string_view status_word() const { return doubtful() ? "doubtful" : to_string(status); }
 };
 
 /// Any number of cases, solved on all threads, whose results stand in a file: memory does not grow with their number,
@@ -53,9 +55,10 @@ class SolvedList {
  public:
   /// Solves what is not kept yet. Cases that go on from the one before them are solved in order, all others by
   /// themselves. A case that cannot be solved, for whatever reason, has Status::failed and its message; the others go
-  /// on. After a stop request Cancelled is thrown once finished rows are kept. progress gets the number found, with an
-  /// empty text, first. Errors: Error for geometry that cannot be read, names that are no numbers of results, and files
-  /// that cannot be written, or where rows of something else are kept.
+  /// on. After a stop request Cancelled is thrown once finished rows are kept (of sequences in time: whole ones); a
+  /// kill costs those of the last second. progress gets the number found, with an empty text, first. Errors: Error for
+  /// geometry that cannot be read, names that are no numbers of results, and files that cannot be written, or where
+  /// rows of something else are kept.
   SolvedList(io::ListedCases given, SurfaceStore& store, const ListOptions& options, const Progress& progress);
   ~SolvedList();
 
@@ -72,7 +75,12 @@ class SolvedList {
 
  private:
   class Source;
-  std::vector<std::byte> solve(std::size_t part) const;
+  struct ListedCase;
+  std::size_t begun(std::size_t part) const;
+  /// Rows of a part that are in the log.
+  std::size_t kept_of(std::size_t part) const;
+  void solve(std::size_t part) const;
+  ListedResult solved(const ListedCase& one, CaseSequence& sequence) const;
 
   io::RunResult head_;
   std::size_t size_ = 0, found_ = 0;
@@ -87,7 +95,7 @@ class SolvedList {
 struct ListSummary {
   std::vector<std::pair<std::string, std::size_t>> statuses;  ///< word and number of cases
   std::vector<std::string> said;                              ///< about the first ones that did not end as ok
-  bool failed = false, not_converged = false;                 ///< failed: doubtful ones count
+  bool failed = false, not_converged = false;                 ///< failed: grave remarks count, of any status
 };
 
 /// Writes results in one go, with little memory: into the folder, unless its name is empty, cases.csv, cases.h5 and,

@@ -24,7 +24,7 @@ constexpr std::string_view kStatusWords[] = {"ok", "no_contact", "not_converged"
 constexpr std::uint8_t kDoubtful = 4;
 
 std::uint8_t code_of(const ListedResult& row) {
-  return row.doubtful ? kDoubtful : static_cast<std::uint8_t>(row.status);
+  return row.doubtful() ? kDoubtful : static_cast<std::uint8_t>(row.status);
 }
 
 std::string heads_of(const SolvedList& list) {
@@ -47,6 +47,7 @@ class Counts {
  public:
   void add(const ListedResult& row) {
     ++counts_[code_of(row)];
+    failed_ = failed_ || row.grave || row.status == Status::failed;
     if (row.message.empty()) return;
     constexpr std::size_t kMostSaid = 10;
     if (said_.size() < kMostSaid)
@@ -62,7 +63,7 @@ class Counts {
     for (std::size_t k = 0; k < std::size(kStatusWords); ++k)
       if (counts_[k] > 0) out.statuses.emplace_back(kStatusWords[k], counts_[k]);
     out.said = said_;
-    out.failed = counts_[static_cast<std::size_t>(Status::failed)] + counts_[kDoubtful] > 0;
+    out.failed = failed_;
     out.not_converged = counts_[static_cast<std::size_t>(Status::not_converged)] > 0;
     return out;
   }
@@ -70,6 +71,7 @@ class Counts {
  private:
   std::size_t counts_[std::size(kStatusWords)] = {};
   std::size_t messages_ = 0, longest_ = 0;
+  bool failed_ = false;
   std::vector<std::string> said_;
 };
 

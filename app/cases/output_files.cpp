@@ -68,11 +68,18 @@ void write_side_by_side(const std::vector<std::function<void()>>& parts) {
   parallel_for(parts.size(), [&](std::size_t k) { parts[k](); });
 }
 
-/// Fields of an earlier run must not pass for those of one without any, nor tables of a list for those of this run.
+/// Fields of an earlier run must not pass for those of one without any.
 void remove_unmade(const std::filesystem::path& folder, const std::filesystem::path& made) {
   std::error_code ignored;
-  for (const char* name : {"fields.h5", "cases.json", "cases.csv", "cases.h5"})
-    if (!std::filesystem::exists(made / name, ignored)) std::filesystem::remove(folder / name, ignored);
+  if (!std::filesystem::exists(made / "fields.h5", ignored)) std::filesystem::remove(folder / "fields.h5", ignored);
+}
+
+constexpr const char* kOfLists[] = {"cases.csv", "cases.h5", "cases.json"};
+
+/// Tables without cases.json are somebody's own.
+bool holds_list(const std::filesystem::path& folder) {
+  std::error_code unknown;
+  return std::filesystem::exists(folder / "cases.json", unknown);
 }
 
 /// Text tables for other people's tools, of the cases that ask for them.
@@ -111,6 +118,15 @@ std::vector<double> times_of(const io::RunResult& run) {
 
 }  // namespace
 
+std::vector<std::string> result_files(const std::filesystem::path& folder, bool list) {
+  std::vector<std::string> files;
+  if (folder.empty()) return files;
+  for (const char* name : {"result.json", "fields.h5", "pressure.svg"}) files.push_back((folder / name).string());
+  if (list || holds_list(folder))
+    for (const char* name : kOfLists) files.push_back((folder / name).string());
+  return files;
+}
+
 std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result,
                                              bool bodies) {
   OutputFolder output(folder, OutputFolder::Old::kept);
@@ -128,6 +144,9 @@ std::vector<std::string> write_result_folder(const std::filesystem::path& folder
       [&] { io::write_json(made / "result.json", result); },
   });
   remove_unmade(folder, output.path());
+  std::error_code ignored;
+  if (holds_list(folder))  // nor must tables of a list pass for those of this run
+    for (const char* name : kOfLists) std::filesystem::remove(folder / name, ignored);
   output.move_into("result.json");
   return notes;
 }

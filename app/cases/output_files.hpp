@@ -16,6 +16,9 @@ namespace treadmark::app {
 std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,
                                                   const std::vector<std::string>& inputs);
 
+/// Files that results of a list, or of few cases, replace in a folder: no inputs of theirs. None where it has no name.
+std::vector<std::string> result_files(const std::filesystem::path& folder, bool list);
+
 /// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures;
 /// `bodies`: wheel and rail for ParaView too.
 /// The JSON file comes last: where it stands the folder is complete. Returns notes on files that this build leaves out.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -80,7 +82,14 @@ int exit_status(const io::RunResult& result) {
 }
 
 bool is_list(const io::ListedCases& given, const RunOptions& options) {
-  return !options.fields && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
+  const bool all_shown = options.fields || options.verbose || options.bodies || !options.report_file.empty();
+  return !all_shown && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
+}
+
+/// How surfaces were fitted.
+void print_fits(const std::vector<io::SurfaceUse>& surfaces, bool quiet) {
+  for (const io::SurfaceUse& use : surfaces)
+    if (use.fit.points > 0) print_notes({io::summary(use)}, quiet);
 }
 
 /// Where finished rows are kept while the work goes on.
@@ -92,10 +101,8 @@ std::filesystem::path kept_rows(const std::filesystem::path& folder, const std::
 /// Cases of which there are many: their numbers go to files row by row.
 int run_list(io::ListedCases given, const std::filesystem::path& folder, const RunOptions& options,
              const CommonOptions& common) {
-  if (!options.report_file.empty() || options.bodies)
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} shows fields, which are left out of lists", options.bodies ? "--vtk" : "--report"), {},
-                "add --fields, with memory for all of them");
+  const OutputClaim claim(app::result_files(folder, true));
+  if (given.rows) refuse_output_as_input(given.rows->file());
   choose_backends(given.file, options);
   const std::filesystem::path kept = kept_rows(folder, options.json_file);
   const app::ListOptions wanted{options.numbers, kept, !options.json_file.empty(), settings_of(options)};
@@ -108,6 +115,7 @@ int run_list(io::ListedCases given, const std::filesystem::path& folder, const R
     with_progress(common.quiet,
                   [&](const Progress& progress) { list.emplace(std::move(given), store, wanted, progress); });
     print_notes(list->head().doubts, common.quiet);
+    print_fits(list->head().surfaces, common.quiet);
     if (list->found() > 0)
       print_notes({fmt::format("{} of {} cases were finished before", list->found(), list->size())}, common.quiet);
     const CancellationScope scope(&interrupted());
@@ -120,9 +128,12 @@ int run_list(io::ListedCases given, const std::filesystem::path& folder, const R
     if (json) json->commit();
     list->forget();
   } catch (const Cancelled&) {
+    std::error_code unknown;
     std::cerr << (kept.empty() ? std::string("interrupted: nothing is kept without -o FOLDER or --json FILE\n")
-                               : fmt::format("interrupted: finished cases are in {}, the same command goes on\n",
-                                             kept.string()));
+                  : !std::filesystem::exists(kept, unknown)
+                      ? std::string("interrupted: no case was begun\n")
+                      : fmt::format("interrupted: finished cases are in {}, the same command goes on\n",
+                                    kept.string()));
     return kFailed;
   }
   print_notes(notes, common.quiet);
@@ -160,19 +171,22 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     }
     if (!options.numbers.empty())
       throw Error(ErrorKind::configuration, "--numbers chooses columns of lists, this has all of them", {name},
-                  fmt::format("leave it out: a list has cases_file, or more than {} cases", app::kLongList));
+                  fmt::format("leave it out: a list has cases_file, or more than {} cases, and no --fields, --report, "
+                              "--vtk or --verbose",
+                              app::kLongList));
+    const OutputClaim claim(app::result_files(folders.empty() ? "" : folders[k], false));
+    const auto rows = given.rows;
     io::CaseFile file = io::all_cases(std::move(given));
     choose_backends(file, options);
     app::SurfaceStore store;
     io::RunResult result =
         with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
     result.settings = settings_of(options);
+    if (rows) result.geometry_sha256.emplace_back(rows->file().string(), rows->sha256());
 
     print_notes(file.notes, common.quiet);
     print_notes(result.doubts, common.quiet);
-    if (!common.quiet)
-      for (const io::SurfaceUse& use : result.surfaces)
-        if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
+    print_fits(result.surfaces, common.quiet);
     if (!folders.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
     if (!folders.empty()) print_notes(app::write_result_folder(folders[k], result, options.bodies), common.quiet);
     write_report_file(options.report_file, [&] {
@@ -213,7 +227,8 @@ Command add_run(CLI::App& verb) {
   verb.add_flag("--vtk", options->bodies, "Write wheel and rail of every case for ParaView too: FOLDER/vtk/bodies.pvd");
   add_values(verb, "--numbers", options->numbers,
              "Of lists: columns, by their names in results (pmax_MPa, patch_2.fn_N, ...)", "NAME,...");
-  verb.add_flag("--fields", options->fields, "Of lists too: all fields and pictures, which stay in memory");
+  verb.add_flag("--fields", options->fields,
+                "Of lists too: all fields and pictures, which stay in memory; so do --report, --vtk and --verbose");
   verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)")
       ->type_name(kBackendName);

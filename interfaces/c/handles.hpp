@@ -17,7 +17,7 @@
 struct tm_case {
   std::shared_ptr<treadmark::io::Case> content;  ///< shared with solutions: copied before it changes
   std::filesystem::path folder;                  ///< from which relative paths count
-  bool checked = false;                          ///< since the last change
+  mutable bool checked = false;                  ///< since the last change
 };
 
 struct tm_surface {

@@ -2,10 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/interfaces/c/many.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <utility>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
@@ -31,6 +34,15 @@ void solve_many(const tm_pair& pair, const tm_case& common, const ManyRows& rows
   if (shared->history != HistoryUse::start)
     throw Error(ErrorKind::configuration, "many instants do not follow each other in time", {},
                 "leave case.history out, or solve them one after the other");
+  std::set<const CaseNumber*> numbers;
+  std::set<const double*> arrays;
+  for (const auto& [number, values] : rows.given) {
+    if (!numbers.insert(number).second)
+      throw Error(ErrorKind::configuration, fmt::format("two arrays give {}", number->name), {}, "leave one out");
+    arrays.insert(values);
+  }
+  for (const auto& [number, values] : rows.wanted)
+    require(rows.rows == 0 || arrays.insert(values).second, "an array of out stands for another one, too");
   for (const auto& [number, values] : rows.wanted)
     std::fill_n(values, rows.rows, std::numeric_limits<double>::quiet_NaN());
   std::mutex ending;
@@ -39,17 +51,20 @@ void solve_many(const tm_pair& pair, const tm_case& common, const ManyRows& rows
     return app::to_problem(checked_for(pair, &own), pair.geometry.round_wheel);
   };
   const auto take = [&](std::size_t i, wheelrail::PairSolution&& solution) {
+    Status ended = solution.status;
+    std::string said = with_grave(solution.message, solution.remarks);
     try {
-      const tm_case own = row_case(common, rows, i);
-      const io::CaseResult result = app::to_result(std::get<io::WheelRailCase>(own.content->content), solution);
-      for (const auto& [number, values] : rows.wanted) values[i] = number.si(result);
-    } catch (const Error&) {  // the row was refused: there are no numbers
+      if (!solution.refused) {
+        const tm_case own = row_case(common, rows, i);
+        const io::CaseResult result = app::to_result(std::get<io::WheelRailCase>(own.content->content), solution);
+        for (const auto& [number, values] : rows.wanted) values[i] = number.si(result);
+      }
+    } catch (const Error& error) {  // solved, but for what was asked of it, as stresses below the surface
+      ended = Status::failed;
+      said = error.what();
     }
-    std::string said = std::move(solution.message);
-    for (const Remark& remark : solution.remarks)
-      if (remark.grave()) said += (said.empty() ? "" : "; ") + remark.text;
     const std::lock_guard lock(ending);
-    end(i, solution.status, said);
+    end(i, ended, said);
   };
   pair.pair.solve_many(rows.rows, problem, take, progress);
 }

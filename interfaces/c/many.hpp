@@ -27,8 +27,9 @@ struct ManyRows {
 /// call at a time, on any thread.
 using RowEnd = std::function<void(std::size_t row, Status status, const std::string& message)>;
 
-/// Solves them on all threads. Rows that make no sense end as failed. Errors: those of tm_pair_solve about the case
-/// itself; Cancelled, after which numbers of rows that are not done are NaN.
+/// Solves them on all threads. Rows that make no sense end as failed, without numbers. Errors: BadArgument for a case
+/// of a patch and an array of wanted that is another one, too, Error(configuration) for a case with a history and for a
+/// number that is given twice; Cancelled, after which numbers of rows that are not done are NaN.
 void solve_many(const tm_pair& pair, const tm_case& common, const ManyRows& rows, const RowEnd& end,
                 const Progress& progress);
 

@@ -28,7 +28,7 @@ const Content& checked(const tm_case* c, const char* kind) {
   require(content != nullptr, kind);
   if (!c->checked) {
     io::validate_case(*c->content);
-    const_cast<tm_case*>(c)->checked = true;
+    c->checked = true;
   }
   return *content;
 }

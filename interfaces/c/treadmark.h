@@ -152,10 +152,11 @@ TM_API tm_status tm_pair_solve(tm_pair *p, const tm_case *c, tm_solution **out);
 /* Many instants that do not depend on each other, on all threads (tm_set_threads), each to the bits of tm_pair_solve. Row i is the
  * case with in[k][i] in place of its number in_names[k] ("wheelset.y", as tm_case_set_number). out[k][i] becomes the number
  * out_names[k]: of the solution ("force_on_rail.fz_tr"), "npatch", of the patch with the greatest normal force ("pmax"), or of one
- * patch, counted from 1 ("patch_2.pmax"); NaN where there is none. status: of every row, null: not wanted; rows that make no sense
- * are TM_FAILED. told hears why rows are not TM_OK, and grave warnings about those that are, on any thread but one call at a time;
- * null: nobody does. The pair keeps what its last solution left, which no row goes on from. Returns TM_OK however rows end. After
- * TM_CANCELLED the other rows have NaN and the status TM_CANCELLED. Memory does not grow with rows. */
+ * patch, counted from 1 ("patch_2.pmax"); NaN where there is none. No array of out may be another one, too. status: of every row,
+ * null: not wanted; rows that make no sense are TM_FAILED, without numbers. told hears why rows are not TM_OK, and grave warnings
+ * about those that are, on any thread but one call at a time; null: nobody does. The pair keeps what its last solution left, which
+ * no row goes on from. Returns TM_OK however rows end. After TM_CANCELLED the other rows have NaN and the status TM_CANCELLED.
+ * Memory does not grow with rows. */
 typedef void (*tm_row_message)(void *user, size_t row, tm_status status, const char *message);
 TM_API tm_status tm_pair_solve_many(const tm_pair *p, const tm_case *c, size_t rows, const char *const *in_names,
                                     const double *const *in, size_t n_in, const char *const *out_names, double *const *out,

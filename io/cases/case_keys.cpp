@@ -81,21 +81,6 @@ void check_scope(const Case& c, const KeyInfo& key, const SourcePosition& where)
     fail(fmt::format("{} belongs to a [patch] case, but this is a wheel-rail case", key.path), where);
 }
 
-void check_exclusive_sections(std::span<const Assignment> assignments) {
-  for (const ExclusiveSections& sections : kExclusiveSections) {
-    const Assignment* first[2] = {nullptr, nullptr};
-    for (const Assignment& a : assignments)
-      for (const int k : {0, 1})
-        if (first[k] == nullptr && a.key->info.path.starts_with(
-                                       fmt::format("{}.{}.", sections.parent, k == 0 ? sections.one : sections.other)))
-          first[k] = &a;
-    if (first[0] == nullptr || first[1] == nullptr) continue;
-    const Assignment* second = first[0] > first[1] ? first[0] : first[1];
-    fail(fmt::format("[{0}.{1}] and [{0}.{2}] exclude each other", sections.parent, sections.one, sections.other),
-         second->where, "give one of them");
-  }
-}
-
 /// Where text is expected, a word that happens to be a TOML number (60E1) is that word.
 CaseValue meant_value(const KeyInfo& key, const CaseOverride& assignment) {
   const bool textual = key.type == KeyType::text || key.type == KeyType::path || key.type == KeyType::choice;
@@ -170,16 +155,33 @@ void check_meant(const KeyInfo& key, const CaseValue& value) {
 
 }  // namespace
 
+void check_exclusive_sections(std::span<const GivenKey> keys) {
+  for (const ExclusiveSections& sections : kExclusiveSections) {
+    const GivenKey* first[2] = {nullptr, nullptr};
+    for (const GivenKey& given : keys)
+      for (const int k : {0, 1})
+        if (first[k] == nullptr &&
+            given.path.starts_with(fmt::format("{}.{}.", sections.parent, k == 0 ? sections.one : sections.other)))
+          first[k] = &given;
+    if (first[0] == nullptr || first[1] == nullptr) continue;
+    const GivenKey* second = first[0] > first[1] ? first[0] : first[1];
+    fail(fmt::format("[{0}.{1}] and [{0}.{2}] exclude each other", sections.parent, sections.one, sections.other),
+         *second->where, "give one of them");
+  }
+}
+
 void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder) {
   std::vector<Assignment> assignments;
   collect(table, "", assignments);
   ChosenKeys chosen;
+  std::vector<GivenKey> given;
   for (const Assignment& a : assignments) {
     check_scope(target, a.key->info, a.where);
     check_meant(a.key->info, *a.value);
     check_exclusive(a.key->info, a.where, chosen);
+    given.push_back({a.key->info.path, &a.where});
   }
-  check_exclusive_sections(assignments);
+  check_exclusive_sections(given);
   std::stable_sort(assignments.begin(), assignments.end(),
                    [](const Assignment& a, const Assignment& b) { return a.key < b.key; });
   for (const Assignment& a : assignments) a.key->set(target, *a.value, folder);

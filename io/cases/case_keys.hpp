@@ -25,6 +25,14 @@ Case case_without_keys(bool patch);
 /// Within a layer of a case file.
 inline constexpr ExclusiveSections kExclusiveSections[] = {{"patch", "hertz", "gap"}};
 
+/// A key of a layer, and where it stands.
+struct GivenKey {
+  std::string_view path;
+  const SourcePosition* where;
+};
+/// Errors: Error(configuration) at the second of keys in sections that exclude each other.
+void check_exclusive_sections(std::span<const GivenKey> keys);
+
 /// Applies the entries of one layer of a case file (defaults, one [[cases]] entry): checks names, types, ranges and
 /// exclusions first, so that a Case is changed only when everything is right.
 void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder);

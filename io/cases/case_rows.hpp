@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/io/cases/case_keys.hpp"
@@ -24,14 +26,17 @@ struct CaseRow {
 class CaseRows {
  public:
   /// common: what the rows share; changes: what is set in every row after all else. All rows are read and checked once.
-  /// Errors: Error(configuration) with file and line, of several the first.
+  /// Errors: Error(configuration) with file and line, of several the first; Error(input_data) for what is no text, as
+  /// lines without end (io/points/line_blocks.hpp).
   CaseRows(std::filesystem::path file, Case common, std::filesystem::path folder, std::vector<CaseOverride> changes);
 
   std::size_t size() const { return count_; }
   const std::filesystem::path& file() const { return file_; }
   const std::string& sha256() const { return sha256_; }
-  /// The keys with a number in every row.
+  /// The keys with a number in every row which that row has: no change takes its place.
   const std::vector<const CaseKey*>& numbers() const { return numbers_; }
+  /// The columns whose place changes take.
+  const std::vector<std::string>& overridden() const { return overridden_; }
 
   /// So many rows belong together in reading.
   static constexpr std::size_t kBlock = 64;
@@ -43,15 +48,18 @@ class CaseRows {
   struct Place {
     std::uint64_t offset;
     int line;
+    std::uint64_t sum;  ///< of the rows, by which it is known that they are still the same
   };
   struct Column {
     const CaseKey* key;
-    std::size_t cell, number;  ///< places in the line, and among the numbers that it gives
+    std::size_t cell;                   ///< its place in the line
+    std::optional<std::size_t> number;  ///< among numbers()
   };
 
   void index();
-  void take_heads(const std::string& line, int number);
-  CaseRow row(const std::string& line, std::size_t index, int line_number) const;
+  bool is_overridden(const CaseKey& key) const;
+  void take_heads(std::string_view line, int number);
+  CaseRow row(std::string_view line, std::size_t index, int line_number) const;
   SourcePosition at(int line) const { return {file_.string(), line, 0}; }
 
   std::filesystem::path file_;
@@ -60,7 +68,7 @@ class CaseRows {
   std::vector<CaseOverride> changes_;
   std::vector<Column> columns_;  ///< in the order in which keys are applied
   std::vector<const CaseKey*> numbers_;
-  std::vector<std::string> heads_;
+  std::vector<std::string> heads_, overridden_;
   std::vector<Place> blocks_;
   std::size_t count_ = 0;
   std::string sha256_;

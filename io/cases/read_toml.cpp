@@ -214,9 +214,9 @@ CaseFile all_cases(ListedCases listed) {
   if (listed.rows == nullptr) return std::move(file);
   if (listed.rows->size() > kMostCases)
     throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), {listed.rows->file().string()},
-                "treadmark run takes tables of any length");
+                "treadmark run takes tables of any length, but for --fields, --report, --vtk and --verbose");
   file.cases.clear();
-  for (std::size_t k = 0; k < listed.rows->blocks(); ++k)
+  for (std::size_t k = 0; k < listed.rows->blocks(); ++k)  // a check point in each
     for (CaseRow& row : listed.rows->block(k)) file.cases.push_back(std::move(row.content));
   return std::move(file);
 }
@@ -278,6 +278,9 @@ ListedCases listed_cases_of(const CaseTable& document, const std::filesystem::pa
     listed.rows = std::make_shared<const CaseRows>(folder / profiles::portable_path(table->value.text()), defaults,
                                                    folder, changes);
     result.cases.push_back(std::move(listed.rows->block(0).front().content));
+    for (const std::string& column : listed.rows->overridden())
+      result.notes.push_back(fmt::format("the column {} of {} has no effect: an override takes its place", column,
+                                         listed.rows->file().string()));
     note_motion();
     return listed;
   }

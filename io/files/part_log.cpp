@@ -30,6 +30,9 @@ struct Head {
   std::uint64_t part, size, sum;
 };
 
+/// Another one also where the number of the part is damaged.
+std::uint64_t sum_of(std::uint64_t part, std::span<const std::byte> content) { return check_sum(content) ^ part; }
+
 /// False where the file ends before.
 bool read_at(int descriptor, std::uint64_t at, void* to, std::size_t size) {
   char* next = static_cast<char*>(to);
@@ -103,7 +106,8 @@ void PartLog::find_parts(const std::string& head) {
   const std::uint64_t size = size_of(descriptor_);
   std::string found(std::min<std::uint64_t>(size, head.size()), '\0');
   if (!read_at(descriptor_, 0, found.data(), found.size())) fail("read", errno);
-  if (!head.starts_with(found))
+  const bool empty = size <= head.size() && found.starts_with(kFormat);  // nothing is lost with one of other work
+  if (!head.starts_with(found) && !empty)
     throw Error(
         ErrorKind::configuration,
         fmt::format(
@@ -111,13 +115,13 @@ void PartLog::find_parts(const std::string& head) {
             file_.string()),
         {}, "go on with what they were, remove it, or choose another output");
   end_ = head.size();
-  if (found.size() < head.size() && !write_at(descriptor_, 0, head.data(), head.size())) fail("write", errno);
+  if (found != head && !write_at(descriptor_, 0, head.data(), head.size())) fail("write", errno);
   std::vector<std::byte> bytes;
   for (Head part{}; read_at(descriptor_, end_, &part, sizeof part);) {
     const std::uint64_t at = end_ + sizeof part;
     if (part.size > size - at) break;
     bytes.resize(part.size);
-    if (!read_at(descriptor_, at, bytes.data(), bytes.size()) || check_sum(bytes) != part.sum) break;
+    if (!read_at(descriptor_, at, bytes.data(), bytes.size()) || sum_of(part.part, bytes) != part.sum) break;
     places_[part.part] = {at, part.size, part.sum};
     end_ = at + part.size;
   }
@@ -135,7 +139,7 @@ std::size_t PartLog::parts() const {
 }
 
 void PartLog::add(std::size_t part, std::span<const std::byte> content) {
-  const Head head{part, content.size(), check_sum(content)};
+  const Head head{part, content.size(), sum_of(part, content)};
   std::vector<std::byte> frame(sizeof head + content.size());
   std::memcpy(frame.data(), &head, sizeof head);
   if (!content.empty()) std::memcpy(frame.data() + sizeof head, content.data(), content.size());
@@ -151,7 +155,7 @@ std::vector<std::byte> PartLog::content(std::size_t part) const {
     return places_.at(part);
   }();
   std::vector<std::byte> bytes(place.size);
-  if (!read_at(descriptor_, place.offset, bytes.data(), bytes.size()) || check_sum(bytes) != place.sum)
+  if (!read_at(descriptor_, place.offset, bytes.data(), bytes.size()) || sum_of(part, bytes) != place.sum)
     throw Error(ErrorKind::configuration, fmt::format("{} has changed while it was in use", file_.string()), {},
                 "start anew, and leave it alone meanwhile");
   return bytes;

@@ -22,6 +22,7 @@
 #include <string>
 #include <string_view>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/never_cancelled.hpp"
@@ -667,6 +668,7 @@ void Hdf5ColumnFile::finish() {
   uLong crc = 0;
   std::uint64_t at = 0;
   for (std::string piece(std::size_t{1} << 20, '\0');;) {
+    check_cancelled();
     const ssize_t count = ::pread(descriptor_, piece.data(), piece.size(), static_cast<off_t>(at));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) cannot_write(file_.string());

@@ -103,7 +103,7 @@ class Hdf5ColumnFile {
   void write(std::size_t column, std::size_t row, std::span<const double> values);
   void write(std::size_t column, std::size_t row, std::span<const std::uint8_t> values);
   void write(std::size_t column, std::size_t row, const std::string& text);
-  /// Adds the check sum. No value is written afterwards.
+  /// Adds the check sum, with check points. No value is written afterwards.
   void finish();
 
  private:

@@ -20,8 +20,12 @@ namespace treadmark::io::points {
 
 namespace fs = std::filesystem;
 
-ByteBlocks::ByteBlocks(const fs::path& file, const SourcePosition& asked_by, const Progress& progress)
-    : file_(file.string()), what_("reading " + file.filename().string()), progress_(progress) {
+ByteBlocks::ByteBlocks(const fs::path& file, const SourcePosition& asked_by, const Progress& progress,
+                       std::size_t block)
+    : file_(file.string()),
+      what_("reading " + file.filename().string()),
+      progress_(progress),
+      block_(std::max<std::size_t>(block, 1)) {
   const SourcePosition where = asked_by.file.empty() ? SourcePosition{file_, 0, 0} : asked_by;
   const auto refuse = [&](const std::string& why, const std::string& advice) {
     throw Error(ErrorKind::input_data,

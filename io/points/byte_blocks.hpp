@@ -22,7 +22,8 @@ class ByteBlocks {
   static constexpr std::size_t kLongestPiece = 64'000'000;
 
   /// Opens a regular file. Error(input_data), placed at asked_by where that is known, for anything else.
-  ByteBlocks(const std::filesystem::path& file, const SourcePosition& asked_by, const Progress& progress);
+  ByteBlocks(const std::filesystem::path& file, const SourcePosition& asked_by, const Progress& progress,
+             std::size_t block = kBlock);
 
   /// Bytes in memory, which must outlive this; small blocks show what goes wrong at their ends.
   ByteBlocks(std::string_view bytes, std::string name, std::size_t block = kBlock, const Progress& progress = {});

@@ -85,6 +85,12 @@ const PatchResult* patch_of(const CaseResult& result, int patch) {
   return most == result.patches.end() ? nullptr : &*most;
 }
 
+/// Of a case that failed without any, or that shows none, nobody knows how many there are.
+double patches_in(const CaseResult& result) {
+  const bool unknown = !result.shown || result.status == Status::failed;
+  return unknown && result.patches.empty() ? kUnknown : static_cast<double>(result.patches.size());
+}
+
 template <class T>
 bool is_known(const Quantity<T>& row, const T& item) {
   return has_block(item, row.block) && row.has(item);
@@ -101,7 +107,7 @@ std::string_view ListedNumber::unit() const {
 
 double ListedNumber::si(const CaseResult& result) const {
   if (of_case != nullptr) return is_known(*of_case, result) ? of_case->access.get(result) : kUnknown;
-  if (of_patch == nullptr) return static_cast<double>(result.patches.size());
+  if (of_patch == nullptr) return patches_in(result);
   const PatchResult* found = patch_of(result, patch);
   return found != nullptr && is_known(*of_patch, *found) ? of_patch->access.get(*found) : kUnknown;
 }

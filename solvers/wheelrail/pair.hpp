@@ -64,6 +64,8 @@ struct PhaseTimes {
 /// Contact of the whole wheel at one instant.
 struct PairSolution {
   Status status = Status::ok;
+  /// By solve_many(), which has an error as status and message: nothing else here is known.
+  bool refused = false;
   std::string message;          ///< why the status is not ok
   std::vector<Remark> remarks;  ///< warnings, also where the status is ok
   Placement placement;
@@ -104,8 +106,8 @@ class Pair {
   /// Solves many problems that do not depend on each other, on all threads with pairs of their own: the bits of
   /// solve(), whatever their number and order, and the history stays as it was. problem(i) and take(i, solution) are
   /// called on any thread, once for each i, and take() once for each. What problem(i) or solve() refuse with an Error,
-  /// and what is to go on from a history, has Status::failed and the error as its message; the others go on. Memory
-  /// does not grow with count. Throws Cancelled after a stop request, of progress or of the scope that holds.
+  /// and what is to go on from a history, is refused: Status::failed, and the error as its message; the others go on.
+  /// Memory does not grow with count. Throws Cancelled after a stop request, of progress or of the scope that holds.
   void solve_many(std::size_t count, const std::function<Problem(std::size_t)>& problem,
                   const std::function<void(std::size_t, PairSolution&&)>& take, const Progress& progress = {}) const;
 

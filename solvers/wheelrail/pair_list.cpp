@@ -73,6 +73,7 @@ PairSolution solved_alone(Pair& pair, const std::function<Problem(std::size_t)>&
   } catch (const Error& error) {
     PairSolution failed;
     failed.status = Status::failed;
+    failed.refused = true;
     failed.message = error.what();
     return failed;
   }

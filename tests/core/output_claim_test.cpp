@@ -33,6 +33,13 @@ TEST(OutputClaim, RefusesToReadWhatItWouldReplace) {
     EXPECT_THROW(require_file(a, "file", ErrorKind::input_data), Error);
     EXPECT_THROW(write_file(a, "x"), Error) << "also where the first error was no end";
     EXPECT_THROW(write_file(link, "x"), Error);
+    {
+      const OutputClaim more({b.string()});
+      EXPECT_THROW(refuse_output_as_input(b), Error);
+      EXPECT_THROW(refuse_output_as_input(a), Error);
+    }
+    EXPECT_NO_THROW(refuse_output_as_input(b)) << "of one within another, too";
+    EXPECT_THROW(refuse_output_as_input(a), Error);
   }
   EXPECT_NO_THROW(refuse_output_as_input(a)) << "a claim ends";
   EXPECT_NO_THROW(write_file(a, "x"));

@@ -81,6 +81,8 @@ class Inputs:
         for name in ("case.toml", "my-case.toml", "CASE.toml"):
             (folder / name).write_text(CASE)
         (folder / "study.toml").write_text(STUDY)
+        (folder / "list.toml").write_text('cases_file = "places.csv"\n' + CASE.partition("[[cases]]")[0])
+        (folder / "places.csv").write_text("wheelset.y_mm,wheelset.yaw_deg\n0,0.1\n0.5,0.1\n")
         shutil.copytree(folder / "examples/vehicles", folder / "vehicles")
         shutil.copytree(folder / "examples/tracks", folder / "tracks")
         shutil.copy(folder / "examples/flat-at-speed.toml", folder / "SIMULATION.toml")

@@ -69,7 +69,7 @@ def _listed(name: str) -> str:
     patch, dot, rest = name.partition(".")
     if dot and patch.startswith("patch_"):
         return f"{patch}.{Patch._short.get(rest, rest)}"
-    return Case._short.get(name) or Patch._short.get(name, name)
+    return Case._short.get(name, Patch._short.get(name, name))
 
 
 def settings() -> list[tuple[str, str, str]]:
@@ -234,8 +234,9 @@ class Pair:
         as a dictionary that ``pandas.DataFrame`` takes: what was varied, as it was given, then the quantities in SI: of the case, "npatch",
         of the patch with the greatest normal force ("pmax") or of one patch ("patch_2.pmax", from 1), NaN where there is none, then
         "status" and "message". A row that cannot be solved, or makes no sense, is "failed", and the others go on; "doubtful": the numbers
-        may be wrong. Of such rows there is one ConvergenceWarning. Each row has the bits of solve(), the last solution stays as it was, and memory does not grow beyond the arrays.
-        progress and threads as in run(). Errors: InputError for names and arrays that make no sense. Ctrl-C ends it, other threads go on.
+        may be wrong. Of such rows there is one ConvergenceWarning. Each row has the bits of solve(), the last solution stays as it was, and
+        memory does not grow beyond the arrays. progress and threads as in run(). Errors: InputError for names and arrays that make no
+        sense. Ctrl-C ends it, other threads go on.
         """
         base = problem or self.problem
         varied = {name: np.asarray(value) for name, value in values.items() if not isinstance(value, (float, int, str)) and np.ndim(value) > 0}
@@ -243,10 +244,12 @@ class Pair:
             raise InputError("nothing differs from row to row", advice="give an array, or use solve")
         try:
             arrays = np.broadcast_arrays(*varied.values())
-            given = []
+            given: list[tuple[int, npt.NDArray[np.float64]]] = []
             for name, array in zip(varied, arrays):
                 number, si = _array_number(name)
-                given.append((number, np.ascontiguousarray(array.ravel(), dtype=np.float64) * si))
+                column: npt.NDArray[np.float64] = np.array(array.ravel(), dtype=np.float64)
+                column *= si
+                given.append((number, column))
         except (TypeError, ValueError) as error:
             if isinstance(error, InputError):
                 raise

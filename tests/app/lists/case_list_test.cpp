@@ -35,6 +35,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using treadmark::testing::content_of;
+using treadmark::testing::error_of;
 using treadmark::testing::run_program;
 using treadmark::testing::RunningProgram;
 using treadmark::testing::standard_case;
@@ -145,7 +146,54 @@ TEST(CaseList, GoesOnWhereItWasInterrupted) {
   EXPECT_GE(found, 130u);
   // another list is not taken for it
   options.numbers = {"fn_N"};
-  EXPECT_THAT(treadmark::testing::error_of([&] { solved(file, options, progress); }), HasSubstr("something else"));
+  EXPECT_THAT(error_of([&] { solved(file, options, progress); }), HasSubstr("something else"));
+  // nor the same one with another row
+  options.numbers = {};
+  EXPECT_EQ(solved(file, options, progress), whole);
+  folder.write("places.csv", places(400, 399));
+  EXPECT_THAT(error_of([&] { solved(file, options, progress); }), HasSubstr("something else"));
+}
+
+TEST(CaseList, NoticesATableThatChangesMeanwhile) {
+  const TemporaryFolder folder;
+  const fs::path file = pair_list(folder, places(10));
+  SurfaceStore store;
+  io::ListedCases given = io::read_listed_cases(file);
+  folder.write("places.csv", places(10, 9));
+  EXPECT_THAT(error_of([&] { SolvedList(std::move(given), store, {}, {}); }), HasSubstr("changed while it was read"));
+}
+
+TEST(CaseList, LosesNoCaseOfAPartThatIsNotThrough) {
+  const TemporaryFolder folder;
+  constexpr int kRows = 60;  // one part
+  folder.write("places.csv", places(kRows));
+  const fs::path file = folder.write("list.toml", "cases_file = \"places.csv\"\n" + standard_case("0.7"));
+  const std::vector<Row> whole = solved(file);
+  ListOptions options;
+  options.kept = folder.path() / "kept.rows";
+  const ThreadLimit one(1);
+  std::size_t found = 0, times_within = 0;
+  for (std::chrono::milliseconds pause = 20ms;; pause += 20ms) {
+    std::atomic<bool> stop{false};
+    const std::jthread timer([&] {
+      std::this_thread::sleep_for(pause);
+      stop = true;
+    });
+    Progress progress;
+    progress.stop = &stop;
+    progress.report = [&](std::size_t finished, std::size_t, const std::string& what) {
+      if (!what.empty()) return;
+      EXPECT_GE(finished, found);
+      found = finished;
+    };
+    try {
+      EXPECT_EQ(solved(file, options, progress), whole);
+      break;
+    } catch (const Cancelled&) {
+      if (found > 0 && found < kRows) ++times_within;
+    }
+  }
+  EXPECT_GT(times_within, 0u);
 }
 
 TEST(CaseList, TakesNoMoreMemoryForMoreRows) {
@@ -242,6 +290,48 @@ TEST(CaseList, IsWrittenAsTables) {
   EXPECT_FALSE(fs::exists(out / "fields.h5"));
 }
 
+TEST(CaseList, HasFieldsWhereTheyAreShown) {
+  const TemporaryFolder folder;
+  const fs::path file = pair_list(folder, places(2)), out = folder.path() / "out";
+  for (const std::string option : {"--vtk", "--fields", "--verbose"}) {
+    EXPECT_EQ(run_program({"run", file.string(), "-o", out.string(), option}).status, 0) << option;
+    EXPECT_TRUE(fs::exists(out / "result.json") && !fs::exists(out / "cases.csv")) << option;
+    fs::remove_all(out);
+  }
+}
+
+TEST(CaseList, OverwritesNoInput) {
+  const TemporaryFolder folder;
+  const std::string table = places(3), here = folder.path().string();
+  folder.write("cases.csv", table);
+  const std::string file = folder.write("list.toml", "cases_file = \"cases.csv\"\n" + standard_case("1.5")).string();
+  const auto refused = [&](const std::vector<std::string>& words) {
+    const auto result = run_program(words);
+    EXPECT_EQ(result.status, 2);
+    EXPECT_THAT(result.err, HasSubstr("would overwrite"));
+    EXPECT_EQ(content_of(folder.path() / "cases.csv"), table);
+    EXPECT_FALSE(fs::exists(folder.path() / "unfinished.rows"));
+  };
+  refused({"run", file, "-o", here});
+  refused({"run", file, "--json", (folder.path() / "cases.csv").string()});
+  // results of few cases leave a table alone that no list has written
+  EXPECT_EQ(run_program({"run", file, "--fields", "-o", here}).status, 0);
+  EXPECT_EQ(content_of(folder.path() / "cases.csv"), table);
+  folder.write("cases.json", "{}");
+  refused({"run", file, "--fields", "-o", here});
+}
+
+TEST(CaseList, HasNumbersAsTheyAreInPlaceOfOverriddenColumns) {
+  const TemporaryFolder folder;
+  const fs::path file = pair_list(folder, places(2)), out = folder.path() / "out";
+  const auto result = run_program({"run", file.string(), "-o", out.string(), "--set", "wheelset.y_mm=1.5"});
+  EXPECT_THAT(result.err, HasSubstr("the column wheelset.y_mm of"));
+  const std::string csv = content_of(out / "cases.csv");
+  EXPECT_TRUE(csv.starts_with("case,status,wheelset.yaw_deg,wheelset.vertical_force_N,wheelset.y_mm,")) << csv;
+  EXPECT_THAT(csv, HasSubstr("\n1,ok,0,80000,1.5,"));
+  EXPECT_THAT(csv, HasSubstr("\n2,ok,0.02,81000,1.5,"));
+}
+
 /// Whether a file grows beyond a size while the program runs.
 bool grows(const fs::path& file, std::uintmax_t size, RunningProgram& program) {
   for (int i = 0; i < 6000 && program.running(); ++i) {
@@ -294,7 +384,8 @@ TEST(CaseList, AsksForWhatItNeeds) {
     return result.err;
   };
   EXPECT_THAT(refused({"--numbers", "pmax"}), HasSubstr("'pmax'"));
-  EXPECT_THAT(refused({"-o", (folder.path() / "out").string(), "--vtk"}), HasSubstr("--fields"));
+  EXPECT_THAT(refused({"--numbers", "npatch,pmax_MPa,npatch"}), HasSubstr("npatch stands twice"));
+  EXPECT_THAT(refused({"--numbers", "npatch", "--fields"}), HasSubstr("--fields"));
   folder.write("places.csv", "wheelset.y_mm\n0\nx\n");
   EXPECT_THAT(refused({}), HasSubstr("places.csv:3"));
 }

@@ -76,6 +76,29 @@ TEST(CManyInstants, HaveTheBitsOfSingleOnes) {
   }
 }
 
+TEST(CManyInstants, RefuseARowWithoutNumbers) {
+  const CaseOf given = case_of(kText);
+  const PairOf pair = pair_of(given.get());
+  // the second: a value by itself, but not the radius of the wheel's surface
+  const std::vector<double> radius = {0.46, 0.5};
+  const double* in[] = {radius.data()};
+  const char* in_names[] = {"wheelset.nominal_radius"};
+  const char* out_names[] = {"wheelset.y", "wheelset.z", "force_on_rail.fz_tr", "npatch", "pmax", "timing.total"};
+  std::vector<std::vector<double>> found(std::size(out_names), std::vector<double>(2, 7.0));
+  std::vector<double*> out;
+  for (auto& column : found) out.push_back(column.data());
+  std::vector<tm_status> status(2, TM_INTERNAL);
+  ASSERT_EQ(tm_pair_solve_many(pair.get(), given.get(), 2, in_names, in, 1, out_names, out.data(), out.size(),
+                               status.data(), nullptr, nullptr),
+            TM_OK)
+      << tm_message();
+  EXPECT_EQ(status, (std::vector{TM_OK, TM_FAILED}));
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_FALSE(std::isnan(found[k][0])) << out_names[k];
+    EXPECT_TRUE(std::isnan(found[k][1])) << out_names[k] << ": " << found[k][1];
+  }
+}
+
 TEST(CManyInstants, DoNotDependOnThreads) {
   const CaseOf given = case_of(kText);
   const PairOf pair = pair_of(given.get());
@@ -114,8 +137,7 @@ TEST(CManyInstants, EndAtTheFlagAndByProgress) {
 TEST(CManyInstants, RefuseWhatMakesNoSense) {
   const CaseOf given = case_of(kText);
   const PairOf pair = pair_of(given.get());
-  const double y = 0.0;
-  double z = 5.0;
+  double y = 0.0, z = 5.0;
   const double* in[] = {&y};
   double* out[] = {&z};
   const auto solve = [&](const tm_case* c, const char* in_name, const char* out_name) {
@@ -127,6 +149,18 @@ TEST(CManyInstants, RefuseWhatMakesNoSense) {
   EXPECT_THAT(tm_message(), HasSubstr("wheelset.z"));
   EXPECT_EQ(solve(nullptr, "wheelset.y", "wheelset.z"), TM_BAD_ARGUMENT);
   EXPECT_EQ(solve(given.get(), nullptr, "wheelset.z"), TM_BAD_ARGUMENT);
+  // the same number or the same array twice
+  const char* twice[] = {"wheelset.y", "wheelset.y"};
+  const double* both[] = {&y, &y};
+  double* over[] = {&y};
+  const char* out_name = "wheelset.z";
+  EXPECT_EQ(
+      tm_pair_solve_many(pair.get(), given.get(), 1, twice, both, 2, &out_name, out, 1, nullptr, nullptr, nullptr),
+      TM_BAD_REQUEST);
+  EXPECT_THAT(tm_message(), HasSubstr("two arrays give wheelset.y"));
+  EXPECT_EQ(tm_pair_solve_many(pair.get(), given.get(), 1, twice, in, 1, &out_name, over, 1, nullptr, nullptr, nullptr),
+            TM_BAD_ARGUMENT);
+  EXPECT_EQ(y, 0.0);
   const CaseOf patch = [] {
     tm_case* made = nullptr;
     EXPECT_EQ(tm_case_create(1, &made), TM_OK);

@@ -79,11 +79,15 @@ def test_rows_that_fail_do_not_stop_the_others(pair):
     assert rows["status"].tolist()[1] == "failed" and rows["message"][1] and rows["message"][0] == ""
     assert np.isnan(rows["pmax"]).tolist() == [False, True, False]
     assert pair.save().to_bytes() == before
+    with pytest.warns(tm.ConvergenceWarning, match="1 of 2 rows"):  # not the radius of the wheel's surface: no number is known
+        rows = pair.solve_many(nominal_radius=[pair.problem["nominal_radius"], 0.5], quantities=["z", "fz_tr", "npatch", "pmax"])
+    assert rows["status"].tolist() == ["ok", "failed"]
+    assert all(np.isnan(rows[name]).tolist() == [False, True] for name in ("z", "fz_tr", "npatch", "pmax"))
     told = []
     pair.solve_many(y=np.zeros(200), progress=lambda *what: told.append(what))
     assert told[-1] == (200, 200, "contacts")
     for wrong in ({"y": [0.0], "quantities": ["pmaximum"]}, {"y": 0.0}, {"y": [0.0, 1.0], "yaw": [0.0, 1.0, 2.0]}, {"y": ["far"]}, {"law": ["coulomb"]},
-                  {"y": [0.0], "history": "continue"}):
+                  {"y": [0.0], "history": "continue"}, {"y": [0.0], "y_mm": [0.0]}):
         with pytest.raises(tm.InputError):
             pair.solve_many(**wrong)
 

@@ -16,6 +16,8 @@
 namespace treadmark::io {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using treadmark::testing::error_of;
 using treadmark::testing::TemporaryFolder;
@@ -41,7 +43,7 @@ class CaseTableFile : public ::testing::Test {
 TEST_F(CaseTableFile, MakesTheCasesOfLists) {
   const std::string table =
       "\xEF\xBB\xBF"
-      "wheelset.y_mm, wheelset.yaw_deg ,friction.coefficient,friction.kind\r\n"
+      "wheelset.y_mm, wheelset.yaw_deg ,friction.coefficient,friction.law\r\n"
       "# places of a curve\r\n"
       "0,0.1,0.3,coulomb\r\n"
       "\r\n"
@@ -66,6 +68,19 @@ TEST_F(CaseTableFile, MakesTheCasesOfLists) {
   EXPECT_THAT(rows[1].numbers, ::testing::UnorderedElementsAre(2.5, -0.2, 0.25));
 }
 
+TEST_F(CaseTableFile, MayHaveLineEndsOfAnySystem) {
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    std::string table = "wheelset.y_mm";
+    for (int i = 0; i < 100; ++i) table += end + std::to_string(i);
+    const ListedCases given = listed(table);
+    ASSERT_EQ(given.rows->size(), 100u);
+    const std::vector<CaseRow> rows = given.rows->block(1);
+    ASSERT_EQ(rows.size(), 36u);
+    EXPECT_EQ(rows.back().numbers, std::vector<double>{99.0});
+    EXPECT_EQ(rows.back().content.where.line, 101);
+  }
+}
+
 TEST_F(CaseTableFile, IsReadInBlocks) {
   std::string table = "wheelset.y_mm\n";
   for (int i = 0; i < 150; ++i) table += std::to_string(0.01 * i) + "\n";
@@ -79,6 +94,12 @@ TEST_F(CaseTableFile, IsReadInBlocks) {
                   1e-12);
     }
   EXPECT_EQ(number, 150u);
+  // another number in its place, and no less a row of the table
+  std::string other = table;
+  other[table.find("\n0.7") + 3] = '8';
+  folder_.write("places.csv", other);
+  EXPECT_THAT(error_of([&] { given.rows->block(1); }), HasSubstr("changed while it was read"));
+  EXPECT_EQ(given.rows->block(0).size(), 64u);
   folder_.write("places.csv", "wheelset.y_mm\n1\n");
   EXPECT_THAT(error_of([&] { given.rows->block(2); }), HasSubstr("changed while it was read"));
 }
@@ -90,6 +111,15 @@ TEST_F(CaseTableFile, OverridesHoldForEveryRow) {
     EXPECT_DOUBLE_EQ(c.state.position.y, 3e-3);
     EXPECT_DOUBLE_EQ(c.friction.static_friction(), 0.2);
   }
+  // what rows say of it is not told as theirs
+  EXPECT_TRUE(given.rows->numbers().empty());
+  EXPECT_THAT(given.file.notes, ElementsAre(HasSubstr("the column wheelset.y_mm of")));
+  const ListedCases angles = listed("wheelset.s_mm,wheelset.yaw_deg\n7,1\n", {"wheelset.yaw_rad=0.002"});
+  ASSERT_EQ(angles.rows->numbers().size(), 1u);
+  const CaseRow first = angles.rows->block(0).front();
+  EXPECT_EQ(first.numbers, std::vector<double>{7.0});
+  EXPECT_DOUBLE_EQ(std::get<WheelRailCase>(first.content.content).state.position.yaw, 2e-3);
+  EXPECT_TRUE(listed("wheelset.y_mm\n0\n", {"friction.coefficient=0.2"}).file.notes.empty());
   EXPECT_THAT(refusal("wheelset.y_mm\n0\n", {"wheelset.y_mm=[0, 1]"}), HasSubstr("makes cases, and so does"));
 }
 
@@ -108,6 +138,22 @@ TEST_F(CaseTableFile, RefusesWithThePlace) {
   for (const char* head :
        {"wheel.shape.standard", "wheelset.nominal_radius_mm", "case.steps", "case.history", "rail.flats"})
     EXPECT_THAT(refusal(std::string(head) + "\n1\n"), HasSubstr("places.csv:1: ")) << head;
+  EXPECT_THAT(refusal("wheelset.y_mm,\n0,1\n"), HasSubstr("places.csv:1: column 2 has no name"));
+  for (const char* cell : {"\"0,5\"", "3 mm", "+-3", "++3", "1e", "0x1", "1e999"})
+    EXPECT_THAT(refusal(std::string("wheelset.y_mm\n0\n") + cell + "\n"),
+                AllOf(HasSubstr("places.csv:3: wheelset.y_mm = '"), HasSubstr("is no number")))
+        << cell;
+  EXPECT_THAT(refusal("discretisation.max_elements\n1.5\n"), HasSubstr("is no whole number"));
+  EXPECT_THAT(refusal("wheelset.y_mm\n\"0\n1\"\n"), HasSubstr("places.csv:2: a quote is not closed"));
+  EXPECT_THAT(refusal("wheelset.y_mm\n" + std::string(1000, 'x') + "\n"), HasSubstr("xxx...' is no number"));
+  EXPECT_THAT(refusal("wheelset.y_mm\n0\n", {"case.steps=4"}), HasSubstr("do not follow each other"));
+  EXPECT_THAT(refusal("patch.hertz.semi_axis_x_mm,patch.gap.kind\n1,quadratic\n"),
+              HasSubstr("places.csv:1: [patch.hertz] and [patch.gap] exclude each other"));
+  EXPECT_THAT(refusal(""), HasSubstr("no rows"));
+  EXPECT_THAT(refusal("\xFF\xFEw\0"), HasSubstr("UTF-16"));
+  constexpr std::size_t kEndless = 70'000'000;
+  EXPECT_THAT(refusal("wheelset.y_mm\n0\n" + std::string(kEndless, '1')),
+              HasSubstr("places.csv:3: a line of more than 64 million characters"));
   // of several the first
   std::string table = "wheelset.y_mm\n";
   for (int i = 0; i < 500; ++i) table += i == 170 || i == 333 ? "x\n" : "0\n";

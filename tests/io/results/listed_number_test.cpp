@@ -39,6 +39,19 @@ TEST(ListedNumber, IsOfTheCaseOfThePatchWithMostLoadOrOfOne) {
   EXPECT_TRUE(std::isnan(listed_number("roller.pitch_rate_rad_s").si(c)));
 }
 
+TEST(ListedNumber, CountsPatchesWhereTheyAreKnown) {
+  CaseResult c;
+  c.status = Status::no_contact;
+  EXPECT_EQ(listed_number("npatch").si(c), 0.0);
+  c.status = Status::failed;
+  EXPECT_TRUE(std::isnan(listed_number("npatch").si(c)));
+  c.patches.resize(2);
+  EXPECT_EQ(listed_number("npatch").si(c), 2.0);
+  c = {};
+  c.shown = false;
+  EXPECT_TRUE(std::isnan(listed_number("npatch").si(c)));
+}
+
 TEST(ListedNumber, HasTheUnitOfItsName) {
   const ListedNumber pressure = listed_number("patch_2.pmax_MPa");
   EXPECT_EQ(pressure.name, "patch_2.pmax_MPa");

@@ -63,11 +63,14 @@ TEST_F(PartLogFile, GoesOnBeforeWhatIsBroken) {
       EXPECT_EQ(log.content(k), bytes_of(k)) << size;
     }
   }
-  // a changed byte
-  std::string damaged = whole;
-  damaged[damaged.size() - 20] ^= 1;
-  std::ofstream(file_, std::ios::binary) << damaged;
-  EXPECT_LT(PartLog(file_, "work").parts(), 5u);
+  // a changed byte, wherever it is behind the line that says what it is: of the last part's number, size, sum, content
+  const std::size_t content = bytes_of(4).size();
+  for (const std::size_t from_end : {content + 24, content + 16, content + 8, content, std::size_t{1}}) {
+    std::string damaged = whole;
+    damaged[damaged.size() - from_end] ^= 1;
+    std::ofstream(file_, std::ios::binary) << damaged;
+    EXPECT_EQ(PartLog(file_, "work").parts(), 4u) << from_end;
+  }
 }
 
 TEST_F(PartLogFile, RefusesAnotherWork) {
@@ -79,6 +82,12 @@ TEST_F(PartLogFile, RefusesAnotherWork) {
     EXPECT_THAT(error_of([&] { PartLog(other, "one"); }), HasSubstr("something else"));
     EXPECT_EQ(content_of(other), text);
   }
+}
+
+TEST_F(PartLogFile, TakesTheNameOfWorkThatHasNoParts) {
+  { PartLog(file_, "one"); }
+  { PartLog(file_, "other").add(0, bytes_of(0)); }
+  EXPECT_EQ(PartLog(file_, "other").parts(), 1u);
 }
 
 TEST_F(PartLogFile, MayHaveNoName) {

@@ -218,6 +218,14 @@ TEST(Plausibility, ForceThatWasNotReached) {
   EXPECT_FALSE(any_grave(remarks));
 }
 
+TEST(Remarks, GraveOnesStandBehindAMessage) {
+  const Remark grave{RemarkKind::force_not_reached, 0, "too little"}, minor{RemarkKind::few_elements, 1, "coarse"};
+  EXPECT_EQ(with_grave("", {}), "");
+  EXPECT_EQ(with_grave("no contact", std::vector{minor}), "no contact");
+  EXPECT_EQ(with_grave("no contact", std::vector{grave, minor, grave}), "no contact; too little; too little");
+  EXPECT_EQ(with_grave("", std::vector{minor, grave}), "too little");
+}
+
 TEST(Remarks, RowsLieInTheOrderOfTheirKindsAndHaveNamesOfTheirOwn) {
   for (std::size_t i = 0; i < std::size(kRemarkRows); ++i) {
     EXPECT_EQ(static_cast<std::size_t>(kRemarkRows[i].kind), i);

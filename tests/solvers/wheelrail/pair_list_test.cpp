@@ -74,8 +74,9 @@ TEST(ManyProblems, LeaveTheHistoryAndGoOnAfterRowsThatFail) {
   EXPECT_EQ(found[0].status, Status::ok);
   for (const std::size_t i : {1u, 2u, 3u}) {
     EXPECT_EQ(found[i].status, Status::failed) << i;
-    EXPECT_TRUE(found[i].patches.empty()) << i;
+    EXPECT_TRUE(found[i].refused && found[i].patches.empty()) << i;
   }
+  for (const std::size_t i : {0u, 4u, 5u}) EXPECT_FALSE(found[i].refused) << i;
   EXPECT_THAT(found[2].message, ::testing::HasSubstr("go on from another"));
   EXPECT_THAT(found[3].message, ::testing::HasSubstr("no such row"));
   EXPECT_EQ(found[4].status, Status::no_contact);
