@@ -4,12 +4,12 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "treadmark/backends/spline/banded.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
 #include "treadmark/backends/spline/slices/slice_net.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 
@@ -17,7 +17,6 @@ namespace treadmark::spline {
 namespace {
 
 constexpr double kNetRounding = 1e-13;
-const double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 // Rail slices over uneven x; z(x, y) is sampled at n points across.
 SliceSet rail_slices(const std::vector<double>& x, const std::function<double(double, double)>& z, int points = 21) {

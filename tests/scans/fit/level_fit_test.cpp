@@ -127,7 +127,7 @@ TEST(LevelFit, AgreesWithDenseLeastSquares) {
   for (const bool closed : {false, true})
     for (const bool some : {false, true})
       for (const bool ridge : {false, true}) {
-        SCOPED_TRACE(testing::Message() << "closed " << closed << " some " << some << " ridge " << ridge);
+        SCOPED_TRACE(::testing::Message() << "closed " << closed << " some " << some << " ridge " << ridge);
         expect_dense(closed, 4, 2, some, ridge);  // round a closed band every function meets every other on both sides
         expect_dense(closed, 16, 4, some, ridge);
       }
