@@ -130,10 +130,9 @@ endfunction()
 # Programs under test share tables of contacts and creep forces, which depend on what is asked and on the program's own code alone.
 set(TREADMARK_TEST_ENVIRONMENT "TREADMARK_CACHE=${PROJECT_BINARY_DIR}/tests/tables")
 
-# treadmark_test(<name> [ALONE] LIBS targets...): a GoogleTest program from the .cpp files of the current folder, one ctest entry a test.
-# ALONE: names of the files' anonymous namespaces are not unique, each file is compiled by itself.
+# treadmark_test(<name> LIBS targets...): a GoogleTest program from the .cpp files of the current folder, one ctest entry a test.
 function(treadmark_test name)
-  cmake_parse_arguments(ARG "ALONE" "" "LIBS;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LIBS;SOURCES" ${ARGN})
   if(NOT ARG_SOURCES)
     file(GLOB ARG_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   endif()
@@ -146,11 +145,7 @@ function(treadmark_test name)
   if(TREADMARK_TRAPS)
     target_sources(${name} PRIVATE "${PROJECT_SOURCE_DIR}/tests/support/floating_traps.cpp")
   endif()
-  set(at_once ${TREADMARK_TESTS_AT_ONCE})
-  if(ARG_ALONE)
-    set(at_once 1)
-  endif()
-  treadmark_share_parsing(${name} ${at_once} tests)
+  treadmark_share_parsing(${name} ${TREADMARK_TESTS_AT_ONCE} tests)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name}
     ENVIRONMENT "${TREADMARK_TEST_ENVIRONMENT}")
 endfunction()

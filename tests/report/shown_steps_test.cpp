@@ -10,6 +10,7 @@
 #include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/report/write_page.hpp"
+#include "treadmark/tests/report/page_reader.hpp"
 
 namespace treadmark::app::pages {
 
@@ -20,6 +21,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::table_of;
 
 TEST(SpreadRows, KeepsEndsExtremesAndWantedRowsAndNoMoreThanAllowed) {
   const auto wave = [](std::size_t row) {
@@ -69,13 +71,6 @@ std::shared_ptr<io::RunResult> many_cases(int cases) {
   }
   run->cases[77].status = Status::not_converged;
   return run;
-}
-
-const Table& table_of(const Page& page, const std::string& id) {
-  for (const Section& section : page.sections)
-    for (const Block& block : section.blocks)
-      if (const auto* table = std::get_if<Table>(&block); table != nullptr && table->id == id) return *table;
-  throw std::runtime_error("no table " + id);
 }
 
 TEST(ShownSteps, OfManyCasesThePageKeepsWhatIsNotableWithItsOwnNumbers) {

@@ -36,7 +36,7 @@ io::SubsurfaceBlock block(const std::vector<double>& x_mm, const std::vector<dou
   return out;
 }
 
-io::RunResult run_of(std::vector<io::SubsurfaceBlock> blocks) {
+io::RunResult run_with(std::vector<io::SubsurfaceBlock> blocks) {
   io::RunResult run;
   for (int i = 0; i < 2; ++i) {
     io::CaseResult& result = run.cases.emplace_back();
@@ -54,20 +54,20 @@ std::vector<std::string> ids(const Section& section) {
 }
 
 TEST(SubsurfaceFigures, AreThereWherePointsSpanAPlane) {
-  EXPECT_FALSE(subsurface_section(run_of({})));
-  EXPECT_FALSE(subsurface_section(run_of({block({0, 1, 2}, {0, 1}, {1.0})}))) << "one depth";
-  const auto along = subsurface_section(run_of({block({0, 1, 2}, {0}, {1.0, 2.0})}));
+  EXPECT_FALSE(subsurface_section(run_with({})));
+  EXPECT_FALSE(subsurface_section(run_with({block({0, 1, 2}, {0, 1}, {1.0})}))) << "one depth";
+  const auto along = subsurface_section(run_with({block({0, 1, 2}, {0}, {1.0, 2.0})}));
   ASSERT_TRUE(along);
   EXPECT_THAT(ids(*along), ElementsAre("von-mises-along-rail", "greatest-principal-along-rail",
                                        "least-principal-along-rail", "stress-by-depth"));
-  const auto wheel = subsurface_section(run_of({block({0}, {0, 1}, {-1.0, -2.0})}));
+  const auto wheel = subsurface_section(run_with({block({0}, {0, 1}, {-1.0, -2.0})}));
   ASSERT_TRUE(wheel);
   EXPECT_EQ(ids(*wheel).front(), "von-mises-across-wheel");
 }
 
 TEST(SubsurfaceFigures, MapsAreLinearBetweenThePointsOfTheWorstPlane) {
   // Lines in no order, uneven, of both bodies in one block.
-  const auto section = subsurface_section(run_of({block({4, -2, 1}, {0, 1, 2}, {3.0, 0.5, 1.0, -1.0, -4.0})}));
+  const auto section = subsurface_section(run_with({block({4, -2, 1}, {0, 1, 2}, {3.0, 0.5, 1.0, -1.0, -4.0})}));
   ASSERT_TRUE(section);
   ASSERT_EQ(section->blocks.size(), 13U);
   for (const auto& [figure, low, high] : {std::tuple{0U, -3.0, -0.5}, std::tuple{6U, 1.0, 4.0}}) {
@@ -93,7 +93,7 @@ TEST(SubsurfaceFigures, MapsAreLinearBetweenThePointsOfTheWorstPlane) {
 }
 
 TEST(SubsurfaceFigures, TheLargestStressOfEveryDepth) {
-  const auto section = subsurface_section(run_of({block({0, 3}, {0, 1}, {2.0, 0.5, -2.0, -1.0})}));
+  const auto section = subsurface_section(run_with({block({0, 3}, {0, 1}, {2.0, 0.5, -2.0, -1.0})}));
   ASSERT_TRUE(section);
   const auto& chart = std::get<ChartView>(std::get<Figure>(section->blocks.back()).view);
   EXPECT_TRUE(chart.by_step[0].x.empty());

@@ -9,8 +9,8 @@
 #include "treadmark/app/simulation/pages/sweep_page.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/report/page_reader.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app::pages {
 

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
 
@@ -33,6 +35,10 @@ class TemporaryFolder {
     std::filesystem::create_directories(file.parent_path());
     std::ofstream(file, std::ios::binary) << content;
     return file;
+  }
+  /// Files and folders in it, at any depth.
+  std::size_t count_files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::recursive_directory_iterator(path_), {}));
   }
 
  private:

@@ -11,7 +11,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kRounding = 1e-11;  // random matrices with condition numbers up to some thousands
+constexpr double kBandedRounding = 1e-11;  // random matrices with condition numbers up to some thousands
 
 TEST(Banded, CholeskyAgreesWithADenseSolver) {
   std::mt19937 random(1);
@@ -30,7 +30,7 @@ TEST(Banded, CholeskyAgreesWithADenseSolver) {
     matrix.factor();
     matrix.solve(x);
     const Eigen::VectorXd expected = dense.fullPivLu().solve(rhs);
-    for (int i = 0; i < n; ++i) EXPECT_NEAR(x[static_cast<std::size_t>(i)], expected(i), kRounding);
+    for (int i = 0; i < n; ++i) EXPECT_NEAR(x[static_cast<std::size_t>(i)], expected(i), kBandedRounding);
   }
 }
 
@@ -50,7 +50,7 @@ TEST(Banded, LuWithPivotingAgreesWithADenseSolver) {
     matrix.solve(x);
     const Eigen::VectorXd expected = dense.fullPivLu().solve(rhs);
     for (int i = 0; i < n; ++i)
-      EXPECT_NEAR(x[static_cast<std::size_t>(i)], expected(i), kRounding * (1 + expected.norm()));
+      EXPECT_NEAR(x[static_cast<std::size_t>(i)], expected(i), kBandedRounding * (1 + expected.norm()));
   }
 }
 

@@ -17,8 +17,9 @@
 namespace treadmark::spline {
 namespace {
 
+using testing::kRadius;
+
 constexpr double kExact = 1e-12;
-constexpr double kRadius = 0.46;
 
 SliceSet same_slices(const Profile& profile, int count, double first, double step) {
   SliceSet set;

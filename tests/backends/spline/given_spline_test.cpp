@@ -18,17 +18,18 @@
 #include "treadmark/backends/spline/told_spline.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parametric.hpp"
+#include "treadmark/tests/backends/spline/test_shapes.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::spline {
 namespace {
 
 using ::testing::HasSubstr;
+using testing::kRadius;
 using treadmark::testing::error_of;
 
-constexpr double kRadius = 0.46;
-constexpr double kRounding = 1e-14;  // [m] of sums of tens of products of lengths below 1 m
-constexpr double kSame = 1e-12;      // [m] heights of one surface by different patches, see nurbs
+constexpr double kGivenRounding = 1e-14;  // [m] of sums of tens of products of lengths below 1 m
+constexpr double kSame = 1e-12;           // [m] heights of one surface by different patches, see nurbs
 
 /// A function of a basis by the recursion of Cox and de Boor.
 double b_spline(const std::vector<double>& knots, int degree, std::size_t k, double x) {
@@ -131,7 +132,7 @@ TEST(GivenSpline, ATensorSplineIsThatOfTheRecursion) {
       for (double u = 0.0; u <= 1.0; u += 1.0 / 16)
         for (double v = 0.0; v <= 1.0; v += 1.0 / 16) {
           const Vec3 p = by_recursion(s, u, v);
-          EXPECT_LT((given.point(u, v) - p).norm(), kRounding) << ps << pt << u << ' ' << v;
+          EXPECT_LT((given.point(u, v) - p).norm(), kGivenRounding) << ps << pt << u << ' ' << v;
           // the same point of the patches
           std::vector<double> z(1);
           HeightsOut out;
@@ -186,7 +187,7 @@ TEST(GivenSpline, WeightsThatAreAllAlikeAreNone) {
   const auto plain = make_given_surface(s, Body::rail);
   s.weights.assign(s.points.size(), 3.0);
   EXPECT_TRUE(GivenSpline(s).net(Body::rail).by_corners());
-  expect_same(*plain, *make_given_surface(s, Body::rail), kRounding);
+  expect_same(*plain, *make_given_surface(s, Body::rail), kGivenRounding);
 }
 
 TEST(GivenSpline, ATubeIsSeenFromItsOuterSide) {
@@ -368,7 +369,7 @@ TEST(GivenSpline, AHierarchyIsKnownFromKnotInsertion) {
         Vec3 p = Vec3::Zero();
         for (std::size_t k = 0; k < coarse.size(); ++k) p += tensor(two.coarse, k % n, k / n, u, v) * coarse[k];
         p.z() += height * tensor(two.fine, bump_i, bump_j, u, v);
-        EXPECT_LT((given.point(u, v) - p).norm(), kRounding) << degree << ' ' << u << ' ' << v;
+        EXPECT_LT((given.point(u, v) - p).norm(), kGivenRounding) << degree << ' ' << u << ' ' << v;
       }
     // the surface
     const auto rail = make_given_surface(s, Body::rail);
@@ -398,7 +399,7 @@ TEST(GivenSpline, AHierarchyThatIsNotTruncatedIsASumOfItsFunctions) {
       two.each([&](int level, std::size_t i, std::size_t j) {
         p += tensor(level == 0 ? two.coarse : two.fine, i, j, u, v) * s.points[k++];
       });
-      EXPECT_LT((given.point(u, v) - p).norm(), kRounding) << u << ' ' << v;
+      EXPECT_LT((given.point(u, v) - p).norm(), kGivenRounding) << u << ' ' << v;
     }
 }
 
@@ -465,7 +466,7 @@ TEST(ToldSpline, GoesThroughPointsWithKnotsOnce) {
         const double u = grid.u.front() + (end.u1 - grid.u.front()) * i / 200.0, v = end.v1 * j / 50.0;
         most = std::max(most, (surface.point(u, v) - evaluate(fitted.spline, u, v).p).norm());
       }
-    EXPECT_LT(most, kRounding);
+    EXPECT_LT(most, kGivenRounding);
   }
 }
 

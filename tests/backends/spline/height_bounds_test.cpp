@@ -13,7 +13,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kRadius = 0.46;
+using testing::kRadius;
 
 int expect_conservative_bounds(const Surface& surface, const std::vector<Pose>& planes) {
   std::mt19937 random(5);

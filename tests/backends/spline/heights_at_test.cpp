@@ -13,10 +13,9 @@
 namespace treadmark::spline {
 namespace {
 
+using testing::kRadius;
 using treadmark::testing::expect_heights_at_gives_heights;
 using treadmark::testing::Fields;
-
-constexpr double kRadius = 0.46;
 
 TEST(HeightsAt, ProfilesGiveTheHeightsOfGrids) {
   EXPECT_GT(expect_heights_at_gives_heights(*make_profile_surface(testing::rail_head(), 0.0),

@@ -18,10 +18,10 @@ namespace treadmark::spline {
 namespace {
 
 constexpr double kHeightTolerance = 1e-10;  // Newton's last correction squared, times curvature
-constexpr double kRadius = 0.49;
+constexpr double kSubjectRadius = 0.49;
 
 // A surface with p(u, v), the range of v and a typical u: all that brute force needs.
-struct Subject {
+struct HeightSubject {
   std::string name;
   std::shared_ptr<const Surface> surface;
   std::function<Vec3(double, double)> point;
@@ -31,15 +31,17 @@ struct Subject {
 };
 
 template <class S>
-Subject subject(std::string name, std::shared_ptr<const S> s, double v_begin, double v_end, bool wheel, double u) {
+HeightSubject subject(std::string name, std::shared_ptr<const S> s, double v_begin, double v_end, bool wheel,
+                      double u) {
   return {std::move(name), s, [s](double a, double b) { return s->point(a, b); }, v_begin, v_end, wheel, u};
 }
 
-std::vector<Subject> subjects() {
+std::vector<HeightSubject> height_subjects() {
   const auto rail = std::make_shared<const PrismaticSurface>(fit_profile(testing::rail_head()));
-  const auto round = std::make_shared<const RevolutionSurface>(fit_profile(testing::flanged_wheel()), kRadius);
-  const auto dent = std::make_shared<const SliceWheel>(fit_slices(testing::dented_wheel()), kRadius);
-  const auto soft = std::make_shared<const SliceWheel>(fit_slices(testing::dented_wheel(2e-3, 0.6, true)), kRadius);
+  const auto round = std::make_shared<const RevolutionSurface>(fit_profile(testing::flanged_wheel()), kSubjectRadius);
+  const auto dent = std::make_shared<const SliceWheel>(fit_slices(testing::dented_wheel()), kSubjectRadius);
+  const auto soft =
+      std::make_shared<const SliceWheel>(fit_slices(testing::dented_wheel(2e-3, 0.6, true)), kSubjectRadius);
   const auto bend = std::make_shared<const SliceRail>(fit_slices(testing::bending_rail()), 0.0);
   return {subject<PrismaticSurface>("Prismatic", rail, rail->profile().begin(), rail->profile().end(), false, 0.0),
           subject<RevolutionSurface>("Revolution", round, round->profile().begin(), round->profile().end(), true, 0.3),
@@ -51,7 +53,7 @@ std::vector<Subject> subjects() {
 // Outermost height over (x, y), by walking along v in small steps. For every v the point of the surface with
 // x_P = x is found by bisection in u, so that only y_P(v) - y changes sign at a hit.
 struct BruteForce {
-  const Subject& s;
+  const HeightSubject& s;
   Pose X_SP;
 
   Vec3 on_cut(double v, double x) const {
@@ -97,7 +99,7 @@ struct BruteForce {
 };
 
 // Planes that lie near the surface at u, in various positions.
-Pose plane_near(const Subject& s, std::mt19937& random, double roll) {
+Pose plane_near(const HeightSubject& s, std::mt19937& random, double roll) {
   std::uniform_real_distribution<double> d(-1.0, 1.0);
   Pose pose = testing::random_pose(random, 0.1, 0.03, 0.02, 0.0);
   pose.rotation = rotation_x(roll) * pose.rotation;
@@ -106,15 +108,15 @@ Pose plane_near(const Subject& s, std::mt19937& random, double roll) {
     return pose;
   }
   const Mat3 turn = rotation_y(s.u + 0.05 * d(random));
-  pose.origin = turn * Vec3(0.0, 0.02 * d(random), kRadius);
+  pose.origin = turn * Vec3(0.0, 0.02 * d(random), kSubjectRadius);
   pose.rotation = turn * pose.rotation;
   return pose;
 }
 
 class Heights : public ::testing::TestWithParam<int> {
  protected:
-  static const Subject& subject() {
-    static const std::vector<Subject> all = subjects();
+  static const HeightSubject& subject() {
+    static const std::vector<HeightSubject> all = height_subjects();
     return all[static_cast<std::size_t>(GetParam())];
   }
 };
@@ -231,9 +233,9 @@ TEST_P(Heights, LieWithinTheirBounds) {
 }
 
 TEST_P(Heights, BoundsOfASmallRectangleAreTight) {
-  const Subject& s = subject();
+  const HeightSubject& s = subject();
   Pose pose;
-  if (s.wheel) pose = {rotation_y(s.u) * Vec3(0, 0, kRadius), rotation_y(s.u)};
+  if (s.wheel) pose = {rotation_y(s.u) * Vec3(0, 0, kSubjectRadius), rotation_y(s.u)};
   const HeightBounds bounds = s.surface->height_bounds(pose, {-1e-3, 1e-3, 5e-3, 6e-3});
   ASSERT_FALSE(bounds.empty);
   EXPECT_LT(bounds.z_max - bounds.z_min, 0.2e-3);  // the surface itself varies by up to 0.12 mm there
@@ -242,9 +244,9 @@ TEST_P(Heights, BoundsOfASmallRectangleAreTight) {
 TEST_P(Heights, LocateInvertsEvaluation) {
   std::mt19937 random(29);
   std::uniform_real_distribution<double> d(-1.0, 1.0);
-  const Subject& s = subject();
+  const HeightSubject& s = subject();
   Pose pose;
-  if (s.wheel) pose = {rotation_y(s.u) * Vec3(0, 0, kRadius), rotation_y(s.u)};
+  if (s.wheel) pose = {rotation_y(s.u) * Vec3(0, 0, kSubjectRadius), rotation_y(s.u)};
   int found = 0;
   for (int i = 0; i < 40; ++i) {
     const double u = s.u + 0.04 * d(random), v = 0.5 * (s.v_begin + s.v_end) + 0.3 * (s.v_end - s.v_begin) * d(random);
@@ -272,7 +274,7 @@ TEST_P(Heights, LocateInvertsEvaluation) {
 TEST_P(Heights, LieInTheBox) {
   std::mt19937 random(31);
   std::uniform_real_distribution<double> d(0.0, 1.0);
-  const Subject& s = subject();
+  const HeightSubject& s = subject();
   const Box3 box = s.surface->bounds();
   for (int i = 0; i < 500; ++i) {
     const Vec3 p =

@@ -16,13 +16,13 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kRadius = 0.46;
+using testing::kRadius;
 
-struct Subject {
+struct BoundsSubject {
   const char* name;
   std::shared_ptr<const Surface> surface;
   double radius, loose;  ///< loose: part of the rectangles whose bounds may be wide
-  friend std::ostream& operator<<(std::ostream& out, const Subject& s) { return out << s.name; }
+  friend std::ostream& operator<<(std::ostream& out, const BoundsSubject& s) { return out << s.name; }
 };
 
 std::shared_ptr<const Surface> from_grid(Body body, double step) {
@@ -42,7 +42,7 @@ std::shared_ptr<const Surface> from_grid(Body body, double step) {
   return make_nurbs_surface(grid);
 }
 
-std::vector<Subject> subjects() {
+std::vector<BoundsSubject> bounds_subjects() {
   const ArcChain two_arcs{
       -0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
   return {{"two_arc_rail", make_nurbs_surface(two_arcs, Body::rail, 0.0), 0.0, 0.02},
@@ -52,10 +52,10 @@ std::vector<Subject> subjects() {
           {"fine_wheel", from_grid(Body::wheel, 0.5e-3), kRadius, 0.02}};
 }
 
-class NurbsBounds : public ::testing::TestWithParam<Subject> {};
+class NurbsBounds : public ::testing::TestWithParam<BoundsSubject> {};
 
 TEST_P(NurbsBounds, HoldAllHeightsOfRandomRectangles) {
-  const Subject& s = GetParam();
+  const BoundsSubject& s = GetParam();
   const bool wheel = s.radius > 0.0;
   std::mt19937 random(11);
   std::uniform_real_distribution<double> either(-1.0, 1.0);
@@ -96,7 +96,7 @@ TEST_P(NurbsBounds, HoldAllHeightsOfRandomRectangles) {
 }
 
 TEST_P(NurbsBounds, SmallTilesGiveTheWholeGrid) {
-  const Subject& s = GetParam();
+  const BoundsSubject& s = GetParam();
   for (const double roll : {0.0, 0.06, -0.3}) {
     const Pose X{{0.01, 0.0, s.radius}, rotation({roll, 0.02, 0.01})};
     const Grid2 g{-0.0203, -0.0311, 0.7e-3, 0.9e-3, 60, 70};
@@ -119,7 +119,7 @@ TEST_P(NurbsBounds, SmallTilesGiveTheWholeGrid) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Nurbs, NurbsBounds, ::testing::ValuesIn(subjects()),
+INSTANTIATE_TEST_SUITE_P(Nurbs, NurbsBounds, ::testing::ValuesIn(bounds_subjects()),
                          [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace

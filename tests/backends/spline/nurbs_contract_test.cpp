@@ -18,13 +18,12 @@
 namespace treadmark::spline {
 namespace {
 
+using testing::kRadius;
 using treadmark::testing::Fields;
 using treadmark::testing::heights;
 using treadmark::testing::odd_grid;
 
-constexpr double kRadius = 0.46;
-
-struct Subject {
+struct ContractSubject {
   std::string name;
   std::shared_ptr<const Surface> surface;
   std::vector<Pose> planes;
@@ -45,11 +44,11 @@ std::shared_ptr<const Surface> dented_flanged_wheel() {
   return make_nurbs_surface(grid);
 }
 
-const std::vector<Subject>& subjects() {
-  static const std::vector<Subject> all = [] {
+const std::vector<ContractSubject>& contract_subjects() {
+  static const std::vector<ContractSubject> all = [] {
     const ArcChain two_arcs{
         -0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
-    return std::vector<Subject>{
+    return std::vector<ContractSubject>{
         {"two_arc_rail", make_nurbs_surface(two_arcs, Body::rail, 0.0), treadmark::testing::rail_planes(),
          two_arcs.start_y, 0.3 * std::sin(0.1)},
         {"barrel_wheel", make_nurbs_surface(analytic::barrel_chain(0.05, 0.8), Body::wheel, 0.3),
@@ -65,7 +64,7 @@ bool same(double a, double b, double tolerance) {
 
 TEST(NurbsContract, TilesGiveTheWholeGridForAnyThreads) {
   const Grid2 g{-0.0197, -0.0293, 0.00031, 0.00047, 130, 125};
-  for (const Subject& s : subjects())
+  for (const ContractSubject& s : contract_subjects())
     for (const Pose& X : s.planes) {
       Fields one(g.size()), many(g.size());
       {
@@ -97,7 +96,7 @@ TEST(NurbsContract, TilesGiveTheWholeGridForAnyThreads) {
 TEST(NurbsContract, MovingEverythingChangesNothing) {
   const Grid2 g = odd_grid();
   const Pose X_WS{{3.1, -0.7, 0.4}, rotation({0.3, -0.8, 1.9})};
-  for (const Subject& s : subjects())
+  for (const ContractSubject& s : contract_subjects())
     for (const Pose& X_SP : s.planes) {
       const Fields before = heights(*s.surface, X_SP, g);
       const Fields after = heights(*s.surface, X_WS.inverse() * (X_WS * X_SP), g);
@@ -115,7 +114,7 @@ TEST(NurbsContract, MovingEverythingChangesNothing) {
 TEST(NurbsContract, SlopesMatchDifferencesAndMissesAreNaNThroughout) {
   constexpr double kStep = 1e-6;
   const Grid2 g = odd_grid();
-  for (const Subject& s : subjects()) {
+  for (const ContractSubject& s : contract_subjects()) {
     int compared = 0, wrong = 0;
     for (const Pose& X : s.planes) {
       const Fields f = heights(*s.surface, X, g);
@@ -142,7 +141,7 @@ TEST(NurbsContract, SlopesMatchDifferencesAndMissesAreNaNThroughout) {
 }
 
 TEST(NurbsContract, BesideTheSurfaceThereIsNothing) {
-  for (const Subject& s : subjects())
+  for (const ContractSubject& s : contract_subjects())
     for (const double y : {s.y_max + 0.001, s.y_min - 0.006}) {
       Pose X = s.planes.front();
       X.origin.y() = y;
@@ -159,7 +158,7 @@ TEST(NurbsContract, BesideTheSurfaceThereIsNothing) {
 
 TEST(NurbsContract, HeightBoundsHoldEveryHeightAndAreTight) {
   constexpr int kPoints = 12;
-  for (const Subject& s : subjects()) {
+  for (const ContractSubject& s : contract_subjects()) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     const bool wheel = s.surface->facing() == Facing::down;
@@ -209,7 +208,7 @@ TEST(NurbsContract, LocatedPointsHaveHeightsNormalsAndCurvatures) {
   std::vector<Vec2> points;
   for (int iy = 0; iy < g.ny; iy += 2)
     for (int ix = 0; ix < g.nx; ix += 2) points.push_back({g.x(ix), g.y(iy)});
-  for (const Subject& s : subjects()) {
+  for (const ContractSubject& s : contract_subjects()) {
     const double side = s.surface->facing() == Facing::down ? 1.0 : -1.0;
     int compared = 0, wrong = 0;
     for (const Pose& X : s.planes) {

@@ -12,14 +12,15 @@
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_planes.hpp"
+#include "treadmark/tests/backends/spline/test_shapes.hpp"
 
 namespace treadmark::spline {
 namespace {
 
+using testing::kRadius;
 using treadmark::testing::Fields;
 
-constexpr double kRounding = 1e-13;  // [m] coordinates of up to 1 m, a few operations each
-constexpr double kRadius = 0.46;
+constexpr double kNurbsRounding = 1e-13;  // [m] coordinates of up to 1 m, a few operations each
 
 SurfacePoint locate_at(const Surface& surface, const Pose& X, const Vec2& p) {
   SurfacePoint out;
@@ -89,7 +90,7 @@ TEST(NurbsExact, CylinderRailInClosedForm) {
     // turned about its own axis the cylinder stays what it is
     const Pose X{Vec3(0.2, 0.0, R) - rotation_x(roll) * Vec3(0.0, 0.0, R), rotation_x(roll)};
     for (const double y : {-0.05, 0.0, 0.013, 0.09})
-      EXPECT_NEAR(height_at(*rail, X, {0.3, y}), R - std::sqrt(R * R - y * y), kRounding) << roll;
+      EXPECT_NEAR(height_at(*rail, X, {0.3, y}), R - std::sqrt(R * R - y * y), kNurbsRounding) << roll;
   }
   EXPECT_TRUE(std::isnan(height_at(*rail, {}, {1.0001, 0.0})));
   EXPECT_TRUE(std::isnan(height_at(*rail, {}, {0.0, R * std::sin(1.2) + 1e-6})));
@@ -110,7 +111,7 @@ TEST(NurbsExact, BallAndTorusWheelInClosedForm) {
   const Mat3 turn = rotation({0.4, -0.9, 0.6});
   const Pose X{turn * Vec3(0.0, 0.0, R), turn};
   for (const auto& p : {Vec2(0.0, 0.0), Vec2(0.03, -0.05), Vec2(-0.1, 0.02)}) {
-    EXPECT_NEAR(height_at(*ball, X, p), std::sqrt(R * R - p.squaredNorm()) - R, kRounding);
+    EXPECT_NEAR(height_at(*ball, X, p), std::sqrt(R * R - p.squaredNorm()) - R, kNurbsRounding);
     const SurfacePoint q = locate_at(*ball, X, p);
     EXPECT_EQ(q.status, LocateStatus::converged);
     EXPECT_LT((q.normal_S - q.position_S / R).norm(), 1e-12);
@@ -124,7 +125,7 @@ TEST(NurbsExact, BallAndTorusWheelInClosedForm) {
   for (const double x : {-0.3, 0.0, 0.11})
     for (const double y : {-0.05, 0.0, 0.03, 0.08}) {
       const double r = kRadius - a + std::sqrt(a * a - y * y);
-      EXPECT_NEAR(height_at(*torus, {}, {x, y}), std::sqrt(r * r - x * x), kRounding);
+      EXPECT_NEAR(height_at(*torus, {}, {x, y}), std::sqrt(r * r - x * x), kNurbsRounding);
     }
 }
 
@@ -165,7 +166,7 @@ TEST(NurbsExact, OnlyTheHalfTowardsThePlaneIsHit) {
   for (double pitch = -3.0; pitch < 3.1; pitch += 0.37) {
     const Mat3 turn = rotation_y(pitch);
     EXPECT_NEAR(height_at(*wheel, {turn * Vec3(0, 0, kRadius), turn}, {0.02, 0.01}),
-                std::sqrt(kRadius * kRadius - 4e-4) - kRadius, kRounding);
+                std::sqrt(kRadius * kRadius - 4e-4) - kRadius, kNurbsRounding);
   }
 }
 

@@ -5,21 +5,20 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_planes.hpp"
+#include "treadmark/tests/backends/spline/test_shapes.hpp"
 
 namespace treadmark::spline {
 namespace {
 
 using sampling::PointGrid;
+using testing::kRadius;
 using treadmark::testing::Fields;
-
-constexpr double kPi = std::numbers::pi;
-constexpr double kRadius = 0.46;
 
 PointGrid sample(Body body, double u0, double u1, int nu, double y0, double y1, int ny,
                  const std::function<double(double, double)>& h) {

@@ -13,7 +13,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kRadius = 0.49;
+constexpr double kFlatRadius = 0.49;
 
 struct Deepest {
   double depth = 0.0, y = 0.0, theta = 0.0;
@@ -41,7 +41,7 @@ Deepest deepest(const Surface& wheel) {
   for (double theta = 0.6; theta < 0.7; theta += 5e-4)
     for (double y_mm = -20.0; y_mm <= 30.0; y_mm += 0.5) {
       const double r = height_at(wheel, {Vec3::Zero(), rotation_y(theta)}, {0.0, 1e-3 * y_mm});
-      const double deviation = r - kRadius - 1e-3 * s1002_mm(y_mm);
+      const double deviation = r - kFlatRadius - 1e-3 * s1002_mm(y_mm);
       if (deviation < worst.depth) worst = {deviation, 1e-3 * y_mm, theta};
     }
   return worst;
@@ -59,7 +59,7 @@ TEST(ReferenceFlat, HasItsPublishedSize) {
   ASSERT_EQ(slices.u.size(), 258u);
   slices.approximate_u = false;
   EXPECT_EQ(fit_slices(slices).positions(), 300);
-  const Deepest sharp = deepest(*make_slice_surface(slices, kRadius));
+  const Deepest sharp = deepest(*make_slice_surface(slices, kFlatRadius));
   // The deepest measured point, on the 1 mm raster of the scan, is -1.421 mm at y = 6 mm, theta = 0.647.
   EXPECT_NEAR(sharp.depth, -1.421e-3, 0.003e-3);
   EXPECT_NEAR(sharp.y, 6e-3, 0.6e-3);
@@ -67,7 +67,7 @@ TEST(ReferenceFlat, HasItsPublishedSize) {
   // Approximation and smoothing make it a little shallower.
   SliceSet soft = read_flat(*shared, 5.0);
   EXPECT_TRUE(soft.approximate_u);
-  const Deepest shallow = deepest(*make_slice_surface(soft, kRadius));
+  const Deepest shallow = deepest(*make_slice_surface(soft, kFlatRadius));
   EXPECT_GT(shallow.depth, sharp.depth);
   EXPECT_LT(shallow.depth, sharp.depth + 0.03e-3);
 }
@@ -108,7 +108,7 @@ double radial_miss(const SliceNet& net, const Vec3& p) {
       const double middle = 0.5 * (low + high);
       ((net.at(place, cell, middle).value.y > p.y()) == rising ? high : low) = middle;
     }
-    least = std::min(least, std::abs(net.at(place, cell, low).value.w + kRadius - r));
+    least = std::min(least, std::abs(net.at(place, cell, low).value.w + kFlatRadius - r));
   }
   return least;
 }
@@ -120,10 +120,10 @@ TEST(ReferenceFlat, HeightsOverItLieOnTheSurface) {
     SliceSet slices = read_flat(*shared, approximate ? 5.0 : 0.0);
     slices.approximate_u = approximate;
     const SliceNet net = fit_slices(slices);
-    const auto wheel = make_slice_surface(slices, kRadius);
+    const auto wheel = make_slice_surface(slices, kFlatRadius);
     for (const double yaw : {0.0, 0.03}) {
       const Mat3 turn = rotation_y(0.6);
-      const PlaneGrid plane{{turn * Vec3(0, 0, kRadius), turn * rotation({-0.3, yaw, 0.0})},
+      const PlaneGrid plane{{turn * Vec3(0, 0, kFlatRadius), turn * rotation({-0.3, yaw, 0.0})},
                             {-0.06, -0.05, 2.9e-3, 2.3e-3, 40, 40}};
       std::vector<double> z(plane.grid.size());
       wheel->heights(plane, {z, {}, {}});

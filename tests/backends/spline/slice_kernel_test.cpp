@@ -17,7 +17,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kRadius = 0.46;
+using testing::kRadius;
 
 struct LineHits {
   std::vector<double> n, v, u, along, across;

@@ -4,20 +4,19 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "treadmark/backends/spline/banded.hpp"
 #include "treadmark/backends/spline/slices/fit_slices.hpp"
 #include "treadmark/backends/spline/slices/slice_net.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 
 namespace treadmark::spline {
 namespace {
 
-constexpr double kRounding = 1e-13;
-const double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNetRounding = 1e-13;
 
 // Rail slices over uneven x; z(x, y) is sampled at n points across.
 SliceSet rail_slices(const std::vector<double>& x, const std::function<double(double, double)>& z, int points = 21) {
@@ -51,13 +50,13 @@ TEST(BsplineBasis, IsAPartitionOfUnityWithLocalSupport) {
     for (const double t : {0.0, 0.3 * h, h}) {
       double sum = 0.0;
       for (const auto& b : basis) {
-        EXPECT_GE(power_value(b, t), -kRounding);
+        EXPECT_GE(power_value(b, t), -kNetRounding);
         sum += power_value(b, t);
       }
-      EXPECT_NEAR(sum, 1.0, kRounding);
+      EXPECT_NEAR(sum, 1.0, kNetRounding);
     }
-    EXPECT_NEAR(power_value(basis[3], 0.0), 0.0, kRounding);  // the next one begins here
-    EXPECT_NEAR(power_value(basis[0], h), 0.0, kRounding);    // the first one ends there
+    EXPECT_NEAR(power_value(basis[3], 0.0), 0.0, kNetRounding);  // the next one begins here
+    EXPECT_NEAR(power_value(basis[0], h), 0.0, kNetRounding);    // the first one ends there
   }
 }
 
@@ -94,8 +93,8 @@ TEST(SliceNet, InterpolationReproducesCubicsInBothDirections) {
   for (double x = 0.0; x <= 0.1; x += 0.0037)
     for (double v = 1.0; v <= net.positions(); v += 0.77) {
       const NetPair p = value_at(net, x, v);
-      EXPECT_NEAR(p.y, -10e-3 + 20e-3 * (v - 1) / (net.positions() - 1), kRounding);
-      EXPECT_NEAR(p.w, c(x) + 0.1 * p.y, kRounding);
+      EXPECT_NEAR(p.y, -10e-3 + 20e-3 * (v - 1) / (net.positions() - 1), kNetRounding);
+      EXPECT_NEAR(p.w, c(x) + 0.1 * p.y, kNetRounding);
     }
 }
 
@@ -106,20 +105,20 @@ TEST(SliceNet, ApproximationWeighsNeighboursOneFourOne) {
   SliceSet set = rail_slices(x, z);
   set.approximate_u = true;
   const SliceNet net = fit_slices(set);
-  EXPECT_NEAR(value_at(net, 0.03, 11.3).w, 1e-3, kRounding);
-  EXPECT_NEAR(value_at(net, 0.04, 11.3).w, 4e-3, kRounding);
-  EXPECT_NEAR(value_at(net, 0.05, 11.3).w, 1e-3, kRounding);
-  EXPECT_NEAR(value_at(net, 0.02, 11.3).w, 0.0, kRounding);
+  EXPECT_NEAR(value_at(net, 0.03, 11.3).w, 1e-3, kNetRounding);
+  EXPECT_NEAR(value_at(net, 0.04, 11.3).w, 4e-3, kNetRounding);
+  EXPECT_NEAR(value_at(net, 0.05, 11.3).w, 1e-3, kNetRounding);
+  EXPECT_NEAR(value_at(net, 0.02, 11.3).w, 0.0, kNetRounding);
   set.approximate_u = false;
-  EXPECT_NEAR(value_at(fit_slices(set), 0.04, 11.3).w, 6e-3, kRounding);
-  EXPECT_NEAR(value_at(fit_slices(set), 0.05, 11.3).w, 0.0, kRounding);
+  EXPECT_NEAR(value_at(fit_slices(set), 0.04, 11.3).w, 6e-3, kNetRounding);
+  EXPECT_NEAR(value_at(fit_slices(set), 0.05, 11.3).w, 0.0, kNetRounding);
 }
 
 TEST(SliceNet, GoesOnConstantlyBeyondTheSlices) {
   const SliceNet net = fit_slices(rail_slices(kUneven, [](double x, double y) { return 2.0 * x * x + 0.1 * y; }));
   for (const double v : {1.0, 7.6, 40.0}) {
-    EXPECT_NEAR(value_at(net, -3.0, v).w, value_at(net, 0.0, v).w, kRounding);
-    EXPECT_NEAR(value_at(net, 5.0, v).w, value_at(net, 0.1, v).w, kRounding);
+    EXPECT_NEAR(value_at(net, -3.0, v).w, value_at(net, 0.0, v).w, kNetRounding);
+    EXPECT_NEAR(value_at(net, 5.0, v).w, value_at(net, 0.1, v).w, kNetRounding);
     EXPECT_EQ(net.at(net.find(-0.5), 3, 0.4).by_u.w, 0.0);
   }
 }
@@ -137,9 +136,9 @@ TEST(SliceNet, DerivativesEqualDifferences) {
   EXPECT_NEAR(second.by_uv.y, (at(u + du, f).by_v.y - at(u - du, f).by_v.y) / (2 * du), 1e-9);
   EXPECT_NEAR(second.by_vv.w, (at(u, f + df).by_v.w - at(u, f - df).by_v.w) / (2 * df), 1e-10);
   const NetValue on_break = net.at_break(net.find(u), cell), same = at(u, 0.0);
-  EXPECT_NEAR(on_break.value.w, same.value.w, kRounding);
-  EXPECT_NEAR(on_break.by_u.y, same.by_u.y, kRounding);
-  EXPECT_NEAR(on_break.by_v.w, same.by_v.w, kRounding);
+  EXPECT_NEAR(on_break.value.w, same.value.w, kNetRounding);
+  EXPECT_NEAR(on_break.by_u.y, same.by_u.y, kNetRounding);
+  EXPECT_NEAR(on_break.by_v.w, same.by_v.w, kNetRounding);
 }
 
 TEST(SliceNet, FeaturesKeepTheirLines) {
@@ -150,8 +149,8 @@ TEST(SliceNet, FeaturesKeepTheirLines) {
   const int intervals = 1 + static_cast<int>(8.0 / 0.5), rest = 1 + static_cast<int>(14.0 / 0.5);
   EXPECT_EQ(net.positions(), 1 + intervals + rest);
   for (double x = 0.0; x <= 0.1; x += 0.013) {
-    EXPECT_NEAR(value_at(net, x, 1.0 + intervals).y, -10e-3 + 6e-3 + 0.02 * x, kRounding);
-    EXPECT_NEAR(value_at(net, x, net.positions()).y, 10e-3, kRounding);
+    EXPECT_NEAR(value_at(net, x, 1.0 + intervals).y, -10e-3 + 6e-3 + 0.02 * x, kNetRounding);
+    EXPECT_NEAR(value_at(net, x, net.positions()).y, 10e-3, kNetRounding);
   }
 }
 
@@ -270,10 +269,10 @@ TEST(SliceNet, AnArcOfAWheelGoesOnConstantly) {
     wheel.profiles.push_back(testing::graph_profile(Body::wheel, 20e-3, -20e-3, 11, [&](double) { return 1e-3 * i; }));
   }
   const SliceNet net = fit_slices(wheel);
-  EXPECT_NEAR(value_at(net, 0.25, 3.0).w, 2.5e-3, kRounding);
-  EXPECT_NEAR(value_at(net, 2.0, 3.0).w, 5e-3, kRounding);
-  EXPECT_NEAR(value_at(net, -2.0, 3.0).w, 0.0, kRounding);
-  EXPECT_NEAR(value_at(net, -2.0 + 2 * std::numbers::pi, 3.0).w, 0.0, kRounding);
+  EXPECT_NEAR(value_at(net, 0.25, 3.0).w, 2.5e-3, kNetRounding);
+  EXPECT_NEAR(value_at(net, 2.0, 3.0).w, 5e-3, kNetRounding);
+  EXPECT_NEAR(value_at(net, -2.0, 3.0).w, 0.0, kNetRounding);
+  EXPECT_NEAR(value_at(net, -2.0 + 2 * std::numbers::pi, 3.0).w, 0.0, kNetRounding);
 }
 
 TEST(SliceNet, BadSlicesAreRefused) {

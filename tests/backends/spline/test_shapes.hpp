@@ -12,6 +12,8 @@
 
 namespace treadmark::spline::testing {
 
+inline constexpr double kRadius = 0.46;  ///< of wheels [m]
+
 /// Points of z(y) at n positions from y0 to y1, interpolated.
 inline Profile graph_profile(Body body, double y0, double y1, int n, const std::function<double(double)>& z) {
   Profile profile;

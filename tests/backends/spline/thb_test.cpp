@@ -8,24 +8,24 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <numbers>
 #include <random>
 
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/backends/spline/thb/thb_fit.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/tests/backends/spline/test_shapes.hpp"
 
 namespace treadmark::spline {
 namespace {
 
 using sampling::PointGrid;
+using testing::kRadius;
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kRadius = 0.46;
 // of numbers near 1, after some tens of sums and products
-constexpr double kRounding = 2e-14;
+constexpr double kThbRounding = 2e-14;
 
 KnotLine line(int degree, bool closed, const std::vector<double>& breaks) {
   return closed ? KnotLine::periodic(degree, breaks) : KnotLine::open(degree, breaks);
@@ -88,10 +88,10 @@ TEST_P(ThbBasis, FunctionsAreNotNegativeAndSumToOne) {
       const auto p = static_cast<std::size_t>(GetParam().degree);
       double sum = 0.0;
       for (const auto& column : columns) {
-        EXPECT_GE(column.b[k], -kRounding);
+        EXPECT_GE(column.b[k], -kThbRounding);
         sum += column.b[k];
       }
-      EXPECT_NEAR(sum, k / 4 <= p && k % 4 <= p ? 1.0 : 0.0, kRounding);
+      EXPECT_NEAR(sum, k / 4 <= p && k % 4 <= p ? 1.0 : 0.0, kThbRounding);
     }
   }
   EXPECT_EQ(finest, 3);
@@ -159,9 +159,9 @@ TEST_P(ThbBasis, DividingKeepsTheSurface) {
   for (int k = 0; k < 400; ++k) {
     const double at_u = u.front() + (u.back() - u.front()) * 0.5 * (1.0 + unit(random)),
                  at_v = v.front() + (v.back() - v.front()) * 0.5 * (1.0 + unit(random));
-    EXPECT_LT((after.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kSize * kRounding);
+    EXPECT_LT((after.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kSize * kThbRounding);
     // and so do the patches that it is cut into
-    EXPECT_LT((patches.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kSize * kRounding);
+    EXPECT_LT((patches.point(at_u, at_v) - before.point(at_u, at_v)).norm(), 20.0 * kSize * kThbRounding);
   }
 }
 
@@ -229,7 +229,7 @@ TEST_P(ThbBasis, PolynomialsOfItsDegreeAreReproduced) {
   const ThbSpline spline{space, space.coefficients(piece_of)};
   for (int k = 0; k < 300; ++k) {
     const double u = 3.5 * (1.0 + unit(random)), v = 2.1 * (1.0 + unit(random));
-    EXPECT_LT((spline.point(u, v) - value(u, v)).norm(), 50.0 * kRounding) << u << ' ' << v;
+    EXPECT_LT((spline.point(u, v) - value(u, v)).norm(), 50.0 * kThbRounding) << u << ' ' << v;
   }
 }
 

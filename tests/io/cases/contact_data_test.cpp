@@ -9,20 +9,17 @@
 #include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/tests/io/cases/parsed_cases.hpp"
 #include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::io {
 namespace {
 
+using namespace testing;
 using treadmark::testing::content_of;
 
 namespace fs = std::filesystem;
-constexpr double kDegree = std::numbers::pi / 180.0;
-const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) {
-  return std::get<WheelRailCase>(f.cases.at(i).content);
-}
-const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
 fs::path example(const fs::path& shared, const std::string& name) {
   return shared / "data" / "contact_examples" / name;
 }

@@ -3,26 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "treadmark/io/cases/contact_program/contact_digits.hpp"
-#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 
 namespace treadmark::io {
 namespace {
 
-using testing::ContactWriter;
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-CaseFile parse(const std::string& text) { return parse_contact_input(text, "folder/test.inp"); }
-const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) {
-  return std::get<WheelRailCase>(f.cases.at(i).content);
-}
-const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
+using namespace testing;
 
 TEST(ContactInputModule1, ConvertsEveryValueToSi) {
-  const CaseFile f = parse(ContactWriter(1).set("EWHEEL", 5).str() + "0\n");
+  const CaseFile f = parse_input(ContactWriter(1).set("EWHEEL", 5).str() + "0\n");
   ASSERT_EQ(f.cases.size(), 1u);
   EXPECT_EQ(f.cases[0].number, 1);
   EXPECT_EQ(f.cases[0].where.line, 1);
@@ -102,7 +92,7 @@ TEST(ContactInputModule1, ConvertsEveryValueToSi) {
 
 TEST(ContactInputModule1, KinksMayNeedNoStraightNeighbours) {
   const CaseFile f =
-      parse(ContactWriter(1).line("rail", "'rail.prr' 0 1. 0. 0. 1.0\n 0 100d 20d 5d 0.0").str() + "0 MODULE\n");
+      parse_input(ContactWriter(1).line("rail", "'rail.prr' 0 1. 0. 0. 1.0\n 0 100d 20d 5d 0.0").str() + "0 MODULE\n");
   EXPECT_EQ(std::get<GeometryFile>(rail_case(f, 0).rail.geometry).options.smoothing.kink_width, 0.0);
 }
 
@@ -110,7 +100,7 @@ TEST(ContactInputModule1, KeepsValuesThatLaterCasesDoNotGive) {
   ContactWriter later(1);
   for (const auto* digit : {"FRCLAW", "DISCNS", "INFLCF"}) later.set(digit, 1);
   later.set("ZTRACK", 0).set("EWHEEL", 2).set("GAUSEI", 1).line("position", "5.0 6.0 99000. 0.1 0.2 -26d");
-  const CaseFile f = parse(ContactWriter(1).set("EWHEEL", 5).set("FRCLAW", 4).str() + later.str() + "0 MODULE\n");
+  const CaseFile f = parse_input(ContactWriter(1).set("EWHEEL", 5).set("FRCLAW", 4).str() + later.str() + "0 MODULE\n");
   ASSERT_EQ(f.cases.size(), 2u);
   EXPECT_EQ(f.cases[1].number, 2);
   const WheelRailCase &a = rail_case(f, 0), &b = rail_case(f, 1);
@@ -131,13 +121,13 @@ TEST(ContactInputModule1, KeepsValuesThatLaterCasesDoNotGive) {
 }
 
 TEST(ContactInputModule1, ReadsOptionalValuesOfTheirLinesOnly) {
-  const CaseFile f = parse(ContactWriter(1)
-                               .line("grid", "0.4 0.5 1.0 90d 8.0 4.0 11.0 0.5")
-                               .line("track", "-1.0 750.0 1.5 0.02 0.001")
-                               .line("wheelset", "1360. -70. 460. 0.5")
-                               .line("solver", "10 11 12 13 1d-6 50")
-                               .str() +
-                           "0\n");
+  const CaseFile f = parse_input(ContactWriter(1)
+                                     .line("grid", "0.4 0.5 1.0 90d 8.0 4.0 11.0 0.5")
+                                     .line("track", "-1.0 750.0 1.5 0.02 0.001")
+                                     .line("wheelset", "1360. -70. 460. 0.5")
+                                     .line("solver", "10 11 12 13 1d-6 50")
+                                     .str() +
+                                 "0\n");
   const WheelRailCase& c = rail_case(f, 0);
   EXPECT_DOUBLE_EQ(c.discretisation.turning.value(), 11e-3);
   EXPECT_DOUBLE_EQ(c.discretisation.near_miss, 0.5e-3);
@@ -150,14 +140,14 @@ TEST(ContactInputModule1, ReadsOptionalValuesOfTheirLinesOnly) {
   EXPECT_EQ(c.solver.max_coupling, 13);
   EXPECT_EQ(c.discretisation.max_elements, 100);  // the limit is not below 100
   // An unused tape line is written as a large number.
-  const CaseFile unused = parse(ContactWriter(1).line("wheelset", "1360. -70. 460. 1000.").str() + "0\n");
+  const CaseFile unused = parse_input(ContactWriter(1).line("wheelset", "1360. -70. 460. 1000.").str() + "0\n");
   EXPECT_FALSE(rail_case(unused, 0).wheelset.tape_line);
 }
 
 TEST(ContactInputModule1, ErrorHandlingOfAProfileIsNoted) {
   const auto notes = [](const std::string& options) {
-    return parse(ContactWriter(1).line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n " + options).str() +
-                 "0\n")
+    return parse_input(ContactWriter(1).line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n " + options).str() +
+                       "0\n")
         .notes;
   };
   EXPECT_THAT(notes("0 0.25"), ::testing::IsEmpty());
@@ -167,11 +157,11 @@ TEST(ContactInputModule1, ErrorHandlingOfAProfileIsNoted) {
 }
 
 TEST(ContactInputModule1, ReadsProfileOptions) {
-  const CaseFile f = parse(ContactWriter(1)
-                               .line("rail", "'a.prr' 1 1000. 5.0 1 1\n 1 20d 30d 0.1 3.0")
-                               .line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n 1 0.25")
-                               .str() +
-                           "0\n");
+  const CaseFile f = parse_input(ContactWriter(1)
+                                     .line("rail", "'a.prr' 1 1000. 5.0 1 1\n 1 20d 30d 0.1 3.0")
+                                     .line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n 1 0.25")
+                                     .str() +
+                                 "0\n");
   const ProfileOptions& rail = std::get<GeometryFile>(rail_case(f, 0).rail.geometry).options;
   EXPECT_EQ(rail.mirror_y, 1);
   EXPECT_EQ(rail.mirror_z, 1);
@@ -194,7 +184,7 @@ TEST(ContactInputModule1, ReadsProfileOptions) {
 
 TEST(ContactInputModule1, SecondIntegerOfTheModelLineHoldsTheWeight) {
   const auto with = [](const std::string& second) {
-    return parse(ContactWriter(1).line("word2", "0022033 " + second).str() + "0\n");
+    return parse_input(ContactWriter(1).line("word2", "0022033 " + second).str() + "0\n");
   };
   EXPECT_TRUE(rail_case(with("10"), 0).discretisation.linear_weight);
   EXPECT_FALSE(rail_case(with("20"), 0).discretisation.linear_weight);
@@ -204,28 +194,29 @@ TEST(ContactInputModule1, SecondIntegerOfTheModelLineHoldsTheWeight) {
 }
 
 TEST(ContactInputModule1, PositionInsteadOfForce) {
-  const WheelRailCase c = rail_case(parse(ContactWriter(1).set("NORM", 0).set("CONFIG", 0).str() + "0\n"), 0);
+  const WheelRailCase c = rail_case(parse_input(ContactWriter(1).set("NORM", 0).set("CONFIG", 0).str() + "0\n"), 0);
   EXPECT_FALSE(c.vertical_force_prescribed);
   EXPECT_DOUBLE_EQ(c.state.position.z, 0.3e-3);
   EXPECT_EQ(c.side, Side::left);
 }
 
 TEST(ContactInputModule1, ElasticLayerHasAFlexibility) {
-  const WheelRailCase c = rail_case(parse(ContactWriter(1).set("MATER", 4).str() + "0\n"), 0);
+  const WheelRailCase c = rail_case(parse_input(ContactWriter(1).set("MATER", 4).str() + "0\n"), 0);
   EXPECT_DOUBLE_EQ(c.material.layer_flexibility, 1.25e-3 / 8.2e9);
   const std::string strong = ContactWriter(1).set("MATER", 4).line("layer", "8200. 1.25 1e11 5.0").str();
-  EXPECT_NO_THROW(parse(strong + "0\n"));
-  EXPECT_DOUBLE_EQ(rail_case(parse(strong + "0\n"), 0).material.layer_yield, 0.0);
+  EXPECT_NO_THROW(parse_input(strong + "0\n"));
+  EXPECT_DOUBLE_EQ(rail_case(parse_input(strong + "0\n"), 0).material.layer_yield, 0.0);
   // With M = 0 the kept layer does not count.
   ContactWriter later(1);
   later.set("INFLCF", 0);
-  EXPECT_DOUBLE_EQ(
-      rail_case(parse(ContactWriter(1).set("MATER", 4).str() + later.str() + "0\n"), 1).material.layer_flexibility,
-      0.0);
+  EXPECT_DOUBLE_EQ(rail_case(parse_input(ContactWriter(1).set("MATER", 4).str() + later.str() + "0\n"), 1)
+                       .material.layer_flexibility,
+                   0.0);
 }
 
 TEST(ContactInputModule3, ConvertsEveryValueToSi) {
-  const CaseFile f = parse(ContactWriter(3).line("kinematics", "9000. -0.001 0.002 0.0003 1.0 2.0").str() + "0\n");
+  const CaseFile f =
+      parse_input(ContactWriter(3).line("kinematics", "9000. -0.001 0.002 0.0003 1.0 2.0").str() + "0\n");
   const BasicCase& c = basic_case(f, 0);
   EXPECT_TRUE(c.normal_force_prescribed);
   EXPECT_DOUBLE_EQ(c.normal_force, 9000.0);
@@ -248,7 +239,7 @@ TEST(ContactInputModule3, ConvertsEveryValueToSi) {
 }
 
 TEST(ContactInputModule3, ShiftIsALength) {
-  const BasicCase c = basic_case(parse(ContactWriter(3).set("TANG", 1).str() + "0\n"), 0);
+  const BasicCase c = basic_case(parse_input(ContactWriter(3).set("TANG", 1).str() + "0\n"), 0);
   EXPECT_EQ(c.regime, Regime::shift);
   EXPECT_DOUBLE_EQ(c.xi, -1e-6);
   EXPECT_DOUBLE_EQ(c.eta, 2e-6);
@@ -257,13 +248,14 @@ TEST(ContactInputModule3, ShiftIsALength) {
 
 TEST(ContactInputModule3, ForcesReplaceCreepages) {
   const auto line = ".005 -0.8 0.1 0.0";
-  const BasicCase one =
-      basic_case(parse(ContactWriter(3).set("NORM", 0).set("FORCE", 1).line("kinematics", line).str() + "0\n"), 0);
+  const BasicCase one = basic_case(
+      parse_input(ContactWriter(3).set("NORM", 0).set("FORCE", 1).line("kinematics", line).str() + "0\n"), 0);
   EXPECT_DOUBLE_EQ(one.approach, 5e-6);
   EXPECT_DOUBLE_EQ(one.fx_relative.value(), -0.8);
   EXPECT_FALSE(one.fy_relative);
   EXPECT_DOUBLE_EQ(one.eta, 0.1);
-  const BasicCase two = basic_case(parse(ContactWriter(3).set("FORCE", 2).line("kinematics", line).str() + "0\n"), 0);
+  const BasicCase two =
+      basic_case(parse_input(ContactWriter(3).set("FORCE", 2).line("kinematics", line).str() + "0\n"), 0);
   EXPECT_DOUBLE_EQ(two.fy_relative.value(), 0.1);
 }
 
@@ -275,7 +267,7 @@ class ContactInputPotential : public ::testing::TestWithParam<Potential> {};
 TEST_P(ContactInputPotential, GivesFirstCentreAndSteps) {
   const Potential& p = GetParam();
   const BasicCase c =
-      basic_case(parse(ContactWriter(3).line("ipotcn", p.kind).line("potcon", p.line).str() + "0\n"), 0);
+      basic_case(parse_input(ContactWriter(3).line("ipotcn", p.kind).line("potcon", p.line).str() + "0\n"), 0);
   constexpr double kRoundoff = 1e-15;
   EXPECT_NEAR(c.x0, p.x0, kRoundoff);
   EXPECT_NEAR(c.y0, p.y0, kRoundoff);
@@ -291,7 +283,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ContactInputPotential,
 TEST(ContactInputModule3, HertzianGeometry) {
   const auto read = [](const std::string& kind, const std::string& line) {
     return std::get<HertzInput>(
-        basic_case(parse(ContactWriter(3).line("ipotcn", kind).line("potcon", line).line("hertz", "").str() + "0\n"), 0)
+        basic_case(
+            parse_input(ContactWriter(3).line("ipotcn", kind).line("potcon", line).line("hertz", "").str() + "0\n"), 0)
             .geometry);
   };
   using Given = HertzInput::Given;
@@ -319,7 +312,8 @@ TEST(ContactInputModule3, HertzianGeometry) {
 TEST(ContactInputModule3, UndeformedDistances) {
   const auto read = [](const std::string& base, const std::string& lines) {
     return std::get<GapInput>(
-        basic_case(parse(ContactWriter(3).line("ibase", base + " 1").line("gap", lines).str() + "0\n"), 0).geometry);
+        basic_case(parse_input(ContactWriter(3).line("ibase", base + " 1").line("gap", lines).str() + "0\n"), 0)
+            .geometry);
   };
   using ::testing::DoubleEq;
   using ::testing::ElementsAre;
@@ -340,8 +334,8 @@ TEST(ContactInputModule3, UndeformedDistances) {
 }
 
 TEST(ContactInputModule3, FastsimAndFrictionLaws) {
-  const CaseFile f =
-      parse(ContactWriter(3).set("MATER", 3).set("FRCLAW", 2).str() + ContactWriter(3).set("FRCLAW", 3).str() + "0\n");
+  const CaseFile f = parse_input(ContactWriter(3).set("MATER", 3).set("FRCLAW", 2).str() +
+                                 ContactWriter(3).set("FRCLAW", 3).str() + "0\n");
   const BasicCase& c = basic_case(f, 0);
   EXPECT_EQ(c.tangential_model, TangentialModel::fastsim);
   EXPECT_DOUBLE_EQ(c.fastsim.k0, 0.9);
@@ -366,7 +360,7 @@ TEST(ContactInputSequence, ReturnDigitSkipsCasesAndModuleLines) {
   b.set("RETURN", 2).line("kinematics", "1. 0.1 0.2 0.3").line("friction", "0.7 0.7");
   c.set("RETURN", 3).set("FRCLAW", 1);
   d.set("FRCLAW", 1);
-  const CaseFile f = parse(a.str() + b.str(false) + c.str(false) + d.str() + "0\n");
+  const CaseFile f = parse_input(a.str() + b.str(false) + c.str(false) + d.str() + "0\n");
   ASSERT_EQ(f.cases.size(), 2u);
   EXPECT_EQ(f.cases[0].number, 1);
   EXPECT_EQ(f.cases[1].number, 4);
@@ -378,26 +372,27 @@ TEST(ContactInputSequence, ResultElementsKeepTheirOwnValues) {
   one.line("module", "3 7 1").line("friction", "0.1 0.1");
   two.line("module", "3 8 1").line("friction", "0.2 0.2");
   one_again.line("module", "3 7 1").set("FRCLAW", 1);
-  const CaseFile f = parse(one.str() + two.str() + one_again.str() + "0\n");
+  const CaseFile f = parse_input(one.str() + two.str() + one_again.str() + "0\n");
   EXPECT_DOUBLE_EQ(basic_case(f, 2).friction.kinetic, 0.1);
 }
 
 TEST(ContactInputSequence, DebugLineAndSolverLinesAreRead) {
   for (const int solver : {0, 2, 3, 4, 5})
-    EXPECT_NO_THROW(parse(ContactWriter(1).set("XFLOW", 1).set("GAUSEI", solver).str() + "0\n")) << solver;
+    EXPECT_NO_THROW(parse_input(ContactWriter(1).set("XFLOW", 1).set("GAUSEI", solver).str() + "0\n")) << solver;
   const CaseFile f =
-      parse(ContactWriter(1).set("GAUSEI", 3).set("IESTIM", 1).set("MATFIL", 2).set("PVTIME", 0).str() + "0\n");
+      parse_input(ContactWriter(1).set("GAUSEI", 3).set("IESTIM", 1).set("MATFIL", 2).set("PVTIME", 0).str() + "0\n");
   EXPECT_EQ(f.notes.size(), 3u);
 }
 
 TEST(ContactInputSequence, LeadingZerosOfControlWordsMayBeMissing) {
-  EXPECT_EQ(parse(ContactWriter(1).line("word1", "203100").line("word2", "22033").line("word3", "1").str() + "0\n")
-                .cases.size(),
-            1u);
+  EXPECT_EQ(
+      parse_input(ContactWriter(1).line("word1", "203100").line("word2", "22033").line("word3", "1").str() + "0\n")
+          .cases.size(),
+      1u);
 }
 
 TEST(ContactInputSequence, FileWithoutClosingLineIsNoted) {
-  const CaseFile f = parse(ContactWriter(3).str());
+  const CaseFile f = parse_input(ContactWriter(3).str());
   EXPECT_EQ(f.cases.size(), 1u);
   EXPECT_THAT(f.notes, ::testing::ElementsAre(::testing::HasSubstr("closing line")));
 }

@@ -5,21 +5,13 @@
 #include <sstream>
 
 #include "treadmark/io/cases/contact_program/contact_digits.hpp"
-#include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/tests/io/cases/contact_writer.hpp"
 #include "treadmark/tests/support/file_content.hpp"
-#include "treadmark/tests/support/refusal.hpp"
 
 namespace treadmark::io {
 namespace {
 
-using testing::ContactWriter;
-
-CaseFile parse(const std::string& text) { return parse_contact_input(text, "test.inp"); }
-
-std::string error_of(const std::string& text) {
-  return treadmark::testing::refusal_of([&] { parse(text); }, ErrorKind::configuration);
-}
+using namespace testing;
 
 ContactWriter first_case_with(int module, const DigitValue& d) {
   ContactWriter w(module);
@@ -51,12 +43,12 @@ TEST_P(UnsupportedDigit, IsRefusedByNameValueMeaningAndPosition) {
   const std::string text = first_case_with(module, d).str() + "0\n";
   const std::string expected = std::string(1, d.letter) + " (" + std::string(d.keyword) +
                                ") = " + std::to_string(d.value) + ", " + std::string(d.meaning) + ", is not supported";
-  const std::string message = error_of(text);
+  const std::string message = input_refusal(text);
   ASSERT_NE(message.find(expected), std::string::npos) << message;
 
   // The position points at the digit itself.
   int line = 0, column = 0;
-  ASSERT_EQ(std::sscanf(message.c_str(), "test.inp:%d:%d:", &line, &column), 2) << message;
+  ASSERT_EQ(std::sscanf(message.c_str(), "folder/test.inp:%d:%d:", &line, &column), 2) << message;
   std::istringstream stream(text);
   std::string written;
   for (int i = 0; i < line; ++i) std::getline(stream, written);
@@ -69,7 +61,7 @@ TEST_P(UnsupportedDigit, IsReadToItsEndWhenTheCaseIsSkipped) {
     return;  // no grammar known
   // What follows must be found in its place, so the refused case has been read completely.
   const std::string text = first_case_with(module, d).set("RETURN", 3).str() + ContactWriter(module).str() + "0\n";
-  const CaseFile f = parse(text);
+  const CaseFile f = parse_input(text);
   ASSERT_EQ(f.cases.size(), 1u);
   EXPECT_EQ(f.cases[0].number, 2);
 }
@@ -80,9 +72,9 @@ class SupportedDigit : public ::testing::TestWithParam<Named> {};
 
 TEST_P(SupportedDigit, IsAcceptedInASecondCase) {
   const auto& [module, d] = GetParam();
-  EXPECT_EQ(parse(ContactWriter(module).str() +
-                  first_case_with(module, d).set("RETURN", d.keyword == "RETURN" ? d.value : 1).str(true) +
-                  (d.keyword == "RETURN" && d.value % 2 == 0 ? ContactWriter(module).str(false) : "") + "0\n")
+  EXPECT_EQ(parse_input(ContactWriter(module).str() +
+                        first_case_with(module, d).set("RETURN", d.keyword == "RETURN" ? d.value : 1).str(true) +
+                        (d.keyword == "RETURN" && d.value % 2 == 0 ? ContactWriter(module).str(false) : "") + "0\n")
                 .cases.size(),
             d.keyword == "RETURN" ? (d.value == 0   ? 3u
                                      : d.value == 1 ? 2u
@@ -96,81 +88,87 @@ INSTANTIATE_TEST_SUITE_P(NoEffect, SupportedDigit, ::testing::ValuesIn(digits_th
                          name_of);
 
 TEST(ContactRefusal, DigitsThatDoNotExist) {
-  EXPECT_NE(error_of(ContactWriter(1).set("TANG", 4).str()).find("T (TANG) = 4 does not exist in module 1"),
+  EXPECT_NE(input_refusal(ContactWriter(1).set("TANG", 4).str()).find("T (TANG) = 4 does not exist in module 1"),
             std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).line("word1", "1203100").str()).find("at most 6"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).line("module", "2").str()).find("MODULE = 2 does not exist"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).line("word2", "-22033").str()).find("must not be negative"), std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(3).line("word1", "1203100").str()).find("at most 6"), std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(1).line("module", "2").str()).find("MODULE = 2 does not exist"),
+            std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(1).line("word2", "-22033").str()).find("must not be negative"),
+            std::string::npos);
 }
 
 TEST(ContactRefusal, DampingOfOnePatch) {
   const std::string text = ContactWriter(3).line("word2", "022020 2").line("damping", "1. 2. 3. 4.").str();
-  EXPECT_NE(error_of(text).find(
+  EXPECT_NE(input_refusal(text).find(
                 "test.inp:3:10: M2 (second integer of the line VLDCMZE) = 2, damping, is not supported in module 3"),
             std::string::npos);
 }
 
 TEST(ContactRefusal, PotentialContactThatIsTooLarge) {
-  EXPECT_NE(error_of(ContactWriter(3).line("potcon", "10000 10000 0 0 1 1").str()).find("potential contact too large"),
-            std::string::npos);
   EXPECT_NE(
-      error_of(ContactWriter(3).line("potcon", "99999999 99999999 0 0 1 1").str()).find("potential contact too large"),
+      input_refusal(ContactWriter(3).line("potcon", "10000 10000 0 0 1 1").str()).find("potential contact too large"),
       std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(3).line("potcon", "99999999 99999999 0 0 1 1").str())
+                .find("potential contact too large"),
+            std::string::npos);
 }
 
 TEST(ContactRefusal, KeptMethodsOfSkippedCases) {
   const std::string oblique = ContactWriter(1).set("DISCNS", 8).set("RETURN", 3).str();
-  EXPECT_NE(error_of(oblique + ContactWriter(1).set("DISCNS", 1).str()).find("D (DISCNS) = 1 keeps D = 8"),
+  EXPECT_NE(input_refusal(oblique + ContactWriter(1).set("DISCNS", 1).str()).find("D (DISCNS) = 1 keeps D = 8"),
             std::string::npos);
   const std::string thermal = ContactWriter(1).set("FRCLAW", 6).set("RETURN", 3).str();
-  EXPECT_NE(error_of(thermal + ContactWriter(1).set("FRCLAW", 1).str())
+  EXPECT_NE(input_refusal(thermal + ContactWriter(1).set("FRCLAW", 1).str())
                 .find("test.inp:19:4: friction that depends on the temperature"),
             std::string::npos);
   const std::string corrected = ContactWriter(1).set("INFLCF", 4).set("RETURN", 3).str();
-  EXPECT_NE(error_of(corrected + ContactWriter(1).set("INFLCF", 1).str())
+  EXPECT_NE(input_refusal(corrected + ContactWriter(1).set("INFLCF", 1).str())
                 .find("angle-corrected influence coefficients need the curved reference"),
             std::string::npos);
 }
 
 TEST(ContactRefusal, AllRefusalsOfACaseAreTold) {
-  const std::string message = error_of(ContactWriter(1).set("DISCNS", 8).set("HEAT", 3).set("TANG", 0).str());
+  const std::string message = input_refusal(ContactWriter(1).set("DISCNS", 8).set("HEAT", 3).set("TANG", 0).str());
   EXPECT_NE(message.find("D (DISCNS) = 8"), std::string::npos);
   EXPECT_NE(message.find("also line 4: surface temperatures need steady rolling"), std::string::npos) << message;
   // where reading must stop because nobody knows which lines follow
-  const std::string stopped = error_of(ContactWriter(1).set("FORCE", 2).set("DISCNS", 8).set("INFLCF", 9).str());
+  const std::string stopped = input_refusal(ContactWriter(1).set("FORCE", 2).set("DISCNS", 8).set("INFLCF", 9).str());
   for (const char* one : {"F (FORCE) = 2", "also line 3: D (DISCNS) = 8", "also line 3: C (INFLCF) = 9"})
     EXPECT_NE(stopped.find(one), std::string::npos) << one << ": " << stopped;
-  const std::string strip = error_of(ContactWriter(1).set("FORCE", 2).set("MATER", 6).str());
+  const std::string strip = input_refusal(ContactWriter(1).set("FORCE", 2).set("MATER", 6).str());
   EXPECT_NE(strip.find("also line 3: M (MATER) = 6"), std::string::npos) << strip;
 }
 
 TEST(ContactFirstCase, HasNothingToKeep) {
-  EXPECT_NE(error_of(ContactWriter(1).set("FRCLAW", 1).str()).find("L (FRCLAW) = 1 in the first case"),
+  EXPECT_NE(input_refusal(ContactWriter(1).set("FRCLAW", 1).str()).find("L (FRCLAW) = 1 in the first case"),
             std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).set("DISCNS", 0).str()).find("D (DISCNS) = 0 in the first case"),
+  EXPECT_NE(input_refusal(ContactWriter(1).set("DISCNS", 0).str()).find("D (DISCNS) = 0 in the first case"),
             std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).set("DISCNS", 1).str()).find("D (DISCNS) = 1 in the first case"),
+  EXPECT_NE(input_refusal(ContactWriter(3).set("DISCNS", 1).str()).find("D (DISCNS) = 1 in the first case"),
             std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).set("INFLCF", 1).str()).find("keeps the material"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).set("ZTRACK", 2).str()).find("keeps the rail"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).set("EWHEEL", 2).str()).find("keeps the wheel"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).set("RZNORM", 0).str()).find("keeps the undeformed distance"), std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(1).set("INFLCF", 1).str()).find("keeps the material"), std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(1).set("ZTRACK", 2).str()).find("keeps the rail"), std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(1).set("EWHEEL", 2).str()).find("keeps the wheel"), std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(3).set("RZNORM", 0).str()).find("keeps the undeformed distance"),
+            std::string::npos);
 }
 
 TEST(ContactRules, NeedCertainLines) {
   ContactWriter switched(1);
   switched.set("NORM", 0).set("EWHEEL", 0);
-  EXPECT_NE(error_of(ContactWriter(1).str() + switched.str()).find("needs E (EWHEEL) > 0"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).set("TANG", 0).str() + ContactWriter(3).set("INFLCF", 0).str())
+  EXPECT_NE(input_refusal(ContactWriter(1).str() + switched.str()).find("needs E (EWHEEL) > 0"), std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(3).set("TANG", 0).str() + ContactWriter(3).set("INFLCF", 0).str())
                 .find("rolling line CHI"),
             std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 3).str()).find("K0_MF"),
+  EXPECT_NE(
+      input_refusal(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 3).str()).find("K0_MF"),
+      std::string::npos);
+  EXPECT_NE(input_refusal(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 4).str()).find("GG3"),
             std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 4).str()).find("GG3"),
+  EXPECT_NE(input_refusal(ContactWriter(1).line("rail", "'a.slcs' 0 1. 0.").str()).find("GAUGHT <= 0"),
             std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).line("rail", "'a.slcs' 0 1. 0.").str()).find("GAUGHT <= 0"), std::string::npos);
   const std::string each = ContactWriter(3).line("ibase", "9 1").line("gap", "1 2 3 4 5 6").str();
-  EXPECT_NE(error_of(each + ContactWriter(3).set("RZNORM", 0).line("potcon", "4 4 0 0 1 1").str())
+  EXPECT_NE(input_refusal(each + ContactWriter(3).set("RZNORM", 0).line("potcon", "4 4 0 0 1 1").str())
                 .find("number of elements has changed"),
             std::string::npos);
 }
@@ -182,9 +180,9 @@ struct WrongLine {
 class WrongValue : public ::testing::TestWithParam<WrongLine> {};
 TEST_P(WrongValue, IsNamed) {
   const WrongLine& w = GetParam();
-  const std::string message = error_of(ContactWriter(w.module).line(w.line, w.text).str() + "0\n");
+  const std::string message = input_refusal(ContactWriter(w.module).line(w.line, w.text).str() + "0\n");
   EXPECT_NE(message.find(w.expected), std::string::npos) << message;
-  EXPECT_EQ(message.rfind("test.inp:", 0), 0u) << message;
+  EXPECT_EQ(message.rfind("folder/test.inp:", 0), 0u) << message;
 }
 INSTANTIATE_TEST_SUITE_P(
     Lines, WrongValue,
@@ -227,9 +225,9 @@ TEST_P(Truncated, IsToldWhereItEnds) {
   for (std::size_t i = text.find('\n'); i + 1 < text.size(); i = text.find('\n', i + 1)) ends.push_back(i);
   ASSERT_GT(ends.size(), 8u);
   for (const std::size_t end : ends)
-    EXPECT_NE(error_of(text.substr(0, end)).find("the file ends"), std::string::npos) << text.substr(0, end);
-  EXPECT_NE(error_of("").find("contains no case"), std::string::npos);
-  EXPECT_NE(error_of("% only a comment\n").find("contains no case"), std::string::npos);
+    EXPECT_NE(input_refusal(text.substr(0, end)).find("the file ends"), std::string::npos) << text.substr(0, end);
+  EXPECT_NE(input_refusal("").find("contains no case"), std::string::npos);
+  EXPECT_NE(input_refusal("% only a comment\n").find("contains no case"), std::string::npos);
 }
 INSTANTIATE_TEST_SUITE_P(Modules, Truncated, ::testing::Values(1, 3));
 

@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/cases/contact_program/read_inp.hpp"
+#include "treadmark/tests/io/cases/parsed_cases.hpp"
+
 namespace treadmark::io::testing {
 
 /// Writes cases of CONTACT input files from their control digits: every line that the grammar asks for, with fixed
@@ -155,6 +159,26 @@ class ContactWriter {
   int module_;
   Digits digits_;
   std::map<std::string, std::string> lines_;
+};
+
+/// Reads an input file, and what a user is told where it must not be read; cases: what stands in it before its end.
+inline CaseFile parse_input(const std::string& text) { return parse_contact_input(text, "folder/test.inp"); }
+inline CaseFile parse_cases(const std::string& cases) { return parse_input(cases + "0\n"); }
+inline std::string input_refusal(const std::string& text) {
+  return treadmark::testing::refusal_of([&] { parse_input(text); }, ErrorKind::configuration);
+}
+inline std::string cases_refusal(const std::string& cases) { return input_refusal(cases + "0\n"); }
+
+inline ContactWriter basic() { return ContactWriter(3); }
+/// A second basic case that keeps all it can.
+inline ContactWriter keeping_basic() {
+  return basic().set("FRCLAW", 1).set("DISCNS", 0).set("INFLCF", 0).set("RZNORM", 0).set("GAUSEI", 1);
+}
+
+/// Settings of a case that do not go together, and a part of what a user is told, with the place of one of them.
+struct Contradictory {
+  ContactWriter input;
+  std::string expected;
 };
 
 }  // namespace treadmark::io::testing

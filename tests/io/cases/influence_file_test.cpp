@@ -43,7 +43,7 @@ std::string influence_file(const std::string& first = "1 1",
   return text;
 }
 
-std::string error_of(const std::string& text) {
+std::string influence_refusal(const std::string& text) {
   return treadmark::testing::refusal_of([&] { parse_influence(text, "a.cff"); });
 }
 
@@ -66,37 +66,37 @@ TEST(InfluenceFile, FillsAllOffsetsInMetres) {
 }
 
 TEST(InfluenceFile, RefusesWhatItDoesNotKnow) {
-  EXPECT_THAT(error_of(influence_file("2 1")),
+  EXPECT_THAT(influence_refusal(influence_file("2 1")),
               ::testing::StartsWith("a.cff:2:1: NMATRIX = 2 of a file of influence coefficients is not supported"));
-  EXPECT_THAT(error_of(influence_file("1 2")), ::testing::StartsWith("a.cff:2:3: IACONVX = 2"));
-  EXPECT_THAT(error_of("1 1\n 1 312\n"), ::testing::HasSubstr("LQUASID = 1"));
-  EXPECT_THAT(error_of("1 1\n 0 123\n"), ::testing::HasSubstr("XYZORDR = 123"));
-  EXPECT_THAT(error_of("1 1\n 0 312\n 0 0\n"), ::testing::HasSubstr("ISYMMX = 0"));
-  EXPECT_THAT(error_of("1 1\n 0 312\n 1 1\n"), ::testing::HasSubstr("ISYMMY = 1"));
+  EXPECT_THAT(influence_refusal(influence_file("1 2")), ::testing::StartsWith("a.cff:2:3: IACONVX = 2"));
+  EXPECT_THAT(influence_refusal("1 1\n 1 312\n"), ::testing::HasSubstr("LQUASID = 1"));
+  EXPECT_THAT(influence_refusal("1 1\n 0 123\n"), ::testing::HasSubstr("XYZORDR = 123"));
+  EXPECT_THAT(influence_refusal("1 1\n 0 312\n 0 0\n"), ::testing::HasSubstr("ISYMMX = 0"));
+  EXPECT_THAT(influence_refusal("1 1\n 0 312\n 1 1\n"), ::testing::HasSubstr("ISYMMY = 1"));
 }
 
 TEST(InfluenceFile, TellsWhereItIsBroken) {
   const std::string head = "1 1\n0 312\n1 0\n", row = " 0 1 2 3 4 5 6 7 8 9\n";
-  EXPECT_THAT(error_of(""), ::testing::HasSubstr("the file ends where the line NMATRIX IACONVX is expected"));
-  EXPECT_THAT(error_of("1\n"), ::testing::HasSubstr("IACONVX is missing"));
-  EXPECT_THAT(error_of(head + "0 1 1 1\n"), ::testing::HasSubstr("a.cff:4:1: MX = 0 lies outside"));
-  EXPECT_THAT(error_of(head + "1 1 0 1\n"), ::testing::HasSubstr("a.cff:4:5: DX must be positive"));
-  EXPECT_THAT(error_of(head + "1 1 nan 1\n"), ::testing::HasSubstr("not finite"));
-  EXPECT_THAT(error_of(head + "900000 900000 1 1\n"), ::testing::HasSubstr("do not fit into a file of"));
-  EXPECT_THAT(error_of(head + "1 1 1 1\n h\n h\n 0" + row), ::testing::StrEq("no error"));
-  EXPECT_THAT(error_of(head + "1 1 1 1\n h\n h\n 1" + row),
+  EXPECT_THAT(influence_refusal(""), ::testing::HasSubstr("the file ends where the line NMATRIX IACONVX is expected"));
+  EXPECT_THAT(influence_refusal("1\n"), ::testing::HasSubstr("IACONVX is missing"));
+  EXPECT_THAT(influence_refusal(head + "0 1 1 1\n"), ::testing::HasSubstr("a.cff:4:1: MX = 0 lies outside"));
+  EXPECT_THAT(influence_refusal(head + "1 1 0 1\n"), ::testing::HasSubstr("a.cff:4:5: DX must be positive"));
+  EXPECT_THAT(influence_refusal(head + "1 1 nan 1\n"), ::testing::HasSubstr("not finite"));
+  EXPECT_THAT(influence_refusal(head + "900000 900000 1 1\n"), ::testing::HasSubstr("do not fit into a file of"));
+  EXPECT_THAT(influence_refusal(head + "1 1 1 1\n h\n h\n 0" + row), ::testing::StrEq("no error"));
+  EXPECT_THAT(influence_refusal(head + "1 1 1 1\n h\n h\n 1" + row),
               ::testing::HasSubstr("the file ends where row ix = 0 of iy = 0"));
-  EXPECT_THAT(error_of(head + "1 1 1 1\n" + std::string(9, '\n') + " 0" + row),
+  EXPECT_THAT(influence_refusal(head + "1 1 1 1\n" + std::string(9, '\n') + " 0" + row),
               ::testing::HasSubstr("row ix = 0 of iy = 0 is expected here"));
-  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 2" + row),
+  EXPECT_THAT(influence_refusal(head + "2 1 1 1\n h\n h\n 0" + row + " 2" + row),
               ::testing::HasSubstr("a.cff:8:2: ix = 2 stands where row ix = 1 of iy = 0 is expected"));
-  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8 x\n"),
+  EXPECT_THAT(influence_refusal(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8 x\n"),
               ::testing::HasSubstr("a number is expected, this is 'x'"));
-  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8\n"),
+  EXPECT_THAT(influence_refusal(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8\n"),
               ::testing::HasSubstr("a coefficient is missing"));
   const std::string text = influence_file();
   for (std::size_t end = text.find('\n'); end < text.rfind('\n', text.size() - 2); end = text.find('\n', end + 1))
-    EXPECT_NE(error_of(text.substr(0, end)), "no error") << end;
+    EXPECT_NE(influence_refusal(text.substr(0, end)), "no error") << end;
 }
 
 TEST(InfluenceFile, MutantsOnlyThrowError) {
@@ -119,7 +119,7 @@ TEST(InfluenceFile, MutantsOnlyThrowError) {
 }
 
 TEST(InfluenceFile, IsReadFromDisk) {
-  const testing::TemporaryFolder folder;
+  const treadmark::testing::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a.cff";
   std::ofstream(file) << influence_file();
   EXPECT_EQ(read_influence(file).nx, 2 * kMx - 1);

@@ -4,18 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "treadmark/io/cases/case_keys.hpp"
-#include "treadmark/io/cases/read_toml.hpp"
-#include "treadmark/tests/support/refusal.hpp"
+#include "treadmark/tests/io/cases/parsed_cases.hpp"
 
 namespace treadmark::io {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const std::string kRail =
-    "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
+using namespace testing;
 
 const std::string kEverything = kRail + R"(rail.resolution_mm = 0.5
 wheel.resolution_mm = 2
@@ -96,9 +92,6 @@ start_z_mm = 1
 start_angle_deg = 10
 )";
 
-CaseFile parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return parse_case_text(text, "a.toml", overrides);
-}
 const WheelRailCase& first(const CaseFile& f) { return std::get<WheelRailCase>(f.cases.at(0).content); }
 
 Defects expected_rail() {
@@ -159,7 +152,7 @@ std::vector<double> numbers(const Defects& d) {
 }
 
 TEST(TomlDefects, EveryKeyFindsItsPlace) {
-  const CaseFile f = parse(kEverything);
+  const CaseFile f = parse_study(kEverything);
   const WheelRailCase& c = first(f);
   expect_near(numbers(c.rail.defects), numbers(expected_rail()));
   Defects wheel;
@@ -170,12 +163,12 @@ TEST(TomlDefects, EveryKeyFindsItsPlace) {
   EXPECT_DOUBLE_EQ(c.wheel.resolution, 2e-3);
   EXPECT_DOUBLE_EQ(c.rail.resolution, 0.5e-3);
   EXPECT_EQ(c.wheel.backend, "mesh-flat");
-  EXPECT_EQ(first(parse(kRail)).wheel.resolution, 0.0);
-  EXPECT_TRUE(first(parse(kRail)).rail.defects.empty());
+  EXPECT_EQ(first(parse_study(kRail)).wheel.resolution, 0.0);
+  EXPECT_TRUE(first(parse_study(kRail)).rail.defects.empty());
 }
 
 TEST(TomlDefects, InlineAndSpreadOutListsAreTheSame) {
-  const CaseFile inline_waves = parse(kRail + R"([[rail.corrugations]]
+  const CaseFile inline_waves = parse_study(kRail + R"([[rail.corrugations]]
 x_start_mm = -500
 x_end_mm = 500
 ramp_mm = 100
@@ -183,16 +176,16 @@ y_center_mm = 3
 width_mm = 50
 waves = [{ wavelength_mm = 50, amplitude_um = 20 }, { wavelength_mm = 30, amplitude_um = 5, phase_deg = 180 }]
 )");
-  EXPECT_EQ(first(inline_waves).rail.defects.corrugations, first(parse(kEverything)).rail.defects.corrugations);
+  EXPECT_EQ(first(inline_waves).rail.defects.corrugations, first(parse_study(kEverything)).rail.defects.corrugations);
 }
 
 TEST(TomlDefects, OverridesReachIntoNestedLists) {
-  const CaseFile f =
-      parse(kEverything, {"rail.squats.0.depth_mm=0.2", "rail.squats.1.second_depth_mm=0.05",
-                          "rail.corrugations.0.waves.1.amplitude_um=7", "rail.corrugations.0.waves.0.phase_rad=0.25",
-                          "wheel.polygonizations.0.harmonics.1.order=18", "rail.milling_paths.0.stations.1.z_mm=3",
-                          "rail.milling_paths.0.section.0.radius_mm=-200", "rail.gauge_corner_collapses.0.towards=+y",
-                          "rail.flattened_heads.0.roll_deg=2", "wheel.resolution_mm=0.25"});
+  const CaseFile f = parse_study(
+      kEverything,
+      {"rail.squats.0.depth_mm=0.2", "rail.squats.1.second_depth_mm=0.05", "rail.corrugations.0.waves.1.amplitude_um=7",
+       "rail.corrugations.0.waves.0.phase_rad=0.25", "wheel.polygonizations.0.harmonics.1.order=18",
+       "rail.milling_paths.0.stations.1.z_mm=3", "rail.milling_paths.0.section.0.radius_mm=-200",
+       "rail.gauge_corner_collapses.0.towards=+y", "rail.flattened_heads.0.roll_deg=2", "wheel.resolution_mm=0.25"});
   const WheelRailCase& c = first(f);
   EXPECT_DOUBLE_EQ(c.rail.defects.squats.at(0).depth, 0.2e-3);
   EXPECT_DOUBLE_EQ(c.rail.defects.squats.at(1).second_depth, 0.05e-3);
@@ -206,38 +199,32 @@ TEST(TomlDefects, OverridesReachIntoNestedLists) {
   EXPECT_DOUBLE_EQ(c.rail.defects.flattened_heads.at(0).roll, 2.0 * kDegree);
   EXPECT_DOUBLE_EQ(c.wheel.resolution, 0.25e-3);
   // a nested list as a whole
-  const CaseFile whole = parse(kEverything, {"rail.corrugations.0.waves=[{wavelength_mm=80, amplitude_um=1}]"});
+  const CaseFile whole = parse_study(kEverything, {"rail.corrugations.0.waves=[{wavelength_mm=80, amplitude_um=1}]"});
   ASSERT_EQ(first(whole).rail.defects.corrugations.at(0).waves.size(), 1u);
   EXPECT_DOUBLE_EQ(first(whole).rail.defects.corrugations.at(0).waves[0].wavelength, 80e-3);
   EXPECT_DOUBLE_EQ(first(whole).rail.defects.corrugations.at(0).ramp, 0.1);
 }
 
-std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return treadmark::testing::refusal_of([&] { parse(text, overrides); }, ErrorKind::configuration);
-}
-
 TEST(TomlDefects, OverrideErrorsNameTheOverride) {
   EXPECT_THAT(
-      error_of(kEverything, {"rail.corrugations.0.waves.2.phase_deg=1"}),
+      study_refusal(kEverything, {"rail.corrugations.0.waves.2.phase_deg=1"}),
       ::testing::HasSubstr("override 'rail.corrugations.0.waves.2.phase_deg=1': waves has 2 entries, number 2"));
-  EXPECT_THAT(error_of(kEverything, {"rail.corrugations.0.waves.1.phas_deg=1"}),
+  EXPECT_THAT(study_refusal(kEverything, {"rail.corrugations.0.waves.1.phas_deg=1"}),
               ::testing::HasSubstr("did you mean 'phase_deg'?"));
-  EXPECT_THAT(error_of(kEverything, {"rail.corrugations.0.waves.1=1"}), ::testing::HasSubstr("waves is a list"));
-  EXPECT_THAT(error_of(kEverything, {"rail.corrugations.0.waves.x.phase_deg=1"}),
+  EXPECT_THAT(study_refusal(kEverything, {"rail.corrugations.0.waves.1=1"}), ::testing::HasSubstr("waves is a list"));
+  EXPECT_THAT(study_refusal(kEverything, {"rail.corrugations.0.waves.x.phase_deg=1"}),
               ::testing::HasSubstr("waves is a list"));
-  EXPECT_THAT(error_of(kEverything, {"rail.corrugations.1.ramp_mm=1"}),
+  EXPECT_THAT(study_refusal(kEverything, {"rail.corrugations.1.ramp_mm=1"}),
               ::testing::HasSubstr("rail.corrugations has 1 entries"));
-  EXPECT_THAT(error_of(kEverything, {"rail.squats.0.depht_mm=1"}), ::testing::HasSubstr("did you mean 'depth_mm'?"));
-  EXPECT_THAT(error_of(kEverything, {"wheel.polygonizations.0.harmonics.0.order=7.5"}),
+  EXPECT_THAT(study_refusal(kEverything, {"rail.squats.0.depht_mm=1"}),
+              ::testing::HasSubstr("did you mean 'depth_mm'?"));
+  EXPECT_THAT(study_refusal(kEverything, {"wheel.polygonizations.0.harmonics.0.order=7.5"}),
               ::testing::HasSubstr("order must be an integer"));
 }
 
-struct Wrong {
-  std::string text, expected;
-};
 class TomlDefectError : public ::testing::TestWithParam<Wrong> {};
 TEST_P(TomlDefectError, TellsPositionAndReason) {
-  EXPECT_THAT(error_of(kRail + GetParam().text), ::testing::HasSubstr(GetParam().expected));
+  EXPECT_THAT(study_refusal(kRail + GetParam().text), ::testing::HasSubstr(GetParam().expected));
 }
 
 const std::string kSquat = "length_mm = 40, width_mm = 25, depth_mm = 0.3";
@@ -247,12 +234,13 @@ INSTANTIATE_TEST_SUITE_P(
     Shapes, TomlDefectError,
     ::testing::Values(
         Wrong{"[[rail.squats]]\nlength_mm = 40\nwidth_mm = 25\ndept_mm = 1\n",
-              "a.toml:7:1: unknown key 'dept_mm' (did you mean 'depth_mm'?)"},
-        Wrong{"[[rail.squats]]\nlength_mm = 40\nwidth_mm = 25\n", "a.toml:4:1: depth_mm of rail.squats is missing"},
+              "folder/study.toml:7:1: unknown key 'dept_mm' (did you mean 'depth_mm'?)"},
+        Wrong{"[[rail.squats]]\nlength_mm = 40\nwidth_mm = 25\n",
+              "folder/study.toml:4:1: depth_mm of rail.squats is missing"},
         Wrong{"rail.squats = [{ " + kSquat + " }, { " + kSquat + ", second_depth_mm = 30 }]\n",
-              "a.toml:1:1: case 1: rail.squats[1]: a dip is too deep for its length"},
+              "folder/study.toml:1:1: case 1: rail.squats[1]: a dip is too deep for its length"},
         Wrong{"rail.squats = [{ length_mm = -1, width_mm = 25, depth_mm = 0.3 }]\n",
-              "a.toml:4:30: length_mm = -1 must be greater than 0"},
+              "folder/study.toml:4:30: length_mm = -1 must be greater than 0"},
         Wrong{"[[wheel.squats]]\n", "unknown key 'wheel.squats' (did you mean 'rail.squats'?)"},
         Wrong{"[[rail.flats]]\nlength_mm = 1\n", "unknown key 'rail.flats' (did you mean 'wheel.flats'?)"},
         Wrong{"rail.corrugations = [{ " + kStretch + " }]\n", "waves of rail.corrugations is missing"},
@@ -263,7 +251,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"rail.corrugations = [{ " + kStretch + ", waves = [{ wavelength_mm = 50 }] }]\n",
               "amplitude_um of waves is missing"},
         Wrong{"rail.corrugations = [{ " + kStretch + ", waves = [{ wavelength_mm = 50, amplitude_mm = 1 }] }]\n",
-              "a.toml:4:101: unknown key 'amplitude_mm' (did you mean 'amplitude_um'?)"},
+              "folder/study.toml:4:101: unknown key 'amplitude_mm' (did you mean 'amplitude_um'?)"},
         Wrong{"rail.corrugations = [{ " + kStretch +
                   ", waves = [{ wavelength_mm = 50, amplitude_um = 1, phase_deg = 1, phase_rad = 1 }] }]\n",
               "phase_deg and phase_rad exclude each other"},
@@ -313,14 +301,14 @@ TEST(TomlPatch, HertzAndGapExcludeEachOther) {
   const std::string patch = "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\ndx_mm = 1\ndy_mm = 1\n";
   const std::string hertz = "[patch.hertz]\ncurvature_x_per_m = 1\ncurvature_y_per_m = 1\n";
   const std::string gap = "[patch.gap]\ncoefficients_si = [1, 0, 1, 0, 0, 0]\n";
-  EXPECT_EQ(error_of(patch + hertz + gap),
-            "a.toml:11:1: [patch.hertz] and [patch.gap] exclude each other (give one of them)");
-  EXPECT_THAT(error_of(patch + gap + hertz),
-              ::testing::HasSubstr("a.toml:10:1: [patch.hertz] and [patch.gap] exclude each other"));
-  EXPECT_EQ(error_of(patch + hertz), "no error");
-  EXPECT_EQ(error_of(patch + gap), "no error");
+  EXPECT_EQ(study_refusal(patch + hertz + gap),
+            "folder/study.toml:11:1: [patch.hertz] and [patch.gap] exclude each other (give one of them)");
+  EXPECT_THAT(study_refusal(patch + gap + hertz),
+              ::testing::HasSubstr("folder/study.toml:10:1: [patch.hertz] and [patch.gap] exclude each other"));
+  EXPECT_EQ(study_refusal(patch + hertz), "no error");
+  EXPECT_EQ(study_refusal(patch + gap), "no error");
   // a case of a study may replace one by the other
-  const CaseFile f = parse(patch + hertz + "[[cases]]\npatch.gap.coefficients_si = [1, 0, 1, 0, 0, 0]\n");
+  const CaseFile f = parse_study(patch + hertz + "[[cases]]\npatch.gap.coefficients_si = [1, 0, 1, 0, 0, 0]\n");
   EXPECT_TRUE(std::holds_alternative<GapInput>(std::get<BasicCase>(f.cases.at(0).content).geometry));
 }
 

@@ -3,43 +3,35 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "treadmark/io/cases/read_toml.hpp"
-#include "treadmark/tests/support/refusal.hpp"
+#include "treadmark/tests/io/cases/parsed_cases.hpp"
 
 namespace treadmark::io {
 namespace {
 
-const std::string kRail =
-    "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
-const std::string kPatch = "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\n";
+using namespace testing;
+
+const std::string kBarePatch = "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\n";
 const std::string kHertz =
-    kPatch + "hertz.given = \"curvatures\"\nhertz.curvature_x_per_m = 1\nhertz.curvature_y_per_m = 1\n";
+    kBarePatch + "hertz.given = \"curvatures\"\nhertz.curvature_x_per_m = 1\nhertz.curvature_y_per_m = 1\n";
 
-std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return treadmark::testing::refusal_of([&] { parse_case_text(text, "a.toml", overrides); }, ErrorKind::configuration);
-}
-
-struct Wrong {
-  std::string text, expected;
-};
 class TomlError : public ::testing::TestWithParam<Wrong> {};
 TEST_P(TomlError, TellsPositionAndReason) {
-  EXPECT_THAT(error_of(GetParam().text), ::testing::HasSubstr(GetParam().expected));
+  EXPECT_THAT(study_refusal(GetParam().text), ::testing::HasSubstr(GetParam().expected));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, TomlError,
     ::testing::Values(
         Wrong{kRail + "wheelset.pich_deg = 3\n",
-              "a.toml:4:10: unknown key 'wheelset.pich_deg' (did you mean 'wheelset.pitch_deg'?)"},
+              "folder/study.toml:4:10: unknown key 'wheelset.pich_deg' (did you mean 'wheelset.pitch_deg'?)"},
         Wrong{kRail + "wheelset.pitch = 3\n", "did you mean 'wheelset.pitch_deg'?"},
-        Wrong{kRail + "[weelset]\ny_mm = 1\n", "a.toml:4:2: unknown key 'weelset'"},
+        Wrong{kRail + "[weelset]\ny_mm = 1\n", "folder/study.toml:4:2: unknown key 'weelset'"},
         Wrong{kRail + "track.vertical_force_N = 3\n", "did you mean 'wheelset.vertical_force_N'?"},
         Wrong{kRail + "zzzzzzzz = 3\n", "unknown key 'zzzzzzzz' (see docs/case-file.md"},
         Wrong{kRail + "[[cases]]\nwheelset.y = 3\n", "unknown key 'wheelset.y' (did you mean 'wheelset.y_mm'?)"},
         Wrong{kRail + "wheel.flats = [ { lenth_mm = 3 } ]\n", "unknown key 'lenth_mm' (did you mean 'length_mm'?)"},
         Wrong{kRail + "wheelset = 3\n", "not valid TOML"},
-        Wrong{"wheelset = 3\n", "a.toml:1:12: wheelset must be a table, found an integer"},
+        Wrong{"wheelset = 3\n", "folder/study.toml:1:12: wheelset must be a table, found an integer"},
         Wrong{kRail + "title = 3\n", "title must be text"},
         Wrong{kRail + "cases = 3\n", "cases must be a list of tables"},
         Wrong{kRail + "cases = []\n", "cases must be a list of tables"},
@@ -48,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Types, TomlError,
     ::testing::Values(
-        Wrong{kRail + "wheelset.y_mm = \"3\"\n", "a.toml:4:17: wheelset.y_mm must be a number, found text"},
+        Wrong{kRail + "wheelset.y_mm = \"3\"\n", "folder/study.toml:4:17: wheelset.y_mm must be a number, found text"},
         Wrong{kRail + "wheelset.y_mm = true\n", "found true or false"},
         Wrong{kRail + "wheelset.y_mm = [1, 2]\n", "must be a number, found a list"},
         Wrong{kRail + "wheelset.y_mm = nan\n", "must be finite"},
@@ -65,16 +57,17 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{kRail + "wheel.flats = [3]\n", "found an integer in it"}, Wrong{kRail + "y_mm = [1\n", "not valid TOML"},
         Wrong{kHertz + "gap.coefficients_si = [1, \"a\"]\n", "found text in it"}));
 
-INSTANTIATE_TEST_SUITE_P(Ranges, TomlError,
-                         ::testing::Values(Wrong{kRail + "discretisation.dx_mm = 0\n",
-                                                 "a.toml:4:24: discretisation.dx_mm = 0 must be greater than 0"},
-                                           Wrong{kRail + "discretisation.max_elements = 5\n", "must be at least 100"},
-                                           Wrong{kRail + "material.poisson_ratio = 0.6\n", "must be at most 0.5"},
-                                           Wrong{kRail + "friction.coefficient = 0\n", "must be at least 0.0001"},
-                                           Wrong{kRail + "track.cant_deg = 60\n", "at most 45"},
-                                           Wrong{kRail + "track.cant_rad = 1\n", "must be at most"},
-                                           Wrong{kRail + "wheel.flats = [ { length_mm = -1 } ]\n",
-                                                 "length_mm = -1 must be greater than 0"}));
+INSTANTIATE_TEST_SUITE_P(
+    Ranges, TomlError,
+    ::testing::Values(Wrong{kRail + "discretisation.dx_mm = 0\n",
+                            "folder/study.toml:4:24: discretisation.dx_mm = 0 must be greater than 0"},
+                      Wrong{kRail + "discretisation.max_elements = 5\n", "must be at least 100"},
+                      Wrong{kRail + "material.poisson_ratio = 0.6\n", "must be at most 0.5"},
+                      Wrong{kRail + "friction.coefficient = 0\n", "must be at least 0.0001"},
+                      Wrong{kRail + "track.cant_deg = 60\n", "at most 45"},
+                      Wrong{kRail + "track.cant_rad = 1\n", "must be at most"},
+                      Wrong{kRail + "wheel.flats = [ { length_mm = -1 } ]\n",
+                            "length_mm = -1 must be greater than 0"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Consistency, TomlError,
@@ -123,15 +116,15 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Patches, TomlError,
     ::testing::Values(
-        Wrong{kPatch + "hertz.given = \"semi_axes\"\n", "patch.hertz.semi_axis_x_mm is missing"},
-        Wrong{kPatch + "hertz.given = \"curvature_and_ratio\"\nhertz.curvature_x_per_m = 1\n",
+        Wrong{kBarePatch + "hertz.given = \"semi_axes\"\n", "patch.hertz.semi_axis_x_mm is missing"},
+        Wrong{kBarePatch + "hertz.given = \"curvature_and_ratio\"\nhertz.curvature_x_per_m = 1\n",
               "patch.hertz.axis_ratio is missing"},
-        Wrong{kPatch, "patch.dx_mm and patch.dy_mm are missing"},
+        Wrong{kBarePatch, "patch.dx_mm and patch.dy_mm are missing"},
         Wrong{"[patch]\nnormal_force_N = 1\n", "patch.mx and patch.my are missing"},
-        Wrong{kPatch + "dx_mm = 1\ndy_mm = 1\ngap.coefficients_si = [1]\n", "a quadratic gap needs 6"},
-        Wrong{kPatch + "dx_mm = 1\ndy_mm = 1\ngap.kind = \"per_element\"\ngap.coefficients_si = [1]\n",
+        Wrong{kBarePatch + "dx_mm = 1\ndy_mm = 1\ngap.coefficients_si = [1]\n", "a quadratic gap needs 6"},
+        Wrong{kBarePatch + "dx_mm = 1\ndy_mm = 1\ngap.kind = \"per_element\"\ngap.coefficients_si = [1]\n",
               "1 values for 80 elements"},
-        Wrong{kPatch + "dx_mm = 1\ndy_mm = 1\ngap.kind = \"circular\"\ngap.coefficients_si = [0, 0, 0, 1, 0]\n",
+        Wrong{kBarePatch + "dx_mm = 1\ndy_mm = 1\ngap.kind = \"circular\"\ngap.coefficients_si = [0, 0, 0, 1, 0]\n",
               "must not be 0"},
         Wrong{kHertz + "[case]\nregime = \"steady\"\n", "patch.rolling_step_mm is missing"},
         Wrong{kHertz + "force_y_relative = 0.1\n", "needs patch.force_x_relative"},
@@ -143,27 +136,27 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[patch]\nnormal_force_N = 1\nmx = 3000\nmy = 3000\nhertz.given = "
               "\"curvatures\"\nhertz.curvature_x_per_m = 1\n",
               "potential contact too large"},
-        Wrong{kPatch + "dx_mm = 1\ndy_mm = 1\nnormal_model = \"elliptic\"\ngap.coefficients_si = [1,0,1,0,0,0]\n",
+        Wrong{kBarePatch + "dx_mm = 1\ndy_mm = 1\nnormal_model = \"elliptic\"\ngap.coefficients_si = [1,0,1,0,0,0]\n",
               "elliptic and parabolic pressures need Hertzian geometry"}));
 
 TEST(TomlOverrideError, NamesTheOverride) {
   EXPECT_THAT(
-      error_of(kRail, {"wheelset.y=3"}),
+      study_refusal(kRail, {"wheelset.y=3"}),
       ::testing::HasSubstr("override 'wheelset.y=3': unknown key 'wheelset.y' (did you mean 'wheelset.y_mm'?)"));
-  EXPECT_THAT(error_of(kRail, {"wheelset.y_mm"}), ::testing::HasSubstr("'=' is missing"));
-  EXPECT_THAT(error_of(kRail, {"=3"}), ::testing::HasSubstr("key or value is missing"));
-  EXPECT_THAT(error_of(kRail, {"wheelset.y_mm="}), ::testing::HasSubstr("key or value is missing"));
-  EXPECT_THAT(error_of(kRail, {"wheelset.yaw_rad=5"}), ::testing::HasSubstr("wheelset.yaw_rad = 5"));
-  EXPECT_EQ(error_of(kRail, {"wheelset.yaw_deg=-5"}), "no error");
-  EXPECT_THAT(error_of(kRail, {"wheelset.y_mm=three"}), ::testing::HasSubstr("must be a number, found text"));
-  EXPECT_THAT(error_of(kRail, {"wheelset.y_mm=[1"}), ::testing::HasSubstr("neither a word nor valid TOML"));
-  EXPECT_THAT(error_of(kRail, {"wheelset.y_mm=3\n[x]"}), ::testing::HasSubstr("one line"));
-  EXPECT_THAT(error_of(kRail, {"wheel.flats.0.depth_mm=1"}), ::testing::HasSubstr("wheel.flats has 0 entries"));
-  EXPECT_THAT(error_of(kRail, {"rail.shape.arcs.0.length_mm=1"}),
+  EXPECT_THAT(study_refusal(kRail, {"wheelset.y_mm"}), ::testing::HasSubstr("'=' is missing"));
+  EXPECT_THAT(study_refusal(kRail, {"=3"}), ::testing::HasSubstr("key or value is missing"));
+  EXPECT_THAT(study_refusal(kRail, {"wheelset.y_mm="}), ::testing::HasSubstr("key or value is missing"));
+  EXPECT_THAT(study_refusal(kRail, {"wheelset.yaw_rad=5"}), ::testing::HasSubstr("wheelset.yaw_rad = 5"));
+  EXPECT_EQ(study_refusal(kRail, {"wheelset.yaw_deg=-5"}), "no error");
+  EXPECT_THAT(study_refusal(kRail, {"wheelset.y_mm=three"}), ::testing::HasSubstr("must be a number, found text"));
+  EXPECT_THAT(study_refusal(kRail, {"wheelset.y_mm=[1"}), ::testing::HasSubstr("neither a word nor valid TOML"));
+  EXPECT_THAT(study_refusal(kRail, {"wheelset.y_mm=3\n[x]"}), ::testing::HasSubstr("one line"));
+  EXPECT_THAT(study_refusal(kRail, {"wheel.flats.0.depth_mm=1"}), ::testing::HasSubstr("wheel.flats has 0 entries"));
+  EXPECT_THAT(study_refusal(kRail, {"rail.shape.arcs.0.length_mm=1"}),
               ::testing::HasSubstr("rail.shape.arcs has 0 entries"));
-  EXPECT_THAT(error_of(kRail, {"wheel.flats.depth_mm=1"}), ::testing::HasSubstr("wheel.flats is a list"));
-  EXPECT_THAT(error_of(kRail, {"wheel.flats.0=1"}), ::testing::HasSubstr("wheel.flats is a list"));
-  EXPECT_THAT(error_of(kRail, {"patch.mx=3"}), ::testing::HasSubstr("belongs to a [patch] case"));
+  EXPECT_THAT(study_refusal(kRail, {"wheel.flats.depth_mm=1"}), ::testing::HasSubstr("wheel.flats is a list"));
+  EXPECT_THAT(study_refusal(kRail, {"wheel.flats.0=1"}), ::testing::HasSubstr("wheel.flats is a list"));
+  EXPECT_THAT(study_refusal(kRail, {"patch.mx=3"}), ::testing::HasSubstr("belongs to a [patch] case"));
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ std::atomic<std::size_t> bytes_taken{0};  // of this whole program
 namespace treadmark::io {
 namespace {
 
-using testing::error_of;
 using ::testing::HasSubstr;
+using treadmark::testing::error_of;
 
 std::string repeated(const std::string& text, int count) {
   std::string all;

@@ -37,13 +37,13 @@ start_z_mm = 1
 start_angle_deg = 5
 )";
 
-WheelRailCase parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+WheelRailCase parts_case(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return std::get<WheelRailCase>(parse_case_text(text, "folder/study.toml", overrides).cases.at(0).content);
 }
 
 void expect_refused(const std::string& text, const char* words, const std::vector<std::string>& overrides = {}) {
   try {
-    parse(text, overrides);
+    parts_case(text, overrides);
     ADD_FAILURE() << "accepted, expected: " << words;
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::configuration);
@@ -52,7 +52,7 @@ void expect_refused(const std::string& text, const char* words, const std::vecto
 }
 
 TEST(TomlParts, EveryKeyFindsItsPlace) {
-  const SurfaceSource rail = parse(kParts).rail;
+  const SurfaceSource rail = parts_case(kParts).rail;
   ASSERT_EQ(rail.parts.size(), 3u);
   const SurfaceSource &nose = rail.parts[0], &wing = rail.parts[1], &chain = rail.parts[2];
   EXPECT_EQ(std::get<StandardProfile>(nose.geometry).name, "60E1");
@@ -79,9 +79,10 @@ TEST(TomlParts, EveryKeyFindsItsPlace) {
 }
 
 TEST(TomlParts, OverridesReachIntoParts) {
-  const SurfaceSource rail = parse(kParts, {"rail.parts.0.crossing_slope=0.02", "rail.parts.1.file=/data/wing.slcs",
-                                            "rail.parts.2.backend=nurbs", "rail.parts.2.arcs.1.length_mm=15"})
-                                 .rail;
+  const SurfaceSource rail =
+      parts_case(kParts, {"rail.parts.0.crossing_slope=0.02", "rail.parts.1.file=/data/wing.slcs",
+                          "rail.parts.2.backend=nurbs", "rail.parts.2.arcs.1.length_mm=15"})
+          .rail;
   EXPECT_DOUBLE_EQ(rail.parts[0].crossing.slope, 0.02);
   EXPECT_EQ(std::get<GeometryFile>(rail.parts[1].geometry).file, "/data/wing.slcs");
   EXPECT_EQ(rail.parts[2].backend, "nurbs");
@@ -92,7 +93,7 @@ TEST(TomlParts, OverridesReachIntoParts) {
 
 TEST(TomlParts, OneRailCanMoveItsSectionToo) {
   const SurfaceSource rail =
-      parse(kWheel + "[rail.shape]\nstandard = \"60E1\"\ncrossing = \"wing\"\ncrossing_y_mm = 3\n").rail;
+      parts_case(kWheel + "[rail.shape]\nstandard = \"60E1\"\ncrossing = \"wing\"\ncrossing_y_mm = 3\n").rail;
   EXPECT_EQ(rail.crossing.part, CrossingInput::Part::wing);
   EXPECT_DOUBLE_EQ(rail.crossing.y, 3e-3);
   EXPECT_DOUBLE_EQ(rail.crossing.slope, 0.1);
@@ -118,8 +119,8 @@ TEST(TomlParts, RefusesContradictions) {
 TEST(TomlParts, SeamsOfWheelsAreSmoothUnlessAskedFor) {
   const std::string text =
       "rail.shape.standard = \"60E1\"\nwheelset.vertical_force_N = 1e5\nwheel.shape.file = \"w.slcw\"\n";
-  EXPECT_FALSE(std::get<GeometryFile>(parse(text).wheel.geometry).open_seam);
-  EXPECT_TRUE(std::get<GeometryFile>(parse(text + "wheel.shape.open_seam = true\n").wheel.geometry).open_seam);
+  EXPECT_FALSE(std::get<GeometryFile>(parts_case(text).wheel.geometry).open_seam);
+  EXPECT_TRUE(std::get<GeometryFile>(parts_case(text + "wheel.shape.open_seam = true\n").wheel.geometry).open_seam);
   expect_refused(
       "rail.shape.standard = \"60E1\"\nwheelset.vertical_force_N = 1e5\nwheel.shape.standard = "
       "\"S1002\"\nwheel.shape.open_seam = true\n",

@@ -3,34 +3,26 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <numbers>
-
-#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/tests/io/cases/parsed_cases.hpp"
 
 namespace treadmark::io {
 namespace {
 
+using namespace testing;
 using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 const std::string kGap =
     "[patch]\napproach_mm = 0.01\nmx = 3\nmy = 2\ndx_mm = 1\ndy_mm = 1\nrolling_step_mm = 1\nvelocity_m_s = 30\n"
     "gap.coefficients_si = [1, 0, 1, 0, 0, 0]\n";
 const std::string kSteady = "case.regime = \"steady\"\n";
-const std::string kRail =
-    "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
 
-CaseFile parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return parse_case_text(text, "folder/study.toml", overrides);
-}
-const BasicCase& at(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
-BasicCase one(const std::string& text) { return at(parse(text), 0); }
-std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+BasicCase one_patch(const std::string& text) { return basic_case(parse_study(text), 0); }
+std::string patch_refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
-    parse(text, overrides);
+    parse_study(text, overrides);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::configuration);
     EXPECT_FALSE(error.where().file.empty());
@@ -41,33 +33,35 @@ std::string error_of(const std::string& text, const std::vector<std::string>& ov
 
 TEST(TomlPatch, HistoryAndSequences) {
   const CaseFile f =
-      parse("case.history = \"continue\"\ncase.element_table = \"all\"\n" + kGap +
-            "[[cases]]\ncase.regime = \"shift\"\npatch.shift_x_mm = [0.1, 0.2]\n[[cases]]\ncase.sequence = 4\n"
-            "[[cases]]\ncase.sequence = 4\ncase.history = \"same_instant\"\ncase.element_table = \"contact\"\n"
-            "[[cases]]\ncase.history = \"normal_only\"\n[[cases]]\ncase.history = \"start\"\n");
+      parse_study("case.history = \"continue\"\ncase.element_table = \"all\"\n" + kGap +
+                  "[[cases]]\ncase.regime = \"shift\"\npatch.shift_x_mm = [0.1, 0.2]\n[[cases]]\ncase.sequence = 4\n"
+                  "[[cases]]\ncase.sequence = 4\ncase.history = \"same_instant\"\ncase.element_table = \"contact\"\n"
+                  "[[cases]]\ncase.history = \"normal_only\"\n[[cases]]\ncase.history = \"start\"\n");
   using H = HistoryUse;
   const std::vector<H> history{H::start,        H::keep_going,  H::start,
                                H::same_instant, H::normal_only, H::start};  // the first of each starts
   const std::vector<int> sequence{0, 0, 4, 4, 0, 0}, table{2, 2, 2, 1, 2, 2};
   ASSERT_EQ(f.cases.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(at(f, i).history, history[i]) << i;
+    EXPECT_EQ(basic_case(f, i).history, history[i]) << i;
     EXPECT_EQ(f.cases[i].sequence, sequence[i]) << i;
     EXPECT_EQ(f.cases[i].element_table, table[i]) << i;
   }
-  EXPECT_EQ(at(parse(kGap + "[[cases]]\n[[cases]]\n", {"case.history=continue"}), 1).history, H::keep_going);
-  EXPECT_EQ(one(kGap).history, H::start);
+  EXPECT_EQ(basic_case(parse_study(kGap + "[[cases]]\n[[cases]]\n", {"case.history=continue"}), 1).history,
+            H::keep_going);
+  EXPECT_EQ(one_patch(kGap).history, H::start);
 }
 
 TEST(TomlPatch, TransientRolling) {
-  const BasicCase c = one("case.regime = \"transient\"\n" + kGap + "rolling_direction_deg = 30\n");
+  const BasicCase c = one_patch("case.regime = \"transient\"\n" + kGap + "rolling_direction_deg = 30\n");
   EXPECT_EQ(c.regime, Regime::transient);
   EXPECT_DOUBLE_EQ(c.chi, 30 * kDegree);
 }
 
 TEST(TomlPatch, Material) {
   const Material m =
-      one(kGap +
+      one_patch(
+          kGap +
           "[material]\nlayer_flexibility_mm_per_MPa = 1e-4\nlayer_yield_MPa = 30\nlayer_hardening_MPa_per_mm = -7\n"
           "sheet_flexibility_mm_per_MPa = 2e-5\ncreep_ratio = 1.5\nwheel_creep_ratio = 2.5\nrelaxation_time_s = 0.01\n"
           "rail_relaxation_time_s = 0.02\n")
@@ -85,35 +79,35 @@ TEST(TomlPatch, Material) {
 TEST(TomlPatch, Influence) {
   using Kind = InfluenceInput::Kind;
   const InfluenceInput angle =
-      one(kGap +
-          "[influence]\nkind = \"angle_corrected\"\nposition_mm = [-1, 1]\ninclination_deg = [2, 3]\n"
-          "inclination_fit = \"table\"\nvariant = 2\n")
+      one_patch(kGap +
+                "[influence]\nkind = \"angle_corrected\"\nposition_mm = [-1, 1]\ninclination_deg = [2, 3]\n"
+                "inclination_fit = \"table\"\nvariant = 2\n")
           .influence;
   EXPECT_EQ(angle.kind, Kind::angle_corrected);
   EXPECT_THAT(angle.position, ElementsAre(-1e-3, 1e-3));
   EXPECT_THAT(angle.inclination, ElementsAre(DoubleEq(2 * kDegree), DoubleEq(3 * kDegree)));
   EXPECT_FALSE(angle.linear);
   EXPECT_EQ(angle.variant, 2);
-  const InfluenceInput table = one(kGap + "[influence]\nkind = \"table\"\nfile = \"sub/a.cff\"\n").influence;
+  const InfluenceInput table = one_patch(kGap + "[influence]\nkind = \"table\"\nfile = \"sub/a.cff\"\n").influence;
   EXPECT_EQ(table.kind, Kind::table);
   EXPECT_EQ(table.file, "folder/sub/a.cff");
-  EXPECT_EQ(one(kGap + "[influence]\nkind = \"bilinear\"\n").influence.kind, Kind::bilinear);
+  EXPECT_EQ(one_patch(kGap + "[influence]\nkind = \"bilinear\"\n").influence.kind, Kind::bilinear);
 }
 
 TEST(TomlPatch, ModelsAndSolver) {
   const BasicCase c =
-      one(kSteady + kGap +
-          "normal_model = \"kpec\"\ntangential_model = \"fastsim_one_flexibility\"\n"
-          "fastsim_flexibility_mm_per_MPa = 3e-5\n[solver]\nmethod = \"sweeps\"\nfirst_slip = \"above\"\n");
+      one_patch(kSteady + kGap +
+                "normal_model = \"kpec\"\ntangential_model = \"fastsim_one_flexibility\"\n"
+                "fastsim_flexibility_mm_per_MPa = 3e-5\n[solver]\nmethod = \"sweeps\"\nfirst_slip = \"above\"\n");
   EXPECT_EQ(c.normal_model, NormalModel::kpec);
   EXPECT_EQ(c.tangential_model, TangentialModel::fastsim_one_flexibility);
   EXPECT_DOUBLE_EQ(c.fastsim.flexibility, 3e-14);
   EXPECT_EQ(c.solver.method, SolverSettings::Method::sweeps);
   EXPECT_EQ(c.solver.first_slip, SolverSettings::FirstSlip::above);
-  const BasicCase sdec =
-      one("[patch]\nnormal_force_N = 1e3\nmx = 3\nmy = 2\nnormal_model = \"semi_double_elliptic\"\n"
-          "hertz = { given = \"semi_double_elliptic\", semi_axis_x_mm = 8, semi_axis_y_negative_mm = 3, "
-          "semi_axis_y_positive_mm = 5 }\n");
+  const BasicCase sdec = one_patch(
+      "[patch]\nnormal_force_N = 1e3\nmx = 3\nmy = 2\nnormal_model = \"semi_double_elliptic\"\n"
+      "hertz = { given = \"semi_double_elliptic\", semi_axis_x_mm = 8, semi_axis_y_negative_mm = 3, "
+      "semi_axis_y_positive_mm = 5 }\n");
   const HertzInput& h = std::get<HertzInput>(sdec.geometry);
   EXPECT_DOUBLE_EQ(h.bb_negative, 3e-3);
   EXPECT_DOUBLE_EQ(h.bb_positive, 5e-3);
@@ -125,8 +119,8 @@ TEST(TomlPatch, HeatAndFriction) {
       "[friction]\nlaw = \"temperature\"\ncoefficient = 0.4\nreference_temperature_C = 20\ntemperature_change = -0.2\n"
       "temperature_range_K = 500\n";
   const BasicCase c =
-      one(kSteady + kGap + law +
-          "[heat]\nwheel_bulk_temperature_C = 150\nrail_conductivity_W_per_m_K = 40\nplastic_fraction = 0.9\n");
+      one_patch(kSteady + kGap + law +
+                "[heat]\nwheel_bulk_temperature_C = 150\nrail_conductivity_W_per_m_K = 40\nplastic_fraction = 0.9\n");
   ASSERT_TRUE(c.thermal);
   EXPECT_DOUBLE_EQ(c.thermal->body_2.bulk_temperature, 150.0);
   EXPECT_DOUBLE_EQ(c.thermal->body_1.conductivity, 40.0);
@@ -134,48 +128,48 @@ TEST(TomlPatch, HeatAndFriction) {
   EXPECT_DOUBLE_EQ(c.thermal->plastic_fraction, 0.9);
   EXPECT_EQ(c.friction.kind, FrictionLaw::Kind::temperature);
   EXPECT_DOUBLE_EQ(c.friction.temperature_range, 500.0);
-  EXPECT_TRUE(one(kSteady + kGap + "[heat]\ncompute = true\n").thermal);
+  EXPECT_TRUE(one_patch(kSteady + kGap + "[heat]\ncompute = true\n").thermal);
   const CaseFile f =
-      parse(kSteady + kGap + "[heat]\nrail_bulk_temperature_C = 1\n[[cases]]\nheat.compute = false\n[[cases]]\n");
-  EXPECT_FALSE(at(f, 0).thermal);
-  EXPECT_TRUE(at(f, 1).thermal);
-  EXPECT_FALSE(one(kGap).thermal);
+      parse_study(kSteady + kGap + "[heat]\nrail_bulk_temperature_C = 1\n[[cases]]\nheat.compute = false\n[[cases]]\n");
+  EXPECT_FALSE(basic_case(f, 0).thermal);
+  EXPECT_TRUE(basic_case(f, 1).thermal);
+  EXPECT_FALSE(one_patch(kGap).thermal);
 }
 
 TEST(TomlPatch, FrictionOfRows) {
   const std::string rows =
       "[friction]\nrows = [{ coefficient = 0.2 }, { law = \"linear\", coefficient = 0.1, amplitude_1 = 0.3, "
       "half_velocity_1_m_s = 2 }]\n";
-  const CaseFile f = parse(kGap + rows, {"friction.rows.0.coefficient=0.25"});
-  ASSERT_EQ(at(f, 0).friction_of_row.size(), 2u);
-  EXPECT_DOUBLE_EQ(at(f, 0).friction_of_row[0].kinetic, 0.25);
-  EXPECT_EQ(at(f, 0).friction_of_row[1].kind, FrictionLaw::Kind::linear);
-  EXPECT_DOUBLE_EQ(at(f, 0).friction_of_row[1].half_velocity_1, 2.0);
+  const CaseFile f = parse_study(kGap + rows, {"friction.rows.0.coefficient=0.25"});
+  ASSERT_EQ(basic_case(f, 0).friction_of_row.size(), 2u);
+  EXPECT_DOUBLE_EQ(basic_case(f, 0).friction_of_row[0].kinetic, 0.25);
+  EXPECT_EQ(basic_case(f, 0).friction_of_row[1].kind, FrictionLaw::Kind::linear);
+  EXPECT_DOUBLE_EQ(basic_case(f, 0).friction_of_row[1].half_velocity_1, 2.0);
 }
 
 TEST(TomlPatch, ExtraSlipPlanformAndSubsurface) {
-  EXPECT_THAT(one(kGap + "extra_slip_x = [1, 2, 3, 4, 5, 6]\nextra_slip_y = [0, 0, 0, 0, 0, 7]\n").extra_slip_y,
+  EXPECT_THAT(one_patch(kGap + "extra_slip_x = [1, 2, 3, 4, 5, 6]\nextra_slip_y = [0, 0, 0, 0, 0, 7]\n").extra_slip_y,
               ElementsAre(0, 0, 0, 0, 0, 7));
-  EXPECT_DOUBLE_EQ(
-      one(kGap + "extra_shift_x_mm = [1, 2, 3, 4, 5, 6]\nextra_shift_y_mm = [0, 0, 0, 0, 0, 7]\n").extra_slip_x.at(1),
-      2e-3);
+  EXPECT_DOUBLE_EQ(one_patch(kGap + "extra_shift_x_mm = [1, 2, 3, 4, 5, 6]\nextra_shift_y_mm = [0, 0, 0, 0, 0, 7]\n")
+                       .extra_slip_x.at(1),
+                   2e-3);
 
   const PlanformInput sub =
-      one(kGap +
-          "[patch.planform]\nkind = \"sub_patches\"\nrectangles_mm = [0, 1, 0, 1, 0, 1, 2, 3, 0, 1, 4, 5]\n"
-          "coupling = [0.1, 0.2, 0.3]\n")
+      one_patch(kGap +
+                "[patch.planform]\nkind = \"sub_patches\"\nrectangles_mm = [0, 1, 0, 1, 0, 1, 2, 3, 0, 1, 4, 5]\n"
+                "coupling = [0.1, 0.2, 0.3]\n")
           .planform;
   EXPECT_DOUBLE_EQ(sub.coefficients.at(7), 3e-3);
   EXPECT_THAT(sub.coupling, ElementsAre(1.0, 0.1, 0.2, 0.1, 1.0, 0.3, 0.2, 0.3, 1.0));
-  EXPECT_THAT(
-      one(kGap + "planform = { kind = \"quadratic\", coefficients_si = [1, 2, 3, 4, 5, 6] }\n").planform.coefficients,
-      ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(one_patch(kGap + "planform = { kind = \"quadratic\", coefficients_si = [1, 2, 3, 4, 5, 6] }\n")
+                  .planform.coefficients,
+              ElementsAre(1, 2, 3, 4, 5, 6));
 
   const CaseFile f =
-      parse(kGap +
-            "[subsurface]\ntext_table = \"tensor\"\n[[subsurface.blocks]]\nz_mm = [0.0, 0.5]\ncolumns = [0, 2]\n"
-            "[[subsurface.blocks]]\nx_mm = [1]\ny_mm = [-1, 1]\nz_mm = [-2]\n");
-  const SubsurfaceInput& s = at(f, 0).subsurface;
+      parse_study(kGap +
+                  "[subsurface]\ntext_table = \"tensor\"\n[[subsurface.blocks]]\nz_mm = [0.0, 0.5]\ncolumns = [0, 2]\n"
+                  "[[subsurface.blocks]]\nx_mm = [1]\ny_mm = [-1, 1]\nz_mm = [-2]\n");
+  const SubsurfaceInput& s = basic_case(f, 0).subsurface;
   ASSERT_EQ(s.blocks.size(), 2u);
   EXPECT_TRUE(s.text_table && s.full_tensor);
   EXPECT_TRUE(s.blocks[0].at_elements);
@@ -189,14 +183,14 @@ TEST(TomlPatch, ExtraSlipPlanformAndSubsurface) {
 
 TEST(TomlWheelRail, ApproximationsAndFrictionThatVaries) {
   const auto rail = [](const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); };
-  const CaseFile f =
-      parse(kRail +
-            "influence.kind = \"bilinear\"\n[solver]\nnormal_model = \"analyn\"\ntangential_model = "
-            "\"fastsim\"\nfastsim_k0 = 0.5\n"
-            "[friction]\nby_inclination = [{ inclination_deg = -20, coefficient = 0.2 }, { inclination_rad = 0.1, "
-            "coefficient = 0.3 }]\n"
-            "[[cases]]\n[[cases]]\nfriction.along_track = [{ s_mm = 5, coefficient = 0.4, law = \"exponential\" }]\n"
-            "[[cases]]\nfriction.along_track = []\n");
+  const CaseFile f = parse_study(
+      kRail +
+      "influence.kind = \"bilinear\"\n[solver]\nnormal_model = \"analyn\"\ntangential_model = "
+      "\"fastsim\"\nfastsim_k0 = 0.5\n"
+      "[friction]\nby_inclination = [{ inclination_deg = -20, coefficient = 0.2 }, { inclination_rad = 0.1, "
+      "coefficient = 0.3 }]\n"
+      "[[cases]]\n[[cases]]\nfriction.along_track = [{ s_mm = 5, coefficient = 0.4, law = \"exponential\" }]\n"
+      "[[cases]]\nfriction.along_track = []\n");
   EXPECT_EQ(rail(f, 0).normal_model, NormalModel::analyn);
   EXPECT_EQ(rail(f, 0).tangential_model, TangentialModel::fastsim);
   EXPECT_DOUBLE_EQ(rail(f, 0).fastsim.k0, 0.5);
@@ -212,16 +206,14 @@ TEST(TomlWheelRail, ApproximationsAndFrictionThatVaries) {
   EXPECT_EQ(rail(f, 2).friction_variation.kind, Kind::none);
   const std::string sets =
       kRail + "friction.along_track = [{ s_mm = 5, coefficient = 0.4 }, { s_mm = 6, coefficient = 0.5 }]\n";
-  EXPECT_DOUBLE_EQ(rail(parse(sets, {"friction.along_track.1.s_mm=9"}), 0).friction_variation.positions.at(1), 9e-3);
-  EXPECT_THAT(error_of(sets, {"friction.by_inclination.0.coefficient=0.3"}),
+  EXPECT_DOUBLE_EQ(rail(parse_study(sets, {"friction.along_track.1.s_mm=9"}), 0).friction_variation.positions.at(1),
+                   9e-3);
+  EXPECT_THAT(patch_refusal(sets, {"friction.by_inclination.0.coefficient=0.3"}),
               HasSubstr("friction.by_inclination has 0 entries"));
 }
 
-struct Wrong {
-  std::string text, expected;
-};
 class TomlPatchError : public ::testing::TestWithParam<Wrong> {};
-TEST_P(TomlPatchError, TellsTheReason) { EXPECT_THAT(error_of(GetParam().text), HasSubstr(GetParam().expected)); }
+TEST_P(TomlPatchError, TellsTheReason) { EXPECT_THAT(patch_refusal(GetParam().text), HasSubstr(GetParam().expected)); }
 
 const std::string kForce =
     "[patch]\nnormal_force_N = 1e3\nmx = 3\nmy = 2\ndx_mm = 1\ndy_mm = 1\ngap.coefficients_si = [1, 0, 1, 0, 0, 0]\n";

@@ -9,28 +9,19 @@
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/tests/io/cases/parsed_cases.hpp"
 
 namespace treadmark::io {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) {
-  return std::get<WheelRailCase>(f.cases.at(i).content);
-}
-const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
-CaseFile parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return parse_case_text(text, "folder/study.toml", overrides);
-}
+using namespace testing;
 
-const std::string kRail =
-    "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
 const std::string kPatch =
     "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\nhertz.given = \"semi_axes\"\nhertz.semi_axis_x_mm = 4.0\n"
     "hertz.semi_axis_y_mm = 2.0\n";
 
 TEST(TomlCase, SmallestWheelRailCase) {
-  const CaseFile f = parse(kRail);
+  const CaseFile f = parse_study(kRail);
   ASSERT_EQ(f.cases.size(), 1u);
   EXPECT_EQ(f.title, "study");
   EXPECT_EQ(f.cases[0].number, 1);
@@ -123,7 +114,7 @@ TEST(TomlCase, UnitsComeFromTheName) {
 }
 
 TEST(TomlCase, ReadsTrackWheelsetAndDiscretisation) {
-  const CaseFile f = parse(R"(
+  const CaseFile f = parse_study(R"(
 title = "everything"
 [case]
 side = "left"
@@ -218,7 +209,7 @@ max_set_iterations = 50
 }
 
 TEST(TomlCase, ShapesFromFilesAndArcs) {
-  const CaseFile f = parse(R"(
+  const CaseFile f = parse_study(R"(
 wheelset.vertical_force_N = 1e5
 [wheel.shape]
 file = 'profiles\wheel.prw'
@@ -259,8 +250,8 @@ arcs = [ { length_mm = 20, radius_mm = 80 }, { length_mm = 20, curvature_per_m =
 TEST(TomlCase, SmoothingIsAWordOrAWavelength) {
   using Method = SmoothingOptions::Method;
   const auto options = [](const std::string& line) {
-    const CaseFile f =
-        parse("wheelset.vertical_force_N = 1e5\nrail.shape.standard = \"60E1\"\nwheel.shape.file = \"w.csv\"\n" + line);
+    const CaseFile f = parse_study(
+        "wheelset.vertical_force_N = 1e5\nrail.shape.standard = \"60E1\"\nwheel.shape.file = \"w.csv\"\n" + line);
     return std::get<GeometryFile>(rail_case(f, 0).wheel.geometry).options.smoothing;
   };
   EXPECT_EQ(options("").method, Method::by_noise);
@@ -273,7 +264,7 @@ TEST(TomlCase, SmoothingIsAWordOrAWavelength) {
 }
 
 TEST(TomlCase, CasesOverrideDefaultsAndListsSweep) {
-  const CaseFile f = parse(kRail + R"(
+  const CaseFile f = parse_study(kRail + R"(
 wheelset.y_mm = 1
 [[cases]]
 [[cases]]
@@ -286,7 +277,7 @@ wheelset.y_mm = [3, 4, 5]
 wheelset.z_mm = 0.1
 wheel.shape.file = "other.prw"
 )",
-                           {});
+                                 {});
   ASSERT_EQ(f.cases.size(), 6u);
   EXPECT_DOUBLE_EQ(rail_case(f, 0).state.position.y, 1e-3);
   EXPECT_DOUBLE_EQ(rail_case(f, 1).state.position.y, 2e-3);
@@ -301,7 +292,7 @@ wheel.shape.file = "other.prw"
 }
 
 TEST(TomlCase, PatchWithHertzianGeometry) {
-  const CaseFile f = parse(kPatch + R"(
+  const CaseFile f = parse_study(kPatch + R"(
 creepage_x = -1e-3
 spin_rad_m = 0.5
 rolling_step_mm = 0.4
@@ -337,7 +328,7 @@ patch.force_x_relative = -0.5
 }
 
 TEST(TomlCase, PatchWithGapFormula) {
-  const BasicCase c = basic_case(parse(R"(
+  const BasicCase c = basic_case(parse_study(R"(
 case.regime = "shift"
 [patch]
 approach_mm = 0.01
@@ -362,9 +353,9 @@ gap.coefficients_si = [1, 0, 2.5, 0, 0, 0]
 TEST(TomlOverride, ValuesWordsAndListElements) {
   const std::string text =
       kRail + "[[wheel.flats]]\nlength_mm = 100\ndepth_mm = 1\n[[cases]]\nwheelset.y_mm = [1, 2]\n";
-  const CaseFile f =
-      parse(text, {"wheelset.y_mm=3", "wheel.backend = spline", "rail.shape.standard=60E1", "track.cant=1:20",
-                   "wheel.flats.0.depth_mm=0.5", "case.side=\"left\"", "discretisation.reference_search_mesh=true"});
+  const CaseFile f = parse_study(
+      text, {"wheelset.y_mm=3", "wheel.backend = spline", "rail.shape.standard=60E1", "track.cant=1:20",
+             "wheel.flats.0.depth_mm=0.5", "case.side=\"left\"", "discretisation.reference_search_mesh=true"});
   ASSERT_EQ(f.cases.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const WheelRailCase& c = rail_case(f, i);
@@ -380,7 +371,7 @@ TEST(TomlOverride, ValuesWordsAndListElements) {
 }
 
 TEST(TomlOverride, OneCaseStaysAsItWasOnError) {
-  CaseFile f = parse(kRail);
+  CaseFile f = parse_study(kRail);
   Case& c = f.cases[0];
   apply_override(c, "wheelset.y_mm=3");
   EXPECT_DOUBLE_EQ(rail_case(f, 0).state.position.y, 3e-3);

@@ -10,8 +10,8 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
-#include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/support/file_content.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
 namespace {

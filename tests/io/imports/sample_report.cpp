@@ -6,12 +6,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <numbers>
+
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::testing {
 namespace {
 
-constexpr double kRadius = 0.46, kPi = std::numbers::pi, kWidth = 0.14;
+constexpr double kRadius = 0.46, kWidth = 0.14;
 constexpr double kNoise = 35e-6;
 
 /// Numbers between 0 and 1 (Knuth's multiplier), and normal ones from twelve of them.

@@ -12,12 +12,11 @@ namespace treadmark::io {
 namespace {
 
 using testing::columns;
+using testing::kRound;
 using testing::parse;
 using testing::Point;
 using testing::rail_points;
 using testing::wheel_points;
-
-constexpr double kRound = 1e-12;  // m, conversion from mm
 
 Profile miniprof(const std::string& text, Body body = Body::rail) {
   return parse(text, body, {}, ProfileFormat::miniprof);

@@ -13,9 +13,8 @@ namespace treadmark::io {
 namespace {
 
 using testing::columns;
+using testing::kRound;
 using testing::TemporaryFolder;
-
-constexpr double kRound = 1e-12;  // m or rad, unit conversion only
 
 Profile straight(Body body) {
   Profile p;
@@ -26,7 +25,7 @@ Profile straight(Body body) {
   return p;
 }
 
-SliceSet parse(const std::string& text, Body body = Body::rail) {
+SliceSet parse_set(const std::string& text, Body body = Body::rail) {
   return parse_slices(text, "set.slcs", body,
                       [&](const std::string&, const SourcePosition&) { return straight(body); });
 }
@@ -49,7 +48,7 @@ TEST(ReadSlices, KnowsItsExtensions) {
 }
 
 TEST(ReadSlices, PlacesRailSlicesInMetres) {
-  const SliceSet set = parse(text("1.5 1000.", {"0", "0.5", "0.75", "2"}));
+  const SliceSet set = parse_set(text("1.5 1000.", {"0", "0.5", "0.75", "2"}));
   ASSERT_EQ(set.u.size(), 4u);
   EXPECT_NEAR(set.u[0], 1.5, kRound);
   EXPECT_NEAR(set.u[2], 2.25, kRound);
@@ -60,13 +59,13 @@ TEST(ReadSlices, PlacesRailSlicesInMetres) {
 }
 
 TEST(ReadSlices, PlacesWheelSlicesInRadians) {
-  const SliceSet set = parse(text("90. 0.017453292519943295", {"-180", "-90", "0", "90"}), Body::wheel);
+  const SliceSet set = parse_set(text("90. 0.017453292519943295", {"-180", "-90", "0", "90"}), Body::wheel);
   EXPECT_NEAR(set.u[0], -0.5 * std::numbers::pi, kRound);
   EXPECT_NEAR(set.u[3], std::numbers::pi, kRound);
 }
 
 TEST(ReadSlices, FollowsTheRecordGrammar) {
-  const SliceSet set = parse(
+  const SliceSet set = parse_set(
       "% comment\n\n 0 % OFFSET\n\n 1 U_SCALE trailing words\r\n4 NSLC\n0 0\n0 extra\n2%approximate\n"
       "0 'a' x\n10\n 'b' % y\n20 'c'\n\t30\t'd'\n% end\n\n");
   EXPECT_TRUE(set.approximate_u);
@@ -119,7 +118,8 @@ TEST(ReadSlices, TurnsAllSlicesOverOrNone) {
 }
 
 TEST(ReadSlices, ReadsFeatures) {
-  const SliceSet set = parse(text("0 1", kFour, "3 0 0", "0 0. 10 1e6\n10 -1 0 30\n20 0 12 -1\n30 5 6 40.0000001\n"));
+  const SliceSet set =
+      parse_set(text("0 1", kFour, "3 0 0", "0 0. 10 1e6\n10 -1 0 30\n20 0 12 -1\n30 5 6 40.0000001\n"));
   ASSERT_EQ(set.features.size(), 4u);
   EXPECT_NEAR(set.features[0][1], 0.010, kRound);
   EXPECT_NEAR(set.features[0][2], 0.040, kRound);  // moved to the end of the profile
@@ -130,78 +130,81 @@ TEST(ReadSlices, ReadsFeatures) {
 }
 
 TEST(ReadSlices, OneFeatureMeansNone) {
-  EXPECT_TRUE(parse(text("0 1", kFour, "1 0 0")).features.empty());
-  EXPECT_TRUE(parse(text("0 1", kFour, "0 0 0")).features.empty());
+  EXPECT_TRUE(parse_set(text("0 1", kFour, "1 0 0")).features.empty());
+  EXPECT_TRUE(parse_set(text("0 1", kFour, "0 0 0")).features.empty());
 }
 
 TEST(ReadSlices, ChecksKinksAndAccelerations) {
   const std::string features = "0 0 10 20 30\n10 0 10 20 30\n20 0 10 20 30\n30 0 10 20 30\n";
-  EXPECT_EQ(parse(text("0 1", kFour, "4 2 1", "1\n2\n1\n" + features)).features.size(), 4u);
-  EXPECT_EQ(parse(text("0 1", kFour, "4 2 1", "2\n1\n1\n" + features)).kinks, (std::vector<int>{1, 2}));
-  EXPECT_TRUE(parse(text("0 1", kFour, "4 0 1", "2\n" + features)).kinks.empty());
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 1 0", "3\n" + features)), "a kink must be a feature from 1 to", 9,
-                         1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 0 1", "0\n" + features)), "a acceleration must be", 9, 1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "0 1 0", "1\n")), "from 1 to NFEAT-2 = -2", 9, 1);
+  EXPECT_EQ(parse_set(text("0 1", kFour, "4 2 1", "1\n2\n1\n" + features)).features.size(), 4u);
+  EXPECT_EQ(parse_set(text("0 1", kFour, "4 2 1", "2\n1\n1\n" + features)).kinks, (std::vector<int>{1, 2}));
+  EXPECT_TRUE(parse_set(text("0 1", kFour, "4 0 1", "2\n" + features)).kinks.empty());
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", kFour, "4 1 0", "3\n" + features)), "a kink must be a feature from 1 to",
+                         9, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", kFour, "4 0 1", "0\n" + features)), "a acceleration must be", 9, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", kFour, "0 1 0", "1\n")), "from 1 to NFEAT-2 = -2", 9, 1);
 }
 
 TEST(ReadSlices, RefusesBadHeaders) {
-  TREADMARK_EXPECT_ERROR(parse(""), "the file ends where OFFSET is expected", 0, 0);
-  TREADMARK_EXPECT_ERROR(parse("0\n"), "the file ends where SCALE is expected", 1, 0);
-  TREADMARK_EXPECT_ERROR(parse("0 x\n"), "a number is expected, this is 'x'", 1, 3);
-  TREADMARK_EXPECT_ERROR(parse("0 0\n"), "SCALE must be positive", 1, 3);
-  TREADMARK_EXPECT_ERROR(parse("0 -1\n"), "SCALE must be positive", 1, 3);
-  TREADMARK_EXPECT_ERROR(parse("nan 1\n"), "is not finite", 1, 1);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n3\n"), "the number of slices must be 4 to 100000, this is 3", 2, 1);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n100001\n"), "the number of slices must be", 2, 1);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n 4.\n"), "a whole number is expected", 2, 2);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n-1 0 0\n"), "NFEAT must be 0 to", 3, 1);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n0 0 99999\n"), "NACCEL must be 0 to", 3, 5);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n0 0 0\n3\n"), "INTPOL must be 1", 4, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(""), "the file ends where OFFSET is expected", 0, 0);
+  TREADMARK_EXPECT_ERROR(parse_set("0\n"), "the file ends where SCALE is expected", 1, 0);
+  TREADMARK_EXPECT_ERROR(parse_set("0 x\n"), "a number is expected, this is 'x'", 1, 3);
+  TREADMARK_EXPECT_ERROR(parse_set("0 0\n"), "SCALE must be positive", 1, 3);
+  TREADMARK_EXPECT_ERROR(parse_set("0 -1\n"), "SCALE must be positive", 1, 3);
+  TREADMARK_EXPECT_ERROR(parse_set("nan 1\n"), "is not finite", 1, 1);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n3\n"), "the number of slices must be 4 to 100000, this is 3", 2, 1);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n100001\n"), "the number of slices must be", 2, 1);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n 4.\n"), "a whole number is expected", 2, 2);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n-1 0 0\n"), "NFEAT must be 0 to", 3, 1);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 99999\n"), "NACCEL must be 0 to", 3, 5);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 0\n3\n"), "INTPOL must be 1", 4, 1);
 }
 
 TEST(ReadSlices, RefusesMissingLines) {
-  TREADMARK_EXPECT_ERROR(parse("0 1\n100000\n0 0 0\n1\n0 'a'\n1 'b'\n"), "where slice 3 of 100000 is expected", 6, 0);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n0 0 0\n1\n0 'a'\n1\n"), "where the file name of slice 2 is expected", 6, 0);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "2 0 0", "0 0 10\n10 0 10\n")), "the feature line 3 of 4", 10, 0);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "2 0 0", "0 0\n")), "feature 2 of 2 of slice 1", 9, 0);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 2 0", "1\n")), "kink 2 of 2", 9, 0);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n100000\n0 0 0\n1\n0 'a'\n1 'b'\n"), "where slice 3 of 100000 is expected", 6,
+                         0);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 0\n1\n0 'a'\n1\n"), "where the file name of slice 2 is expected", 6, 0);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", kFour, "2 0 0", "0 0 10\n10 0 10\n")), "the feature line 3 of 4", 10, 0);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", kFour, "2 0 0", "0 0\n")), "feature 2 of 2 of slice 1", 9, 0);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", kFour, "4 2 0", "1\n")), "kink 2 of 2", 9, 0);
 }
 
 TEST(ReadSlices, RefusesDataLeftOver) {
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "0 0 0", "% fine\n  40 'a'\n")), "data after the last record", 10, 3);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", kFour, "0 0 0", "% fine\n  40 'a'\n")), "data after the last record", 10,
+                         3);
 }
 
 TEST(ReadSlices, RefusesBadNames) {
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n0 0 0\n1\n0 a\n"), "in single quotes is expected, this is 'a'", 5, 3);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n0 0 0\n1\n0 'a\n"), "is not closed", 5, 3);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n0 0 0\n1\n0 ''\n"), "is empty", 5, 3);
-  TREADMARK_EXPECT_ERROR(parse("0 1\n4\n0 0 0\n1\n0 '" + std::string(5000, 'a') + "'\n"), "is longer than", 5, 3);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 0\n1\n0 a\n"), "in single quotes is expected, this is 'a'", 5, 3);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 0\n1\n0 'a\n"), "is not closed", 5, 3);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 0\n1\n0 ''\n"), "is empty", 5, 3);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 0\n1\n0 '" + std::string(5000, 'a') + "'\n"), "is longer than", 5, 3);
 }
 
 TEST(ReadSlices, RefusesSlicesOutOfOrder) {
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "10", "5", "30"})), "slice 3 at 5 must lie more than 0.001 beyond", 7,
-                         1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "0.001", "5", "30"})), "slice 2", 6, 1);
-  EXPECT_NO_THROW(parse(text("0 1", {"0", "0.0011", "5", "30"})));
-  TREADMARK_EXPECT_ERROR(parse(text("1e30 1", kFour)), "cannot be told from the one before", 6, 1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1e308", {"0", "10", "20", "30"})), "out of range", 6, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", {"0", "10", "5", "30"})), "slice 3 at 5 must lie more than 0.001 beyond",
+                         7, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", {"0", "0.001", "5", "30"})), "slice 2", 6, 1);
+  EXPECT_NO_THROW(parse_set(text("0 1", {"0", "0.0011", "5", "30"})));
+  TREADMARK_EXPECT_ERROR(parse_set(text("1e30 1", kFour)), "cannot be told from the one before", 6, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1e308", {"0", "10", "20", "30"})), "out of range", 6, 1);
 }
 
 TEST(ReadSlices, RefusesImplausibleAngles) {
-  EXPECT_NO_THROW(parse(text("0 1", {"-3.1416", "0", "1", "3.1416"}), Body::wheel));
-  EXPECT_NO_THROW(parse(text("0 1", {"-3.2", "0", "1", "3.3"}), Body::wheel));
-  EXPECT_NO_THROW(parse(text("0 1", {"0.1", "0.2", "0.3", "0.4"}), Body::wheel));
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "1", "2", "3.5"}), Body::wheel), "must lie in -pi to pi or contain", 8,
+  EXPECT_NO_THROW(parse_set(text("0 1", {"-3.1416", "0", "1", "3.1416"}), Body::wheel));
+  EXPECT_NO_THROW(parse_set(text("0 1", {"-3.2", "0", "1", "3.3"}), Body::wheel));
+  EXPECT_NO_THROW(parse_set(text("0 1", {"0.1", "0.2", "0.3", "0.4"}), Body::wheel));
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", {"0", "1", "2", "3.5"}), Body::wheel),
+                         "must lie in -pi to pi or contain", 8, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", {"-3.5", "1", "2", "3"}), Body::wheel),
+                         "must lie in -pi to pi or contain", 5, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", {"-4.8", "1", "2", "4"}), Body::wheel), "outside -1.5 pi to 1.5 pi", 5,
                          1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"-3.5", "1", "2", "3"}), Body::wheel), "must lie in -pi to pi or contain",
-                         5, 1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"-4.8", "1", "2", "4"}), Body::wheel), "outside -1.5 pi to 1.5 pi", 5, 1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"-90", "0", "10", "90"}), Body::wheel), "placed in radians", 5, 1);
+  TREADMARK_EXPECT_ERROR(parse_set(text("0 1", {"-90", "0", "10", "90"}), Body::wheel), "placed in radians", 5, 1);
 }
 
 TEST(ReadSlices, RefusesBadFeatures) {
-  const auto with = [](const std::string& line) { return parse(text("0 1", kFour, "4 0 0", line + "\n")); };
+  const auto with = [](const std::string& line) { return parse_set(text("0 1", kFour, "4 0 0", line + "\n")); };
   TREADMARK_EXPECT_ERROR(with("5 0 10 20 30"), "feature line 1 is for 5, slice 1 is at 0", 9, 1);
   TREADMARK_EXPECT_ERROR(with("0 0 20 10 30"), "feature 3 at 10 mm does not lie beyond", 9, 8);
   TREADMARK_EXPECT_ERROR(with("0 0 10 10 30"), "feature 3 at 10 mm does not lie beyond", 9, 8);

@@ -7,12 +7,14 @@
 
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/tests/io/profiles/samples.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::io {
 namespace {
 
-constexpr double kRound = 1e-12;   // m: decimal numbers of the file, converted
+using testing::kRound;
+
 constexpr double kDigit = 0.5e-9;  // m: half a unit of the sixth decimal of a mm
 
 ProfileOptions never_mirrored(double scale = 1.0) {

@@ -18,6 +18,9 @@
 
 namespace treadmark::testing {
 
+/// Tolerance of numbers read [m or rad]: texts have few decimals, and their conversion adds rounding only.
+inline constexpr double kRound = 1e-12;
+
 struct Point {
   double y, z;
 };

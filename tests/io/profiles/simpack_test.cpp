@@ -9,12 +9,11 @@
 namespace treadmark::io {
 namespace {
 
+using testing::kRound;
 using testing::Point;
 using testing::rail_points;
 using testing::simpack;
 using testing::wheel_points;
-
-constexpr double kRound = 1e-12;  // m: the samples have six decimals of a mm and conversion adds rounding only
 
 Profile rail(const std::string& keys, const ProfileOptions& options = {},
              const std::vector<Point>& points = rail_points()) {
@@ -23,7 +22,7 @@ Profile rail(const std::string& keys, const ProfileOptions& options = {},
 
 Profile rail_text(const std::string& text) { return testing::parse(text, Body::rail, {}, ProfileFormat::simpack); }
 
-std::vector<Point> mapped(std::vector<Point> points, double y_factor, double z_factor) {
+std::vector<Point> scaled(std::vector<Point> points, double y_factor, double z_factor) {
   for (Point& p : points) p = {y_factor * p.y, z_factor * p.z};
   return points;
 }
@@ -64,12 +63,12 @@ TEST(Simpack, SkipsCommentsWeightsUnknownKeysAndSections) {
 }
 
 TEST(Simpack, UnitsLenFLeadsToMetres) {
-  const auto in_metres = mapped(rail_points(), 1e-3, 1e-3);
+  const auto in_metres = scaled(rail_points(), 1e-3, 1e-3);
   // Written with six decimals a point in m is good to 0.5 um.
   const Profile p = rail("units.len.f = 1\npoint.dist.min = 0\n", {}, in_metres);
   EXPECT_NEAR(p.y.front(), -0.036, 0.5e-6);
   EXPECT_NEAR(p.z.front(), 0.00216, 0.5e-6);
-  const Profile in_cm = rail("units.len.f = 100\n", {}, mapped(rail_points(), 0.1, 0.1));
+  const Profile in_cm = rail("units.len.f = 100\n", {}, scaled(rail_points(), 0.1, 0.1));
   EXPECT_NEAR(in_cm.y.back(), 0.036, kRound);
 }
 
@@ -112,7 +111,7 @@ TEST(Simpack, TheFileDecidesOnZUnlessTheInputDoes) {
   ProfileOptions mirror, never;
   mirror.mirror_z = 1;
   never.mirror_z = -1;
-  const auto up = mapped(rail_points(), 1, -1);
+  const auto up = scaled(rail_points(), 1, -1);
   const Profile right = rail("");
   EXPECT_LT(rail("", {}, up).z.front(), 0.0);  // nothing is guessed from the shape
   expect_same(rail("mirror.z = 1\n", {}, up), right);

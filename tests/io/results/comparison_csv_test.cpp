@@ -11,6 +11,7 @@
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/tests/io/results/comparison_sample.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
 namespace {

@@ -15,6 +15,7 @@
 #include "treadmark/tests/io/results/json_schema.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
 namespace {

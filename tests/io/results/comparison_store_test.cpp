@@ -10,6 +10,7 @@
 #include "treadmark/tests/io/results/comparison_sample.hpp"
 #include "treadmark/tests/io/results/same_run.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
 namespace {

@@ -2,14 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/tests/io/results/sample_run.hpp"
 
-#include <stdlib.h>
-
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <stdexcept>
 
 namespace treadmark::testing {
 
@@ -149,21 +146,6 @@ io::RunResult sample_run() {
   failed.patches.emplace_back();
   run.cases.push_back(failed);
   return run;
-}
-
-TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "treadmark-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::size_t TemporaryFolder::count_files() const {
-  return static_cast<std::size_t>(std::distance(std::filesystem::recursive_directory_iterator(path_), {}));
 }
 
 std::string read_text(const std::filesystem::path& path) {

@@ -16,20 +16,6 @@ io::PatchResult ball_patch(int nx, int ny, double pmax);
 /// one case without contact and one that failed with numbers that are not finite.
 io::RunResult sample_run();
 
-/// An empty folder of its own for a test, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::size_t count_files() const;
-
- private:
-  std::filesystem::path path_;
-};
-
 std::string read_text(const std::filesystem::path& path);
 
 }  // namespace treadmark::testing

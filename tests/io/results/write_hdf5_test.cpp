@@ -10,6 +10,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/io/results/sample_block.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
 namespace {

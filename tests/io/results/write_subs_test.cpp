@@ -11,6 +11,7 @@
 #include "treadmark/tests/io/results/sample_block.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/text_reader.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
 namespace {

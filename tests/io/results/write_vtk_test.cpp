@@ -13,6 +13,7 @@
 #include "treadmark/tests/io/results/sample_block.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/vtk_values.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark {
 namespace {

@@ -9,7 +9,7 @@ using namespace testing;
 
 Scan columns(const std::string& text) { return parse_in_all_blocks(scans::parse_columns, text); }
 
-void expect_error(const std::string& text, const std::string& part, int line = 0, int column = 0) {
+void expect_columns_error(const std::string& text, const std::string& part, int line = 0, int column = 0) {
   testing::expect_error(scans::parse_columns, text, part, line, column);
 }
 
@@ -42,8 +42,8 @@ TEST(Columns, DecimalCommas) {
   // with points, or without a blank, commas separate
   EXPECT_EQ(columns("1,5,2\n").cloud.points, (std::vector<Vec3>{{1, 5, 2}}));
   EXPECT_EQ(columns("1, 5, 2\n").cloud.points, (std::vector<Vec3>{{1, 5, 2}}));
-  expect_error("1.5;2,5;3\n1;2;3\n", "this is '2,5' (write decimal points", 1, 5);
-  expect_error("1,2 3,4 5.0,6\n", "", 1, 3);
+  expect_columns_error("1.5;2,5;3\n1;2;3\n", "this is '2,5' (write decimal points", 1, 5);
+  expect_columns_error("1,2 3,4 5.0,6\n", "", 1, 3);
 }
 
 TEST(Columns, NamesInAHeader) {
@@ -75,7 +75,7 @@ TEST(Columns, UnitsOfNamesAndComments) {
   EXPECT_EQ(columns("x_m,y_m,z_m\n1,2,3\n").unit, LengthUnit::metre);
   EXPECT_EQ(columns("X (\xB5m);Y;Z\n1;2;3\n").unit, LengthUnit::micrometre);
   EXPECT_FALSE(columns("x,y,z,d [mm]\n1,2,3,4\n").unit);
-  expect_error("x [mm],y [mm],z [um]\n1,2,3\n", "different units", 1, 0);
+  expect_columns_error("x [mm],y [mm],z [um]\n1,2,3\n", "different units", 1, 0);
 }
 
 TEST(Columns, LinesThatCannotBePasses) {
@@ -84,10 +84,10 @@ TEST(Columns, LinesThatCannotBePasses) {
   EXPECT_TRUE(lines.cloud.passes.empty());
   EXPECT_NE(lines.format.find("the pass of line 3 is none"), std::string::npos) << lines.format;
   EXPECT_EQ(columns("x y z line\n1.5 2 -3 1\n4 .5 6.25 2\n").cloud.passes, (std::vector<std::uint16_t>{1, 2}));
-  expect_error("x y z pass\n1.5 2 -3 1\n4 .5 6.25 70000\n", "the pass 70000 is not a whole number from 0 to 65535", 3,
-               0);
-  expect_error("x y z pass\n1.5 2 -3 1.5\n", "the pass 1.5 is not", 2, 0);
-  expect_error("x,y,z,scan\n1.5,2,-3,\n", "the pass nan is not a whole number", 2, 0);
+  expect_columns_error("x y z pass\n1.5 2 -3 1\n4 .5 6.25 70000\n",
+                       "the pass 70000 is not a whole number from 0 to 65535", 3, 0);
+  expect_columns_error("x y z pass\n1.5 2 -3 1.5\n", "the pass 1.5 is not", 2, 0);
+  expect_columns_error("x,y,z,scan\n1.5,2,-3,\n", "the pass nan is not a whole number", 2, 0);
 }
 
 TEST(Columns, NumberOfColumns) {
@@ -111,8 +111,8 @@ TEST(Columns, CountsBeforeThePoints) {
   EXPECT_EQ(columns("2\n1.5 2 -3 1 2 3 4\n4 .5 6.25 1 2 3 4\n").cloud.points, kTwo);
   EXPECT_EQ(columns("x y z\n1\n1.5 2 -3\n1\n4 .5 6.25\n").cloud.points, kTwo);
   EXPECT_EQ(columns("1\n1.5,2,-3\n4,.5,6.25\n").cloud.points, kTwo);  // fewer promised than there are
-  expect_error("3\n1.5 2 -3\n4 .5 6.25\n", "3 points are promised, the file ends after 2", 3, 0);
-  expect_error("1000\n1.5 2 -3\n4 .5 6.25\n", "1000 points are promised, more than the file can hold", 1, 0);
+  expect_columns_error("3\n1.5 2 -3\n4 .5 6.25\n", "3 points are promised, the file ends after 2", 3, 0);
+  expect_columns_error("1000\n1.5 2 -3\n4 .5 6.25\n", "1000 points are promised, more than the file can hold", 1, 0);
 }
 
 TEST(Columns, LostPoints) {
@@ -128,22 +128,23 @@ TEST(Columns, LostPoints) {
 }
 
 TEST(Columns, Errors) {
-  expect_error("# nothing\n", "the file holds no points");
-  expect_error("this is a letter\nto somebody\n", "numbers are expected, this is 'this is a letter'", 1, 1);
-  expect_error("1 2\n3 4\n", "at least three columns, the line has 2", 1, 1);
-  expect_error("# a\n1 2 3\n4 5\n", "the line has 2 columns, those before have 3", 3, 0);
-  expect_error("1 2 3\n4 5 6 7\n", "more than the 3 columns of the lines before (do two lines run together?)", 2, 7);
-  expect_error("1 2 3\n4 five 6\n", "a number is expected, this is 'five'", 2, 3);
-  expect_error("1 2 3\nfour 5 6\n", "a number is expected, this is 'four 5 6' (put a #", 2, 1);
-  expect_error("1,2,3\n4,5,0x10\n", "this is '0x10'", 2, 5);
-  expect_error("a b c\n1 2 3\n", "neither numbers nor 3 names of columns", 1, 1);
-  expect_error("x y z\n1 2 3 4\n", "neither numbers nor 4 names of columns", 1, 1);
-  expect_error("x x y z\n1 2 3 4\n", "a coordinate is named twice", 1, 0);
-  expect_error(std::string("1 2 3\n4 5\0 6\n", 13), "NUL byte", 2, 4);
-  expect_error(std::string("\xFF\xFE"
-                           "1\0 \0",
-                           6),
-               "UTF-16", 1, 1);
+  expect_columns_error("# nothing\n", "the file holds no points");
+  expect_columns_error("this is a letter\nto somebody\n", "numbers are expected, this is 'this is a letter'", 1, 1);
+  expect_columns_error("1 2\n3 4\n", "at least three columns, the line has 2", 1, 1);
+  expect_columns_error("# a\n1 2 3\n4 5\n", "the line has 2 columns, those before have 3", 3, 0);
+  expect_columns_error("1 2 3\n4 5 6 7\n", "more than the 3 columns of the lines before (do two lines run together?)",
+                       2, 7);
+  expect_columns_error("1 2 3\n4 five 6\n", "a number is expected, this is 'five'", 2, 3);
+  expect_columns_error("1 2 3\nfour 5 6\n", "a number is expected, this is 'four 5 6' (put a #", 2, 1);
+  expect_columns_error("1,2,3\n4,5,0x10\n", "this is '0x10'", 2, 5);
+  expect_columns_error("a b c\n1 2 3\n", "neither numbers nor 3 names of columns", 1, 1);
+  expect_columns_error("x y z\n1 2 3 4\n", "neither numbers nor 4 names of columns", 1, 1);
+  expect_columns_error("x x y z\n1 2 3 4\n", "a coordinate is named twice", 1, 0);
+  expect_columns_error(std::string("1 2 3\n4 5\0 6\n", 13), "NUL byte", 2, 4);
+  expect_columns_error(std::string("\xFF\xFE"
+                                   "1\0 \0",
+                                   6),
+                       "UTF-16", 1, 1);
   ScanReadOptions few;
   few.most_points = 2;
   testing::expect_error(scans::parse_columns, "1 2 3\n4 5 6\n7 8 9\n", "more than the 2 points allowed", 3, 0, few);

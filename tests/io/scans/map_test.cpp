@@ -41,7 +41,7 @@ void expect_esri_error(const std::string& text, const std::string& part, int lin
 }
 
 /// x = 100, 102 along the track, y = -10, -5, 0; values 10 ix + iy [um] but one without data.
-void expect_sample(const OffsetMap& map, double height = 1e-6) {
+void expect_sample_map(const OffsetMap& map, double height = 1e-6) {
   EXPECT_EQ(map.name, "sample");
   ASSERT_EQ(map.grid.nx, 2);
   ASSERT_EQ(map.grid.ny, 3);
@@ -67,16 +67,16 @@ TEST(DeviationMaps, Matrix) {
                            "x\t-10\t-5\t0\r\n100\t0\t1\t2\r\n102\t10\t\t12\r\n",
                            ";-10,0;-5,0;0,0;\n100;0;1;2;\n102;10;;12;\n", "0,-10,-5,0\n100,0,1,2\n102,10,,12,\n"}) {
     SCOPED_TRACE(text);
-    expect_sample(matrix(text, options));
+    expect_sample_map(matrix(text, options));
   }
 }
 
 TEST(DeviationMaps, UnitsOfTheFileAndTheOptions) {
   const std::string text = ",-10,-5,0\n100,0,1,2\n102,10,,12\n";
-  expect_sample(matrix("# unit mm, deviations in um\n" + text));
-  expect_sample(matrix("# heights: unit um\n# unit mm\n" + text));
-  expect_sample(matrix(replaced(text, ",-10,-5,0", "[mm],-10,-5,0")), 1e-3);  // heights as positions
-  expect_sample(matrix(text), 1e-3);                                          // mm where nothing is said
+  expect_sample_map(matrix("# unit mm, deviations in um\n" + text));
+  expect_sample_map(matrix("# heights: unit um\n# unit mm\n" + text));
+  expect_sample_map(matrix(replaced(text, ",-10,-5,0", "[mm],-10,-5,0")), 1e-3);  // heights as positions
+  expect_sample_map(matrix(text), 1e-3);                                          // mm where nothing is said
   const OffsetMap inches = matrix("in,-1,0,1\n0,0,.01,0\n2,0,0,0\n");
   EXPECT_NEAR(inches.grid.dy, 0.0254, 1e-15);
   EXPECT_NEAR(inches.offset[inches.grid.index(0, 1)], 254e-6, 1e-10);
@@ -222,7 +222,7 @@ TEST(DeviationMaps, Files) {
   OffsetMap map = read_deviation_map(folder.path() / "m.csv", options);
   EXPECT_EQ(map.name, (folder.path() / "m.csv").string());
   map.name = "sample";
-  expect_sample(map);
+  expect_sample_map(map);
   EXPECT_EQ(read_deviation_map(folder.path() / "m.ASC", options).grid.ny, 3);
 
   options.asked_by = {"case.toml", 2, 1};

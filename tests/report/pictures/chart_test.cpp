@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <regex>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/report/pictures/chart.hpp"
 #include "treadmark/report/pictures/svg_text.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
@@ -14,8 +14,6 @@
 namespace treadmark {
 namespace {
 
-constexpr double kChartNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kChartInfinity = std::numeric_limits<double>::infinity();
 constexpr double kChartRounding = 1e-9;
 
 TEST(ChartAxis, EveryTickLiesWhereItsNumberBelongs) {
@@ -71,7 +69,7 @@ TEST(ChartAxis, AFloorHoldsZeroAndSmallValues) {
 }
 
 TEST(ChartAxis, SurvivesWhatCannotBeShown) {
-  const std::vector<std::vector<double>> data{{},          {kChartNan},     {kChartInfinity, -kChartInfinity},
+  const std::vector<std::vector<double>> data{{},          {kNaN},          {kInfinity, -kInfinity},
                                               {0.0, -3.0}, {1e308, 1e-320}, {1e300, 1e-300}};
   for (const pictures::AxisScale scale : {pictures::AxisScale::linear, pictures::AxisScale::log})
     for (const auto& values : data) {
@@ -80,8 +78,8 @@ TEST(ChartAxis, SurvivesWhatCannotBeShown) {
       EXPECT_TRUE(std::isfinite(axis.low()) && std::isfinite(axis.high()));
       EXPECT_LE(axis.ticks().size(), 100u);
       EXPECT_GE(axis.ticks().size(), 2u);
-      EXPECT_FALSE(axis.place(kChartNan));
-      EXPECT_FALSE(axis.place(kChartInfinity));
+      EXPECT_FALSE(axis.place(kNaN));
+      EXPECT_FALSE(axis.place(kInfinity));
     }
 }
 
@@ -143,8 +141,7 @@ TEST(ChartDraw, MarkersCanBeReadOffTheAxes) {
   chart.x_scale = chart.y_scale = pictures::AxisScale::log;
   pictures::ChartSeries series;
   series.name = "one";
-  const std::vector<std::pair<double, double>> values{
-      {0.25, 0.013}, {0.5, 0.4}, {1.0, kChartNan}, {2.0, 33.0}, {4.0, 41.0}};
+  const std::vector<std::pair<double, double>> values{{0.25, 0.013}, {0.5, 0.4}, {1.0, kNaN}, {2.0, 33.0}, {4.0, 41.0}};
   for (const auto& [x, y] : values) {
     pictures::ChartPoint point;
     point.x = x;
@@ -215,7 +212,7 @@ TEST(ChartDraw, ShapesAreCutAtTheFrameAndStayVisible) {
   chart.series = {{"one"}};
   chart.series[0].shape_look = "class=\"shape\"";
   chart.series[0].least = 2.0;
-  chart.series[0].shapes = {{-5.0, 5.0, 2.0, 4.0}, {3.0, 3.01, 5.0, 5.01}, {kChartNan, kChartInfinity, 1.0, 2.0}};
+  chart.series[0].shapes = {{-5.0, 5.0, 2.0, 4.0}, {3.0, 3.01, 5.0, 5.01}, {kNaN, kInfinity, 1.0, 2.0}};
   const testing::XmlElement root =
       testing::read_xml("<svg>" + pictures::draw_chart(chart, {100, 50, 200, 100}) + "</svg>");
   const auto shapes = root.find("rect", "class", "shape");
@@ -239,7 +236,7 @@ TEST(ColourScale, IsNeverEmptyAndSignedOnesPartAtZero) {
   EXPECT_LT(flat.low, flat.high);
   EXPECT_EQ(flat.step(1.0, 20), 0u);
   EXPECT_EQ(flat.step(9.0, 20), 19u);
-  EXPECT_EQ(flat.step(kChartNan, 20), 0u);
+  EXPECT_EQ(flat.step(kNaN, 20), 0u);
 }
 
 TEST(SvgText, KeepsOnlyWhatXmlAllows) {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <limits>
 #include <set>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/report/pictures/chart.hpp"
 #include "treadmark/report/pictures/comparison_cases.hpp"
@@ -19,16 +19,13 @@
 namespace treadmark {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 std::vector<std::string> texts(const testing::XmlElement& root) {
   std::vector<std::string> out;
   for (const auto* text : root.find("text")) out.push_back(text->text);
   return out;
 }
 
-bool says(const testing::XmlElement& root, const std::string& words) {
+bool has_text(const testing::XmlElement& root, const std::string& words) {
   const auto all = texts(root);
   return std::find(all.begin(), all.end(), words) != all.end();
 }
@@ -44,7 +41,7 @@ std::size_t count_marks(const testing::XmlElement& root, int style) {
 TEST(TellingCases, TheFirstAndThoseWithTheWidestSpread) {
   io::Comparison comparison;
   comparison.candidates.resize(3);
-  const std::vector<double> first{0.0, 0.3, -0.1, 0.0, 0.1}, second{0.0, 0.3, 0.15, kNan, -0.25};
+  const std::vector<double> first{0.0, 0.3, -0.1, 0.0, 0.1}, second{0.0, 0.3, 0.15, kNaN, -0.25};
   for (int i = 0; i < 5; ++i) {
     comparison.candidates[0].rows.push_back(testing::sample_row(10 + i, 0.0));
     comparison.candidates[1].rows.push_back(testing::sample_row(10 + i, first[static_cast<std::size_t>(i)]));
@@ -65,9 +62,9 @@ TEST(PressuresSvg, APanelACandidateAndCase) {
   EXPECT_EQ(root.find("g", "class", "panel").size(), 15u);  // five candidates, three of the four cases
   for (const char* words : {"analytic (reference)", "mesh 1 mm", "mesh 0.5 mm", "spline", "vdb 1 mm", "failed",
                             "1000 MPa", "1100 MPa, +10.0 %", "960 MPa, -20.0 %", "1200 MPa, 0.00 %"})
-    EXPECT_TRUE(says(root, words)) << words;
-  EXPECT_FALSE(says(root, "case 4, pitch -22.92°"));
-  EXPECT_TRUE(says(root, "case 2, pitch -11.46°"));
+    EXPECT_TRUE(has_text(root, words)) << words;
+  EXPECT_FALSE(has_text(root, "case 4, pitch -22.92°"));
+  EXPECT_TRUE(has_text(root, "case 2, pitch -11.46°"));
 }
 
 struct Point {
@@ -307,8 +304,8 @@ TEST(ErrorSvg, APointForEachResolutionAndALevelWithoutOne) {
   ASSERT_EQ(titles.size(), 2u);
   EXPECT_EQ(titles[0]->text, "mesh 0.5 mm: 5 %");
   EXPECT_EQ(titles[1]->text, "mesh 1 mm: 20 %");
-  EXPECT_TRUE(says(root, "reference: analytic &lt;profiles&gt; &amp; flats"));
-  EXPECT_TRUE(says(root, "resolution [mm]"));
+  EXPECT_TRUE(has_text(root, "reference: analytic &lt;profiles&gt; &amp; flats"));
+  EXPECT_TRUE(has_text(root, "resolution [mm]"));
 }
 
 /// Smallest and largest x of the corners of a path.
@@ -363,7 +360,7 @@ TEST(CostSvg, AMarkACandidateAndTheRestInWords) {
   ASSERT_EQ(marks.size(), 4u);
   for (const char* words :
        {"analytic (reference)", "mesh 1 mm", "mesh 0.5 mm", "spline", "not drawn: vdb 1 mm (failed)", "16 MB", "4 MB"})
-    EXPECT_TRUE(says(root, words)) << words;
+    EXPECT_TRUE(has_text(root, words)) << words;
   // Errors of zero are drawn hollow at the floor.
   int hollow = 0;
   for (const auto* mark : marks) hollow += mark->attributes.at("fill") == "#ffffff";
@@ -374,7 +371,7 @@ TEST(CostSvg, AMarkACandidateAndTheRestInWords) {
 }
 
 /// Every picture is well-formed and has no script and no number that is none.
-void expect_sound(const io::Comparison& comparison) {
+void expect_sound_comparison(const io::Comparison& comparison) {
   for (const std::string& svg :
        {pictures::pressures_svg(comparison), pictures::error_svg(comparison), pictures::cost_svg(comparison)}) {
     const testing::XmlElement root = testing::read_xml(svg);
@@ -396,38 +393,38 @@ void expect_sound(const io::Comparison& comparison) {
 
 TEST(ComparisonPictures, AreSoundForEveryContent) {
   const io::Comparison sample = testing::sample_comparison();
-  expect_sound({});
-  expect_sound(sample);
+  expect_sound_comparison({});
+  expect_sound_comparison(sample);
   for (const std::size_t count : {1u, 2u}) {
     io::Comparison few = sample;
     few.candidates.resize(count);
-    expect_sound(few);
+    expect_sound_comparison(few);
   }
   io::Comparison failed = sample;
   failed.candidates.erase(failed.candidates.begin(), failed.candidates.end() - 1);
-  expect_sound(failed);
+  expect_sound_comparison(failed);
   io::Comparison named = sample;
   named.candidates[1].name = "<b a=\"c\">&\x01\xff";
   named.truth = "]]> -- &amp;";
-  expect_sound(named);
+  expect_sound_comparison(named);
   io::Comparison bare = sample;  // rows without fields
   for (auto& candidate : bare.candidates) candidate.results.clear();
-  expect_sound(bare);
+  expect_sound_comparison(bare);
   EXPECT_NE(pictures::pressures_svg(bare).find("no fields"), std::string::npos);
 }
 
 TEST(ComparisonPictures, AreSoundForEveryNumber) {
-  for (const double value : {0.0, -1.0, kNan, kInfinity, -kInfinity, 1e308, 5e-324}) {
+  for (const double value : {0.0, -1.0, kNaN, kInfinity, -kInfinity, 1e308, 5e-324}) {
     io::Comparison comparison = testing::sample_comparison();
     for (auto& candidate : comparison.candidates) {
       for (auto& row : candidate.rows) row.pmax_error = row.search_s = row.pmax = value;
       candidate.wheel.difference.height_max = candidate.rail.difference.height_max = value;
     }
-    expect_sound(comparison);
+    expect_sound_comparison(comparison);
     for (auto& candidate : comparison.candidates) candidate.resolution = value;
-    expect_sound(comparison);
+    expect_sound_comparison(comparison);
     for (double& pressure : comparison.candidates[1].results[0].patches[0].fields.pressure) pressure = value;
-    expect_sound(comparison);
+    expect_sound_comparison(comparison);
   }
 }
 

@@ -5,23 +5,26 @@
 #include <gtest/gtest.h>
 
 #include "treadmark/backends/create.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 #include "treadmark/tests/scans/fit/level_samples.hpp"
 
 namespace treadmark::scans {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kRadius = 0.46;
+using tests::kWheelRadius;
 
 Section real_section(Body body) {
   auto points = tests::nominal_points(body == Body::wheel ? "S1002" : "60E1", body);
   std::erase_if(points, [&](const Vec2& p) { return std::fabs(p.x()) > (body == Body::wheel ? 50e-3 : 30e-3); });
   if (body == Body::wheel)
-    for (Vec2& p : points) p.y() += kRadius;
+    for (Vec2& p : points) p.y() += kWheelRadius;
   return Section(points);
 }
 
-Band wheel_band() { return {Body::wheel, kRadius, real_section(Body::wheel), -kPi * kRadius, kPi * kRadius, true}; }
+Band wheel_band() {
+  return {Body::wheel, kWheelRadius, real_section(Body::wheel), -kPi * kWheelRadius, kPi * kWheelRadius, true};
+}
 Band rail_band() { return {Body::rail, 1.0, real_section(Body::rail), 0.3, 0.9, false}; }
 
 /// A coarse wave all along and a bump of 12 mm at bump_a in a fine level.
@@ -56,7 +59,7 @@ double nearest(const std::vector<Vec2>& nodes, const Vec2& p, const Band& band) 
 /// Greatest difference of the surface made from the slices and the field.
 double worst(const FittedBand& fitted, const SliceSet& slices, double a_min, double a_max) {
   const Body body = fitted.band.body;
-  const auto surface = create_surface({body, body == Body::wheel ? kRadius : 0.0, slices, {}});
+  const auto surface = create_surface({body, body == Body::wheel ? kWheelRadius : 0.0, slices, {}});
   Random random(3);
   double most = 0.0;
   for (int k = 0; k < 3000; ++k) {
@@ -111,7 +114,7 @@ TEST(BandSurface, SlicesOfAWheelGiveTheField) {
     ASSERT_EQ(slices.u.size(), slices.profiles.size());
     for (std::size_t k = 1; k < slices.u.size(); ++k) {
       EXPECT_GT(slices.u[k], slices.u[k - 1]);
-      EXPECT_LT(kRadius * (slices.u[k] - slices.u[k - 1]), 34e-3 + 3e-3);
+      EXPECT_LT(kWheelRadius * (slices.u[k] - slices.u[k - 1]), 34e-3 + 3e-3);
     }
     for (const Profile& p : slices.profiles) {
       EXPECT_EQ(p.body, Body::wheel);
@@ -148,7 +151,7 @@ TEST(BandSurface, ToleranceThinsStations) {
   EXPECT_GT(close.u.size(), loose.u.size() + 5);
   const auto around = [&](const SliceSet& slices, double reach) {
     return std::count_if(slices.u.begin(), slices.u.end(),
-                         [&](double u) { return std::fabs(kRadius * u - band.a_min - bump) < reach; });
+                         [&](double u) { return std::fabs(kWheelRadius * u - band.a_min - bump) < reach; });
   };
   // every knot where the bump is
   EXPECT_GE(around(close, 4.0 * knot), 7);
@@ -156,7 +159,7 @@ TEST(BandSurface, ToleranceThinsStations) {
   // as few away from it
   const auto far = [&](const SliceSet& slices) {
     return std::count_if(slices.u.begin(), slices.u.end(),
-                         [&](double u) { return std::fabs(kRadius * u - band.a_min - bump) > 0.1; });
+                         [&](double u) { return std::fabs(kWheelRadius * u - band.a_min - bump) > 0.1; });
   };
   EXPECT_NEAR(static_cast<double>(far(close)), static_cast<double>(far(loose)), 3.0);
   EXPECT_LT(worst(fitted, loose, 0.0, band.length()), 3e-6 + 2.0 * small);
@@ -236,8 +239,8 @@ TEST(BandSurface, SagittaHasTheCurvatureOfTheSurface) {
   constexpr double kCrown = 0.3;
   std::vector<Vec2> arc;
   for (int k = -60; k <= 60; ++k)
-    arc.emplace_back(kCrown * std::sin(k * 2e-3), kRadius - kCrown * (1.0 - std::cos(k * 2e-3)));
-  const Band wheel{Body::wheel, kRadius, Section(arc), -kPi * kRadius, kPi * kRadius, true};
+    arc.emplace_back(kCrown * std::sin(k * 2e-3), kWheelRadius - kCrown * (1.0 - std::cos(k * 2e-3)));
+  const Band wheel{Body::wheel, kWheelRadius, Section(arc), -kPi * kWheelRadius, kPi * kWheelRadius, true};
   const Band rail{Body::rail, 1.0, Section(arc), 0.0, 1.0, false};
   for (const Band& band : {wheel, rail}) {
     const SplineField none(band.length(), band.section.length(), band.closed), field = waves(band, 0.4);
@@ -248,7 +251,7 @@ TEST(BandSurface, SagittaHasTheCurvatureOfTheSurface) {
       for (const double s : {10e-3, 33.3e-3, 60e-3}) {
         const std::vector<Vec2> nodes{{a - kStep, s}, {a, s}, {a + kStep, s}, {a, s - kStep}, {a, s + kStep}};
         const std::vector<double> h = sagitta(bare, nodes), with = sagitta(fitted, nodes);
-        EXPECT_NEAR((h[0] - 2.0 * h[1] + h[2]) / (kStep * kStep), band.body == Body::wheel ? -1.0 / kRadius : 0.0,
+        EXPECT_NEAR((h[0] - 2.0 * h[1] + h[2]) / (kStep * kStep), band.body == Body::wheel ? -1.0 / kWheelRadius : 0.0,
                     1e-6);
         EXPECT_NEAR((h[3] - 2.0 * h[1] + h[4]) / (kStep * kStep), -1.0 / kCrown, 2e-3);
         for (std::size_t k = 0; k < nodes.size(); ++k)

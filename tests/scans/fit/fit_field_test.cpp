@@ -3,19 +3,19 @@
 #include "treadmark/scans/fit/fit_field.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/tests/scans/support/simple_cloud.hpp"
 
 namespace treadmark::scans {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kRadius = 0.46;
-constexpr double kNoise = 30e-6;
+using tests::kWheelRadius;
+
+constexpr double kCloudNoise = 30e-6;
 
 struct Fitted {
   Projection projection;
@@ -25,7 +25,7 @@ struct Fitted {
 
 std::shared_ptr<const Surface> wheel_with_flat() {
   return create_surface({Body::wheel,
-                         kRadius,
+                         kWheelRadius,
                          StandardProfile{"S1002"},
                          {.flats = {{.length = 0.16, .depth = 1.4e-3, .theta_center = 0.7}}}});
 }
@@ -35,8 +35,8 @@ Fitted fitted(const Surface& wheel, int stations, double noise_in, double outlie
       tests::simple_cloud(wheel, Body::wheel, -kPi, kPi, -60e-3, 60e-3, stations, 200, noise_in, outliers, Pose{}, 1);
   auto nominal = tests::nominal_points("S1002", Body::wheel);
   std::erase_if(nominal, [](const Vec2& p) { return p.x() < -60e-3 || p.x() > 60e-3; });
-  for (Vec2& p : nominal) p.y() += kRadius;
-  Projection projection = project(cloud.points_S, {}, Pose{}, Section(nominal), {Body::wheel, kRadius});
+  for (Vec2& p : nominal) p.y() += kWheelRadius;
+  Projection projection = project(cloud.points_S, {}, Pose{}, Section(nominal), {Body::wheel, kWheelRadius});
   const LocalNoise noise = find_noise(projection.points, projection.band, {});
   FitResult fit = fit_field(projection.points, projection.band, noise, settings);
   return {std::move(projection), noise, std::move(fit)};
@@ -52,7 +52,7 @@ TrueError true_error(const Surface& wheel, const Fitted& f) {
   for (int k = 0; k < 8000; ++k) {
     const double a = f.projection.band.length() * random.uniform(),
                  s = f.projection.band.section.length() * (0.02 + 0.96 * random.uniform());
-    const double u = (f.projection.band.a_min + a) / kRadius;
+    const double u = (f.projection.band.a_min + a) / kWheelRadius;
     const auto at = f.projection.band.section.at(s);
     const Vec2 p = at.position + f.fit.field.value(a, s) * at.normal;
     std::vector<double> y{p.x()}, h(1), slope(1);
@@ -74,25 +74,25 @@ TrueError true_error(const Surface& wheel, const Fitted& f) {
 
 TEST(FitField, NoisyFlatOnAWheelIsFoundFarBelowTheNoise) {
   const auto wheel = wheel_with_flat();
-  const Fitted f = fitted(*wheel, 2500, kNoise, 0.01);
+  const Fitted f = fitted(*wheel, 2500, kCloudNoise, 0.01);
   EXPECT_TRUE(f.projection.band.closed);
-  EXPECT_NEAR(f.noise.typical, kNoise, 0.05 * kNoise);
+  EXPECT_NEAR(f.noise.typical, kCloudNoise, 0.05 * kCloudNoise);
   // points held out do not know the fit: their scatter is the noise, and outliers that are left raise it a little
-  EXPECT_NEAR(f.fit.held_out_rms, kNoise, 0.05 * kNoise);
+  EXPECT_NEAR(f.fit.held_out_rms, kCloudNoise, 0.05 * kCloudNoise);
   EXPECT_NEAR(static_cast<double>(f.fit.held_out) / static_cast<double>(f.fit.held_out + f.fit.used), 0.02, 0.002);
   const TrueError error = true_error(*wheel, f);
-  EXPECT_LT(error.rms, 0.1 * kNoise);
-  EXPECT_LT(error.in_flat, 0.15 * kNoise);
-  EXPECT_LT(error.most, 1.5 * kNoise);
+  EXPECT_LT(error.rms, 0.1 * kCloudNoise);
+  EXPECT_LT(error.in_flat, 0.15 * kCloudNoise);
+  EXPECT_LT(error.most, 1.5 * kCloudNoise);
 }
 
 TEST(FitField, PureNoiseCallsForNothingFine) {
-  const auto round = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
-  const Fitted f = fitted(*round, 1500, kNoise, 0.0);
+  const auto round = create_surface({Body::wheel, kWheelRadius, StandardProfile{"S1002"}, {}});
+  const Fitted f = fitted(*round, 1500, kCloudNoise, 0.0);
   std::size_t fine = 0;
   for (std::size_t k = 1; k < f.fit.levels.size(); ++k) fine += f.fit.levels[k].used;
   EXPECT_LT(fine, 150u) << "of hundreds of thousands of functions";
-  EXPECT_LT(true_error(*round, f).rms, 0.04 * kNoise);
+  EXPECT_LT(true_error(*round, f).rms, 0.04 * kCloudNoise);
 }
 
 TEST(FitField, WithoutNoiseThePointsAreMet) {
@@ -107,7 +107,7 @@ TEST(FitField, TheSameForAnyNumberOfThreads) {
   std::vector<double> values;
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    const Fitted f = fitted(*wheel, 500, kNoise, 0.01);
+    const Fitted f = fitted(*wheel, 500, kCloudNoise, 0.01);
     values.push_back(f.fit.field.value(1.234, 0.05));
     values.push_back(f.fit.residual_rms);
   }

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <gtest/gtest.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/fit/section_levels.hpp"
@@ -18,7 +18,9 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kRadius = 0.46, kFrom = -60e-3, kTo = 60e-3;
+using tests::kWheelRadius;
+
+constexpr double kFrom = -60e-3, kTo = 60e-3;
 
 /// A wheel that is out of round by 0.1 mm, once and five times a turn, and hollow by 0.5 mm.
 std::vector<Vec3> moved(std::vector<Vec3> points) {
@@ -33,7 +35,7 @@ std::vector<Vec3> moved(std::vector<Vec3> points) {
 
 /// The same without noise: what a surface of this form is, along the section's normal from a place of the band.
 double true_distance(const Surface& wheel, const Band& band, double a, double s) {
-  const double u = (band.a_min + a) / kRadius;
+  const double u = (band.a_min + a) / kWheelRadius;
   const auto at = band.section.at(s);
   std::vector<double> y(1), h(1), slope(1);
   double d = 0.0;
@@ -60,23 +62,23 @@ struct Told {
 };
 
 Told told(double noise_in, std::uint64_t seed, int stations = 1500) {
-  const auto wheel = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
+  const auto wheel = create_surface({Body::wheel, kWheelRadius, StandardProfile{"S1002"}, {}});
   const auto cloud =
       tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, kFrom, kTo, stations, 200, noise_in, 0.0, Pose{}, seed);
   auto nominal = tests::nominal_points("S1002", Body::wheel);
   std::erase_if(nominal, [](const Vec2& p) { return p.x() < kFrom || p.x() > kTo; });
-  for (Vec2& p : nominal) p.y() += kRadius;
+  for (Vec2& p : nominal) p.y() += kWheelRadius;
   const std::vector<Vec3> points = moved(cloud.points_S);
-  Projection projection = project(points, {}, Pose{}, Section(nominal), {Body::wheel, kRadius});
+  Projection projection = project(points, {}, Pose{}, Section(nominal), {Body::wheel, kWheelRadius});
   const auto halves = half_sections(projection.points, projection.band, 1e-3);
-  projection =
-      project(points, {}, Pose{}, refine_section(projection.points, projection.band, 1e-3), {Body::wheel, kRadius});
+  projection = project(points, {}, Pose{}, refine_section(projection.points, projection.band, 1e-3),
+                       {Body::wheel, kWheelRadius});
   const LocalNoise noise = find_noise(projection.points, projection.band, {});
   Told out{projection.band, {}, noise, fit_field(projection.points, projection.band, noise, {}), {}, {}};
   const double length = projection.band.section.length();
   const FittedBand fitted{out.band, out.fit.field, 0.02 * length, 0.98 * length, 0.0};
   out.stations = error_stations(out.band, {});
-  out.errors = half_fit_errors(fitted, projection.points, noise, {}, &halves, out.stations, kRadius);
+  out.errors = half_fit_errors(fitted, projection.points, noise, {}, &halves, out.stations, kWheelRadius);
   out.points = std::move(projection.points);
   return out;
 }
@@ -97,7 +99,7 @@ double waviness(const std::vector<double>& values) {
 }
 
 TEST(HalfFits, DrawsAreAsLargeAsTheTrueError) {
-  const auto wheel = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
+  const auto wheel = create_surface({Body::wheel, kWheelRadius, StandardProfile{"S1002"}, {}});
   for (const double noise : {10e-6, 30e-6, 50e-6}) {
     double drawn = 0.0, truly = 0.0, drawn_waves = 0.0, true_waves = 0.0;
     for (const std::uint64_t seed : {1u, 2u}) {
@@ -128,7 +130,7 @@ TEST(HalfFits, PlacesRunAsProfilesAndStationsAsTheSurface) {
     EXPECT_LT(std::hypot(t.errors.y[i] - t.errors.y[i - 1], t.errors.z[i] - t.errors.z[i - 1]), 0.51e-3);
   for (std::size_t k = 0; k < t.stations.size(); ++k) {
     EXPECT_EQ(t.errors.draws[k].size(), t.errors.y.size());
-    EXPECT_NEAR(t.errors.u[k], (t.band.a_min + t.stations[k]) / kRadius, 1e-12);
+    EXPECT_NEAR(t.errors.u[k], (t.band.a_min + t.stations[k]) / kWheelRadius, 1e-12);
   }
 }
 
@@ -164,7 +166,7 @@ TEST(HalfFits, StopWhenAsked) {
   Progress progress;
   progress.stop = &stop;
   const FittedBand fitted{t.band, t.fit.field, 0.01, 0.1, 0.0};
-  EXPECT_THROW(half_fit_errors(fitted, t.points, t.noise, {}, nullptr, t.stations, kRadius, progress), Error);
+  EXPECT_THROW(half_fit_errors(fitted, t.points, t.noise, {}, nullptr, t.stations, kWheelRadius, progress), Error);
 }
 
 }  // namespace

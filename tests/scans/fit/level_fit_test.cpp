@@ -11,8 +11,8 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kLength = 0.4, kWidth = 0.06;
-constexpr std::size_t kRows = 64, kColumns = 16;
+constexpr double kLevelLength = 0.4, kLevelWidth = 0.06;
+constexpr std::size_t kLevelRows = 64, kLevelColumns = 16;
 
 /// A small problem: points with weights of different size, a few of them zero, and values without meaning.
 struct Problem {
@@ -20,9 +20,9 @@ struct Problem {
   BandPoints points;
   std::vector<float> residual, weight;
 
-  Problem(bool closed, std::uint64_t seed) : band(tests::straight_band(kLength, kWidth, closed)) {
-    points = tests::sorted(band, kRows, kColumns,
-                           tests::scattered(band, kRows, kColumns, 3, 100e-6, seed,
+  Problem(bool closed, std::uint64_t seed) : band(tests::straight_band(kLevelLength, kLevelWidth, closed)) {
+    points = tests::sorted(band, kLevelRows, kLevelColumns,
+                           tests::scattered(band, kLevelRows, kLevelColumns, 3, 100e-6, seed,
                                             [](double a, double s) { return 0.3e-3 * std::sin(20.0 * a + 50.0 * s); }));
     residual = points.d;
     Random random(seed + 1);
@@ -43,7 +43,7 @@ TEST(LevelFit, SumsAgreeWithBruteForce) {
       Problem p(closed, 1);
       p.residual[10] = 5e-3f;  // is cut off
       p.residual[500] = -5e-3f;
-      const SplineLevel level = tests::level_of(kLength, kWidth, along, 4, closed);
+      const SplineLevel level = tests::level_of(kLevelLength, kLevelWidth, along, 4, closed);
       const FunctionSums sums = sum_functions(p.points, p.residual, p.weight, level);
       std::vector<double> wbr(level.size(), 0.0), wbb(level.size(), 0.0), count(level.size(), 0.0),
           scale(level.size(), 0.0);
@@ -87,7 +87,7 @@ Eigen::VectorXd dense(const Problem& p, const SplineLevel& level, const std::vec
 
 void expect_dense(bool closed, std::size_t along, std::size_t across, bool some, bool with_ridge) {
   Problem p(closed, 2);
-  SplineLevel level = tests::level_of(kLength, kWidth, along, across, closed);
+  SplineLevel level = tests::level_of(kLevelLength, kLevelWidth, along, across, closed);
   std::vector<float> ridge;
   Random random(5);
   if (with_ridge)
@@ -102,7 +102,7 @@ void expect_dense(bool closed, std::size_t along, std::size_t across, bool some,
   const LevelSolution solution = fit_level(p.points, p.residual, p.weight, ridge, level);
   EXPECT_GT(solution.iterations, 0);
   EXPECT_LT(solution.reduction, 1e-6);
-  SplineField field(kLength, kWidth, closed), exact(kLength, kWidth, closed);
+  SplineField field(kLevelLength, kLevelWidth, closed), exact(kLevelLength, kLevelWidth, closed);
   SplineLevel dense_level = level;
   for (std::size_t k = 0; k < functions.size(); ++k)
     dense_level.coefficient[functions[k]] = static_cast<float>(wanted[static_cast<Eigen::Index>(k)]);
@@ -127,7 +127,7 @@ TEST(LevelFit, AgreesWithDenseLeastSquares) {
   for (const bool closed : {false, true})
     for (const bool some : {false, true})
       for (const bool ridge : {false, true}) {
-        SCOPED_TRACE(testing::Message() << "closed " << closed << " some " << some << " ridge " << ridge);
+        SCOPED_TRACE(::testing::Message() << "closed " << closed << " some " << some << " ridge " << ridge);
         expect_dense(closed, 4, 2, some, ridge);  // round a closed band every function meets every other on both sides
         expect_dense(closed, 16, 4, some, ridge);
       }
@@ -135,7 +135,7 @@ TEST(LevelFit, AgreesWithDenseLeastSquares) {
 
 TEST(LevelFit, ALargeRidgeHoldsCoefficientsBack) {
   Problem p(true, 3);
-  SplineLevel level = tests::level_of(kLength, kWidth, 8, 2, true);
+  SplineLevel level = tests::level_of(kLevelLength, kLevelWidth, 8, 2, true);
   const std::vector<float> ridge(level.size(), 1e16f), before = p.residual;
   fit_level(p.points, p.residual, p.weight, ridge, level);
   for (const float c : level.coefficient) EXPECT_LT(std::fabs(c), 1e-8f);
@@ -147,7 +147,7 @@ TEST(LevelFit, TheSameForAnyNumberOfThreads) {
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     Problem p(true, 4);
-    SplineLevel level = tests::level_of(kLength, kWidth, 32, 8, true);
+    SplineLevel level = tests::level_of(kLevelLength, kLevelWidth, 32, 8, true);
     fit_level(p.points, p.residual, p.weight, {}, level);
     coefficients.push_back(level.coefficient);
     residuals.push_back(p.residual);

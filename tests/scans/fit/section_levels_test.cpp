@@ -9,13 +9,13 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kNoise = 20e-6, kLength = 1.0, kFinest = 2e-3;
-constexpr std::size_t kRows = 1000, kColumns = 72;
+constexpr double kSectionNoise = 20e-6, kSectionLength = 1.0, kFinest = 2e-3;
+constexpr std::size_t kSectionRows = 1000, kSectionColumns = 72;
 
-Band rail_band() {
+Band levelled_rail_band() {
   auto nominal = tests::nominal_points("60E1", Body::rail);
   std::erase_if(nominal, [](const Vec2& p) { return std::fabs(p.x()) > 34e-3; });
-  return {Body::rail, 1.0, Section(nominal), 0.0, kLength, false};
+  return {Body::rail, 1.0, Section(nominal), 0.0, kSectionLength, false};
 }
 
 /// Wear of a crown and a hollow: zero, with all its derivatives nearly, at the ends.
@@ -25,11 +25,12 @@ double wear(double s) {
 }
 
 TEST(SectionLevels, DeviationIsRecoveredDespiteNoiseAndDamage) {
-  const Band band = rail_band();
-  const BandPoints points = tests::sorted(band, kRows, kColumns,
-                                          tests::scattered(band, kRows, kColumns, 6, kNoise, 1, [](double a, double s) {
-                                            return wear(s) - (a > 0.3 && a < 0.5 ? 0.8e-3 : 0.0);  // a fifth is damaged
-                                          }));
+  const Band band = levelled_rail_band();
+  const BandPoints points =
+      tests::sorted(band, kSectionRows, kSectionColumns,
+                    tests::scattered(band, kSectionRows, kSectionColumns, 6, kSectionNoise, 1, [](double a, double s) {
+                      return wear(s) - (a > 0.3 && a < 0.5 ? 0.8e-3 : 0.0);  // a fifth is damaged
+                    }));
   double moved = 0.0;
   const Section section = refine_section(points, band, kFinest, &moved);
   double most = 0.0, sum = 0.0, count = 0.0;
@@ -50,11 +51,12 @@ TEST(SectionLevels, DeviationIsRecoveredDespiteNoiseAndDamage) {
 }
 
 TEST(SectionLevels, WhatAgreesWithTheNominalSectionStaysExactlySo) {
-  const Band band = rail_band();
+  const Band band = levelled_rail_band();
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const BandPoints points = tests::sorted(band, kRows, kColumns,
-                                            tests::scattered(band, kRows, kColumns, 2, kNoise, seed,
-                                                             [](double a, double) { return a < 0.2 ? -1e-3 : 0.0; }));
+    const BandPoints points =
+        tests::sorted(band, kSectionRows, kSectionColumns,
+                      tests::scattered(band, kSectionRows, kSectionColumns, 2, kSectionNoise, seed,
+                                       [](double a, double) { return a < 0.2 ? -1e-3 : 0.0; }));
     double moved = 1.0;
     const Section section = refine_section(points, band, kFinest, &moved);
     EXPECT_EQ(moved, 0.0);
@@ -67,11 +69,11 @@ TEST(SectionLevels, WhatAgreesWithTheNominalSectionStaysExactlySo) {
 }
 
 TEST(SectionLevels, WhereNothingDeviatesItStaysNominal) {
-  const Band band = rail_band();
+  const Band band = levelled_rail_band();
   const auto local = [](double s) { return 40e-6 * std::exp(-0.5 * std::pow((s - 58e-3) / 2e-3, 2)); };
-  const BandPoints points =
-      tests::sorted(band, kRows, kColumns,
-                    tests::scattered(band, kRows, kColumns, 4, 5e-6, 2, [&](double, double s) { return local(s); }));
+  const BandPoints points = tests::sorted(
+      band, kSectionRows, kSectionColumns,
+      tests::scattered(band, kSectionRows, kSectionColumns, 4, 5e-6, 2, [&](double, double s) { return local(s); }));
   const Section section = refine_section(points, band, kFinest);
   for (double s = 3e-3; s < band.section.length() - 3e-3; s += 0.5e-3) {
     const auto foot = section.foot(band.section.at(s).position, 1e-3);
@@ -81,16 +83,17 @@ TEST(SectionLevels, WhereNothingDeviatesItStaysNominal) {
 }
 
 TEST(SectionLevels, DenselyScannedDamageCountsNoMore) {
-  const Band band = rail_band();
-  auto samples = tests::scattered(band, kRows, kColumns, 2, kNoise, 5, [](double, double s) { return wear(s); });
+  const Band band = levelled_rail_band();
+  auto samples = tests::scattered(band, kSectionRows, kSectionColumns, 2, kSectionNoise, 5,
+                                  [](double, double s) { return wear(s); });
   // three quarters of all points lie on a tenth of the length
   Random random(8);
   const std::size_t most = 3 * samples.size();
   for (std::size_t i = 0; i < most; ++i) {
     const double a = 0.5 + 0.1 * random.uniform(), s = band.section.length() * random.uniform();
-    samples.push_back({a, s, wear(s) - 0.5e-3 + kNoise * tests::gaussian(random)});
+    samples.push_back({a, s, wear(s) - 0.5e-3 + kSectionNoise * tests::gaussian(random)});
   }
-  const Section section = refine_section(tests::sorted(band, kRows, kColumns, samples), band, kFinest);
+  const Section section = refine_section(tests::sorted(band, kSectionRows, kSectionColumns, samples), band, kFinest);
   for (double s = 3e-3; s < band.section.length() - 3e-3; s += 0.5e-3) {
     const auto foot = section.foot(band.section.at(s).position, 1e-3);
     ASSERT_TRUE(foot.has_value());

@@ -13,6 +13,8 @@
 
 namespace treadmark::scans::tests {
 
+inline constexpr double kWheelRadius = 0.46;  ///< of sample wheels [m]
+
 /// Standard normal numbers (Box and Muller 1958).
 inline double gaussian(Random& random) {
   return std::sqrt(-2.0 * std::log(1.0 - random.uniform())) * std::cos(2.0 * std::numbers::pi * random.uniform());

@@ -8,27 +8,29 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/halfspace/constant_elements.hpp"
+#include "treadmark/tests/solvers/kalker/angle_settings.hpp"
 
 namespace treadmark::kalker {
 namespace {
 
-constexpr double kDx = 0.5e-3, kDy = 0.4e-3;
-constexpr std::array kCorrections{AngleCorrection::rotated_loads, AngleCorrection::rotated_loads_but_xn,
-                                  AngleCorrection::rotated_displacements, AngleCorrection::half_and_half};
+using testing::kCorrections;
+using testing::settings_of;
 
-InfluenceBlock half_space(double X, double Y) { return ConstantElements(kDx, kDy, 0.28, 0.12).at(X, Y); }
+constexpr double kAngleDx = 0.5e-3, kAngleDy = 0.4e-3;
+
+InfluenceBlock half_space(double X, double Y) { return ConstantElements(kAngleDx, kAngleDy, 0.28, 0.12).at(X, Y); }
 
 void expect_equal(const InfluenceBlock& found, const InfluenceBlock& expected, double tolerance = 1e-17) {
   for (const auto& [name, c] : kAllCoefficients) EXPECT_NEAR(found.*c, expected.*c, tolerance) << name;
 }
 
 TEST(AngleCorrection, WithoutAngleThereIsNone) {
-  const InfluenceBlock a = half_space(kDx, 2 * kDy);
+  const InfluenceBlock a = half_space(kAngleDx, 2 * kAngleDy);
   for (const auto correction : kCorrections) expect_equal(corrected_for_angle(a, 0.0, correction), a, 0.0);
 }
 
 TEST(AngleCorrection, TurnsVectorsAsByHand) {
-  const InfluenceBlock a = half_space(kDx, 2 * kDy);
+  const InfluenceBlock a = half_space(kAngleDx, 2 * kAngleDy);
   const double right_angle = 0.5 * std::numbers::pi;
   // A load along the surface that has turned by a right angle presses; one across it then pulls along -y.
   const InfluenceBlock loads = corrected_for_angle(a, right_angle, AngleCorrection::rotated_loads);
@@ -54,7 +56,7 @@ TEST(AngleCorrection, TurnsVectorsAsByHand) {
 }
 
 TEST(AngleCorrection, SecondVariantKeepsRollingDisplacementByPressure) {
-  const InfluenceBlock a = half_space(-kDx, 3 * kDy);
+  const InfluenceBlock a = half_space(-kAngleDx, 3 * kAngleDy);
   InfluenceBlock expected = corrected_for_angle(a, 0.3, AngleCorrection::rotated_loads);
   EXPECT_NE(expected.xn, a.xn);
   expected.xn = a.xn;
@@ -62,7 +64,7 @@ TEST(AngleCorrection, SecondVariantKeepsRollingDisplacementByPressure) {
 }
 
 TEST(AngleCorrection, HalfAndHalfHasThePublishedForm) {
-  const InfluenceBlock a = half_space(2 * kDx, -kDy);
+  const InfluenceBlock a = half_space(2 * kAngleDx, -kAngleDy);
   const double alpha = 0.4, c = std::cos(alpha), s = std::sin(alpha), ch = std::cos(alpha / 2),
                sh = std::sin(alpha / 2);
   const double mean = (a.yy + a.nn) / 2, difference = (a.yy - a.nn) / 2;
@@ -78,15 +80,6 @@ TEST(AngleCorrection, HalfAndHalfHasThePublishedForm) {
                 .nn = -difference + mean * c + a.yn * s});
 }
 
-InfluenceSettings settings_of(std::vector<double> position, std::vector<double> inclination, int variant) {
-  InfluenceSettings settings;
-  settings.kind = InfluenceSettings::Kind::angle_corrected;
-  settings.position = std::move(position);
-  settings.inclination = std::move(inclination);
-  settings.variant = variant;
-  return settings;
-}
-
 Material dissimilar() {
   Material m;
   m.shear_modulus_1 = 60e9;
@@ -94,8 +87,8 @@ Material dissimilar() {
   return m;
 }
 
-std::shared_ptr<const InfluenceKernel> make(const InfluenceSettings& settings) {
-  return make_influence_kernel(dissimilar(), settings, kDx, kDy, 30.0, 0.0);
+std::shared_ptr<const InfluenceKernel> make_corrected(const InfluenceSettings& settings) {
+  return make_influence_kernel(dissimilar(), settings, kAngleDx, kAngleDy, 30.0, 0.0);
 }
 
 TEST(AngleCorrectedKernel, AngleFollowsTheStraightLineThroughTheInclinations) {
@@ -103,29 +96,30 @@ TEST(AngleCorrectedKernel, AngleFollowsTheStraightLineThroughTheInclinations) {
   const std::vector<double> position{-0.01, 0.0, 0.01, 0.02},
       inclination{-0.1 + 0.01, 0.1 - 0.01, 0.3 - 0.01, 0.5 + 0.01};
   const CombinedMaterial combined = combine(dissimilar());
-  const ConstantElements plain(kDx, kDy, combined.poisson, combined.difference);
+  const ConstantElements plain(kAngleDx, kAngleDy, combined.poisson, combined.difference);
   for (int variant = 1; variant <= 4; ++variant) {
-    const auto kernel = make(settings_of(position, inclination, variant));
+    const auto kernel = make_corrected(settings_of(position, inclination, variant));
     for (const int iy : {0, 3, -4}) {
-      const double Y = iy * kDy, y_load = 0.003, y_observed = y_load + Y;
+      const double Y = iy * kAngleDy, y_load = 0.003, y_observed = y_load + Y;
       const double alpha = (0.1 + 20.0 * y_load) - (0.1 + 20.0 * y_observed);
-      expect_equal(kernel->at(kDx, Y),
-                   corrected_for_angle(plain.at(kDx, Y), alpha, static_cast<AngleCorrection>(variant)), 1e-16);
+      expect_equal(kernel->at(kAngleDx, Y),
+                   corrected_for_angle(plain.at(kAngleDx, Y), alpha, static_cast<AngleCorrection>(variant)), 1e-16);
     }
   }
 }
 
 TEST(AngleCorrectedKernel, APlaneNeedsNoCorrection) {
   const CombinedMaterial combined = combine(dissimilar());
-  const ConstantElements plain(kDx, kDy, combined.poisson, combined.difference);
+  const ConstantElements plain(kAngleDx, kAngleDy, combined.poisson, combined.difference);
   for (int variant = 1; variant <= 4; ++variant)
-    expect_equal(make(settings_of({0.0, 0.01}, {0.3, 0.3}, variant))->at(kDx, 5 * kDy), plain.at(kDx, 5 * kDy), 0.0);
+    expect_equal(make_corrected(settings_of({0.0, 0.01}, {0.3, 0.3}, variant))->at(kAngleDx, 5 * kAngleDy),
+                 plain.at(kAngleDx, 5 * kAngleDy), 0.0);
 }
 
 TEST(AngleCorrectedKernel, FourthVariantIsReciprocalAndSymmetric) {
-  const auto kernel = make(settings_of({0.0, 0.01}, {0.0, 0.5}, 4));
+  const auto kernel = make_corrected(settings_of({0.0, 0.01}, {0.0, 0.5}, 4));
   EXPECT_TRUE(kernel->symmetric() && kernel->coupled());
-  for (const auto& [X, Y] : {std::pair{kDx, 4 * kDy}, {-3 * kDx, 7 * kDy}, {0.0, -2 * kDy}}) {
+  for (const auto& [X, Y] : {std::pair{kAngleDx, 4 * kAngleDy}, {-3 * kAngleDx, 7 * kAngleDy}, {0.0, -2 * kAngleDy}}) {
     const InfluenceBlock there = kernel->at(X, Y), back = kernel->at(-X, -Y);
     expect_equal(there, {.xx = back.xx,
                          .xy = back.yx,
@@ -140,19 +134,19 @@ TEST(AngleCorrectedKernel, FourthVariantIsReciprocalAndSymmetric) {
     expect_equal(kernel->at(X, -Y), mirrored(there, false, true));
   }
   for (int variant = 1; variant <= 3; ++variant)
-    EXPECT_FALSE(make(settings_of({0.0, 0.01}, {0.0, 0.5}, variant))->symmetric());
+    EXPECT_FALSE(make_corrected(settings_of({0.0, 0.01}, {0.0, 0.5}, variant))->symmetric());
 }
 
 TEST(AngleCorrectedKernel, RefusesWhatHasNoMeaning) {
-  EXPECT_THROW(make(settings_of({0.0, 0.01}, {0.0, 0.5}, 0)), Error);
-  EXPECT_THROW(make(settings_of({0.0, 0.01}, {0.0, 0.5}, 5)), Error);
-  EXPECT_THROW(make(settings_of({0.0, 0.01}, {0.0}, 4)), Error);
-  EXPECT_THROW(make(settings_of({}, {}, 4)), Error);
-  EXPECT_THROW(make(settings_of({0.01, 0.01}, {0.0, 0.5}, 4)), Error);
+  EXPECT_THROW(make_corrected(settings_of({0.0, 0.01}, {0.0, 0.5}, 0)), Error);
+  EXPECT_THROW(make_corrected(settings_of({0.0, 0.01}, {0.0, 0.5}, 5)), Error);
+  EXPECT_THROW(make_corrected(settings_of({0.0, 0.01}, {0.0}, 4)), Error);
+  EXPECT_THROW(make_corrected(settings_of({}, {}, 4)), Error);
+  EXPECT_THROW(make_corrected(settings_of({0.01, 0.01}, {0.0, 0.5}, 4)), Error);
   InfluenceSettings row_by_row = settings_of({0.0, 0.01}, {0.0, 0.5}, 4);
   row_by_row.linear = false;
   try {
-    make(row_by_row);
+    make_corrected(row_by_row);
     ADD_FAILURE() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::configuration);

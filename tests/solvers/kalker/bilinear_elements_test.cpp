@@ -12,8 +12,6 @@
 namespace treadmark::kalker {
 namespace {
 
-constexpr double kPoisson = 0.28, kDifference = 0.11;
-
 TEST(BilinearElements, MatchQuadratureOfThePointSolutions) {
   const double dx = 0.4, dy = 0.7;
   const BilinearElements kernel(dx, dy, kPoisson, kDifference);

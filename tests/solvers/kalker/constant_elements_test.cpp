@@ -14,8 +14,6 @@
 namespace treadmark::kalker {
 namespace {
 
-constexpr double kPoisson = 0.28, kDifference = 0.11;
-
 TEST(ConstantElements, MatchQuadratureOfThePointSolutions) {
   const double dx = 0.4, dy = 0.7;
   const ConstantElements kernel(dx, dy, kPoisson, kDifference);

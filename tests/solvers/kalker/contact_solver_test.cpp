@@ -13,9 +13,8 @@ namespace treadmark::kalker {
 namespace {
 
 using testing::hertzian;
+using testing::kSteel;
 using testing::OwnedProblem;
-
-const CombinedMaterial kSteel = combine(Material{});
 
 OwnedProblem ball() {
   const HertzShape shape = hertz_from_semi_axes(6e-3, 4e-3, {true, 80e3}, kSteel);

@@ -13,7 +13,7 @@ namespace treadmark::kalker {
 namespace {
 
 /// One line of the table in docs/convergence.md: relative errors against Hertz on n elements across 1.2 contact widths.
-struct Line {
+struct ConvergenceLine {
   std::string contact;  ///< a/b, or "line"
   int n = 0;
   double pressure = 0.0, approach = 0.0, force = 0.0, area = 0.0, field = 0.0;
@@ -29,7 +29,7 @@ HertzShape shape_of(const std::string& contact, const CombinedMaterial& material
   return hertz_from_semi_axes(c * std::sqrt(ratio), c / std::sqrt(ratio), {true, 1e5}, material);
 }
 
-Line compute(const std::string& contact, int n) {
+ConvergenceLine compute(const std::string& contact, int n) {
   const HertzShape shape = shape_of(contact, combine(Material{}));
   const bool line = is_line_contact(shape);
   const Grid2 grid = hertz_grid(shape, n, line ? 1 : n, kScale);
@@ -39,7 +39,7 @@ Line compute(const std::string& contact, int n) {
   ContactSolution solution;
   solver.solve(owned.problem, solution);
 
-  Line result{contact, n, 0.0, 0.0, 0.0, 0.0, 0.0};
+  ConvergenceLine result{contact, n, 0.0, 0.0, 0.0, 0.0, 0.0};
   result.pressure = solution.max_pressure / hertz_max_pressure(shape) - 1.0;
   const double area = line ? 4.0 * shape.semi_axis_x * shape.semi_axis_y : M_PI * shape.semi_axis_x * shape.semi_axis_y;
   result.area = solution.elements_contact * grid.cell_area() / area - 1.0;
@@ -64,11 +64,11 @@ Line compute(const std::string& contact, int n) {
   return result;
 }
 
-std::vector<Line> documented() {
+std::vector<ConvergenceLine> documented_convergence() {
   std::ifstream file(std::string(TREADMARK_SOURCE_DIR) + "/docs/convergence.md");
-  std::vector<Line> lines;
+  std::vector<ConvergenceLine> lines;
   for (std::string text; std::getline(file, text);) {
-    Line line;
+    ConvergenceLine line;
     char bar = 0;
     std::istringstream words(text);
     if (words >> bar >> line.contact >> bar >> line.n >> bar >> line.pressure >> bar >> line.approach >> bar >>
@@ -78,7 +78,7 @@ std::vector<Line> documented() {
   return lines;
 }
 
-std::string markdown(const Line& line) {
+std::string markdown(const ConvergenceLine& line) {
   char text[160];
   std::snprintf(text, sizeof text, "| %s | %d | %.1e | %.1e | %.1e | %.1e | %.1e |", line.contact.c_str(), line.n,
                 line.pressure, line.approach, line.force, line.area, line.field);
@@ -86,10 +86,10 @@ std::string markdown(const Line& line) {
 }
 
 TEST(ConvergenceTable, DocumentShowsWhatIsComputed) {
-  const auto lines = documented();
+  const auto lines = documented_convergence();
   ASSERT_EQ(lines.size(), 20u) << "docs/convergence.md: 4 contacts on 5 grids";
-  for (const Line& printed : lines) {
-    const Line computed = compute(printed.contact, printed.n);
+  for (const ConvergenceLine& printed : lines) {
+    const ConvergenceLine computed = compute(printed.contact, printed.n);
     const auto expected = computed.errors(), found = printed.errors();
     for (std::size_t i = 0; i < expected.size(); ++i) {
       // Two digits are shown; a little more than half a unit of the second one, for the last bits of the transforms.
@@ -103,7 +103,7 @@ TEST(ConvergenceTable, ErrorsFallAtTheStatedOrder) {
   // From 21 to 161 elements, a factor 7.7: second order is a factor 59, first order 7.7. The jagged edge of the contact
   // area makes the errors scatter about the trend, so that a good half of the order is required.
   for (const std::string contact : {"1.0", "0.5", "0.1"}) {
-    const Line coarse = compute(contact, 21), fine = compute(contact, 161);
+    const ConvergenceLine coarse = compute(contact, 21), fine = compute(contact, 161);
     EXPECT_GT(coarse.pressure / fine.pressure, 30.0) << contact;
     EXPECT_GT(coarse.approach / fine.approach, 30.0) << contact;
     EXPECT_GT(coarse.force / fine.force, 30.0) << contact;

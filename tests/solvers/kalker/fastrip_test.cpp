@@ -16,9 +16,8 @@ namespace {
 
 using std::numbers::pi;
 using testing::hertzian;
+using testing::kSteel;
 using testing::OwnedProblem;
-
-const CombinedMaterial kSteel = combine(Material{});
 
 OwnedProblem rolling(const HertzShape& shape, int nx, int ny, const Creepage& creepage) {
   OwnedProblem owned = hertzian(shape, hertz_grid(shape, nx, ny, 1.0));

@@ -15,19 +15,19 @@ namespace {
 
 using FirstStep = FastsimSettings::FirstStep;
 
-constexpr double kA = 6e-3, kB = 4e-3, kLoad = 80e3, kMu = 0.3, kFlexibility = 2.5e-14;
+constexpr double kA = 6e-3, kB = 4e-3, kFastsimLoad = 80e3, kFastsimMu = 0.3, kFlexibility = 2.5e-14;
 /// Peak of the parabolic bound [Pa].
-constexpr double kBound = kMu * 2.0 * kLoad / (std::numbers::pi * kA * kB);
+constexpr double kBound = kFastsimMu * 2.0 * kFastsimLoad / (std::numbers::pi * kA * kB);
 
 /// Force of FASTSIM with a parabolic bound, n x n elements across the ellipse, which lies off their middle by
 /// shift_x, shift_y elements.
 Vec2 force_at(int n, FirstStep first_step, const Creepage& creepage, double shift_x, double shift_y) {
-  const HertzShape shape = hertz_from_semi_axes(kA, kB, {true, kLoad}, combine(Material{}));
+  const HertzShape shape = hertz_from_semi_axes(kA, kB, {true, kFastsimLoad}, combine(Material{}));
   ContactProblem problem;
   problem.grid = hertz_grid(shape, n, n, 1.0);
   Grid2& grid = problem.grid;
   grid = {grid.x0 + (shift_x - 1.0) * grid.dx, grid.y0 + (shift_y - 1.0) * grid.dy, grid.dx, grid.dy, n + 2, n + 2};
-  problem.friction.kinetic = kMu;
+  problem.friction.kinetic = kFastsimMu;
   problem.regime = Regime::steady;
   problem.tangential_model = TangentialModel::fastsim_one_flexibility;
   problem.fastsim.flexibility = kFlexibility;
@@ -76,8 +76,8 @@ constexpr double kSlipping = 1.2e-3, kSpin = 0.4;
 TEST(FastsimConvergence, QuadratureKnowsItsLimits) {
   const double small = 1e-7;
   EXPECT_NEAR(force_by_quadrature(small) / (-8.0 / 3.0 * kA * kA * kB * small / kFlexibility), 1.0, 1e-3);
-  EXPECT_NEAR(force_by_quadrature(1.0) / (-kMu * kLoad), 1.0, 1e-6);
-  const double share = force_by_quadrature(kSlipping) / (-kMu * kLoad);
+  EXPECT_NEAR(force_by_quadrature(1.0) / (-kFastsimMu * kFastsimLoad), 1.0, 1e-6);
+  const double share = force_by_quadrature(kSlipping) / (-kFastsimMu * kFastsimLoad);
   EXPECT_GT(share, 0.3);
   EXPECT_LT(share, 0.9);
 }

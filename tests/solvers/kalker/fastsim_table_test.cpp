@@ -19,12 +19,12 @@ namespace {
 
 /// One line of the table in solvers/kalker/fastsim/README.md. Creepages are scaled: 1 is what the linear theory needs
 /// for the friction bound. Results: size of the tangential force over the friction bound.
-struct Line {
+struct FastsimLine {
   double ratio = 0.0, xi = 0.0, eta = 0.0, phi = 0.0;
   std::array<double, 5> forces{};  ///< full, fastsim, fastsim with parabolic bound, one flexibility, fastrip
 };
 
-Line compute(Line line) {
+FastsimLine compute(FastsimLine line) {
   const double c = 5e-3, a = c * std::sqrt(line.ratio), b = c / std::sqrt(line.ratio);
   const CombinedMaterial material = combine(Material{});
   const HertzShape shape = hertz_from_semi_axes(a, b, {true, 80e3}, material);
@@ -52,11 +52,11 @@ Line compute(Line line) {
   return line;
 }
 
-std::vector<Line> documented() {
+std::vector<FastsimLine> documented_fastsim() {
   std::ifstream file(std::string(TREADMARK_SOURCE_DIR) + "/solvers/kalker/fastsim/README.md");
-  std::vector<Line> lines;
+  std::vector<FastsimLine> lines;
   for (std::string text; std::getline(file, text);) {
-    Line line;
+    FastsimLine line;
     char bar = 0;
     std::istringstream words(text);
     if (!(words >> bar >> line.ratio >> bar >> line.xi >> bar >> line.eta >> bar >> line.phi)) continue;
@@ -67,7 +67,7 @@ std::vector<Line> documented() {
   return lines;
 }
 
-std::string markdown(const Line& line) {
+std::string markdown(const FastsimLine& line) {
   char text[160];
   std::snprintf(text, sizeof text, "| %.1f | %.1f | %.1f | %.1f | %.3f | %.3f | %.3f | %.3f | %.3f |", line.ratio,
                 line.xi, line.eta, line.phi, line.forces[0], line.forces[1], line.forces[2], line.forces[3],
@@ -76,10 +76,10 @@ std::string markdown(const Line& line) {
 }
 
 TEST(FastsimTable, ReadmeShowsWhatIsComputed) {
-  const std::vector<Line> lines = documented();
+  const std::vector<FastsimLine> lines = documented_fastsim();
   ASSERT_EQ(lines.size(), 24u) << "3 contacts with 8 creepages";
-  for (const Line& printed : lines) {
-    const Line computed = compute(printed);
+  for (const FastsimLine& printed : lines) {
+    const FastsimLine computed = compute(printed);
     for (std::size_t i = 0; i < computed.forces.size(); ++i)
       EXPECT_NEAR(computed.forces[i], printed.forces[i], 6e-4) << "the table should read\n" << markdown(computed);
   }
@@ -88,7 +88,7 @@ TEST(FastsimTable, ReadmeShowsWhatIsComputed) {
 TEST(FastsimTable, SimplifiedTheoriesStayCloseToFullTheory) {
   // Of the friction bound. Parabolic under spin: on finer grids, with half and whole first steps and in a sum by hand,
   // forces go to 0.827, 0.667 and 0.473 (a/b = 2, 1, 1/2), those of the exact theory to 0.759, 0.605 and 0.436.
-  for (const Line& line : documented()) {
+  for (const FastsimLine& line : documented_fastsim()) {
     SCOPED_TRACE(markdown(line));
     EXPECT_NEAR(line.forces[1], line.forces[0], 0.06);
     EXPECT_NEAR(line.forces[2], line.forces[0], line.phi == 0.0 ? 0.045 : 0.08);

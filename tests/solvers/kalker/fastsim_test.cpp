@@ -10,11 +10,12 @@
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {
 namespace {
 
-const CombinedMaterial kSteel = combine(Material{});
+using testing::kSteel;
 
 TEST(KalkerCoefficients, ReproduceTheTableAtItsNodes) {
   constexpr double kRounding = 1e-12;
@@ -57,14 +58,14 @@ TEST(KalkerCoefficients, RefuseWhatIsNotInTheTable) {
   EXPECT_THROW(kalker_coefficients(1.0, 1.0, 0.6), Error);
 }
 
-struct Case {
+struct FastsimCase {
   ContactProblem problem;
   ContactSolution solution;
 };
 
 /// Rolling contact of 6 x 4 mm with an elliptic or parabolic pressure.
-Case rolling(int n, bool parabolic = true) {
-  Case c;
+FastsimCase rolling(int n, bool parabolic = true) {
+  FastsimCase c;
   const HertzShape shape = hertz_from_semi_axes(6e-3, 4e-3, {true, 80e3}, kSteel);
   c.problem.grid = hertz_grid(shape, n, n, 1.1);
   c.problem.hertz = shape;
@@ -78,21 +79,21 @@ Case rolling(int n, bool parabolic = true) {
   return c;
 }
 
-Vec2 force(const Case& c) {
+Vec2 force(const FastsimCase& c) {
   Vec2 sum = Vec2::Zero();
   for (std::size_t i = 0; i < c.solution.pressure.size(); ++i)
     sum += Vec2(c.solution.traction_x[i], c.solution.traction_y[i]);
   return sum * c.problem.grid.cell_area();
 }
 
-Vec2 force_at(Case& c, const Creepage& creepage) {
+Vec2 force_at(FastsimCase& c, const Creepage& creepage) {
   c.problem.creepage = creepage;
   solve_fastsim(c.problem, c.solution);
   return force(c);
 }
 
 TEST(Fastsim, FollowsLinearTheoryForSmallCreepage) {
-  Case c = rolling(200);
+  FastsimCase c = rolling(200);
   const KalkerCoefficients k = kalker_coefficients(6e-3, 4e-3, kSteel.poisson);
   const double g = kSteel.shear_modulus, ab = 6e-3 * 4e-3;
   // The blending weight grows linearly with creepage; friction cuts the trailing edge; strips have finite length.
@@ -107,7 +108,7 @@ TEST(Fastsim, FollowsLinearTheoryForSmallCreepage) {
 TEST(Fastsim, OneFlexibilityIntegratesTheRigidSlip) {
   // Without slip the springs' traction grows from the leading edge: p_x = -xi (a_j - x)/L, p_y = -phi (a_j^2 - x^2)/(2
   // L).
-  Case c = rolling(200);
+  FastsimCase c = rolling(200);
   c.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
   const double l = c.problem.fastsim.flexibility = 2.5e-14, a = 6e-3, b = 4e-3;
   constexpr double kLinear = 0.01;
@@ -117,7 +118,7 @@ TEST(Fastsim, OneFlexibilityIntegratesTheRigidSlip) {
 }
 
 TEST(Fastsim, OneFlexibilityEqualsThreeUnderLongitudinalCreepage) {
-  Case three = rolling(44), one = rolling(44);
+  FastsimCase three = rolling(44), one = rolling(44);
   const KalkerCoefficients k = kalker_coefficients(6e-3, 4e-3, kSteel.poisson);
   one.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
   one.problem.fastsim.flexibility = 8.0 * 6e-3 / (3.0 * k.c11 * kSteel.shear_modulus);
@@ -128,7 +129,7 @@ TEST(Fastsim, OneFlexibilityEqualsThreeUnderLongitudinalCreepage) {
 }
 
 TEST(Fastsim, RefusesAFlexibilityThatIsNotPositive) {
-  Case c = rolling(10);
+  FastsimCase c = rolling(10);
   c.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
   for (const double flexibility : {0.0, -1e-14, std::nan("")}) {
     c.problem.fastsim.flexibility = flexibility;
@@ -137,7 +138,7 @@ TEST(Fastsim, RefusesAFlexibilityThatIsNotPositive) {
 }
 
 TEST(Fastsim, SaturatesAtTheFrictionBoundAgainstTheSlip) {
-  Case c = rolling(44);
+  FastsimCase c = rolling(44);
   const double bound = 0.3 * [&] {
     double sum = 0.0;
     for (const double p : c.solution.pressure) sum += p;
@@ -150,7 +151,7 @@ TEST(Fastsim, SaturatesAtTheFrictionBoundAgainstTheSlip) {
 
 TEST(Fastsim, RespectsFrictionEverywhere) {
   for (const bool parabolic : {true, false}) {
-    Case c = rolling(44, parabolic);
+    FastsimCase c = rolling(44, parabolic);
     force_at(c, {1e-3, -5e-4, 0.4});
     double dissipated = 0.0;
     int slipping = 0, sticking = 0;
@@ -174,14 +175,14 @@ TEST(Fastsim, RespectsFrictionEverywhere) {
 }
 
 TEST(Fastsim, MirrorsWithTheLateralDirection) {
-  Case c = rolling(44), mirrored = rolling(44);
+  FastsimCase c = rolling(44), mirrored = rolling(44);
   const Vec2 f = force_at(c, {5e-4, 4e-4, 0.3}), g = force_at(mirrored, {5e-4, -4e-4, -0.3});
   EXPECT_NEAR(f.x(), g.x(), 1e-9 * f.norm());
   EXPECT_NEAR(f.y(), -g.y(), 1e-9 * f.norm());
 }
 
 TEST(Fastsim, RollingBackwardsMirrorsAlongTheTrack) {
-  Case c = rolling(44), backwards = rolling(44);
+  FastsimCase c = rolling(44), backwards = rolling(44);
   const Vec2 f = force_at(c, {5e-4, 4e-4, 0.3});
   backwards.problem.rolling.chi = std::acos(-1.0);
   const Vec2 g = force_at(backwards, {-5e-4, 4e-4, -0.3});
@@ -190,7 +191,7 @@ TEST(Fastsim, RollingBackwardsMirrorsAlongTheTrack) {
 }
 
 TEST(Fastsim, FindsCreepageForPrescribedForces) {
-  Case c = rolling(44);
+  FastsimCase c = rolling(44);
   c.problem.fx_relative = -0.4;
   c.problem.fy_relative = 0.3;
   solve_fastsim(c.problem, c.solution);
@@ -210,7 +211,7 @@ TEST(Fastsim, FindsCreepageForPrescribedForces) {
 }
 
 TEST(Fastsim, FallingFrictionLowersTheForce) {
-  Case c = rolling(44);
+  FastsimCase c = rolling(44);
   c.problem.friction = {FrictionLaw::Kind::exponential, 0.1, 0.2, 0.0, 1.0, 0.0};
   c.problem.rolling.velocity = 10.0;
   const double slow = force_at(c, {0.01, 0, 0}).norm(), fast = force_at(c, {0.2, 0, 0}).norm();
@@ -219,7 +220,7 @@ TEST(Fastsim, FallingFrictionLowersTheForce) {
 }
 
 TEST(Fastsim, SlopeReductionWeakensSmallCreepageOnly) {
-  Case c = rolling(44);
+  FastsimCase c = rolling(44);
   const double plain_small = force_at(c, {1e-4, 0, 0}).norm(), plain_large = force_at(c, {0.5, 0, 0}).norm();
   c.problem.fastsim = {0.5, 0.2, 0.6};
   EXPECT_LT(force_at(c, {1e-4, 0, 0}).norm(), 0.6 * plain_small);
@@ -227,21 +228,21 @@ TEST(Fastsim, SlopeReductionWeakensSmallCreepageOnly) {
 }
 
 TEST(Fastsim, EquivalentEllipseOfAnEllipseIsThatEllipse) {
-  const Case c = rolling(300);
+  const FastsimCase c = rolling(300);
   const EquivalentEllipse ellipse = equivalent_ellipse(c.problem.grid, c.solution.pressure);
   EXPECT_NEAR(ellipse.a, 6e-3, 0.01 * 6e-3);
   EXPECT_NEAR(ellipse.b, 4e-3, 0.01 * 4e-3);
 }
 
 /// Solves a step of transient rolling and returns what the next one goes on from.
-ContactHistory step_on(Case& c, const ContactHistory& before) {
+ContactHistory step_on(FastsimCase& c, const ContactHistory& before) {
   solve_fastsim(c.problem, c.solution, before);
   return history_of(c.problem, c.solution);
 }
 
 TEST(Fastsim, FromRestTractionsGrowWithTheDistanceRolled) {
   // Springs that never slide: each is stretched by the creepage over the way that it has been in contact.
-  Case c = rolling(20);
+  FastsimCase c = rolling(20);
   c.problem.regime = Regime::transient;
   c.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
   const double l = c.problem.fastsim.flexibility = 2.5e-14, xi = 1e-9, dx = c.problem.grid.dx;
@@ -266,11 +267,11 @@ TEST(Fastsim, FromRestTractionsGrowWithTheDistanceRolled) {
 
 TEST(Fastsim, TransientRollingEndsInSteadyRolling) {
   for (const double chi : {0.0, std::acos(-1.0)}) {
-    Case steady = rolling(30);
+    FastsimCase steady = rolling(30);
     steady.problem.creepage = {8e-4, -4e-4, 0.3, 0.0, 0.0};
     steady.problem.rolling.chi = chi;
     solve_fastsim(steady.problem, steady.solution);
-    Case c = rolling(30);
+    FastsimCase c = rolling(30);
     c.problem = steady.problem;
     c.problem.regime = Regime::transient;
     c.problem.rolling.step = c.problem.grid.dx;
@@ -297,8 +298,8 @@ TEST(Fastsim, TransientRollingEndsInSteadyRolling) {
 
 TEST(Fastsim, StepsOfHalfAnElementCarryLayersOn) {
   // Of a chain of springs that never slide the sum follows the way rolled, whatever the steps.
-  Case whole = rolling(40), half = rolling(40);
-  for (Case* c : {&whole, &half}) {
+  FastsimCase whole = rolling(40), half = rolling(40);
+  for (FastsimCase* c : {&whole, &half}) {
     c->problem.regime = Regime::transient;
     c->problem.creepage = {1e-9, 0.0, 0.0, 0.0, 0.0};
     c->problem.friction.kinetic = 1e6;
@@ -314,8 +315,8 @@ TEST(Fastsim, StepsOfHalfAnElementCarryLayersOn) {
 }
 
 TEST(Fastsim, RollsInAnyDirectionInTransientSteps) {
-  Case along = rolling(24), across = rolling(24);
-  for (Case* c : {&along, &across}) {
+  FastsimCase along = rolling(24), across = rolling(24);
+  for (FastsimCase* c : {&along, &across}) {
     c->problem.regime = Regime::transient;
     c->problem.tangential_model = TangentialModel::fastsim_one_flexibility;
     c->problem.fastsim.flexibility = 2.5e-14;
@@ -339,7 +340,7 @@ TEST(Fastsim, RollsInAnyDirectionInTransientSteps) {
 }
 
 TEST(Fastsim, RefusesWhatItCannotDo) {
-  Case c = rolling(10);
+  FastsimCase c = rolling(10);
   c.problem.regime = Regime::shift;
   EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
   c.problem.regime = Regime::steady;

@@ -20,7 +20,7 @@ namespace {
 using Complex = std::complex<double>;
 
 /// Sums of a few hundred values of order one, rounded once per operation.
-constexpr double kRounding = 1e-11;
+constexpr double kFft2dRounding = 1e-11;
 
 AlignedVector<double> random_field(std::size_t size, unsigned seed) {
   std::mt19937 generator(seed);
@@ -58,10 +58,10 @@ TEST_P(Fft2dShapes, MatchesTheDefinitionAndInverts) {
     for (int kx = 0; kx <= nx / 2; ++kx)
       ASSERT_LT(
           std::abs(spectrum[static_cast<std::size_t>(kx + (nx / 2 + 1) * ky)] - sum_by_definition(fft, field, kx, ky)),
-          kRounding)
+          kFft2dRounding)
           << kx << ' ' << ky;
   fft.inverse(spectrum, work);
-  for (std::size_t i = 0; i < field.size(); ++i) ASSERT_NEAR(work[i] / (nx * ny), field[i], kRounding);
+  for (std::size_t i = 0; i < field.size(); ++i) ASSERT_NEAR(work[i] / (nx * ny), field[i], kFft2dRounding);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, Fft2dShapes,
@@ -76,7 +76,7 @@ TEST(Fft2d, UnalignedArraysGiveTheSameResult) {
   AlignedVector<Complex> one(fft.spectrum_size()), other(fft.spectrum_size());
   fft.forward(aligned, one);
   fft.forward(std::span(shifted).subspan(1), other);
-  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_LT(std::abs(one[i] - other[i]), kRounding);
+  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_LT(std::abs(one[i] - other[i]), kFft2dRounding);
 }
 
 TEST(Fft2d, ThreadsGetBitwiseTheSameResult) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/heat/surface_temperature.hpp"
@@ -19,18 +19,17 @@ namespace {
 
 using testing::OwnedProblem;
 
-constexpr double kPi = std::numbers::pi;
-const ThermalProperties kSteel{0.0, 450.0, 50.0, 7850.0};
+const ThermalProperties kSteelHeat{0.0, 450.0, 50.0, 7850.0};
 const ThermalProperties kComposite{80.0, 900.0, 2.0, 2300.0};
 
 double effusivity(const ThermalProperties& t) { return std::sqrt(t.heat_capacity * t.conductivity * t.density); }
 
 /// A row of elements of which some slide, without a contact problem behind it.
-struct Row {
+struct HeatedRow {
   ContactProblem problem;
   ContactSolution solution;
 
-  Row(int n, double dx, double chi, const ThermalProperties& rail, const ThermalProperties& wheel) {
+  HeatedRow(int n, double dx, double chi, const ThermalProperties& rail, const ThermalProperties& wheel) {
     problem.grid = {0.0, 0.0, dx, 1e-3, n, 1};
     problem.regime = Regime::steady;
     problem.rolling = {chi, 20.0, 0.0, 0.0};
@@ -55,12 +54,12 @@ struct Row {
 TEST(SurfaceTemperature, UniformSlidingHeatsLikeABandSource) {
   const double dx = 0.1e-3, q = 3e8;
   for (const double chi : {0.0, kPi}) {
-    Row row(100, dx, chi, kSteel, kSteel);
+    HeatedRow row(100, dx, chi, kSteelHeat, kSteelHeat);
     row.slide(30, 59, q);
     const SurfaceTemperatures t = surface_temperatures(row.problem, row.solution);
     // Carslaw and Jaeger 1959, section 2.9: T = 2 q / b (sqrt(t) - sqrt(t - t0)) / sqrt(pi), half the heat to each
     // body.
-    const double factor = 2 * q / (2 * effusivity(kSteel) * std::sqrt(kPi * row.problem.rolling.velocity));
+    const double factor = 2 * q / (2 * effusivity(kSteelHeat) * std::sqrt(kPi * row.problem.rolling.velocity));
     for (int i = 0; i < 100; ++i) {
       const double passed = chi == 0.0 ? (59 - i + 0.5) * dx : (i - 30 + 0.5) * dx, length = 30 * dx;
       const double exact =
@@ -75,11 +74,11 @@ TEST(SurfaceTemperature, UniformSlidingHeatsLikeABandSource) {
 TEST(SurfaceTemperature, AnEllipticalSourceConvergesToTheExactMaximum) {
   const double a = 5e-3, q = 3e8;
   const auto error = [&](int n, Conventions conventions) {
-    Row row(n, 2 * a / n, kPi, kSteel, kSteel);
+    HeatedRow row(n, 2 * a / n, kPi, kSteelHeat, kSteelHeat);
     for (int i = 0; i < n; ++i) row.slide(i, i, q * std::sqrt(1.0 - std::pow((2.0 * i + 1.0) / n - 1.0, 2)));
     row.problem.thermal->conventions = conventions;
     const double exact =
-        2.18830 * q * std::sqrt(a) / (2 * effusivity(kSteel) * std::sqrt(kPi * row.problem.rolling.velocity));
+        2.18830 * q * std::sqrt(a) / (2 * effusivity(kSteelHeat) * std::sqrt(kPi * row.problem.rolling.velocity));
     return std::abs(surface_temperatures(row.problem, row.solution).max_1 / exact - 1.0);
   };
   EXPECT_LT(error(50, Conventions::treadmark), 2e-3);
@@ -88,7 +87,7 @@ TEST(SurfaceTemperature, AnEllipticalSourceConvergesToTheExactMaximum) {
 }
 
 /// Heat that has flowed into both bodies per area of surface, from what is left of it far behind the contact.
-double heat_far_behind(const Row& row, const SurfaceTemperatures& t, double centre) {
+double heat_far_behind(const HeatedRow& row, const SurfaceTemperatures& t, double centre) {
   const std::size_t i = row.problem.grid.size() - 1;
   const double root =
       std::sqrt(kPi * row.problem.rolling.velocity * (row.problem.grid.x(static_cast<int>(i)) - centre));
@@ -100,7 +99,7 @@ double heat_far_behind(const Row& row, const SurfaceTemperatures& t, double cent
 TEST(SurfaceTemperature, HeatIsConserved) {
   const double dx = 0.1e-3;
   for (const bool sliding : {true, false}) {
-    Row row(4000, dx, kPi, kSteel, kComposite);
+    HeatedRow row(4000, dx, kPi, kSteelHeat, kComposite);
     row.slide(10, 39, sliding ? 3e8 : 0.0);
     const SurfaceTemperatures t = surface_temperatures(row.problem, row.solution);
     const double heat = sliding ? 3e8 * 30 * dx : 0.0;
@@ -114,7 +113,7 @@ TEST(SurfaceTemperature, HeatIsConserved) {
 }
 
 TEST(SurfaceTemperature, BothSurfacesAreEquallyWarmInContact) {
-  Row row(60, 0.1e-3, kPi, kSteel, kComposite);
+  HeatedRow row(60, 0.1e-3, kPi, kSteelHeat, kComposite);
   row.slide(5, 40, 1e8);
   const SurfaceTemperatures t = surface_temperatures(row.problem, row.solution);
   for (std::size_t i = 5; i <= 40; ++i) EXPECT_NEAR(t.body_1[i], t.body_2[i], 1e-10 * t.body_2[i]);
@@ -127,10 +126,10 @@ TEST(SurfaceTemperature, BothSurfacesAreEquallyWarmInContact) {
 TEST(SurfaceTemperature, ConductionRelaxesAsTheExchangedHeatDemands) {
   const double dx = 0.1e-3, velocity = 20.0, length = 20 * dx;
   for (const double chi : {0.0, kPi}) {
-    Row row(80, dx, chi, kSteel, kComposite);
+    HeatedRow row(80, dx, chi, kSteelHeat, kComposite);
     for (int i = 30; i < 50; ++i) row.solution.state[static_cast<std::size_t>(i)] = ElementState::adhesion;
     const SurfaceTemperatures t = surface_temperatures(row.problem, row.solution);
-    const double b1 = effusivity(kSteel), b2 = effusivity(kComposite), difference = 80.0;
+    const double b1 = effusivity(kSteelHeat), b2 = effusivity(kComposite), difference = 80.0;
     const double common = (b1 * 0.0 + b2 * 80.0) / (b1 + b2);
     EXPECT_NEAR(t.body_1[40], common, 1e-9);
     EXPECT_NEAR(t.max_2, common, 1e-9);
@@ -153,7 +152,7 @@ TEST(SurfaceTemperature, ConductionRelaxesAsTheExchangedHeatDemands) {
 }
 
 TEST(SurfaceTemperature, PlasticShearOfTheLayerHeatsByItsShare) {
-  Row row(10, 0.1e-3, kPi, kSteel, kSteel);
+  HeatedRow row(10, 0.1e-3, kPi, kSteelHeat, kSteelHeat);
   row.problem.thermal->plastic_fraction = 0.4;
   for (std::size_t i = 3; i < 7; ++i) {
     row.solution.state[i] = ElementState::plastic;
@@ -169,20 +168,20 @@ TEST(SurfaceTemperature, PlasticShearOfTheLayerHeatsByItsShare) {
 }
 
 TEST(SurfaceTemperature, RefusesWhatHasNoMeaning) {
-  const Row good(10, 0.1e-3, 0.0, kSteel, kSteel);
+  const HeatedRow good(10, 0.1e-3, 0.0, kSteelHeat, kSteelHeat);
   const auto refuses = [&](auto change) {
-    Row row = good;
+    HeatedRow row = good;
     change(row);
     EXPECT_THROW(surface_temperatures(row.problem, row.solution), Error);
   };
   EXPECT_NO_THROW(surface_temperatures(good.problem, good.solution));
-  refuses([](Row& r) { r.problem.thermal.reset(); });
-  refuses([](Row& r) { r.problem.thermal->body_2.conductivity = 0.0; });
-  refuses([](Row& r) { r.problem.regime = Regime::shift; });
-  refuses([](Row& r) { r.problem.rolling.velocity = 0.0; });
-  refuses([](Row& r) { r.problem.rolling.chi = 1.0; });
-  refuses([](Row& r) { r.solution.slip_y.pop_back(); });
-  refuses([](Row& r) { r.solution.plastic_x.assign(10, 0.0); });
+  refuses([](HeatedRow& r) { r.problem.thermal.reset(); });
+  refuses([](HeatedRow& r) { r.problem.thermal->body_2.conductivity = 0.0; });
+  refuses([](HeatedRow& r) { r.problem.regime = Regime::shift; });
+  refuses([](HeatedRow& r) { r.problem.rolling.velocity = 0.0; });
+  refuses([](HeatedRow& r) { r.problem.rolling.chi = 1.0; });
+  refuses([](HeatedRow& r) { r.solution.slip_y.pop_back(); });
+  refuses([](HeatedRow& r) { r.solution.plastic_x.assign(10, 0.0); });
 }
 
 /// The reference program's example after Ertz and Knothe 2002: four cases of sliding and of wheel temperature.
@@ -206,7 +205,7 @@ TEST(SurfaceTemperature, ReferenceCases) {
     const auto& patch = cases.at(k).at("patches").at(0);
     const auto& motion = patch.at("kinematics");
     problem.creepage = {motion.at("xi"), motion.at("eta"), motion.at("phi").get<double>() * 1e3};
-    problem.thermal = Thermal{kSteel, kSteel, 1.0};
+    problem.thermal = Thermal{kSteelHeat, kSteelHeat, 1.0};
     problem.thermal->body_2.bulk_temperature = k == 0 ? 0.0 : 150.0;
     ContactSolution solution = solver.solve(problem);
     ASSERT_EQ(solution.status, Status::ok);
@@ -229,7 +228,7 @@ TEST(SurfaceTemperature, ReferenceCases) {
       // Sliding at 1 m/s under the Hertzian pressure, row y = 0: 2.1883 is the greatest value of the integral of
       // sqrt(1 - s^2) / sqrt(x - s) over -1 < s < x.
       const double flux = 0.3 * 770.6e6 * 1.0, a = 5.88e-3;
-      const double exact = 2.1883 * flux * std::sqrt(a) / (2 * effusivity(kSteel) * std::sqrt(kPi * 30.0));
+      const double exact = 2.1883 * flux * std::sqrt(a) / (2 * effusivity(kSteelHeat) * std::sqrt(kPi * 30.0));
       EXPECT_NEAR(solution.max_temperature_1, exact, 0.02 * exact);
     }
   }

@@ -8,16 +8,17 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {
 namespace {
 
 using std::numbers::pi;
+using testing::kSteel;
 
-const CombinedMaterial kSteel = combine(Material{});
 constexpr HertzLoad kForce{true, 100e3};
 /// Elliptic integrals and bisection are evaluated to rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kHertzRounding = 1e-12;
 
 double e_star() { return kSteel.shear_modulus / (1.0 - kSteel.poisson); }
 
@@ -25,9 +26,9 @@ TEST(Hertz, SphereFollowsTheClosedForm) {
   const double radius = 0.3, curvature = 1.0 / (2.0 * radius);
   const HertzShape shape = hertz_from_curvatures(curvature, curvature, kForce, kSteel);
   const double a = std::cbrt(3.0 * kForce.value * radius / (4.0 * e_star()));
-  EXPECT_NEAR(shape.semi_axis_x, a, kRounding * a);
-  EXPECT_NEAR(shape.semi_axis_y, a, kRounding * a);
-  EXPECT_NEAR(shape.approach, a * a / radius, kRounding * a * a / radius);
+  EXPECT_NEAR(shape.semi_axis_x, a, kHertzRounding * a);
+  EXPECT_NEAR(shape.semi_axis_y, a, kHertzRounding * a);
+  EXPECT_NEAR(shape.approach, a * a / radius, kHertzRounding * a * a / radius);
   EXPECT_NEAR(hertz_max_pressure(shape), 1.5 * kForce.value / (pi * a * a), 1e-3);
 }
 
@@ -90,11 +91,11 @@ TEST(Hertz, LineContactOfTheCarterProblem) {
   const double half_length = 0.1, a = 1e-3, radius = 0.5;
   const double force = 2.0 * half_length * pi * a * a * e_star() / (4.0 * radius);
   const HertzShape shape = hertz_line_from_curvature(1.0 / (2.0 * radius), half_length, {true, force}, kSteel);
-  EXPECT_NEAR(shape.semi_axis_x, a, kRounding * a);
+  EXPECT_NEAR(shape.semi_axis_x, a, kHertzRounding * a);
   EXPECT_TRUE(is_line_contact(shape));
   EXPECT_NEAR(hertz_max_pressure(shape), 2.0 * force / (pi * a * 2.0 * half_length), 1e-3);
   const HertzShape back = hertz_line_from_semi_axis(a, half_length, {true, force}, kSteel);
-  EXPECT_NEAR(back.curvature_x, 1.0, kRounding);
+  EXPECT_NEAR(back.curvature_x, 1.0, kHertzRounding);
 }
 
 TEST(Hertz, PressuresIntegrateToTheForce) {

@@ -10,9 +10,12 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/history/contact_history.hpp"
+#include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {
 namespace {
+
+using testing::largest_difference;
 
 /// A ball of 0.3 m on a plane; about n elements across the contact.
 struct Ball {
@@ -40,12 +43,6 @@ struct Ball {
   std::vector<double> gap;
   ContactProblem problem;
 };
-
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double out = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::fabs(a[i] - b[i]));
-  return out;
-}
 
 TEST(History, OtherElementsTakeTheMeanOverTheirArea) {
   ContactHistory h;

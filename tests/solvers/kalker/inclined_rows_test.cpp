@@ -15,7 +15,7 @@
 namespace treadmark::kalker::testing {
 namespace {
 
-using Fields = std::array<std::vector<double>, 3>;  ///< x, y, n
+using RowFields = std::array<std::vector<double>, 3>;  ///< x, y, n
 
 /// A ball of dissimilar material in a groove; partly slipping where it rolls. The grid is not symmetric about the
 /// contact.
@@ -87,11 +87,11 @@ double inclination(const InfluenceSettings& s, double y) {
 }
 
 /// Displacements of all elements by all tractions, term by term.
-Fields dense_displacement(const ContactProblem& p, const ContactSolution& by, double shift_x) {
+RowFields dense_displacement(const ContactProblem& p, const ContactSolution& by, double shift_x) {
   const Grid2& g = p.grid;
   const CombinedMaterial m = combine(p.material);
   const ConstantElements half_space(g.dx, g.dy, m.poisson, m.difference);
-  Fields u;
+  RowFields u;
   for (auto& field : u) field.assign(g.size(), 0.0);
   for (std::size_t j = 0; j < g.size(); ++j) {
     if (by.pressure[j] == 0.0) continue;
@@ -118,7 +118,7 @@ Fields dense_displacement(const ContactProblem& p, const ContactSolution& by, do
 void expect_solution(const ContactProblem& p, const ContactSolution& s, const ContactSolution* before) {
   ASSERT_EQ(s.status, Status::ok) << s.normal.message << s.tangential.message;
   const Grid2& g = p.grid;
-  const Fields u = dense_displacement(p, s, 0.0);
+  const RowFields u = dense_displacement(p, s, 0.0);
   const double depth = 1e-6 * s.approach;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const double e = p.gap[i] - s.approach + u[2][i];
@@ -132,7 +132,7 @@ void expect_solution(const ContactProblem& p, const ContactSolution& s, const Co
 
   const bool steady = p.regime == Regime::steady, rolling = p.regime != Regime::shift;
   const double length = rolling ? g.dx : 1.0, shift = rolling ? g.dx : 0.0;
-  Fields then;
+  RowFields then;
   for (auto& field : then) field.assign(g.size(), 0.0);
   if (steady || before) then = dense_displacement(p, steady ? s : *before, shift);
   int adhesion = 0, slip = 0;

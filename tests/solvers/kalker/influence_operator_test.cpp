@@ -14,11 +14,13 @@
 namespace treadmark::kalker {
 namespace {
 
+using testing::Box;
 using testing::by_operator;
 using testing::Fields;
+using testing::kDx;
+using testing::kDy;
+using testing::kShearModulus;
 using testing::random_tractions;
-
-constexpr double kDx = 0.5e-3, kDy = 0.8e-3, kShearModulus = 8e10;
 
 /// No two coefficients alike and no symmetry; counts its calls.
 class LopsidedKernel final : public InfluenceKernel {
@@ -50,12 +52,7 @@ class WithoutSymmetry final : public InfluenceKernel {
   std::shared_ptr<const InfluenceKernel> kernel_;
 };
 
-struct Case {
-  int nx, ny;
-  double shift_x, shift_y;
-};
-
-Fields direct_sum(const Case& c, const InfluenceKernel& kernel, const Fields& p) {
+Fields direct_sum(const Box& c, const InfluenceKernel& kernel, const Fields& p) {
   return testing::direct_sum(p, kShearModulus, [&](int i, int j) {
     return kernel.at((i % c.nx - j % c.nx) * kDx + c.shift_x, (i / c.nx - j / c.nx) * kDy + c.shift_y);
   });
@@ -70,10 +67,10 @@ void expect_near(const Fields& found, const Fields& expected) {
   }
 }
 
-class InfluenceOperators : public ::testing::TestWithParam<Case> {};
+class InfluenceOperators : public ::testing::TestWithParam<Box> {};
 
 TEST_P(InfluenceOperators, EqualTheDirectSum) {
-  const Case c = GetParam();
+  const Box c = GetParam();
   const auto half_spaces = std::make_shared<ConstantElements>(kDx, kDy, 0.28, 0.1);
   const auto p = random_tractions(static_cast<std::size_t>(c.nx * c.ny));
   for (const std::shared_ptr<const InfluenceKernel>& kernel :
@@ -85,9 +82,9 @@ TEST_P(InfluenceOperators, EqualTheDirectSum) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, InfluenceOperators,
-                         ::testing::Values(Case{1, 1, 0.0, 0.0}, Case{7, 1, 0.0, 0.0}, Case{1, 5, 0.1e-3, 0.0},
-                                           Case{13, 8, 0.0, 0.0}, Case{13, 8, kDx, 0.0}, Case{8, 13, 0.13e-3, -0.4e-3},
-                                           Case{9, 9, 0.0, 0.2e-3}, Case{17, 1, -0.5e-3, 0.4e-3}));
+                         ::testing::Values(Box{1, 1}, Box{7, 1}, Box{1, 5, 0.1e-3, 0.0}, Box{13, 8},
+                                           Box{13, 8, kDx, 0.0}, Box{8, 13, 0.13e-3, -0.4e-3}, Box{9, 9, 0.0, 0.2e-3},
+                                           Box{17, 1, -0.5e-3, 0.4e-3}));
 
 TEST(InfluenceOperator, SymmetryChangesNoCoefficient) {
   const auto kernel = std::make_shared<ConstantElements>(kDx, kDy, 0.28, 0.1);

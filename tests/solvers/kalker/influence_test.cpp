@@ -9,6 +9,7 @@
 #include <string>
 
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
+#include "treadmark/tests/solvers/kalker/point_solutions.hpp"
 
 namespace treadmark::kalker {
 namespace {
@@ -65,7 +66,6 @@ double own_element_by_quadrature(Component component, double dx, double dy, doub
 }
 
 constexpr std::array kComponents{Component::nn, Component::xx, Component::yy, Component::xy};
-constexpr double kPoisson = 0.28;
 
 TEST(Influence, MatchesQuadratureOfThePointSolutions) {
   constexpr double kQuadrature = 1e-10;  // of the Gauss rule next to the singularity

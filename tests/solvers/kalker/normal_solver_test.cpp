@@ -18,9 +18,8 @@ namespace treadmark::kalker {
 namespace {
 
 using testing::hertzian;
+using testing::kSteel;
 using testing::OwnedProblem;
-
-const CombinedMaterial kSteel = combine(Material{});
 
 ContactSolution solve(const ContactProblem& problem) {
   NormalSolver solver;

@@ -10,6 +10,15 @@
 namespace treadmark::kalker::testing {
 
 /// Tractions [Pa] or displacements [m] of the elements of a box.
+inline constexpr double kDx = 0.5e-3, kDy = 0.8e-3, kShearModulus = 8e10;  ///< [m], [m], [Pa]
+
+/// Elements along and across, and from their centres to where displacements are asked for [m].
+struct Box {
+  int nx, ny;
+  double shift_x = 0.0, shift_y = 0.0;
+  double difference = 0.12;  ///< K
+};
+
 struct Fields {
   explicit Fields(std::size_t size) : x(size), y(size), n(size) {}
   std::vector<double> x, y, n;

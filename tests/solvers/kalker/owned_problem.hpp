@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -9,6 +12,8 @@
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 
 namespace treadmark::kalker::testing {
+
+inline const CombinedMaterial kSteel = combine(Material{});
 
 /// A contact problem that owns its gap.
 struct OwnedProblem {
@@ -29,6 +34,12 @@ inline OwnedProblem hertzian(const HertzShape& shape, const Grid2& grid) {
   OwnedProblem owned(grid, hertz_gap(shape, grid));
   owned.problem.normal_force = shape.force;
   return owned;
+}
+
+inline double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double out = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) out = std::max(out, std::abs(a[i] - b[i]));
+  return out;
 }
 
 }  // namespace treadmark::kalker::testing

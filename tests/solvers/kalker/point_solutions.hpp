@@ -12,6 +12,8 @@
 
 namespace treadmark::kalker {
 
+inline constexpr double kPoisson = 0.28, kDifference = 0.11;  ///< Poisson's ratio, K of dissimilar bodies
+
 inline constexpr std::array<std::pair<const char*, double InfluenceBlock::*>, 9> kAllCoefficients{
     {{"xx", &InfluenceBlock::xx},
      {"xy", &InfluenceBlock::xy},

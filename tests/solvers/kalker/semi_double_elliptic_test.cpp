@@ -13,7 +13,7 @@
 namespace treadmark::kalker {
 namespace {
 
-const CombinedMaterial kSteel = combine(Material{});
+using testing::kSteel;
 
 ContactSolution solve(const HertzShape& shape, const Grid2& grid) {
   ContactProblem problem;

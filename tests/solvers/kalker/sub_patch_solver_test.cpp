@@ -8,9 +8,12 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
+#include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {
 namespace {
+
+using testing::largest_difference;
 
 /// Two bumps 8 mm apart pressed against a plane: two contacts in one grid.
 struct TwoBumps {
@@ -34,12 +37,6 @@ struct TwoBumps {
     problem.sub_patches.coupling = {1.0, coupling, coupling, 1.0};
   }
 };
-
-double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
-  double difference = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) difference = std::max(difference, std::abs(a[i] - b[i]));
-  return difference;
-}
 
 TEST(SubPatches, FullCouplingIsOnePatch) {
   TwoBumps bumps(1.0);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/tests/solvers/kalker/subsurface_load.hpp"
@@ -22,8 +22,6 @@ using testing::kDissimilar;
 using testing::Load;
 using testing::one_element;
 using testing::patch;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Johnson 1985, eq. (3.19, 3.20) in cylindrical coordinates: unit force along z.
 Mat3 boussinesq(const Vec3& p, double nu) {

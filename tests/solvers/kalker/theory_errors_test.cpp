@@ -48,9 +48,9 @@ const std::vector<Group>& groups() {
   return all;
 }
 
-class Ellipse {
+class SolvedEllipse {
  public:
-  explicit Ellipse(double ratio)
+  explicit SolvedEllipse(double ratio)
       : a_(kScale * std::sqrt(ratio)),
         b_(kScale / std::sqrt(ratio)),
         shape_(hertz_from_semi_axes(a_, b_, {true, kLoad}, combine(Material{}))),
@@ -100,7 +100,7 @@ constexpr std::array<std::pair<TangentialModel, const char*>, 4> kTheories{
      {TangentialModel::fastrip, "FaStrip"},
      {TangentialModel::linear, "linear"}}};
 
-void add_tangential(Ellipse& ellipse, std::size_t column, Table& table) {
+void add_tangential(SolvedEllipse& ellipse, std::size_t column, Table& table) {
   for (const Group& group : groups())
     for (const Creepage& scaled : group.creepages) {
       const ContactSolution exact = ellipse.solve(TangentialModel::full, scaled);
@@ -112,12 +112,13 @@ void add_tangential(Ellipse& ellipse, std::size_t column, Table& table) {
         force = std::max(force, force_error(found, exact));
         if (scaled.phi == 0.0) continue;
         double& moment = table["| " + std::string(name) + " | spin moment |"][column];
-        moment = std::max(moment, std::abs(found.moment_n - exact.moment_n) / (kMu * exact.force_n * Ellipse::kScale));
+        moment =
+            std::max(moment, std::abs(found.moment_n - exact.moment_n) / (kMu * exact.force_n * SolvedEllipse::kScale));
       }
     }
 }
 
-void add_normal(Ellipse& ellipse, std::size_t column, Table& table) {
+void add_normal(SolvedEllipse& ellipse, std::size_t column, Table& table) {
   ellipse.press_by_approach();
   for (const auto& [model, name] : {std::pair{NormalModel::kpec, "KPEC"}, std::pair{NormalModel::analyn, "ANALYN"}})
     for (const Creepage& scaled : {Creepage{0.5, 0.0, 0.0}, Creepage{0.0, 1.0, 0.0}, Creepage{0.0, 0.5, 0.5}}) {
@@ -138,7 +139,7 @@ const Table& computed() {
   static const Table table = [] {
     Table all;
     for (std::size_t column = 0; column < kRatios.size(); ++column) {
-      Ellipse ellipse(kRatios[column]);
+      SolvedEllipse ellipse(kRatios[column]);
       add_tangential(ellipse, column, all);
       add_normal(ellipse, column, all);
     }

@@ -14,14 +14,14 @@
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
+#include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {
 namespace {
 
 using testing::hertzian;
+using testing::kSteel;
 using testing::OwnedProblem;
-
-const CombinedMaterial kSteel = combine(Material{});
 
 /// Rolling contact on n x n elements; two hundred have loops in several blocks and transforms in blocks of lines.
 OwnedProblem large(int n, Regime regime) {

@@ -16,7 +16,7 @@ namespace {
 
 double lopsided_kernel(int dix, int diy) { return 1.0 / (1.0 + std::abs(dix - 0.3) + 2.0 * std::abs(diy + 0.4)); }
 
-std::vector<double> random_field(std::size_t size, unsigned seed) {
+std::vector<double> random_values(std::size_t size, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   std::vector<double> field(size);
@@ -34,18 +34,19 @@ std::vector<double> direct_sum(int nx, int ny, const std::vector<double>& p) {
 }
 
 /// Rounding of sums of at most a thousand terms of order one.
-constexpr double kRounding = 1e-12;
+constexpr double kSumRounding = 1e-12;
 
 class ToeplitzShapes : public ::testing::TestWithParam<std::pair<int, int>> {};
 
 TEST_P(ToeplitzShapes, EqualsTheDirectSum) {
   const auto [nx, ny] = GetParam();
   const ToeplitzOperator op(nx, ny, lopsided_kernel);
-  const auto p = random_field(op.size(), 5);
+  const auto p = random_values(op.size(), 5);
   std::vector<double> u(op.size());
   op.apply(p, u);
   const auto expected = direct_sum(nx, ny, p);
-  for (std::size_t i = 0; i < u.size(); ++i) ASSERT_NEAR(u[i], expected[i], kRounding * static_cast<double>(u.size()));
+  for (std::size_t i = 0; i < u.size(); ++i)
+    ASSERT_NEAR(u[i], expected[i], kSumRounding * static_cast<double>(u.size()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ToeplitzShapes,
@@ -58,7 +59,7 @@ TEST(ToeplitzTransform, KernelsAndFieldsMayBeSummedBetweenTransforms) {
   const auto one = transform.kernel_spectrum(lopsided_kernel);
   const auto two =
       transform.kernel_spectrum([](int dix, int diy) { return influence(Component::xy, dix, diy, 1, 1, 0.3); });
-  const auto p = random_field(transform.size(), 1), q = random_field(transform.size(), 2);
+  const auto p = random_values(transform.size(), 1), q = random_values(transform.size(), 2);
   Spectrum sp(transform.spectrum_size()), sq(transform.spectrum_size());
   transform.forward(p, sp);
   transform.forward(q, sq);
@@ -72,7 +73,7 @@ TEST(ToeplitzTransform, KernelsAndFieldsMayBeSummedBetweenTransforms) {
 
 TEST(ToeplitzOperator, IsBitwiseReproducibleAcrossThreads) {
   const ToeplitzOperator op(40, 33, lopsided_kernel);
-  const auto p = random_field(op.size(), 9);
+  const auto p = random_values(op.size(), 9);
   std::vector<std::vector<double>> results(4, std::vector<double>(op.size()));
   {
     std::vector<std::jthread> threads;

@@ -11,23 +11,19 @@
 #include "treadmark/solvers/kalker/halfspace/constant_elements.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence_operator.hpp"
 #include "treadmark/solvers/kalker/halfspace/row_inclination.hpp"
+#include "treadmark/tests/solvers/kalker/angle_settings.hpp"
 
 namespace treadmark::kalker {
 namespace {
 
+using testing::Box;
 using testing::by_operator;
 using testing::Fields;
+using testing::kCorrections;
+using testing::kDx;
+using testing::kDy;
+using testing::kShearModulus;
 using testing::random_tractions;
-
-constexpr double kDx = 0.5e-3, kDy = 0.8e-3, kShearModulus = 8e10;
-constexpr std::array kCorrections{AngleCorrection::rotated_loads, AngleCorrection::rotated_loads_but_xn,
-                                  AngleCorrection::rotated_displacements, AngleCorrection::half_and_half};
-
-struct Box {
-  int nx, ny;
-  double shift_x = 0.0, shift_y = 0.0;
-  double difference = 0.12;  ///< K
-};
 
 /// One coefficient after the other, in turned axes; the angles as they are, without order.
 Fields direct_sum(const Box& c, const InfluenceKernel& kernel, const std::vector<double>& angle,
@@ -40,7 +36,7 @@ Fields direct_sum(const Box& c, const InfluenceKernel& kernel, const std::vector
   });
 }
 
-void expect_near(const Fields& found, const Fields& expected) {
+void expect_equal_products(const Fields& found, const Fields& expected) {
   double largest = 0.0;
   for (const auto* field : {&expected.x, &expected.y, &expected.n})
     for (const double u : *field) largest = std::max(largest, std::abs(u));
@@ -68,7 +64,7 @@ TEST_P(TurnedProducts, EqualTheDirectSum) {
   InfluenceOperator op(c.nx, c.ny, kDx, kDy, kShearModulus, kernel, c.shift_x, c.shift_y);
   for (const AngleCorrection correction : kCorrections) {
     const RowInclination rows(angle, correction);
-    expect_near(by_operator(op, p, &rows), direct_sum(c, *kernel, angle, correction, p));
+    expect_equal_products(by_operator(op, p, &rows), direct_sum(c, *kernel, angle, correction, p));
   }
 }
 
@@ -89,7 +85,7 @@ TEST(TurnedProduct, OnAStraightLineCoefficientsDependOnTheOffsetOnly) {
     InfluenceOperator linear(nx, ny, kDx, kDy, kShearModulus,
                              std::make_shared<AngleCorrectedKernel>(plane, curvature, correction));
     const RowInclination rows(angle, correction);
-    expect_near(by_operator(turned, p, &rows), by_operator(linear, p, nullptr));
+    expect_equal_products(by_operator(turned, p, &rows), by_operator(linear, p, nullptr));
   }
 }
 
@@ -100,7 +96,7 @@ TEST(TurnedProduct, RowsOfOneInclinationAreAPlane) {
   const Fields plane = by_operator(op, p, nullptr);
   for (const AngleCorrection correction : kCorrections) {
     const RowInclination rows(std::vector<double>(static_cast<std::size_t>(ny), 0.6), correction);
-    expect_near(by_operator(op, p, &rows), plane);
+    expect_equal_products(by_operator(op, p, &rows), plane);
   }
 }
 
@@ -122,18 +118,14 @@ TEST(TurnedProduct, RefusesAnotherNumberOfRows) {
   EXPECT_THROW(op.normal_by_normal(p, u, &rows), Error);
 }
 
-InfluenceSettings settings_of(std::vector<double> position, std::vector<double> inclination, int variant = 4) {
-  InfluenceSettings settings;
-  settings.kind = InfluenceSettings::Kind::angle_corrected;
-  settings.position = std::move(position);
-  settings.inclination = std::move(inclination);
-  settings.variant = variant;
+InfluenceSettings settings_by_rows(std::vector<double> position, std::vector<double> inclination, int variant = 4) {
+  InfluenceSettings settings = testing::settings_of(std::move(position), std::move(inclination), variant);
   settings.linear = false;
   return settings;
 }
 
 TEST(InclinationTable, IsLinearBetweenItsPositionsAndBeyond) {
-  const InclinationTable table(settings_of({-2e-3, 0.0, 1e-3}, {0.1, 0.3, 0.7}));
+  const InclinationTable table(settings_by_rows({-2e-3, 0.0, 1e-3}, {0.1, 0.3, 0.7}));
   for (const auto& [y, expected] :
        {std::pair{-3e-3, 0.0}, {-2e-3, 0.1}, {-1e-3, 0.2}, {0.0, 0.3}, {0.25e-3, 0.4}, {1e-3, 0.7}, {2e-3, 1.1}})
     EXPECT_NEAR(table.at(y), expected, 1e-15) << y;
@@ -145,11 +137,11 @@ TEST(InclinationTable, IsLinearBetweenItsPositionsAndBeyond) {
 }
 
 TEST(InclinationTable, RefusesWhatHasNoMeaning) {
-  EXPECT_THROW(InclinationTable(settings_of({0.0}, {0.1})), Error);
-  EXPECT_THROW(InclinationTable(settings_of({0.0, 1e-3}, {0.1})), Error);
-  EXPECT_THROW(InclinationTable(settings_of({0.0, 1e-3, 1e-3}, {0.1, 0.2, 0.3})), Error);
-  EXPECT_THROW(InclinationTable(settings_of({0.0, 1e-3}, {0.1, std::nan("")})), Error);
-  EXPECT_THROW(InclinationTable(settings_of({0.0, 1e-3}, {0.1, 0.2}, 5)), Error);
+  EXPECT_THROW(InclinationTable(settings_by_rows({0.0}, {0.1})), Error);
+  EXPECT_THROW(InclinationTable(settings_by_rows({0.0, 1e-3}, {0.1})), Error);
+  EXPECT_THROW(InclinationTable(settings_by_rows({0.0, 1e-3, 1e-3}, {0.1, 0.2, 0.3})), Error);
+  EXPECT_THROW(InclinationTable(settings_by_rows({0.0, 1e-3}, {0.1, std::nan("")})), Error);
+  EXPECT_THROW(InclinationTable(settings_by_rows({0.0, 1e-3}, {0.1, 0.2}, 5)), Error);
 }
 
 }  // namespace

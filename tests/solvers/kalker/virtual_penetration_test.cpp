@@ -13,9 +13,9 @@
 namespace treadmark::kalker {
 namespace {
 
+using testing::kSteel;
 using testing::OwnedProblem;
 
-const CombinedMaterial kSteel = combine(Material{});
 constexpr NormalModel kModels[] = {NormalModel::kpec, NormalModel::analyn};
 
 /// Problem at a given approach.

@@ -12,7 +12,7 @@ namespace treadmark::kalker {
 namespace {
 
 /// Results of the reference program (conformal contact, inclinations row by row, displacements turned), four digits.
-struct Printed {
+struct PrintedGroove {
   double groove = 0.0;     ///< radius [m]
   double approach = 0.0;   ///< [m]
   double overspeed = 0.0;  ///< wheel's circumferential over travelling speed - 1, from the condition F_x = 0
@@ -20,10 +20,10 @@ struct Printed {
   int contact = 0, adhesion = 0;
 };
 
-constexpr Printed kPrinted[] = {{10.25e-3, 0.02237e-3, 2.366e-4, 9956.0, 520.6e6, -0.08602, 1207, 928},
-                                {10.10e-3, 0.01928e-3, 4.667e-4, 9967.0, 397.6e6, -0.3223, 1573, 842},
-                                {10.05e-3, 0.01718e-3, 6.975e-4, 10050.0, 336.1e6, -0.7063, 1891, 659},
-                                {10.02e-3, 0.01493e-3, 10.744e-4, 10340.0, 283.6e6, -1.578, 2337, 328}};
+constexpr PrintedGroove kPrinted[] = {{10.25e-3, 0.02237e-3, 2.366e-4, 9956.0, 520.6e6, -0.08602, 1207, 928},
+                                      {10.10e-3, 0.01928e-3, 4.667e-4, 9967.0, 397.6e6, -0.3223, 1573, 842},
+                                      {10.05e-3, 0.01718e-3, 6.975e-4, 10050.0, 336.1e6, -0.7063, 1891, 659},
+                                      {10.02e-3, 0.01493e-3, 10.744e-4, 10340.0, 283.6e6, -1.578, 2337, 328}};
 constexpr double kVerticalForce = 10e3;  ///< [N], by which the approach was found
 
 constexpr double kWheelProfile = 10e-3, kRolling = 420e-3, kVelocity = 0.42;
@@ -31,7 +31,7 @@ constexpr double kWheelProfile = 10e-3, kRolling = 420e-3, kVelocity = 0.42;
 /// The wheel pressed down by the approach, on the cylinder half-way between both surfaces: y along its arc, body 1 the
 /// groove, n into it.
 struct DeepGroove {
-  explicit DeepGroove(const Printed& p) : radius(0.5 * (p.groove + kWheelProfile)) {
+  explicit DeepGroove(const PrintedGroove& p) : radius(0.5 * (p.groove + kWheelProfile)) {
     const double dx = 0.095833e-3, dy = 0.25e-3;
     const int half_x = 35, half_y = static_cast<int>(1.35 * radius / dy);
     Grid2& grid = problem.grid = {-half_x * dx, -half_y * dy, dx, dy, 2 * half_x + 1, 2 * half_y + 1};
@@ -55,7 +55,7 @@ struct DeepGroove {
   }
   double angle(int iy) const { return problem.grid.y(iy) / radius; }
 
-  void add_row(const Printed& p, int iy) {
+  void add_row(const PrintedGroove& p, int iy) {
     const Grid2& grid = problem.grid;
     const double a = angle(iy), y = radius * std::sin(a);
     if (iy % 3 == 0) {
@@ -89,7 +89,7 @@ struct DeepGroove {
 };
 
 TEST(DeepGroove, RollsAsTheReferenceProgramsDoes) {
-  for (const Printed& printed : kPrinted) {
+  for (const PrintedGroove& printed : kPrinted) {
     SCOPED_TRACE(printed.groove);
     const DeepGroove groove(printed);
     const ContactSolution s = ContactSolver().solve(groove.problem);

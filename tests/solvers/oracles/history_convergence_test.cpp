@@ -69,11 +69,11 @@ TEST(HistoryConvergence, UnloadingTendsToMindlinAndDeresiewicz) {
   EXPECT_GT(tractions[0] / tractions[3], 6.0) << "first order: 8";
 }
 
-struct Rolling {
+struct RollingBall {
   testing::OwnedProblem owned;
   double steady = 0.0, bound = 0.0;  ///< forces [N]
 
-  explicit Rolling(int n) : owned(balls(n, 0.28, 1e-8)) {
+  explicit RollingBall(int n) : owned(balls(n, 0.28, 1e-8)) {
     ContactProblem& problem = owned.problem;
     problem.creepage.xi = -4e-4;
     problem.regime = Regime::steady;
@@ -105,7 +105,7 @@ struct Rolling {
 
 TEST(HistoryConvergence, RollingFromRestTendsToSteadyRolling) {
   const std::vector<int> distances{4, 8, 16, 32, 64, 128}, shown{4, 8, 16, 32, 64};
-  Rolling rolling(20);
+  RollingBall rolling(20);
   const auto half = rolling.differences(0.5, distances), one = rolling.differences(1.0, distances);
   const auto two = rolling.differences(2.0, distances);
   for (std::size_t k = 0; k < shown.size(); ++k)
@@ -116,7 +116,7 @@ TEST(HistoryConvergence, RollingFromRestTendsToSteadyRolling) {
 TEST(HistoryConvergence, LimitsOfOtherStepsApproachEachOtherOnFinerGrids) {
   double half_before = 1.0, two_before = 1.0;
   for (const int n : {10, 20, 40}) {
-    Rolling rolling(n);
+    RollingBall rolling(n);
     const double half = rolling.differences(0.5, {8 * n}).back(), two = rolling.differences(2.0, {8 * n}).back();
     treadmark::testing::expect_documented("limit", n, {half, two});
     EXPECT_LT(std::abs(half), half_before / 1.3);

@@ -16,22 +16,22 @@ namespace {
 /// C11, C22, C23 and the last one once more, from the moment that lateral creepage makes.
 using Coefficients = std::array<double, 4>;
 
-struct Printed {
+struct PrintedCoefficients {
   double ratio = 0.0;
   const char* name = "";
   double c11 = 0.0, c22 = 0.0, c23 = 0.0, poisson = 0.25;
 };
 
 /// Kalker 1990, table E.3: three digits.
-constexpr std::array<Printed, 9> kTable{{{0.1, "a/b=0.1", 3.31, 2.52, 0.473},
-                                         {0.2, "a/b=0.2", 3.37, 2.63, 0.603},
-                                         {0.5, "a/b=0.5", 3.62, 3.01, 0.929},
-                                         {1.0, "a/b=1", 4.12, 3.67, 1.47},
-                                         {2.0, "a/b=2", 5.10, 4.90, 2.62},
-                                         {5.0, "a/b=5", 7.78, 8.14, 6.63},
-                                         {10.0, "a/b=10", 11.7, 12.8, 14.6},
-                                         {1.0, "a/b=1,nu=0", 3.40, 3.40, 1.33, 0.0},
-                                         {1.0, "a/b=1,nu=0.5", 5.20, 3.98, 1.63, 0.5}}};
+constexpr std::array<PrintedCoefficients, 9> kTable{{{0.1, "a/b=0.1", 3.31, 2.52, 0.473},
+                                                     {0.2, "a/b=0.2", 3.37, 2.63, 0.603},
+                                                     {0.5, "a/b=0.5", 3.62, 3.01, 0.929},
+                                                     {1.0, "a/b=1", 4.12, 3.67, 1.47},
+                                                     {2.0, "a/b=2", 5.10, 4.90, 2.62},
+                                                     {5.0, "a/b=5", 7.78, 8.14, 6.63},
+                                                     {10.0, "a/b=10", 11.7, 12.8, 14.6},
+                                                     {1.0, "a/b=1,nu=0", 3.40, 3.40, 1.33, 0.0},
+                                                     {1.0, "a/b=1,nu=0.5", 5.20, 3.98, 1.63, 0.5}}};
 constexpr std::array<int, 3> kSizes{20, 40, 80};
 
 /// Slopes of the forces of steady rolling on n elements across the contact in each direction, so small a creepage and
@@ -67,7 +67,7 @@ Coefficients slopes(double ratio, double poisson, int n) {
 }
 
 TEST(LinearCoefficients, SlopesTendToKalkersTable) {
-  for (const Printed& printed : kTable) {
+  for (const PrintedCoefficients& printed : kTable) {
     std::array<Coefficients, 3> found{};
     const auto difference = [&](const Coefficients& c) {
       return std::vector<double>{c[0] / printed.c11 - 1.0, c[1] / printed.c22 - 1.0, c[2] / printed.c23 - 1.0,

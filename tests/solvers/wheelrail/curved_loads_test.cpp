@@ -11,7 +11,7 @@
 namespace treadmark::wheelrail {
 namespace {
 
-constexpr double kRadius = 12e-3, kHalfAngle = 0.7;
+constexpr double kArcRadius = 12e-3, kArcHalfAngle = 0.7;
 
 /// Rows on a circular arc below its centre, its lowest point beside the contact reference.
 struct Arc {
@@ -20,11 +20,11 @@ struct Arc {
 
   Arc() {
     constexpr int kRows = 400, kColumns = 10;
-    const double ds = 2.0 * kRadius * kHalfAngle / kRows, dx = 0.5e-3;
-    grid = {-0.5 * dx * (kColumns - 1), -kRadius * kHalfAngle + 0.5 * ds, dx, ds, kColumns, kRows};
+    const double ds = 2.0 * kArcRadius * kArcHalfAngle / kRows, dx = 0.5e-3;
+    grid = {-0.5 * dx * (kColumns - 1), -kArcRadius * kArcHalfAngle + 0.5 * ds, dx, ds, kColumns, kRows};
     for (int iy = 0; iy < kRows; ++iy) {
-      const double angle = grid.y(iy) / kRadius;
-      rows.rows.push_back({kRadius * std::sin(angle), kRadius * (std::cos(angle) - 1.0), -angle});
+      const double angle = grid.y(iy) / kArcRadius;
+      rows.rows.push_back({kArcRadius * std::sin(angle), kArcRadius * (std::cos(angle) - 1.0), -angle});
     }
   }
   double length_x() const { return grid.nx * grid.dx; }
@@ -36,7 +36,7 @@ TEST(CurvedLoads, PressureOnAnArcCarriesItsChord) {
   const double pressure = 3e8;
   contact.pressure.assign(arc.grid.size(), pressure);
   const Wrench w = resultant_on(arc.rows, arc.grid, contact);
-  const double force = pressure * arc.length_x() * 2.0 * kRadius * std::sin(kHalfAngle);
+  const double force = pressure * arc.length_x() * 2.0 * kArcRadius * std::sin(kArcHalfAngle);
   EXPECT_NEAR(w.force.z(), force, 1e-6 * force);
   EXPECT_NEAR(w.force.y(), 0.0, 1e-9 * force);
   EXPECT_NEAR(w.moment.norm(), 0.0, 1e-9 * force);
@@ -50,7 +50,7 @@ TEST(CurvedLoads, PressureOnOneSideTurnsAboutTheCentreNotAtAll) {
   for (int iy = 300; iy < 330; ++iy)
     for (int ix = 0; ix < arc.grid.nx; ++ix) contact.pressure[arc.grid.index(ix, iy)] = 2e8;
   const Wrench w = resultant_on(arc.rows, arc.grid, contact);
-  const Vec3 centre(0.0, 0.0, -kRadius);
+  const Vec3 centre(0.0, 0.0, -kArcRadius);
   EXPECT_NEAR((w.moment - centre.cross(w.force)).norm(), 0.0, 1e-12 * w.force.norm());
   EXPECT_GT(w.force.y(), 0.1 * w.force.z());
 }
@@ -63,14 +63,14 @@ TEST(CurvedLoads, TractionsKeepTheirLocalDirections) {
   contact.traction_x.assign(arc.grid.size(), px);
   contact.traction_y.assign(arc.grid.size(), py);
   const Wrench w = resultant_on(arc.rows, arc.grid, contact);
-  const double length = 2.0 * kRadius * kHalfAngle, chord = 2.0 * kRadius * std::sin(kHalfAngle);
-  const double depth = kRadius * (chord - length);  // integral of n along the arc
+  const double length = 2.0 * kArcRadius * kArcHalfAngle, chord = 2.0 * kArcRadius * std::sin(kArcHalfAngle);
+  const double depth = kArcRadius * (chord - length);  // integral of n along the arc
   EXPECT_NEAR(w.force.x(), px * arc.length_x() * length, 1e-6 * w.force.x());
   EXPECT_NEAR(w.force.y(), py * arc.length_x() * chord, 1e-5 * w.force.y());
   EXPECT_NEAR(w.moment.y(), px * arc.length_x() * depth, 1e-5 * std::abs(w.moment.y()));
   // Friction along the arc turns about the centre with the whole radius.
-  const Vec3 about_centre = w.moment - Vec3(0.0, 0.0, -kRadius).cross(w.force);
-  EXPECT_NEAR(about_centre.x(), -py * arc.length_x() * length * kRadius, 1e-5 * std::abs(about_centre.x()));
+  const Vec3 about_centre = w.moment - Vec3(0.0, 0.0, -kArcRadius).cross(w.force);
+  EXPECT_NEAR(about_centre.x(), -py * arc.length_x() * length * kArcRadius, 1e-5 * std::abs(about_centre.x()));
 }
 
 TEST(CurvedLoads, PlaneGivesTheSumsOfTheContactProblem) {

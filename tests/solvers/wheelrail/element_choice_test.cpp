@@ -38,7 +38,7 @@ Problem finer(Problem p, const PairSolution& than) {
   return p;
 }
 
-constexpr double kWheel = 0.46, kCrown = 0.3;
+constexpr double kCrown = 0.3;
 
 /// A cylinder that stands across a crowned rail.
 Geometry crown() {
@@ -46,14 +46,14 @@ Geometry crown() {
   ArcChain rail{-kCrown * std::sin(kAngle), kCrown * (1.0 - std::cos(kAngle)), -kAngle, {}};
   rail.segments = {{2.0 * kAngle * kCrown, 1.0 / kCrown}};
   return {analytic::make_prismatic_surface(rail),
-          analytic::make_revolved_surface(analytic::straight_chain(0.04), kWheel), true, true};
+          analytic::make_revolved_surface(analytic::straight_chain(0.04), kStandardRadius), true, true};
 }
 
 Problem on_crown(double load) {
   Problem p;
   p.track.gauge_based = false;
   p.track.rail_y0 = 0.75;
-  p.wheelset = {1.360, -0.070, kWheel, std::nullopt};
+  p.wheelset = {1.360, -0.070, kStandardRadius, std::nullopt};
   p.regime = kalker::Regime::frictionless;
   p.vertical_force = load;
   return chosen(p);
@@ -90,7 +90,7 @@ TEST(ElementChoice, HertzContactsConverge) {
     ASSERT_EQ(s.patches.size(), 1U);
     const PatchSolution& patch = s.patches.front();
     const kalker::HertzShape hertz =
-        kalker::hertz_from_curvatures(0.5 / kWheel, 0.5 / kCrown, {true, load}, combine(Material{}));
+        kalker::hertz_from_curvatures(0.5 / kStandardRadius, 0.5 / kCrown, {true, load}, combine(Material{}));
     const double pressure = patch.contact.max_pressure, right = kalker::hertz_max_pressure(hertz);
     EXPECT_NEAR(pressure, right, kPressure * right) << load;
     EXPECT_NEAR(area(patch), kPi * hertz.semi_axis_x * hertz.semi_axis_y, kArea * area(patch)) << load;

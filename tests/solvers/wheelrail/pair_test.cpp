@@ -13,20 +13,18 @@
 namespace treadmark::wheelrail {
 namespace {
 
-constexpr double kRadius = 0.46;
-
 Geometry ball_on_plane() {
   // The plane is given a finite crown so that a lateral range exists; 20 m is flat at this scale.
   return {analytic::make_prismatic_surface(analytic::cylinder_chain(20.0, 2.5e-3)),
-          analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 0.08), kRadius), true, true};
+          analytic::make_revolved_surface(analytic::barrel_chain(kStandardRadius, 0.08), kStandardRadius), true, true};
 }
 
 Problem ball_problem() {
   Problem p;
   p.track.gauge_based = false;
   p.track.rail_y0 = 0.75;
-  p.wheelset = {1.360, -0.070, kRadius, std::nullopt};
-  p.state.velocity = {10.0, 0.0, 0.0, 0.0, 0.0, -10.0 / kRadius};
+  p.wheelset = {1.360, -0.070, kStandardRadius, std::nullopt};
+  p.state.velocity = {10.0, 0.0, 0.0, 0.0, 0.0, -10.0 / kStandardRadius};
   p.discretisation.dx = p.discretisation.ds = 0.25e-3;
   p.regime = kalker::Regime::frictionless;
   return p;
@@ -44,7 +42,7 @@ TEST(Pair, VerticalForceOnABallAgreesWithHertz) {
   // Hertz (Johnson 1985, ch. 4): sphere of radius 0.46 m on a cylinder of 20 m; curvatures differ by 2.3 %: mean
   // radius.
   const double e_star = p.material.shear_modulus_1 / (1.0 - p.material.poisson_1);
-  const double mean_radius = 1.0 / std::sqrt((1.0 / kRadius) * (1.0 / kRadius + 1.0 / 20.0));
+  const double mean_radius = 1.0 / std::sqrt((1.0 / kStandardRadius) * (1.0 / kStandardRadius + 1.0 / 20.0));
   const double a = std::cbrt(3.0 * force * mean_radius / (4.0 * e_star));
   EXPECT_NEAR(s.patches[0].contact.max_pressure, 1.5 * force / (M_PI * a * a),
               5e-3 * s.patches[0].contact.max_pressure);

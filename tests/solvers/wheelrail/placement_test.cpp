@@ -6,18 +6,13 @@
 
 #include <cmath>
 
-#include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
-
-Geometry standard_geometry() {
-  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
-          analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46), true, true};
-}
 
 TEST(Placement, UncantedRailHasItsTopAtZeroAndItsGaugePointAtHalfGauge) {
   const Geometry g = standard_geometry();

@@ -28,7 +28,7 @@ Geometry ball_on(double radius, const std::string& backend = "analytic") {
           analytic::make_revolved_surface(analytic::barrel_chain(kWheel, 0.08), kWheel), false, true};
 }
 
-Problem ball_problem(double radius, double speed = 10.0) {
+Problem ball_on_roller(double radius, double speed = 10.0) {
   Problem p;
   p.roller = Roller{radius, speed / radius};
   p.track.gauge_based = false;
@@ -75,7 +75,7 @@ TEST(RollerContact, IsThatOfHertzWithTheSumOfCurvatures) {
     for (const std::string backend : {"analytic", "spline", "mesh"}) {
       if (backend == "mesh" && !has_part("embree")) continue;
       SCOPED_TRACE(backend + " " + std::to_string(radius));
-      Problem p = ball_problem(radius);
+      Problem p = ball_on_roller(radius);
       p.regime = kalker::Regime::frictionless;
       const PairSolution s = Pair(ball_on(radius, backend)).solve(p);
       ASSERT_EQ(s.status, Status::ok) << s.message;
@@ -91,7 +91,7 @@ TEST(RollerContact, IsThatOfHertzWithTheSumOfCurvatures) {
 TEST(RollerContact, NominalCirclesRollOnEachOther) {
   for (const double radius : {kRoller, -kRoller})
     for (const double speed : {10.0, -10.0}) {
-      const Problem p = ball_problem(radius, speed);
+      const Problem p = ball_on_roller(radius, speed);
       const PairSolution s = Pair(ball_on(radius)).solve(p);
       ASSERT_EQ(s.status, Status::ok) << s.message;
       const ContactKinematics& k = s.patches.at(0).kinematics;
@@ -159,7 +159,7 @@ TEST(RollerContact, TheReferenceMeshCutsRailsIntoSectionsNotRollers) {
 
 TEST(RollerContact, LiesBetweenTheAxles) {
   for (const double radius : {kRoller, -2.0}) {
-    Problem p = ball_problem(radius);
+    Problem p = ball_on_roller(radius);
     p.regime = kalker::Regime::frictionless;
     p.state.position.x = 8e-3;
     const PairSolution s = Pair(ball_on(radius)).solve(p);
@@ -174,7 +174,7 @@ TEST(RollerContact, IsTheSameTiltedWithItsWheelset) {
   const Mat3 tilt = rotation_x(kTilt);
   for (const double radius : {kRoller, -kRoller}) {
     SCOPED_TRACE(radius);
-    Problem p = ball_problem(radius);
+    Problem p = ball_on_roller(radius);
     p.vertical_force.reset();
     p.state.position.y = 5e-3, p.state.position.z = 6e-5;
     p.track.vroll = 0.02;
@@ -200,7 +200,7 @@ TEST(RollerContact, IsTheSameTiltedWithItsWheelset) {
 /// As roll is about the origin of the profile, so is its rate.
 TEST(RollerContact, RollsAboutTheOriginOfItsProfile) {
   const Geometry geometry = ball_on(kRoller);
-  Problem p = ball_problem(kRoller, 0.0);
+  Problem p = ball_on_roller(kRoller, 0.0);
   constexpr double kStep = 1e-4;
   const Vec3 point_R(0.0, 0.01, 0.002);
   Problem before = p, after = p;
@@ -213,7 +213,7 @@ TEST(RollerContact, RollsAboutTheOriginOfItsProfile) {
 
 TEST(RollerContact, AForceLengthwiseIsFound) {
   for (const double radius : {kRoller, -kRoller}) {
-    Problem p = ball_problem(radius);
+    Problem p = ball_on_roller(radius);
     p.longitudinal_force = 2e3;
     const PairSolution s = Pair(ball_on(radius)).solve(p);
     ASSERT_EQ(s.status, Status::ok) << s.message;

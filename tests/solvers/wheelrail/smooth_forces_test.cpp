@@ -13,7 +13,7 @@
 namespace treadmark::wheelrail {
 namespace {
 
-constexpr double kLoad = 20e3;
+constexpr double kSweepLoad = 20e3;
 // Tread and gauge corner in turn: a second region opens, joins the first as a part, is left alone as the only one.
 constexpr double kFrom = 4.85e-3, kTo = 5.65e-3;
 
@@ -21,7 +21,7 @@ Problem from_tread_to_gauge_corner() {
   Problem p = standard_problem();
   p.state.position = {};
   p.state.velocity = {10.0, 0.0, 0.0, 0.0, 0.0, -10.0 / kStandardRadius};
-  p.vertical_force = kLoad;
+  p.vertical_force = kSweepLoad;
   p.discretisation.dx = p.discretisation.ds = 0.3e-3;
   return p;
 }
@@ -33,7 +33,7 @@ Problem at_one_height() {
   return p;
 }
 
-struct Instant {
+struct SweepInstant {
   double y = 0.0;
   Vec3 force = Vec3::Zero();
   double z = 0.0;
@@ -44,27 +44,27 @@ class Sweep {
  public:
   explicit Sweep(Problem p) : problem_(std::move(p)), pair_(standard_geometry()) {}
 
-  Instant at(double y) {
+  SweepInstant at(double y) {
     problem_.state.position.y = y;
     const PairSolution s = pair_.solve(problem_);
     if (s.status != Status::ok && s.status != Status::no_contact)
       ADD_FAILURE() << "y = " << 1e3 * y << " mm: " << s.message;
-    Instant now{y, s.load.track.force, s.z, {}};
+    SweepInstant now{y, s.load.track.force, s.z, {}};
     for (const PatchSolution& patch : s.patches) now.parts.push_back(patch.region.parts.size());
     return now;
   }
 
-  std::vector<Instant> over(double from, double to, int steps) {
-    std::vector<Instant> line;
+  std::vector<SweepInstant> over(double from, double to, int steps) {
+    std::vector<SweepInstant> line;
     for (int i = 0; i <= steps; ++i) line.push_back(at(from + (to - from) * i / steps));
     return line;
   }
 
   /// The two sides of a change of the patches, as close as lateral positions can be told apart.
-  std::pair<Instant, Instant> sides(Instant a, Instant b) {
+  std::pair<SweepInstant, SweepInstant> sides(SweepInstant a, SweepInstant b) {
     constexpr double kClose = 1e-11;
     while (b.y - a.y > kClose) {
-      const Instant middle = at(0.5 * (a.y + b.y));
+      const SweepInstant middle = at(0.5 * (a.y + b.y));
       (middle.parts == a.parts ? a : b) = middle;
     }
     return {a, b};
@@ -76,7 +76,7 @@ class Sweep {
 };
 
 /// Greatest change of a force from one position to the next, beyond the mean of both neighbouring steps.
-double roughness(const std::vector<Instant>& line) {
+double roughness(const std::vector<SweepInstant>& line) {
   double most = 0.0;
   for (std::size_t i = 1; i + 2 < line.size(); ++i)
     for (const int axis : {0, 1, 2}) {
@@ -86,7 +86,7 @@ double roughness(const std::vector<Instant>& line) {
   return most;
 }
 
-class SmoothForces : public testing::TestWithParam<bool> {
+class SmoothForces : public ::testing::TestWithParam<bool> {
  protected:
   Problem problem() const { return GetParam() ? from_tread_to_gauge_corner() : at_one_height(); }
 };
@@ -98,7 +98,7 @@ constexpr double kSmall = 200.0;  // forces are compared with no less [N]
 
 TEST_P(SmoothForces, NoJumpWherePatchesOpenJoinAndClose) {
   Sweep sweep(problem());
-  const std::vector<Instant> line = sweep.over(kFrom, kTo, 50);
+  const std::vector<SweepInstant> line = sweep.over(kFrom, kTo, 50);
   int changes = 0;
   double worst_along = 0.0, worst_across = 0.0;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -131,7 +131,7 @@ TEST_P(SmoothForces, RoughnessGoesDownWithTheStep) {
   EXPECT_LT(fine, 0.5 * coarse);
 }
 
-INSTANTIATE_TEST_SUITE_P(Prescribed, SmoothForces, testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Prescribed, SmoothForces, ::testing::Bool(),
                          [](const auto& p) { return p.param ? "force" : "height"; });
 
 }  // namespace

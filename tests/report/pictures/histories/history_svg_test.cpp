@@ -7,9 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <regex>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/report/pictures/chart.hpp"
 #include "treadmark/tests/io/histories/sample_history.hpp"
@@ -17,8 +17,6 @@
 
 namespace treadmark {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<pictures::Pixel> path_points(const std::string& path) {
   std::vector<pictures::Pixel> out;
@@ -79,7 +77,7 @@ TEST(CutCurve, PartsStayApart) {
   EXPECT_EQ(cut[1], (std::array<double, 2>{1, 1}));
   EXPECT_TRUE(std::isnan(cut[2][1]));
   EXPECT_EQ(cut[3], (std::array<double, 2>{1, 3}));
-  const pictures::Curve holes = pictures::cut_curve({{0, 0}, {1, kNan}, {2, kNan}, {3, 1}, {4, 2}}, {});
+  const pictures::Curve holes = pictures::cut_curve({{0, 0}, {1, kNaN}, {2, kNaN}, {3, 1}, {4, 2}}, {});
   ASSERT_EQ(holes.size(), 4u);
   EXPECT_TRUE(std::isnan(holes[1][1]));
 }
@@ -198,7 +196,7 @@ TEST_F(HistorySvg, RefusesWhatCannotBeDrawn) {
   wrong.x_range = {2.0, 1.0};
   EXPECT_THROW(pictures::history_svg(runs_, wrong), Error);
   wrong = chart_;
-  wrong.y[0].factor = kNan;
+  wrong.y[0].factor = kNaN;
   EXPECT_THROW(pictures::history_svg(runs_, wrong), Error);
   results_[0].values.pop_back();
   EXPECT_THROW(pictures::history_svg(runs_, chart_), Error);

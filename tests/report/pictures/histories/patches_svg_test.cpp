@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <regex>
 #include <sstream>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/report/pictures/outline.hpp"
 #include "treadmark/tests/io/histories/sample_history.hpp"
@@ -62,8 +62,7 @@ TEST(ContourLines, SaddlesHolesAndWrongSizes) {
   const Grid2 cell{0, 0, 1, 1, 2, 2};
   EXPECT_EQ(pictures::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.4).size(), 2u);
   EXPECT_EQ(pictures::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.6).size(), 2u);
-  EXPECT_TRUE(pictures::contour_lines(cell, std::vector<double>{1, 0, std::numeric_limits<double>::quiet_NaN(), 1}, 0.5)
-                  .empty());
+  EXPECT_TRUE(pictures::contour_lines(cell, std::vector<double>{1, 0, kNaN, 1}, 0.5).empty());
   EXPECT_TRUE(pictures::contour_lines(cell, std::vector<double>{1, 1, 1, 1}, 1.0).empty());
   EXPECT_THROW(pictures::contour_lines(cell, std::vector<double>{1, 0, 0}, 0.5), Error);
 }

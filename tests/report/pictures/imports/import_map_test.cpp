@@ -13,11 +13,11 @@
 namespace treadmark {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kFloatNan = std::numeric_limits<float>::quiet_NaN();
 constexpr auto kClear = static_cast<std::uint8_t>(pictures::kImageSteps);
 
 TEST(ImportMap, RunsToTheRightAndUp) {
-  const io::BandMap map{3, 2, 0.0, 0.3, 0.0, 0.1, {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, kNan}};
+  const io::BandMap map{3, 2, 0.0, 0.3, 0.0, 0.1, {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, kFloatNan}};
   pictures::ColourScale colours;
   colours.high = 4.0;
   const pictures::PaletteImage image =
@@ -32,7 +32,7 @@ TEST(ImportMap, RunsToTheRightAndUp) {
 
 TEST(ImportMap, FineMapsAreAveraged) {
   io::BandMap map{7, 5, 0.0, 0.7, 0.0, 0.5, {}};
-  for (int i = 0; i < 35; ++i) map.value.push_back(i % 4 == 1 ? kNan : static_cast<float>(i % 11));
+  for (int i = 0; i < 35; ++i) map.value.push_back(i % 4 == 1 ? kFloatNan : static_cast<float>(i % 11));
   pictures::ColourScale colours;
   colours.high = 11.0;
   const pictures::PaletteImage image =
@@ -51,7 +51,7 @@ TEST(ImportMap, FineMapsAreAveraged) {
 }
 
 TEST(ImportMap, APixelOfTheSurfaceNeedsHalfOfItsCells) {
-  const io::BandMap map{4, 1, 0.0, 0.4, 0.0, 0.1, {1.0f, kNan, kNan, kNan}};
+  const io::BandMap map{4, 1, 0.0, 0.4, 0.0, 0.1, {1.0f, kFloatNan, kFloatNan, kFloatNan}};
   pictures::ColourScale colours;
   const pictures::PaletteImage two =
       pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::half, 2, 1);

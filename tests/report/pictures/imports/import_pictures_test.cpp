@@ -11,6 +11,7 @@
 #include <iterator>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/io/imports/sample_report.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
@@ -23,7 +24,6 @@ namespace {
 using treadmark::testing::content_of;
 
 constexpr std::size_t kLargestFile = 500000;  // bytes
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> all_pictures(const io::ImportReport& report) {
   return {pictures::import_before_svg(report), pictures::import_removed_svg(report),
@@ -48,7 +48,7 @@ bool says(const testing::XmlElement& root, const std::string& part) {
 }
 
 /// Numbers are written as numbers, and everything can be read.
-void expect_sound(const io::ImportReport& report) {
+void expect_sound_import(const io::ImportReport& report) {
   for (const std::string& picture : all_pictures(report)) {
     const testing::XmlElement root = testing::read_xml(picture);
     EXPECT_EQ(root.name, "svg");
@@ -66,13 +66,13 @@ void expect_sound(const io::ImportReport& report) {
 
 TEST(ImportPictures, ARealisticReport) {
   const io::ImportReport report = testing::sample_report();
-  expect_sound(report);
+  expect_sound_import(report);
   EXPECT_EQ(all_pictures(report), all_pictures(report));
 }
 
 TEST(ImportPictures, MapsAndEmptyReportsSayWhatIsMissing) {
-  expect_sound(testing::sample_map_report());
-  expect_sound({});
+  expect_sound_import(testing::sample_map_report());
+  expect_sound_import({});
   EXPECT_TRUE(says(testing::read_xml(pictures::import_fitted_svg({})), "no values"));
   EXPECT_TRUE(says(testing::read_xml(pictures::import_before_svg({})), "no points"));
   EXPECT_TRUE(says(testing::read_xml(pictures::import_removed_svg({})), "nothing was looked for"));
@@ -81,7 +81,7 @@ TEST(ImportPictures, MapsAndEmptyReportsSayWhatIsMissing) {
 }
 
 TEST(ImportPictures, ValuesBeyondAllBoundsDoNoHarm) {
-  for (const double bad : {kNan, std::numeric_limits<double>::infinity(), -1e300, 1e300, 1e12}) {
+  for (const double bad : {kNaN, kInfinity, -1e300, 1e300, 1e12}) {
     io::ImportReport report = testing::sample_report();
     for (io::BandMap* map : {&report.density, &report.removed_map, &report.fitted, &report.residual, &report.noise_map})
       map->value[5] = static_cast<float>(bad > 1e38 ? 1e38 : bad < -1e38 ? -1e38 : bad);
@@ -92,10 +92,10 @@ TEST(ImportPictures, ValuesBeyondAllBoundsDoNoHarm) {
     report.holes[0].diameter = report.holes[1].y = bad;
     report.noise = report.damage_threshold = bad;
     report.removed[0].count = std::numeric_limits<std::size_t>::max();
-    expect_sound(report);
+    expect_sound_import(report);
     report.nominal_radius = report.residual_range = bad;
     report.fitted.a_max = report.residual.s_min = bad;
-    expect_sound(report);
+    expect_sound_import(report);
     EXPECT_FALSE(io::import_summary(report).empty());
   }
 }
@@ -106,7 +106,7 @@ TEST(ImportPictures, MapsThatDoNotFitTheirSizesAreNotDrawn) {
   report.fitted.rows = std::size_t{1} << 40;
   report.residual.value.clear();
   report.noise_map.s_max = report.noise_map.s_min;
-  expect_sound(report);
+  expect_sound_import(report);
   EXPECT_TRUE(says(testing::read_xml(pictures::import_before_svg(report)), "no values"));
 }
 
@@ -127,7 +127,7 @@ TEST(ImportPictures, NoiseStaysBelowTheSizeOfAFile) {
     state = state * 6364136223846793005u + 1442695040888963407u;
     report.raw_section.push_back({-0.07 + 0.13 * static_cast<double>(state >> 40) / 16777216.0, 1e-7 * (i % 300000)});
   }
-  expect_sound(report);
+  expect_sound_import(report);
 }
 
 TEST(ImportPictures, DamageIsWhereTheSurfaceIsDeep) {
@@ -170,7 +170,7 @@ TEST(ImportPictures, NamesWithMarkupAreText) {
   io::ImportReport report = testing::sample_report();
   report.inputs[0].file = "a<b>&\"c\xff.ply";
   report.unit = report.unit_from = report.nominal = report.removed[1].reason = report.removed[1].why = "</svg>&";
-  expect_sound(report);
+  expect_sound_import(report);
   EXPECT_TRUE(says(testing::read_xml(pictures::import_before_svg(report)), "a<b>&\"c?.ply") ||
               pictures::import_before_svg(report).find("a&lt;b&gt;&amp;\"c?.ply") != std::string::npos);
   EXPECT_EQ(pictures::import_removed_svg(report).find("</svg>&"), std::string::npos);
