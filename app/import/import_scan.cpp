@@ -279,7 +279,11 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
     const scans::Section section = scans::refine_section(projection.points, projection.band, finest, &moved);
     constexpr double kMatters = 1e-8;
     if (moved > kMatters) {
-      if (errors_of_fit) halves = scans::half_sections(projection.points, projection.band, finest);
+      if (errors_of_fit) {
+        // a point that is there twice would be in both halves
+        scans::drop_duplicates(projection.points, scan.points);
+        halves = scans::half_sections(projection.points, projection.band, finest);
+      }
       scan.placement.section = section;
       projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, section,
                                   {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});

@@ -66,14 +66,14 @@ ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request
   out.surface = named_surface(slices, said).surface;
   out.nominal_radius = report.nominal_radius;
   out.placed = true;
-  // What the fit leaves of the points' scatter, by halves of the points and by its number of functions, and where the
-  // axis may lie.
+  // What the fit leaves of the points' scatter, by halves of the points or else by points held out and by its number of
+  // functions, and where the axis may lie.
   std::size_t functions = 0;
   for (const io::ImportReport::Level& level : report.levels) functions += level.used;
   const double scatter = report.noise * std::sqrt(static_cast<double>(functions) /
                                                   static_cast<double>(std::max<std::size_t>(1, report.fitted_points)));
-  out.error =
-      std::hypot(report.errors ? report.errors->rms : report.held_out_error, report.axis_position_error, scatter);
+  out.error = std::hypot(report.errors ? report.errors->rms : std::hypot(report.held_out_error, scatter),
+                         report.axis_position_error);
   out.point_noise = report.noise;
   out.point_distance = report.spacing;
   out.x_min = report.u_min, out.x_max = report.u_max;

@@ -138,8 +138,11 @@ std::shared_ptr<const SurfaceErrors> errors_of(const io::GeometryFile& file, Bod
   const io::ProfileOptions& how = file.options;
   const auto errors = io::read_surface_errors(file.file);
   if (!errors || (how.scale == 1.0 && how.mirror_y != 1 && how.mirror_z != 1)) return errors;
+  const Stations stations = io::is_slices_file(file.file) ? Stations::kept
+                            : body == Body::rail          ? Stations::along
+                                                          : Stations::round;
   return std::make_shared<const SurfaceErrors>(
-      changed(*errors, how.scale, how.mirror_y == 1, how.mirror_z == 1, body == Body::wheel));
+      changed(*errors, how.scale, how.mirror_y == 1, how.mirror_z == 1, stations));
 }
 
 decltype(SurfaceSpec::shape) shape_of_cad(const io::GeometryFile& file, Body body, double radius,

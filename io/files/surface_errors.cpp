@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,8 +44,15 @@ std::shared_ptr<const SurfaceErrors> read_surface_errors(const std::filesystem::
   if (!stream) stream.open(profiles::portable_path(file.string()), std::ios::binary);
   std::vector<std::string> comments;
   std::array<char, 4096> buffer{};
-  // a longer line is none of ours, and ends the head
-  while (stream.getline(buffer.data(), buffer.size())) {
+  const auto next = [&] {
+    if (stream.getline(buffer.data(), buffer.size())) return true;
+    if (stream.gcount() == 0 || stream.eof() || stream.bad()) return false;
+    // a longer line is none of ours, but ours may come after it
+    stream.clear();
+    stream.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    return true;
+  };
+  while (next()) {
     std::string_view line(buffer.data());
     const auto skip_blanks = [&] { line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size())); };
     skip_blanks();

@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kVersion = 1.0;
 constexpr double kDrawsPerMetre = 1e8;
-constexpr double kFarthest = 10.0;  ///< of any number [m], [rad]
+constexpr double kFarthest = 10.0;      ///< places across, and what is off [m]
+constexpr double kFarthestAlong = 1e7;  ///< stations, of rails from wherever they count [m]
 
 [[noreturn]] void refuse_lines(const std::string& why) {
   throw Error(ErrorKind::input_data, fmt::format("the lines '{}' are damaged: {}", kSurfaceErrors, why), {},
@@ -50,10 +51,9 @@ class Numbers {
     if (left() == 0) refuse_lines("they end too early");
     return values_[at_++];
   }
-  /// [m] or [rad]
-  double take(double factor) {
+  double take(double factor, double most) {
     const double value = factor * take();
-    if (!(std::fabs(value) <= kFarthest)) refuse_lines("a number is too large");
+    if (!(std::fabs(value) <= most)) refuse_lines("a number is too large");
     return value;
   }
   std::size_t count(std::size_t least) {
@@ -102,10 +102,11 @@ ErrorSize size_of(const SurfaceErrors& errors) {
   return out;
 }
 
-SurfaceErrors changed(SurfaceErrors errors, double factor, bool mirror_y, bool mirror_z, bool wheel) {
+SurfaceErrors changed(SurfaceErrors errors, double factor, bool mirror_y, bool mirror_z, Stations stations) {
   for (double& y : errors.y) y *= mirror_y ? -factor : factor;
-  for (double& z : errors.z) z *= mirror_z && !wheel ? -factor : factor;
-  for (double& u : errors.u) u = !wheel ? factor * u : mirror_z ? kPi - u : u;
+  for (double& z : errors.z) z *= mirror_z && stations != Stations::round ? -factor : factor;
+  for (double& u : errors.u)
+    u = stations == Stations::along ? factor * u : stations == Stations::round && mirror_z ? kPi - u : u;
   for (std::vector<double>& draw : errors.draws)
     for (double& error : draw) error *= factor;
   if (!mirror_y) return errors;
@@ -152,13 +153,13 @@ std::shared_ptr<const SurfaceErrors> errors_of_lines(std::span<const std::string
       (numbers.left() - 2 * places) % (places + 1) != 0)
     refuse_lines("they do not hold as much as they say");
   for (std::size_t i = 0; i < places; ++i) {
-    out->y.push_back(numbers.take(kMillimetre));
-    out->z.push_back(numbers.take(kMillimetre));
+    out->y.push_back(numbers.take(kMillimetre, kFarthest));
+    out->z.push_back(numbers.take(kMillimetre, kFarthest));
   }
   for (std::size_t k = 0; k < draws; ++k) {
-    out->u.push_back(numbers.take(1.0));
+    out->u.push_back(numbers.take(1.0, kFarthestAlong));
     std::vector<double>& draw = out->draws.emplace_back();
-    for (std::size_t i = 0; i < places; ++i) draw.push_back(numbers.take(1.0 / kDrawsPerMetre));
+    for (std::size_t i = 0; i < places; ++i) draw.push_back(numbers.take(1.0 / kDrawsPerMetre, kFarthest));
   }
   return out;
 }

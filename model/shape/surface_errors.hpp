@@ -31,8 +31,12 @@ struct ErrorSize {
 };
 ErrorSize size_of(const SurfaceErrors& errors);
 
-/// As the surface's coordinates are multiplied by a factor, and y or z mirrored, angles of a wheel with z.
-SurfaceErrors changed(SurfaceErrors errors, double factor, bool mirror_y, bool mirror_z, bool wheel);
+/// What becomes of stations where the coordinates of a file change: those of slices stay; those of points in space go
+/// along a rail with them, or are angles round a wheel, whose z across is then a radius.
+enum class Stations { kept, along, round };
+
+/// As the coordinates of a file are multiplied by a factor, and y or z mirrored.
+SurfaceErrors changed(SurfaceErrors errors, double factor, bool mirror_y, bool mirror_z, Stations stations);
 
 /// How the lines begin that tell files of surfaces, as comments, what is not known of them.
 inline constexpr std::string_view kSurfaceErrors = "surface-errors";

@@ -95,6 +95,7 @@ TEST(SurfaceErrors, DamagedLinesAreRefused) {
         "surface-errors 1", "surface-errors 1 18446744073709551615 18446744073709551615 0"})
     EXPECT_TRUE(refused({line})) << line;
   EXPECT_FALSE(refused({"surface-errors 1 2 1 0 0 1 0 0 0 0"}));
+  EXPECT_FALSE(refused({"surface-errors 1 2 1 0 0 1 0 -12500.5 0 0"})) << "12.5 km along a rail";
 }
 
 TEST(SurfaceErrors, NearestStationsAlsoRoundAWheel) {
@@ -108,13 +109,19 @@ TEST(SurfaceErrors, NearestStationsAlsoRoundAWheel) {
 TEST(SurfaceErrors, ChangeWithTheCoordinates) {
   SurfaceErrors errors = sample(3, 1);
   errors.u = {0.25};
-  const SurfaceErrors rail = changed(errors, 2.0, true, true, false), wheel = changed(errors, 1.0, false, true, true);
+  const SurfaceErrors rail = changed(errors, 2.0, true, true, Stations::along),
+                      wheel = changed(errors, 1.0, false, true, Stations::round),
+                      slices = changed(errors, 2.0, false, true, Stations::kept);
   EXPECT_EQ(rail.y[0], -2.0 * errors.y[2]) << "still in the order of a profile's points";
   EXPECT_EQ(rail.z[0], -2.0 * errors.z[2]);
   EXPECT_EQ(rail.draws[0][0], 2.0 * errors.draws[0][2]);
   EXPECT_EQ(rail.u[0], 0.5);
   EXPECT_EQ(wheel.z, errors.z) << "z of a wheel is a radius";
   EXPECT_DOUBLE_EQ(wheel.u[0], std::numbers::pi - 0.25);
+  EXPECT_EQ(slices.y[0], 2.0 * errors.y[0]);
+  EXPECT_EQ(slices.z[0], -2.0 * errors.z[0]);
+  EXPECT_EQ(slices.draws[0][0], 2.0 * errors.draws[0][0]);
+  EXPECT_EQ(slices.u[0], 0.25) << "stations of slices have no unit that a factor could change";
 }
 
 TEST(SurfaceErrors, Size) {

@@ -158,6 +158,26 @@ TEST(Measure, AWheelWithAFlatAndAPolygonRoundItsWhole) {
   EXPECT_EQ(w["round"]["theta_rad"].size(), 4U);
 }
 
+TEST(Measure, ScatterOfAScanCountsOnce) {
+  TREADMARK_NEEDS("scans");
+  const TemporaryFolder folder;
+  const std::string cloud = (folder.path() / "rail.xyz").string(), audit = (folder.path() / "rail.json").string();
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"scan", "60E1", "--body", "rail", "-o", cloud, "--range-mm", "0,300", "--points",
+                                 "60000", "--noise-mm", "0.03"},
+        {"import", cloud, "-o", (folder.path() / "rail.slcs").string(), "--json", audit, "--set",
+         "placement.zero=scan"}}) {
+    const ProgramResult r = run_program(command);
+    ASSERT_EQ(r.status, 0) << r.err;
+  }
+  const json found = json::parse(std::ifstream(audit));
+  // halves of the points tell all that scatter does to the fit; where the axis lies they do not
+  const double error = std::hypot(1e-3 * found["fit"]["surface_errors"]["rms_um"].get<double>(),
+                                  found["frame"]["axis_position_error_mm"].get<double>());
+  const json m = measured({"rail", cloud});
+  EXPECT_NEAR(std::stod(m["said"]["error of the fit"].get<std::string>()), error, 1e-3 * error);
+}
+
 TEST(Measure, ACorrugatedAndMilledRail) {
   const TemporaryFolder folder;
   const std::string rail =
