@@ -3,6 +3,7 @@
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/io/tables/read_json.hpp"
+#include "treadmark/io/tables/schema_of.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -10,6 +11,10 @@ namespace {
 using io::Json;
 
 constexpr auto kDigits = Digits::six;  // times have no more
+
+constexpr const char* kBenchSchema =
+#include "treadmark/app/bench/bench.schema.json.in"
+    ;
 
 }  // namespace
 
@@ -32,6 +37,8 @@ std::string bench_json(const BenchReport& report) {
   out["rows"] = io::json_of(report.rows, kDigits);
   return io::dumped(out) + "\n";
 }
+
+std::string bench_schema() { return io::filled_schema(kBenchSchema, {{"row", io::schema_rows<BenchRow>()}}); }
 
 BenchReport read_bench(const std::filesystem::path& file) {
   const io::JsonTree root = io::read_json_file(file), made = root.at("treadmark"), input = root.at("input");

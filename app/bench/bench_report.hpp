@@ -56,8 +56,11 @@ struct BenchReport : Origin {
   }
 };
 
-/// A report as JSON text (docs/bench.schema.json); what was not measured is null.
+/// A report as JSON text; what was not measured is null.
 std::string bench_json(const BenchReport& report);
+
+/// JSON Schema of it.
+std::string bench_schema();
 
 /// The report in such a file. Errors: Error(input_data) for a file that is missing, broken or lacks keys.
 BenchReport read_bench(const std::filesystem::path& file);

@@ -72,6 +72,7 @@ void check_import_file(const std::string& name, const std::vector<std::string>& 
 }
 
 std::string import_schema() { return io::import_settings_schema(); }
+std::string import_report_schema() { return io::import_report_schema(); }
 
 Command add_import(CLI::App& verb) {
   auto options = std::make_shared<ImportOptions>();

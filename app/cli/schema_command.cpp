@@ -2,8 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 
+#include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/results/comparison_json.hpp"
+#include "treadmark/io/results/write_json.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -12,9 +17,20 @@ struct FileSchema {
   const char* name;
   std::string (*text)();
 };
-constexpr FileSchema kSchemas[] = {
-    {"case", io::case_file_schema},    {"import", import_schema}, {"vehicle", vehicle_schema}, {"track", track_schema},
-    {"simulation", simulation_schema}, {"study", study_schema},   {"evolve", evolve_schema}};
+constexpr FileSchema kSchemas[] = {{"case", io::case_file_schema},
+                                   {"import", import_schema},
+                                   {"vehicle", vehicle_schema},
+                                   {"track", track_schema},
+                                   {"simulation", simulation_schema},
+                                   {"study", study_schema},
+                                   {"evolve", evolve_schema},
+                                   // of what the program writes
+                                   {"result", io::result_schema},
+                                   {"compare", io::comparison_schema},
+                                   {"bench", app::bench_schema},
+                                   {"geometry", app::geometry_schema},
+                                   {"measure", app::measure_schema},
+                                   {"import-report", import_report_schema}};
 
 }  // namespace
 

@@ -64,7 +64,8 @@ io::CaseFile cases_of_instant(const std::string& store, const std::string& simul
                               const std::vector<std::string>& overrides);
 
 // JSON schemas of the files of verbs that a build may leave out.
-std::string import_schema();   // import_command.cpp
+std::string import_schema();  // this and the next in import_command.cpp
+std::string import_report_schema();
 std::string vehicle_schema();  // the rest in check_simulation.cpp
 std::string track_schema();
 std::string simulation_schema();

@@ -12,5 +12,6 @@ void check_import_file(const std::string& name, const std::vector<std::string>&)
   left_out("scans", "import settings such as " + name);
 }
 std::string import_schema() { left_out("scans", "the schema of import settings"); }
+std::string import_report_schema() { left_out("scans", "the schema of import reports"); }
 
 }  // namespace treadmark::cli

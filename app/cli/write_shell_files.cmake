@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# FOLDER gets the manual pages, completions and bill of materials that PROGRAM prints, in the places below share/ where they are looked for.
+# FOLDER gets the manual pages, completions, schemas of results and bill of materials that PROGRAM prints, in the places below share/ where they are looked for.
 function(print file)
   execute_process(COMMAND "${PROGRAM}" ${ARGN} OUTPUT_VARIABLE text RESULT_VARIABLE status)
   if(NOT status EQUAL 0)
@@ -20,4 +20,11 @@ foreach(verb IN LISTS verbs)
   if(NOT verb MATCHES " ")  # else it is left out of this build
     print(man/man1/treadmark-${verb}.1 man ${verb})
   endif()
+endforeach()
+set(results result compare bench geometry measure)
+if(";${verbs};" MATCHES ";import;")
+  list(APPEND results import-report)
+endif()
+foreach(result IN LISTS results)
+  print(doc/treadmark/${result}.schema.json schema ${result})
 endforeach()

@@ -1,15 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/schema_of.hpp"
 
 namespace treadmark::app {
 namespace {
 
 using geometry::Conicity;
 using io::Json;
+
+constexpr const char* kGeometrySchema =
+#include "treadmark/app/geometry/geometry.schema.json.in"
+    ;
+
+/// The settings that results repeat.
+io::SchemaRows echoed_rows() {
+  io::SchemaRows out;
+  for (const io::SettingKey<GeometryRequest>& key : geometry_keys().rows)
+    if ((key.factors & kEchoed) != 0) out.push_back({"method." + key.info.path, "number", true, true, key.info.doc});
+  return out;
+}
+
+/// Of the contact functions, those that only a load makes behind the rest.
+io::SchemaRows function_rows() {
+  io::SchemaRows out = io::schema_rows<FunctionRow>();
+  for (io::SchemaRow& row : io::schema_rows<geometry::LoadedPosition>()) {
+    row.always = false;
+    out.push_back(std::move(row));
+  }
+  return io::listed(std::move(out));
+}
 
 Json lists_of(const std::vector<ConicityRow>& rows) {
   Json out;
@@ -74,6 +101,20 @@ std::string geometry_json(const GeometryResult& result) {
   out["geometry"] = std::move(g);
   out["notes"] = result.notes;
   return io::dumped(out) + "\n";
+}
+
+std::string geometry_schema() {
+  using io::schema_rows;
+  io::SchemaRows numbers = schema_rows<GeometryResult>();
+  std::ranges::move(echoed_rows(), std::back_inserter(numbers));
+  return io::filled_schema(kGeometrySchema, {{"geometry", std::move(numbers)},
+                                             {"functions", function_rows()},
+                                             {"conicity", io::listed(schema_rows<ConicityRow>())},
+                                             {"jump", schema_rows<geometry::Jump>()},
+                                             {"second contact", schema_rows<geometry::FurtherTouch>()},
+                                             {"limit", schema_rows<geometry::ShiftLimit>()},
+                                             {"load", schema_rows<geometry::LoadedFunctions>()},
+                                             {"loaded side", schema_rows<geometry::LoadedSide>()}});
 }
 
 }  // namespace treadmark::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
+#include <string_view>
 
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/core/constants.hpp"
@@ -29,6 +30,11 @@ using unit::kOne;
 
 constexpr FileUnit kRad{"rad"}, kPerM{"1/m"}, kPerMm{"1/mm", 1e-3, "1/m"};
 constexpr unsigned kTableAndCards = kInTable | kInCards;
+constexpr std::string_view
+    kWhyNone = "why there is no number; null: there is one",
+    kNoEllipse = "why there is no ellipse; null: there is one",
+    kOfNoise =
+        "standard deviation of what noise of measured profiles leaves uncertain; only where it was smoothed away";
 
 std::string side(bool right) { return right ? "right" : "left"; }
 const geometry::Touch& before(J j) { return j.right ? j.before.right : j.before.left; }
@@ -62,45 +68,45 @@ double shared(const geometry::LoadedSide& side) { return side.reason.empty() ? (
 // A row of a table stays a row: clang-format would give each column a line.
 // clang-format off
 constexpr Column<app::FunctionRow> kFunctions[] = {
-    {"y_mm", kMm, "", {[](F f) { return f.position.y; }}},
-    {"delta_r_mm", kMm, "", {[](F f) { return f.position.radius_difference(); }}},
+    {"y_mm", kMm, "", {[](F f) { return f.position.y; }}, "shift of the wheelset to the right, at rail level"},
+    {"delta_r_mm", kMm, "", {[](F f) { return f.position.radius_difference(); }}, "rolling radius right minus left"},
     {"radius_right_mm", kMm, "", {[](F f) { return f.position.right.radius; }}},
     {"radius_left_mm", kMm, "", {[](F f) { return f.position.left.radius; }}},
-    {"wheel_y_right_mm", kMm, "", {[](F f) { return f.position.right.wheel_y; }}},
+    {"wheel_y_right_mm", kMm, "", {[](F f) { return f.position.right.wheel_y; }}, "on the wheel's profile; left ones as of a right-hand side"},
     {"wheel_y_left_mm", kMm, "", {[](F f) { return f.position.left.wheel_y; }}},
     {"rail_y_right_mm", kMm, "", {[](F f) { return f.position.right.rail_y; }}},
     {"rail_y_left_mm", kMm, "", {[](F f) { return f.position.left.rail_y; }}},
-    {"angle_right_rad", kRad, "", {[](F f) { return f.position.right.angle; }}},
+    {"angle_right_rad", kRad, "", {[](F f) { return f.position.right.angle; }}, "positive where the wheel's radius grows towards its flange"},
     {"angle_left_rad", kRad, "", {[](F f) { return f.position.left.angle; }}},
     {"delta_tan_gamma", kOne, "",
-     {[](F f) { return std::tan(f.position.right.angle) - std::tan(f.position.left.angle); }}},
-    {"wheel_curvature_right_per_m", kPerM, "", {[](F f) { return f.position.right.wheel_curvature; }}},
+     {[](F f) { return std::tan(f.position.right.angle) - std::tan(f.position.left.angle); }}, "tan of the angle right minus left"},
+    {"wheel_curvature_right_per_m", kPerM, "", {[](F f) { return f.position.right.wheel_curvature; }}, "across the profile, positive for convex"},
     {"wheel_curvature_left_per_m", kPerM, "", {[](F f) { return f.position.left.wheel_curvature; }}},
     {"rail_curvature_right_per_m", kPerM, "", {[](F f) { return f.position.right.rail_curvature; }}},
     {"rail_curvature_left_per_m", kPerM, "", {[](F f) { return f.position.left.rail_curvature; }}},
     {"roll_rad", kRad, "", {[](F f) { return f.position.roll; }}},
-    {"z_mm", kMm, "", {[](F f) { return f.position.z; }}},
-    {"holding_force_over_weight", kOne, "", {[](F f) { return f.wheelset.holding_force(f.position); }}}};
+    {"z_mm", kMm, "", {[](F f) { return f.position.z; }}, "of the middle of the axle, down; without roll the mean of both sides"},
+    {"holding_force_over_weight", kOne, "", {[](F f) { return f.wheelset.holding_force(f.position); }}, "force to the right at rail level that holds the wheelset against gravity"}};
 
 constexpr Column<geometry::LoadedPosition> kLoaded[] = {
-    {"normal_force_right_N", kN, "", {[](L l) { return l.right.normal_force; }}},
+    {"normal_force_right_N", kN, "", {[](L l) { return l.right.normal_force; }}, "with an axle load, as all that follows; negative: the wheel would have to be held down"},
     {"normal_force_left_N", kN, "", {[](L l) { return l.left.normal_force; }}},
-    {"holding_force_N", kN, "", {[](L l) { return l.holding_force; }}},
-    {"pressure_right_MPa", kMPa, "", {[](L l) { return l.right.pressure; }}},
+    {"holding_force_N", kN, "", {[](L l) { return l.holding_force; }}, "to the right at rail level"},
+    {"pressure_right_MPa", kMPa, "", {[](L l) { return l.right.pressure; }}, "the largest one by Hertz"},
     {"pressure_left_MPa", kMPa, "", {[](L l) { return l.left.pressure; }}},
-    {"semi_axis_x_right_mm", kMm, "", {[](L l) { return l.right.semi_axis_x; }}},
+    {"semi_axis_x_right_mm", kMm, "", {[](L l) { return l.right.semi_axis_x; }}, "along the track"},
     {"semi_axis_x_left_mm", kMm, "", {[](L l) { return l.left.semi_axis_x; }}},
-    {"semi_axis_y_right_mm", kMm, "", {[](L l) { return l.right.semi_axis_y; }}},
+    {"semi_axis_y_right_mm", kMm, "", {[](L l) { return l.right.semi_axis_y; }}, "across"},
     {"semi_axis_y_left_mm", kMm, "", {[](L l) { return l.left.semi_axis_y; }}},
-    {"approach_right_mm", kMm, "", {[](L l) { return l.right.approach; }}},
+    {"approach_right_mm", kMm, "", {[](L l) { return l.right.approach; }}, "of wheel and rail along the normal"},
     {"approach_left_mm", kMm, "", {[](L l) { return l.left.approach; }}},
-    {"lowering_mm", kMm, "", {[](L l) { return l.lowering; }}},
-    {"elastic_roll_rad", kRad, "", {[](L l) { return l.roll; }}},
-    {"misfit_right", kOne, "", {[](L l) { return l.right.misfit; }}},
+    {"lowering_mm", kMm, "", {[](L l) { return l.lowering; }}, "of the axle by the approaches"},
+    {"elastic_roll_rad", kRad, "", {[](L l) { return l.roll; }}, "by the approaches, right side down; null without free roll"},
+    {"misfit_right", kOne, "", {[](L l) { return l.right.misfit; }}, "of the profiles' gap at the ends of the ellipse and Hertz' parabola, over the parabola's"},
     {"misfit_left", kOne, "", {[](L l) { return l.left.misfit; }}},
-    {"shared_right", kOne, "", {[](L l) { return shared(l.right); }}},
+    {"shared_right", kOne, "", {[](L l) { return shared(l.right); }}, "1: the approach closes the gap of a second contact, which carries a part"},
     {"shared_left", kOne, "", {[](L l) { return shared(l.left); }}},
-    {"no_pressure_right", kOne, "", word_or_null(+[](L l) { return l.right.reason; })},
+    {"no_pressure_right", kOne, "", word_or_null(+[](L l) { return l.right.reason; }), kNoEllipse},
     {"no_pressure_left", kOne, "", word_or_null(+[](L l) { return l.left.reason; })}};
 
 constexpr Column<app::GeometryResult> kGeometry[] = {
@@ -122,37 +128,37 @@ constexpr Column<app::GeometryResult> kGeometry[] = {
     {"method.roll", kOne, "", word(+[](R r) { return std::string(r.request.settings.roll == geometry::Roll::none ? "none" : "free"); }), "", 0, "roll"},
     {"method.smoothing_mm", kMm, "", {[](R) { return 0.0; }}},
     {"equilibrium_y_mm", kMm, "", because(+[](R r) { return r.analysis.equilibrium.value_or(kNaN); }, +[](R r) { return r.analysis.no_equilibrium; }), "shift with equal rolling radii", kTableAndCards, "equilibrium", 3, "equilibrium_y_mm"},
-    {"equilibrium_reason", kOne, "", word_or_null(+[](R r) { return r.analysis.no_equilibrium; })},
+    {"equilibrium_reason", kOne, "", word_or_null(+[](R r) { return r.analysis.no_equilibrium; }), kWhyNone},
     {"conicity_at.amplitude_mm", kMm, "", {[](R r) { return r.analysis.single.amplitude; }}, "", 0, "amplitude", -1, "amplitude_mm"},
     {"conicity_at.tan_gamma_e", kOne, "", because(+[](R r) { return r.analysis.single.tan_gamma; }, +[](R r) { return r.analysis.single.reason; }, noise_or_none<&N::single>), "at the amplitude of the rule", kTableAndCards, "equivalent conicity", 4, "tan_gamma_e"},
     {"conicity_at.rule", kOne, "", word(+[](R r) { return r.analysis.rule; }), "by which the amplitude was chosen", 0, "rule"},
-    {"conicity_at.reason", kOne, "", word_or_null(+[](R r) { return r.analysis.single.reason; })},
-    {"conicity_at.noise", kOne, "", noise<&N::single>(), "standard deviation"},
+    {"conicity_at.reason", kOne, "", word_or_null(+[](R r) { return r.analysis.single.reason; }), kWhyNone},
+    {"conicity_at.noise", kOne, "", noise<&N::single>(), kOfNoise},
     {"conicity_3mm", kOne, "", because(+[](R r) { return r.analysis.at_3mm.tan_gamma; }, +[](R r) { return r.analysis.at_3mm.reason; }, noise_or_none<&N::at_3mm>), "", kInTable, "conicity at 3 mm", 4, "tan_gamma_e_3mm"},
-    {"conicity_3mm_noise", kOne, "", noise<&N::at_3mm>(), "standard deviation"},
+    {"conicity_3mm_noise", kOne, "", noise<&N::at_3mm>(), kOfNoise},
     {"nonlinearity_per_mm", kPerMm, "", {[](R r) { return r.analysis.nonlinearity; }}, "of the conicity between 2 and 4 mm", kTableAndCards, "nonlinearity", 5, "nonlinearity_per_mm"},
     {"greatest_amplitude_mm", kMm, "", {[](R r) { return r.analysis.greatest_amplitude; }}, "", 0, "", -1, "greatest_amplitude_mm"},
     {"contact_spread.amplitude_mm", kMm, "", {[](R r) { return r.analysis.spread.amplitude; }}},
-    {"contact_spread.contact_spread_rail_mm", kMm, "", {[](R r) { return r.analysis.spread.rail; }}, "width that contact covers, jumps left out", 0, "contact spread, rail", 2},
+    {"contact_spread.contact_spread_rail_mm", kMm, "", {[](R r) { return r.analysis.spread.rail; }}, "width that the contact points cover, jumps left out, mean of both sides", 0, "contact spread, rail", 2},
     {"contact_spread.contact_spread_wheel_mm", kMm, "", {[](R r) { return r.analysis.spread.wheel; }}, "", 0, "contact spread, wheel", 2},
     {"contact_spread.rail_over_shift", kOne, "", {[](R r) { return r.analysis.spread.rail / (2.0 * r.analysis.spread.amplitude); }}},
     {"contact_spread.wheel_over_shift", kOne, "", {[](R r) { return r.analysis.spread.wheel / (2.0 * r.analysis.spread.amplitude); }}},
     {"steering.delta_r_max_mm", kMm, "", {[](R r) { return r.analysis.steering.largest_difference; }}, "before a contact is steeper than 30 degrees", 0, "delta r before flange", 3},
     {"steering.smallest_steered_radius_m", unit::kM, "", {[](R r) { return r.analysis.steering.smallest_radius; }}, "", 0, "steers to a radius of", 0},
-    {"gravitational_stiffness_per_weight_per_m", kPerM, "", {[](R r) { return r.analysis.gravitational_stiffness; }}, "N/mm per kN of axle load", 0, "stiffness by gravity", 4},
+    {"gravitational_stiffness_per_weight_per_m", kPerM, "", {[](R r) { return r.analysis.gravitational_stiffness; }}, "over 3 mm to both sides of the equilibrium", 0, "stiffness by gravity", 4},
     {"wheelset.flange_thickness_right_mm", kMm, "", {[](R r) { return r.analysis.flange_thickness_right; }}, "", 0, "", -1, "flange_thickness_mm"},
     {"wheelset.flange_thickness_left_mm", kMm, "", {[](R r) { return r.analysis.flange_thickness_left; }}, "", 0, "", -1, "flange_thickness_left_mm"}};
 
 constexpr Column<app::ConicityRow> kConicity[] = {
-    {"amplitude_mm", kMm, "", {[](C c) { return c.conicity.amplitude; }}, "", 0, "amplitude"},
-    {"tan_gamma_e", kOne, "", {[](C c) { return c.conicity.tan_gamma; }}, "", 0, "tan gamma_e", 4},
-    {"noise", kOne, "", of<&app::ConicityRow::noise>()},
-    {"harmonic", kOne, "", of<&app::ConicityRow::harmonic>(), "", 0, "harmonic", 4},
+    {"amplitude_mm", kMm, "", {[](C c) { return c.conicity.amplitude; }}, "half the distance of the turning points", 0, "amplitude"},
+    {"tan_gamma_e", kOne, "", {[](C c) { return c.conicity.tan_gamma; }}, "equivalent conicity, integral method", 0, "tan gamma_e", 4},
+    {"noise", kOne, "", of<&app::ConicityRow::noise>(), kOfNoise},
+    {"harmonic", kOne, "", of<&app::ConicityRow::harmonic>(), "harmonic linearization, for comparison", 0, "harmonic", 4},
     {"wavelength_mm", kMm, "", {[](C c) { return geometry::wavelength(c.conicity.tan_gamma, c.analysis.wheel_origins, 0.5 * (c.analysis.radius_right + c.analysis.radius_left)); }}, "", 0, "wavelength", 0},
     {"turns_left_mm", kMm, "", {[](C c) { return c.conicity.low; }}},
     {"turns_right_mm", kMm, "", {[](C c) { return c.conicity.high; }}},
     {"", kOne, "", of<&app::ConicityRow::with_new>(), "", 0, "new profiles", 4},
-    {"reason", kOne, "", word_or_null(+[](C c) { return c.conicity.reason; }), "", 0, "why there is none"}};
+    {"reason", kOne, "", word_or_null(+[](C c) { return c.conicity.reason; }), kWhyNone, 0, "why there is none"}};
 
 constexpr Column<geometry::Jump> kJumps[] = {
     {"y_mm", kMm, "", {[](J j) { return 0.5 * (j.before.y + j.after.y); }}, "", 0, "y", 4},
@@ -174,8 +180,8 @@ constexpr Column<geometry::FurtherTouch> kFurther[] = {
 
 constexpr Column<geometry::ShiftLimit> kLimits[] = {
     {"y_mm", kMm, "", of<&geometry::ShiftLimit::y>(), "last sound shift"},
-    {"limited", kOne, "", flag<&geometry::ShiftLimit::limited>()},
-    {"reason", kOne, "", word_or_null(+[](const geometry::ShiftLimit& l) { return l.reason; })}};
+    {"limited", kOne, "", flag<&geometry::ShiftLimit::limited>(), "false: no further shifts were asked for"},
+    {"reason", kOne, "", word_or_null(+[](const geometry::ShiftLimit& l) { return l.reason; }), kWhyNone}};
 
 constexpr Column<geometry::LoadedSide> kSides[] = {
     {"normal_force_N", kN, "", of<&Side::normal_force>(), "", 0, "normal force", 0},
@@ -184,19 +190,19 @@ constexpr Column<geometry::LoadedSide> kSides[] = {
     {"semi_axis_y_mm", kMm, "", of<&Side::semi_axis_y>(), "", 0, "across", 2},
     {"approach_mm", kMm, "", of<&Side::approach>(), "", 0, "approach", 4},
     {"misfit", kOne, "", of<&Side::misfit>(), "", 0, "misfit", 2},
-    {"shared", kOne, "", flag<&Side::shared>(), "", 0, "shared by a second contact"},
-    {"reason", kOne, "", word_or_null(+[](S s) { return s.reason; })}};
+    {"shared", kOne, "", flag<&Side::shared>(), "with a second contact, whose gap the approach closes", 0, "shared by a second contact"},
+    {"reason", kOne, "", word_or_null(+[](S s) { return s.reason; }), kNoEllipse}};
 
 constexpr Column<geometry::LoadedFunctions> kLoad[] = {
-    {"axle_load_N", kN, "", {[](D d) { return d.load.weight; }}, "", 0, "axle load", 0},
+    {"axle_load_N", kN, "", {[](D d) { return d.load.weight; }}, "what both wheels carry", 0, "axle load", 0},
     {"rail.youngs_modulus_MPa", kMPa, "", {[](D d) { return youngs_modulus(d.load.material.shear_modulus_1, d.load.material.poisson_1); }}},
     {"rail.poisson", kOne, "", {[](D d) { return d.load.material.poisson_1; }}},
     {"wheel.youngs_modulus_MPa", kMPa, "", {[](D d) { return youngs_modulus(d.load.material.shear_modulus_2, d.load.material.poisson_2); }}},
     {"wheel.poisson", kOne, "", {[](D d) { return d.load.material.poisson_2; }}},
     {"y_mm", kMm, "", of<&geometry::LoadedFunctions::middle>(), "", 0, "at a displacement of", 3},
-    {"holding_force_N", kN, "", {[](D d) { return d.at_middle.holding_force; }}, "", 0, "holding force", 0},
+    {"holding_force_N", kN, "", {[](D d) { return d.at_middle.holding_force; }}, "to the right at rail level", 0, "holding force", 0},
     {"lowering_mm", kMm, "", {[](D d) { return d.at_middle.lowering; }}},
-    {"elastic_roll_rad", kRad, "", {[](D d) { return d.at_middle.roll; }}},
+    {"elastic_roll_rad", kRad, "", {[](D d) { return d.at_middle.roll; }}, "null without free roll"},
     {"largest_pressure.amplitude_mm", kMm, "", of<&geometry::LoadedFunctions::amplitude>(), "", 0, "nearer to it than"},
     {"largest_pressure.pressure_MPa", kMPa, "", {[](D d) { return d.largest.pressure; }}, "by Hertz", kInCards, "largest pressure", 0},
     {"largest_pressure.misfit", kOne, "", {[](D d) { return d.largest.misfit; }}, "", 0, "its misfit", 2},

@@ -129,7 +129,8 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request);
 
 // What is written. All of them thread-safe.
 std::string geometry_text(const GeometryResult& result);  ///< for a terminal
-std::string geometry_json(const GeometryResult& result);  ///< docs/geometry.schema.json
+std::string geometry_json(const GeometryResult& result);
+std::string geometry_schema();  ///< JSON Schema of that
 std::string functions_csv(const GeometryResult& result);
 std::string conicity_csv(const GeometryResult& result);
 std::string sweep_csv(const GaugeSweep& sweep);

@@ -90,7 +90,8 @@ ResultList measure_files(const std::vector<std::string>& names, const MeasureReq
 /// A list of one.
 ResultList list_of(const MeasuredFile& file, const MeasureRequest& request);
 
-// Documents by docs/measure.schema.json.
+// Documents by this JSON Schema.
+std::string measure_schema();
 std::string measure_json(const MeasuredFile& file, const MeasureRequest& request);
 std::string measure_json(const ResultList& files, const MeasureRequest& request);
 std::string file_document(const MeasuredFile& file);                                ///< an entry of "files"

@@ -8,6 +8,7 @@
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/schema_of.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
@@ -16,6 +17,21 @@ namespace {
 using io::Json;
 using io::number;
 using io::text_or_null;
+
+constexpr const char* kMeasureSchema =
+#include "treadmark/app/measure/measure.schema.json.in"
+    ;
+
+/// What numbers_json and stations_json write.
+template <class Numbers>
+void add_tables(io::SchemaTables& tables, const std::string& body) {
+  io::SchemaRows known;
+  for (const auto& row : number_rows(Numbers{})) known.push_back(io::schema_row<Numbers>(row));
+  tables[body] = io::changed(known, [](io::SchemaRow& row) { row.always = true; });
+  tables[body + ", reasons"] = io::changed(known, [](io::SchemaRow& row) { row.type = "string", row.or_null = false; });
+  tables[body + ", sections"] = io::listed(known);
+  tables[body + ", known"] = std::move(known);
+}
 
 template <class Numbers>
 Json numbers_json(const Numbers& numbers) {
@@ -158,6 +174,13 @@ Json head(const MeasureRequest& request) {
 }
 
 }  // namespace
+
+std::string measure_schema() {
+  io::SchemaTables tables;
+  add_tables<WheelNumbers>(tables, "wheel");
+  add_tables<RailNumbers>(tables, "rail");
+  return io::filled_schema(kMeasureSchema, tables);
+}
 
 std::string file_document(const MeasuredFile& file) { return io::dumped(file_json(file)); }
 

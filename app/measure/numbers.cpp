@@ -19,7 +19,7 @@ constexpr NumberRow<Numbers> row(std::string_view key, std::string_view label, F
            "",
            {[](N n) { return (n.*at).value; }, nullptr, [](N n) { return (n.*at).known(); }, false, nullptr, nullptr,
             [](N n) { return (n.*at).uncertainty; }, [](N n) { return (n.*at).reason; }},
-           "",
+           label,
            kOnlyInFiles,
            label,
            3},

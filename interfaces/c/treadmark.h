@@ -211,11 +211,12 @@ TM_API tm_status tm_list(tm_table table, size_t i, const char **name, const char
 TM_API tm_status tm_run(const char *file, const char *const *assignments, size_t n, char **json);
 /* As `treadmark geometry`: how a wheelset sits on its track at every shift, without forces, and its conicity. settings: "key=value" with
  * the names of that verb's options ("wheel=S1002", "rail=60E1", "gauge_mm=1435", "cant=1:40", "amplitudes_mm=[1, 3]"; docs/c-interface.md),
- * the later of two holds; "case=FILE" names a case, whose keys may change as in tm_run ("wheelset.y_mm=5"). json: by
- * docs/geometry.schema.json, freed with tm_text_free. */
+ * the later of two holds; "case=FILE" names a case, whose keys may change as in tm_run ("wheelset.y_mm=5"). json: as
+ * `treadmark schema geometry` says, freed with tm_text_free. */
 TM_API tm_status tm_geometry(const char *const *settings, size_t n, char **json);
 /* As `treadmark measure` of one file, or of a profile by its name (`treadmark list profiles`): "nominal=S1002", "limits=FILE". What was not
- * measured says why; limits that do not hold are results, too. json: by docs/measure.schema.json, freed with tm_text_free. */
+ * measured says why; limits that do not hold are results, too. json: as `treadmark schema measure` says, freed with
+ * tm_text_free. */
 TM_API tm_status tm_measure(tm_body body, const char *file, const char *const *settings, size_t n, char **json);
 TM_API void tm_text_free(char *text);
 

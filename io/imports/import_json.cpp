@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -12,9 +13,14 @@
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/io/tables/read_json.hpp"
+#include "treadmark/io/tables/schema_of.hpp"
 
 namespace treadmark::io {
 namespace {
+
+constexpr const char* kImportSchema =
+#include "treadmark/io/imports/import.schema.json.in"
+    ;
 
 constexpr double kMilli2 = 1e6;
 constexpr double kDegrees = 180.0 / kPi;
@@ -114,6 +120,17 @@ void place(const File& file, Body body, Part& part) {
     file.number("u_mm", part.u, kMilli);
   file.number("y_mm", part.y, kMilli);
   file.number("s_mm", part.s, kMilli);
+}
+
+/// What place writes, and the rows of a part that has one.
+template <class Part>
+SchemaRows placed_rows() {
+  SchemaRows out{{"u_deg", "number", true, false, "along the circumference of a wheel"},
+                 {"u_mm", "number", true, false, "along a rail; one of u_deg and u_mm is there"},
+                 {"y_mm", "number", true, true, "across, of the profile"},
+                 {"s_mm", "number", true, true, "along the section, as in the maps; null where only y is known"}};
+  std::ranges::move(schema_rows<Part>(), std::back_inserter(out));
+  return out;
 }
 
 template <class File, class Report>
@@ -323,6 +340,21 @@ std::string import_json(const ImportReport& report, bool with_seconds) {
   audit(ImportWriter{out}, report);
   if (with_seconds) out["seconds"] = seconds(report);
   return dumped(out) + "\n";
+}
+
+std::string import_report_schema() {
+  using Report = ImportReport;
+  const auto never_null = [](SchemaRow& row) { row.or_null = false; };
+  return filled_schema(kImportSchema, {{"input", schema_rows<Report::Input>()},
+                                       {"pass", schema_rows<Report::Pass>()},
+                                       {"hole", placed_rows<Report::Hole>()},
+                                       {"sections", changed(schema_rows<Report::Sections>(), never_null)},
+                                       {"level", schema_rows<Report::Level>()},
+                                       {"errors", changed(schema_rows<ErrorSize>(), never_null)},
+                                       {"residuals", changed(schema_rows<Report::Distances>(), never_null)},
+                                       {"distances", schema_rows<Report::Distances>()},
+                                       {"damage", placed_rows<Report::Damage>()},
+                                       {"output", schema_rows<Report::Output>()}});
 }
 
 std::string import_times_json(const ImportReport& report) {

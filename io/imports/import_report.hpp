@@ -173,9 +173,10 @@ struct ImportReport {
 /// What was removed, one entry a reason: counts of reasons that come twice are added.
 std::vector<ImportReport::Removed> removed_by_reason(const ImportReport& report);
 
-/// The whole audit but steps (whose times differ) as JSON text; all lengths in mm or um as the names say;
-/// docs/import.schema.json.
+/// The whole audit but steps (whose times differ) as JSON text; all lengths in mm or um as the names say.
 std::string import_json(const ImportReport& report, bool with_seconds);
+/// JSON Schema of it.
+std::string import_report_schema();
 /// {"steps": [{"step", "seconds"}]}.
 std::string import_times_json(const ImportReport& report);
 /// What these texts say of a report, from files. Errors: Error(input_data) for files that are missing, broken or lack

@@ -51,10 +51,10 @@ constexpr Column<Hole> kHoles[] = {
     {"", kOne, "", access::word(+[](const Hole& hole) { return std::string(hole.filled ? "by the fit" : "stays open"); }), "", 0, "filled"}};
 
 constexpr Column<Damage> kDamage[] = {
-    {"length_mm", kMm, "", of<&Damage::length>(), "", 0, "length"},
-    {"width_mm", kMm, "", of<&Damage::width>(), "", 0, "width"},
-    {"depth_mm", kMm, "", of<&Damage::depth>(), "", 0, "depth"},
-    {"volume_mm3", kCubicMm, "", of<&Damage::volume>(), "", 0, "missing volume"}};
+    {"length_mm", kMm, "", of<&Damage::length>(), "along u", 0, "length"},
+    {"width_mm", kMm, "", of<&Damage::width>(), "along the section", 0, "width"},
+    {"depth_mm", kMm, "", of<&Damage::depth>(), "negative: stands out", 0, "depth"},
+    {"volume_mm3", kCubicMm, "", of<&Damage::volume>(), "missing; negative: stands out", 0, "missing volume"}};
 
 constexpr Column<Level> kLevels[] = {
     {"knot_a_mm", kMm, "", of<&Level::knot_a>(), "", 0, "knots along"},
@@ -70,7 +70,7 @@ constexpr Column<Output> kOutputs[] = {
     {"sha256", kOne, "", of<&Output::sha256>()},
     {"bytes", {"bytes"}, "", of<&Output::bytes>(), "", 0, "size"},
     {"details", kOne, "", of<&Output::details>()},
-    {"height_max_um", kUm, "", of<&Output::height_max>(), "", 0, "largest distance"},
+    {"height_max_um", kUm, "", of<&Output::height_max>(), "distance of the written surface, read back, from the fitted one", 0, "largest distance"},
     {"height_rms_um", kUm, "", of<&Output::height_rms>(), "", 0, "rms distance"},
     {"", kOne, "", of<&Output::sha256>(), "", 0, "SHA-256"}};
 
@@ -79,11 +79,11 @@ constexpr Column<Step> kSteps[] = {
     {"seconds", {"s"}, "", of<&Step::seconds>(), "", 0, "time"}};
 
 constexpr Column<Distances> kDistances[] = {
-    {"mean_um", kUm, "", of<&Distances::mean>()},
+    {"mean_um", kUm, "", of<&Distances::mean>(), "positive: the surface stands out of the reference"},
     {"rms_um", kUm, "", of<&Distances::rms>()},
-    {"largest_um", kUm, "", of<&Distances::largest>()},
-    {"within_95_um", kUm, "", of<&Distances::within_95>()},
-    {"within_99_um", kUm, "", of<&Distances::within_99>()}};
+    {"largest_um", kUm, "", of<&Distances::largest>(), "without sign"},
+    {"within_95_um", kUm, "", of<&Distances::within_95>(), "95 % are no farther than this"},
+    {"within_99_um", kUm, "", of<&Distances::within_99>(), "99 % are no farther than this"}};
 
 constexpr Column<Kept> kKept[] = {
     {"count", kOne, "", of<&Kept::count>()},
@@ -91,9 +91,9 @@ constexpr Column<Kept> kKept[] = {
     {"most_points", kOne, "", of<&Kept::most_points>()},
     {"least_gap_mm", kMm, "", of<&Kept::least_gap>()},
     {"widest_gap_mm", kMm, "", of<&Kept::widest_gap>()},
-    {"spread_mm", kMm, "", of<&Kept::spread>()},
-    {"smoothing_lambda_mm3", kMm3, "", of<&Kept::smoothing>()},
-    {"smoothed_um", kUm, "", of<&Kept::smoothed>()}};
+    {"spread_mm", kMm, "", of<&Kept::spread>(), "farthest that a point lies from its section, along the band"},
+    {"smoothing_lambda_mm3", kMm3, "", of<&Kept::smoothing>(), "of triangles and offsets made of sections that noise does not smooth"},
+    {"smoothed_um", kUm, "", of<&Kept::smoothed>(), "points moved by their noise: root mean square of what they were moved by"}};
 
 constexpr Column<ErrorSize> kErrors[] = {
     {"rms_um", kUm, "", of<&ErrorSize::rms>()},

@@ -14,8 +14,17 @@
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/io/tables/read_json.hpp"
+#include "treadmark/io/tables/schema_of.hpp"
 
 namespace treadmark::io {
+
+namespace {
+
+constexpr const char* kComparisonSchema =
+#include "treadmark/io/results/compare.schema.json.in"
+    ;
+
+}  // namespace
 
 std::string to_json(const Comparison& comparison) {
   Json out;
@@ -42,6 +51,12 @@ std::string to_json(const Comparison& comparison) {
   }
   out["rows"] = std::move(rows);
   return dumped(out) + "\n";
+}
+
+std::string comparison_schema() {
+  return filled_schema(kComparisonSchema, {{"candidate", schema_rows<ComparisonCandidate>()},
+                                           {"body", schema_rows<RepresentedBody>()},
+                                           {"row", schema_rows<ComparedRow>()}});
 }
 
 void write_json(const std::filesystem::path& path, const Comparison& comparison) {

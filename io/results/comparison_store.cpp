@@ -138,37 +138,37 @@ constexpr Access<C> failure() {
 // A row of a table stays a row: clang-format would give each column a line.
 // clang-format off
 constexpr Column<C> kCandidates[] = {
-    {"backend", kOne, "", of<&C::name>()},
+    {"backend", kOne, "", of<&C::name>(), "its name as asked for"},
     {"resolution_mm", kMm, "", resolution<C>()},
-    {"failure", kOne, "", failure()}};
+    {"failure", kOne, "", failure(), "why it could not be built or solved; absent where it could"}};
 
 constexpr Column<B> kBodies[] = {
     {"backend", kOne, "", of<&B::backend>()},
-    {"resolution_mm", kMm, "", resolution<B>()},
+    {"resolution_mm", kMm, "", resolution<B>(), "null: the data as given"},
     {"build_s", kS, "", of<&B::build_seconds>()},
     {"memory_bytes", kBytes, "", of<&B::memory_bytes>()},
-    {"height_max_um", kUm, "", off<&S::height_max>()},
+    {"height_max_um", kUm, "", off<&S::height_max>(), "normal distance from the reference"},
     {"height_rms_um", kUm, "", off<&S::height_rms>()},
-    {"slope_max_mrad", kMrad, "", off<&S::slope_max>()},
+    {"slope_max_mrad", kMrad, "", off<&S::slope_max>(), "angle between the normals"},
     {"slope_rms_mrad", kMrad, "", off<&S::slope_rms>()},
-    {"curvature_max_per_m", kPerM, "", off<&S::curvature_max>()},
+    {"curvature_max_per_m", kPerM, "", off<&S::curvature_max>(), "mean curvature"},
     {"curvature_rms_per_m", kPerM, "", off<&S::curvature_rms>()},
-    {"points", kOne, "", points<&S::points>()},
-    {"missing", kOne, "", points<&S::missing>()},
-    {"note", kOne, "", of<&B::note>()}};
+    {"points", kOne, "", points<&S::points>(), "compared; 0: not measured, and the deviations are null"},
+    {"missing", kOne, "", points<&S::missing>(), "points where the reference has a surface and this one has none"},
+    {"note", kOne, "", of<&B::note>(), "repairs and limits"}};
 
 constexpr Column<ComparedRow> kRows[] = {
     {"backend", kOne, "", of<&ComparedRow::backend>()},
     {"wheel_backend", kOne, "", of<&ComparedRow::wheel_backend>()},
     {"rail_backend", kOne, "", of<&ComparedRow::rail_backend>()},
-    {"resolution_mm", kMm, "", resolution<ComparedRow>()},
+    {"resolution_mm", kMm, "", resolution<ComparedRow>(), "null: the data as given"},
     {"case", kOne, "", count<&R::case_number>()},
     {"status", kOne, "", word(+[](const ComparedRow& r) { return std::string(to_string(r.status)); })},
-    {"height_max_um", kUm, "", of_all<&D::height_max>()},
+    {"height_max_um", kUm, "", of_all<&D::height_max>(), "the worse of wheel and rail, as the next three"},
     {"height_rms_um", kUm, "", of_all<&D::height_rms>()},
     {"slope_max_mrad", kMrad, "", of_all<&D::slope_max>()},
     {"curvature_max_per_m", kPerM, "", of_all<&D::curvature_max>()},
-    {"pmax_MPa", unit::kMPa, "", of_patch<&R::pmax>()},
+    {"pmax_MPa", unit::kMPa, "", of_patch<&R::pmax>(), "of the patch that carries most of the load, as the quantities up to ncon"},
     {"fn_N", kN, "", of_patch<&R::fn>()},
     {"fx_N", kN, "", of_patch<&R::fx>()},
     {"fs_N", kN, "", of_patch<&R::fs>()},
@@ -176,18 +176,18 @@ constexpr Column<ComparedRow> kRows[] = {
     {"y_tr_mm", kMm, "", of_patch<&R::y_tr>()},
     {"approach_mm", kMm, "", of_patch<&R::approach>()},
     {"area_mm2", kMm2, "", of_patch<&R::area>()},
-    {"ncon", kOne, "", count<&R::ncon>()},
+    {"ncon", kOne, "", count<&R::ncon>(), "elements in contact"},
     {"patches", kOne, "", count<&R::patches>()},
     {"search_s", kS, "", time<&R::search_s>()},
     {"distance_s", kS, "", time<&R::distance_s>()},
-    {"build_s", kS, "", of_all<&D::build_s>()},
-    {"memory_bytes", kBytes, "", {[](const ComparedRow& r) { return static_cast<double>(r.all.memory_bytes); }, nullptr, nullptr, true}},
-    {"mean_pressure_error_percent", kPerCent, "", error<&R::mean_pressure_error>(), "older files lack it"},
-    {"pmax_error_percent", kPerCent, "", error<&R::pmax_error>()},
+    {"build_s", kS, "", of_all<&D::build_s>(), "wheel and rail together"},
+    {"memory_bytes", kBytes, "", {[](const ComparedRow& r) { return static_cast<double>(r.all.memory_bytes); }, nullptr, nullptr, true}, "wheel and rail together"},
+    {"mean_pressure_error_percent", kPerCent, "", error<&R::mean_pressure_error>(), "of fn over area; older files lack it"},
+    {"pmax_error_percent", kPerCent, "", error<&R::pmax_error>(), "with its sign; null where the reference's largest pressure has no limit (edge_pressure). The errors exist only where candidate and reference have contact"},
     {"area_error_percent", kPerCent, "", error<&R::area_error>()},
     {"approach_error_percent", kPerCent, "", error<&R::approach_error>()},
-    {"force_error_percent", kPerCent, "", error<&R::force_error>()},
-    {"position_error_mm", kMm, "", error<&R::position_error>()}};
+    {"force_error_percent", kPerCent, "", error<&R::force_error>(), "length of the difference of the forces of all patches, over the reference's"},
+    {"position_error_mm", kMm, "", error<&R::position_error>(), "distance of the references in the track's x-y plane"}};
 // clang-format on
 
 }  // namespace

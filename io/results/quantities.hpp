@@ -11,8 +11,8 @@
 
 namespace treadmark::io {
 
-/// The numbers of a result, one row each: all writers and readers of result files walk these tables, and the
-/// documentation and the schema are held against them. Fields of patches have their own table (field_table.hpp).
+/// The numbers of a result, one row each: all writers and readers of result files walk these tables, their schema is
+/// made of them, and the documentation is held against them. Fields of patches have their own table (field_table.hpp).
 
 /// A unit of measure in SI, in the names of JSON and for people. The conversions take SI.
 struct Unit {

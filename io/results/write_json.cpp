@@ -12,6 +12,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/tables/number.hpp"
+#include "treadmark/io/tables/schema_of.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -20,6 +21,21 @@ Json hashes(const std::vector<std::pair<std::string, std::string>>& files) {
   Json list = Json::array();
   for (const auto& [file, sha256] : files) list.push_back({{"file", file}, {"sha256", sha256}});
   return list;
+}
+
+constexpr const char* kResultSchema =
+#include "treadmark/io/results/result.schema.json.in"
+    ;
+
+/// What add_quantities writes.
+template <class T>
+SchemaRows schema_rows_of() {
+  SchemaRows out;
+  for (const Quantity<T>& row : quantities<T>())
+    if (!row.key.empty())
+      out.push_back({name_of(row), row.access.whole ? "integer" : "number", !row.access.whole,
+                     flag_of<T>(row.block) == nullptr && row.access.has == nullptr, std::string(row.meaning)});
+  return out;
 }
 
 bool in_shift(const PatchResult& patch) { return patch.shift; }
@@ -156,6 +172,11 @@ std::string to_json(const RunResult& run) {
   Json out = head_json(run);
   for (const CaseResult& result : run.cases) out["cases"].push_back(case_json(result));
   return dumped(out) + "\n";
+}
+
+std::string result_schema() {
+  return filled_schema(kResultSchema,
+                       {{"case", schema_rows_of<CaseResult>()}, {"patch", schema_rows_of<PatchResult>()}});
 }
 
 std::string case_text(const CaseResult& result) {

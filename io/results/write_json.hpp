@@ -10,10 +10,13 @@
 
 namespace treadmark::io {
 
-/// The result file of a run as JSON text: names and units as in docs/results.md and docs/result.schema.json.
+/// The result file of a run as JSON text: names and units as in docs/results.md and by result_schema.
 /// Numbers have 12 significant digits; what is not finite becomes null. Field arrays are not part of it.
 /// Thread-safe.
 std::string to_json(const RunResult& run);
+
+/// JSON Schema of it.
+std::string result_schema();
 
 /// The same piece by piece, for more cases than fit into memory: what stands before the cases, each of them as it
 /// stands there, commas and line ends between them (kBetweenCases), and what stands behind the last one. run: without

@@ -5,8 +5,6 @@
 
 #include <atomic>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -45,10 +43,16 @@ BenchSettings small_settings(std::vector<std::string> backends) {
 
 json parsed(const std::string& text) {
   const json document = json::parse(text);
-  std::ifstream file(std::filesystem::path(TREADMARK_SOURCE_DIR) / "docs" / "bench.schema.json");
-  const json schema = json::parse(file);
+  const json schema = json::parse(bench_schema());
   EXPECT_EQ(treadmark::testing::first_violation(document, schema, schema), "");
   return document;
+}
+
+TEST(BenchSchema, IsMadeOfItsRows) {
+  const json schema = json::parse(bench_schema()), row = schema["properties"]["rows"]["items"];
+  treadmark::testing::expect_rows<BenchRow>(row);
+  EXPECT_EQ(row["properties"].size(), columns<BenchRow>().size());
+  EXPECT_EQ(row["properties"]["body"]["enum"], json({"rail", "wheel"}));
 }
 
 /// A surface with an error that no height of its own gives away.

@@ -123,8 +123,11 @@ TEST(CommandLine, ListsAndSchema) {
   EXPECT_EQ(schema.status, 0);
   EXPECT_THAT(schema.out, HasSubstr("json-schema.org"));
   EXPECT_EQ(run_program({"schema", "case"}).out, schema.out);
+  for (const char* result : {"result", "compare", "bench", "geometry", "measure"})
+    EXPECT_TRUE(nlohmann::json::parse(run_program({"schema", result}).out).contains("required")) << result;
   if (has_part("scans")) {
     EXPECT_THAT(run_program({"schema", "import"}).out, HasSubstr("hole_limit_mm"));
+    EXPECT_THAT(run_program({"schema", "import-report"}).out, HasSubstr("Treadmark import report"));
   }
   if (has_part("vehicle")) {
     EXPECT_THAT(run_program({"schema", "simulation"}).out, HasSubstr("max_step_elements"));

@@ -16,6 +16,7 @@
 
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
+#include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/model/shape/length_unit.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
@@ -163,8 +164,7 @@ TEST_F(ImportCommand, WheelWithAFlatFromADirtyScanInEveryBackend) {
     same.nominal_radius = truth_spec.nominal_radius;
     EXPECT_LT(height_error(path(file), same, -30e-3, 55e-3, -kPi, kPi), 15e-6) << file;
   }
-  std::ifstream schema_file(fs::path(TREADMARK_SOURCE_DIR) / "docs" / "import.schema.json");
-  const Json schema = Json::parse(schema_file);
+  const Json schema = Json::parse(io::import_report_schema());
   EXPECT_EQ(treadmark::testing::first_violation(found, schema, schema), "");
   for (const char* file : {"report.json", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg",
                            "fitted.svg", "residual.svg", "maps.h5"})

@@ -18,7 +18,7 @@ report::Page import_page(const io::ImportReport& report, std::string document, c
 /// The same from the files alone. Errors: as io::read_import_report. Not to be called from two threads at once (HDF5).
 report::Page import_page(const std::filesystem::path& folder);
 
-/// Tables of the report of an import, a line an entry, with the numbers of report.json (docs/import.schema.json).
+/// Tables of the report of an import, a line an entry, with the numbers of report.json.
 
 report::Table input_table(const io::ImportReport& report);
 report::Table removed_table(const io::ImportReport& report);

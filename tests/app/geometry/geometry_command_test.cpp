@@ -39,7 +39,7 @@ TEST(GeometryCommand, WritesJsonByItsSchema) {
       run_program(with(kPair, {"--json", "-", "--amplitudes-mm", "1:8:0.5", "--gauges-mm", "1434,1436"}));
   ASSERT_EQ(result.status, 0) << result.err;
   const json out = json::parse(result.out);
-  const json schema = json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/geometry.schema.json"));
+  const json schema = json::parse(geometry_schema());
   EXPECT_EQ(treadmark::testing::first_violation(out, schema, schema), "");
   const json& g = out.at("geometry");
   EXPECT_EQ(g.at("conicity").at("tan_gamma_e").size(), 15u);
@@ -54,6 +54,33 @@ TEST(GeometryCommand, WritesJsonByItsSchema) {
                 functions["radius_right_mm"][i].get<double>() - functions["radius_left_mm"][i].get<double>(), 1e-9);
   EXPECT_EQ(g.at("gauge_sweep").at("tan_gamma_e").size(), 2u);
   EXPECT_FALSE(g.at("jumps").empty());
+}
+
+TEST(GeometrySchema, IsMadeOfItsRows) {
+  using treadmark::testing::expect_rows, treadmark::testing::is_required;
+  const json schema = json::parse(geometry_schema()), g = schema["properties"]["geometry"];
+  const json &members = g["properties"], &load = members["load"];
+  expect_rows<GeometryResult>(g);
+  expect_rows<FunctionRow>(members["functions"], true);
+  expect_rows<ConicityRow>(members["conicity"], true);
+  expect_rows<ConicityRow>(members["with_new"]["properties"]["conicity"], true);
+  expect_rows<geometry::Jump>(members["jumps"]["items"]);
+  expect_rows<geometry::FurtherTouch>(members["second_contacts"]["items"]);
+  expect_rows<geometry::LoadedFunctions>(load);
+  for (const char* side : {"left", "right"}) {
+    expect_rows<geometry::ShiftLimit>(members["limits"]["properties"][side]);
+    expect_rows<geometry::LoadedSide>(load["properties"][side]);
+  }
+  for (const Column<geometry::LoadedPosition>& column : columns<geometry::LoadedPosition>()) {
+    const std::string key(column.key);
+    EXPECT_EQ(members["functions"]["properties"][key]["type"], "array") << key;
+    EXPECT_FALSE(is_required(members["functions"], key)) << key << " needs a load";
+  }
+  EXPECT_FALSE(is_required(g, "load"));
+  for (const char* asked : {"roll", "yaw_mrad", "step_mm", "smoothing_mm", "pitch_deg", "position_mm"})
+    EXPECT_TRUE(is_required(members["method"], asked)) << asked;
+  EXPECT_EQ(members["method"]["properties"]["roll"]["enum"], json({"none", "free"}));
+  EXPECT_EQ(load["properties"]["largest_pressure"]["properties"]["side"]["enum"], json({"right", "left", nullptr}));
 }
 
 TEST(GeometryCommand, WritesAFolder) {
@@ -112,7 +139,7 @@ TEST(GeometryCommand, TheEffectOfWear) {
   const auto result = run_program(with(kPair, {"--new-wheel", "1:40", "--json", "-", "--amplitudes-mm", "1,3"}));
   ASSERT_EQ(result.status, 0) << result.err;
   const json out = json::parse(result.out), g = out.at("geometry");
-  const json schema = json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/geometry.schema.json"));
+  const json schema = json::parse(geometry_schema());
   EXPECT_EQ(treadmark::testing::first_violation(out, schema, schema), "");
   EXPECT_NEAR(g["conicity_3mm"].get<double>(), 0.174, 3e-3);
   // a tread 1:40 has the conicity of its cone

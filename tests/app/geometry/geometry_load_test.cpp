@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/cases/run_cases.hpp"
@@ -37,8 +36,7 @@ std::vector<std::string> loaded_with(const std::vector<std::string>& more) {
 TEST(GeometryLoad, WritesJsonByItsSchema) {
   const auto result = run_program(loaded_with({"--json", "-", "--roll", "free"}));
   ASSERT_EQ(result.status, 0) << result.err;
-  const nlohmann::json out = nlohmann::json::parse(result.out),
-                       schema = nlohmann::json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/geometry.schema.json"));
+  const nlohmann::json out = nlohmann::json::parse(result.out), schema = nlohmann::json::parse(geometry_schema());
   EXPECT_EQ(treadmark::testing::first_violation(out, schema, schema), "");
   const nlohmann::json &g = out.at("geometry"), &f = g.at("functions"), &load = g.at("load");
   EXPECT_EQ(f.size(), columns<FunctionRow>().size() + columns<geometry::LoadedPosition>().size());

@@ -42,6 +42,7 @@ TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
       {"scans", "treadmark import", {"import", "/nowhere/x.ply", "--unit", "mm"}},
       {"scans", "treadmark scan", {"scan", nowhere, "-o", "/nowhere/x.ply"}},
       {"scans", "the schema of import settings", {"schema", "import"}},
+      {"scans", "the schema of import reports", {"schema", "import-report"}},
       {"report", "treadmark report", {"report", "/nowhere/x", "--static"}},
       {"report", "treadmark plot", {"plot", "/nowhere/x", "--what", "pressure"}},
       {"report", "--report", {"run", nowhere, "--report", "/nowhere/x.html"}},

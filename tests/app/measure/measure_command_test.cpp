@@ -54,7 +54,7 @@ json measured(const std::vector<std::string>& arguments, int status = 0) {
   EXPECT_EQ(r.status, status) << r.err;
   if (r.out.empty()) return {};
   json result = json::parse(r.out);
-  const json schema = json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/measure.schema.json"));
+  const json schema = json::parse(app::measure_schema());
   EXPECT_EQ(first_violation(result, schema, schema), "");
   return result;
 }

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/measure/measure_files.hpp"
+#include "treadmark/tests/io/results/json_schema.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -85,6 +86,34 @@ std::vector<Line> lines_of(RailNumbers& r) {
           {"crown_radius_mm", kMm, &r.crown_radius},
           {"inclination_deg", kDegree, &r.inclination},
           {"roughness_exceedance_db", 1.0, &r.roughness_exceedance}};
+}
+
+/// Each number stands in five places.
+template <class Numbers>
+void expect_in_schema(const json& body, const char* sections) {
+  using treadmark::testing::is_required;
+  const json &members = body["properties"], number = json({"number", "null"});
+  Numbers numbers;
+  const std::vector<Line> lines = lines_of(numbers);
+  for (const Line& line : lines) {
+    const auto type = [&](const json& object) -> const json& { return object["properties"][line.key]["type"]; };
+    EXPECT_EQ(type(body), number) << line.key;
+    EXPECT_TRUE(is_required(body, line.key)) << line.key;
+    EXPECT_EQ(type(members["uncertainty"]), number) << line.key;
+    EXPECT_EQ(type(members["reasons"]), "string") << line.key;
+    EXPECT_EQ(members[sections]["properties"][line.key]["items"]["type"], number) << line.key;
+    for (const char* object : {"uncertainty", "reasons", sections})
+      EXPECT_FALSE(is_required(members[object], line.key)) << object << ' ' << line.key;
+  }
+  EXPECT_EQ(members["uncertainty"]["properties"].size(), lines.size());
+  EXPECT_EQ(members["reasons"]["properties"].size(), lines.size());
+  EXPECT_EQ(members[sections]["properties"].size(), lines.size() + 1) << "and the place";
+}
+
+TEST(MeasureSchema, IsMadeOfItsRows) {
+  const json schema = json::parse(measure_schema());
+  expect_in_schema<WheelNumbers>(schema["$defs"]["wheel"], "round");
+  expect_in_schema<RailNumbers>(schema["$defs"]["rail"], "along");
 }
 
 TEST(MeasureNumbers, OfAWheel) {

@@ -44,10 +44,6 @@ std::string text_of_measures(tm_body body, const char* file, const std::vector<c
   return result;
 }
 
-json schema_of(const char* name) {
-  return json::parse(std::ifstream(std::string(TREADMARK_SOURCE_DIR) + "/docs/" + name + ".schema.json"));
-}
-
 const std::vector<const char*> kPair{"wheel=S1002", "rail=60E1", "gauge_mm=1435", "cant=1:40"};
 
 std::vector<const char*> with(std::vector<const char*> settings, const std::vector<const char*>& more) {
@@ -72,7 +68,7 @@ TEST(CRequests, GeometryIsThatOfTheLibrary) {
                                     "gauge_mm=1435.2", "wheel_origins_mm=1499", "amplitudes_mm=[1, 2.5]", "roll=free",
                                     "yaw_mrad=2", "step_mm=0.2", "gauges_mm=1433,1434.5"}));
   EXPECT_EQ(json::parse(text), json::parse(app::geometry_json(expected)));
-  const json schema = schema_of("geometry");
+  const json schema = json::parse(app::geometry_schema());
   EXPECT_EQ(first_violation(json::parse(text), schema, schema), "");
 }
 
@@ -129,7 +125,7 @@ TEST(CRequests, MeasuresAreThoseOfTheLibrary) {
   request.nominal_radius = 0.46;
   const std::string text = text_of_measures(TM_WHEEL, "S1002/h30/10%", {"nominal=S1002", "nominal_radius_mm=460"});
   EXPECT_EQ(json::parse(text), json::parse(app::measure_json(app::measure_file("S1002/h30/10%", request), request)));
-  const json schema = schema_of("measure");
+  const json schema = json::parse(app::measure_schema());
   EXPECT_EQ(first_violation(json::parse(text), schema, schema), "");
   // what its name says
   constexpr double kDrawn = 5e-4;  // [mm]

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -19,7 +18,7 @@ using nlohmann::json;
 // A change of unit may leave one unit in the twelfth digit.
 constexpr double kDigits = 1e-11;
 
-json schema() { return json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/import.schema.json")); }
+json schema() { return json::parse(io::import_report_schema()); }
 
 void expect_number(const json& object, const char* key, double value) {
   ASSERT_TRUE(object.contains(key)) << key;
@@ -104,6 +103,30 @@ TEST(ImportJson, TheRestHasTheUnitsOfItsNames) {
   EXPECT_EQ(out["range"]["u_deg"], json({0.0, 360.0}));
   EXPECT_EQ(out["range"]["closed"], true);
   EXPECT_EQ(out["settings_toml"], "[scan]\nunit = \"mm\"\n");
+}
+
+TEST(ImportReportSchema, IsMadeOfItsRows) {
+  using Report = io::ImportReport;
+  using testing::expect_rows;
+  const json rules = schema(), all = rules["properties"];
+  const auto members = [&](const char* object) -> const json& { return all[object]["properties"]; };
+  const json &holes = members("coverage")["holes"]["items"], &damage = all["damage"]["items"], &fit = members("fit");
+  expect_rows<Report::Input>(all["inputs"]["items"]);
+  expect_rows<Report::Pass>(members("frame")["passes"]["items"]);
+  expect_rows<Report::Hole>(holes);
+  expect_rows<Report::Damage>(damage);
+  expect_rows<Report::Sections>(fit["kept_sections"]);
+  expect_rows<Report::Level>(fit["levels"]["items"]);
+  expect_rows<ErrorSize>(fit["surface_errors"]);
+  for (const char* compared : {"placed", "shape"}) expect_rows<Report::Distances>(members("truth")[compared]);
+  expect_rows<Report::Output>(all["outputs"]["items"]);
+  for (const json* part : {&holes, &damage})
+    for (const char* place : {"u_deg", "u_mm", "y_mm", "s_mm"}) EXPECT_TRUE((*part)["properties"].contains(place));
+  // numbers that are there whenever their object is
+  for (const char* object : {"kept_sections", "surface_errors", "residuals"})
+    for (const auto& [name, member] : fit[object]["properties"].items())
+      EXPECT_TRUE(member["type"].is_string()) << name;
+  EXPECT_EQ(fit["residuals"]["properties"].size(), columns<Report::Distances>().size() + 2) << "below and above";
 }
 
 TEST(ImportJson, KeepsToItsSchema) {

@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/results/write_json.hpp"
 #include "treadmark/tests/io/results/comparison_sample.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
@@ -152,9 +152,21 @@ TEST(ComparisonJson, NamesThatAreNotUtf8DoNotSpoilTheFile) {
   }
 }
 
+TEST(ComparisonSchema, IsMadeOfItsRows) {
+  const json schema = json::parse(io::comparison_schema());
+  const json &candidate = schema["properties"]["candidates"]["items"], &body = schema["$defs"]["body"],
+             &row = schema["properties"]["rows"]["items"];
+  testing::expect_rows<io::ComparisonCandidate>(candidate);
+  testing::expect_rows<io::RepresentedBody>(body);
+  testing::expect_rows<io::ComparedRow>(row);
+  EXPECT_EQ(candidate["properties"].size(), columns<io::ComparisonCandidate>().size() + 2) << "wheel and rail";
+  EXPECT_EQ(body["properties"].size(), columns<io::RepresentedBody>().size());
+  EXPECT_EQ(row["properties"].size(), columns<io::ComparedRow>().size());
+  EXPECT_EQ(row["properties"]["status"]["enum"].size(), 4u);
+}
+
 TEST(ComparisonJson, FitsTheSchemaAndTheSchemaBites) {
-  const std::string root = TREADMARK_SOURCE_DIR;
-  const json schema = json::parse(std::ifstream(root + "/docs/compare.schema.json"));
+  const json schema = json::parse(io::comparison_schema());
   const json document = parse_comparison();
   EXPECT_EQ(testing::first_violation(document, schema, schema), "");
   EXPECT_EQ(testing::first_violation(json::parse(io::to_json(io::Comparison())), schema, schema), "");

@@ -72,4 +72,11 @@ std::string first_violation(const nlohmann::json& value, const nlohmann::json& s
   return {};
 }
 
+bool is_required(const nlohmann::json& object, const std::string& key) {
+  if (!object.contains("required")) return false;
+  for (const std::string one : object["required"])
+    if (one == key) return true;
+  return false;
+}
+
 }  // namespace treadmark::testing

@@ -57,8 +57,8 @@ void expect_in_schema(const json& of_all) {
       EXPECT_TRUE(is_row(object, key)) << object << "." << key;
 }
 
-TEST(Quantities, AreThoseOfTheSchema) {
-  const json schema = json::parse(documentation("result.schema.json"));
+TEST(ResultSchema, IsMadeOfItsRows) {
+  const json schema = json::parse(result_schema());
   expect_in_schema<PatchResult>(schema["$defs"]["patch"]);
   expect_in_schema<CaseResult>(schema["$defs"]["case"]);
 }

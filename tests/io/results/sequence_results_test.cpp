@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/error.hpp"
@@ -47,7 +46,7 @@ io::RunResult rich_run() {
 
 TEST(SequenceResults, JsonNamesUnitsAndFitsTheSchema) {
   const json document = json::parse(io::to_json(rich_run()));
-  const json schema = json::parse(std::ifstream(std::string(TREADMARK_SOURCE_DIR) + "/docs/result.schema.json"));
+  const json schema = json::parse(io::result_schema());
   EXPECT_EQ(testing::first_violation(document, schema, schema), "");
   const json &c = document["cases"][0], &p = c["patches"][0], &other = c["patches"][1];
   EXPECT_EQ(c["loads"]["track"]["fz_N"], 3.0);

@@ -81,7 +81,7 @@ TEST(WriteJson, TemperaturesAppearWhereTheyWereComputed) {
   EXPECT_FALSE(document["cases"][0]["patches"][0].contains("max_temperature_1_C"));
   EXPECT_EQ(document["cases"][0]["patches"][1]["max_temperature_1_C"], 166.8);
   EXPECT_EQ(document["cases"][0]["patches"][1]["max_temperature_2_C"], 90.85);
-  const json schema = json::parse(std::ifstream(std::string(TREADMARK_SOURCE_DIR) + "/docs/result.schema.json"));
+  const json schema = json::parse(io::result_schema());
   EXPECT_EQ(testing::first_violation(document, schema, schema), "");
 }
 
@@ -124,8 +124,7 @@ TEST(WriteJson, NamesThatAreNotUtf8DoNotSpoilTheFile) {
 }
 
 TEST(WriteJson, FitsTheSchemaAndTheSchemaBites) {
-  const std::string root = TREADMARK_SOURCE_DIR;
-  const json schema = json::parse(std::ifstream(root + "/docs/result.schema.json"));
+  const json schema = json::parse(io::result_schema());
   json document = parse_sample();
   EXPECT_EQ(testing::first_violation(document, schema, schema), "");
 
