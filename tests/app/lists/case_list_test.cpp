@@ -345,11 +345,11 @@ bool grows(const fs::path& file, std::uintmax_t size, RunningProgram& program) {
 TEST(CaseList, GoesOnAfterItWasKilled) {
   const TemporaryFolder folder;
   const fs::path file = pair_list(folder, places(3000)), out = folder.path() / "out", once = folder.path() / "once";
-  const auto command = [&](const fs::path& to) {
-    return std::vector<std::string>{"treadmark", "run", file.string(), "-o", to.string()};
+  const auto to_folder = [&](const fs::path& to) {
+    return std::vector<std::string>{"run", file.string(), "-o", to.string()};
   };
   for (const int signal : {SIGKILL, SIGINT}) {
-    RunningProgram program(command(out));
+    RunningProgram program({"treadmark", "run", file.string(), "-o", out.string()});
     std::error_code none;
     const std::uintmax_t before = fs::file_size(out / "unfinished.rows", none);
     ASSERT_TRUE(grows(out / "unfinished.rows", (none ? 0 : before) + 40000, program));
@@ -363,10 +363,10 @@ TEST(CaseList, GoesOnAfterItWasKilled) {
       EXPECT_THAT(result.err, HasSubstr("the same command goes on"));
     }
   }
-  const auto rest = run_program(command(out));
+  const auto rest = run_program(to_folder(out));
   EXPECT_EQ(rest.status, 0) << rest.err;
   EXPECT_THAT(rest.err, HasSubstr("of 3000 cases were finished before"));
-  EXPECT_EQ(run_program(command(once)).status, 0);
+  EXPECT_EQ(run_program(to_folder(once)).status, 0);
   for (const char* name : {"cases.csv", "cases.h5"})
     if (fs::exists(once / name)) {
       EXPECT_EQ(content_of(out / name), content_of(once / name)) << name;
