@@ -18,6 +18,7 @@ LineBlocks::LineBlocks(ByteBlocks& bytes, int first) : TextLine(bytes.file(), fi
 }
 
 bool LineBlocks::more(std::size_t searched) {
+  line_ = {};  // the block that it lies in may go
   if (searched > ByteBlocks::kLongestPiece) {
     ++number_;
     fail("a line of more than 64 million characters", 0, "is it a text file?");
