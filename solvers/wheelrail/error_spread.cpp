@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/wheelrail/error_spread.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -13,16 +12,14 @@
 namespace treadmark::wheelrail {
 namespace {
 
-constexpr int kMostElements = 48;  // along and across: pressures change alike on finer ones
+constexpr int kEnough = 48;  // along and across: pressures change alike on finer ones
 
 /// Every n-th of count elements, among them one that is kept.
 struct Some {
   int step, first, count;
 
   Some(int elements, int kept)
-      : step((elements + kMostElements - 1) / kMostElements),
-        first(kept % step),
-        count((elements - 1 - first) / step + 1) {}
+      : step((elements + kEnough - 1) / kEnough), first(kept % step), count((elements - 1 - first) / step + 1) {}
 };
 
 /// What is looked at of a solution.
