@@ -6,14 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
-#include "treadmark/analysis/measured/patch_spread.hpp"
-#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/profile_scatter.hpp"
-#include "treadmark/solvers/kalker/plausibility.hpp"
 
 namespace treadmark::app {
 
@@ -24,7 +22,7 @@ const Profile* noisy_profile(const NaturalSurface& natural) {
 
 namespace {
 
-constexpr std::size_t kNearestDraws = 8;
+constexpr std::size_t kNearestDraws = 16;  // as many as of profiles
 
 /// Where on a body a patch lies along it: x of a rail [m], angle of a wheel [rad].
 double along(const io::PatchResult& patch, const Pose& X_TB, Body body) {
@@ -59,11 +57,17 @@ std::size_t NoiseOfResults::Known::draws_count() const {
 }
 
 double NoiseOfResults::Known::arc_at(double y_at, double z_at) const {
-  std::size_t nearest = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < y.size(); ++i)
-    if (const double d = std::hypot(y[i] - y_at, z[i] - z_at); d < least) least = d, nearest = i;
-  return s[nearest];
+  double arc = s.front(), least = kInfinity;
+  for (std::size_t i = 1; i < y.size(); ++i) {
+    const Vec2 from(y[i - 1], z[i - 1]), along = Vec2(y[i], z[i]) - from, to = Vec2(y_at, z_at) - from;
+    const double t = std::clamp(to.dot(along) / std::max(along.squaredNorm(), 1e-30), 0.0, 1.0);
+    if (const double d = (to - t * along).norm(); d < least) least = d, arc = s[i - 1] + t * (s[i] - s[i - 1]);
+  }
+  return arc;
+}
+
+double NoiseOfResults::Known::error(std::size_t draw, std::span<const std::size_t> near, double arc) const {
+  return draws ? draws->at(draw, arc) : BrokenLine(s, surface->draws[near[draw]]).held_at(arc);
 }
 
 std::string NoiseOfResults::Known::in_words(const std::string& name) const {
@@ -75,70 +79,80 @@ std::string NoiseOfResults::Known::in_words(const std::string& name) const {
                      kMicro * size.largest);
 }
 
-io::PatchResult::Noise NoiseOfResults::of_patch(const io::WheelRailCase& input, const io::CaseResult& result,
-                                                const io::PatchResult& patch) const {
-  const Grid2& grid = patch.fields.grid;
-  measured::PatchRows rows;
-  rows.width = grid.dy;
-  rows.force = patch.fn;
-  rows.modulus = kalker::contact_modulus(input.material);
-  rows.curvature_x = std::cos(patch.angle_wheel) / (input.wheelset.nominal_radius + patch.z_wheel) +
-                     (input.roller ? 1.0 / input.roller->nominal_radius : 0.0);
-  for (int iy = 0; iy < grid.ny; ++iy) {
-    double least = std::numeric_limits<double>::quiet_NaN();
-    for (int ix = 0; ix < grid.nx; ++ix) least = std::fmin(least, patch.fields.gap[grid.index(ix, iy)]);
-    rows.gap.push_back(least);
-  }
+void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseResult& result,
+                                std::span<io::PatchResult* const> patches,
+                                std::span<wheelrail::UncertainPatch> uncertain) const {
   // s of the contact grows with y; the points of a wheel run the other way, and a left-hand side is a mirror image
   const double side = input.side == Side::left ? -1.0 : 1.0;
   const std::size_t draws = std::max(rail_.draws_count(), wheel_.draws_count());
-  std::vector<std::vector<double>> errors(draws, std::vector<double>(rows.gap.size(), 0.0));
-  const auto add = [&](const NoiseOfResults::Known& body, const std::optional<double>& u, double period, double y,
-                       double z, double direction) {
-    if (!body.known()) return;
-    const double middle = body.arc_at(side * y, z);
+  for (std::size_t k = 0; k < patches.size(); ++k)
+    uncertain[k].errors.assign(draws, std::vector<double>(static_cast<std::size_t>(uncertain[k].grid.ny), 0.0));
+  const io::PatchResult& largest = **std::ranges::max_element(patches, {}, [](const auto* patch) { return patch->fn; });
+  for (const Body which : {Body::rail, Body::wheel}) {
+    const bool wheel = which == Body::wheel;
+    const Known& body = wheel ? wheel_ : rail_;
+    if (!body.known()) continue;
     const std::size_t own = body.draws_count();
-    const std::vector<std::size_t> near =
-        body.surface ? nearest_draws(*body.surface, u.value_or(0.0), own, period) : std::vector<std::size_t>();
-    for (std::size_t draw = 0; draw < draws; ++draw)
-      for (int iy = 0; iy < grid.ny; ++iy) {
-        const double s = middle + side * direction * (grid.y(iy) - patch.reference_s);
+    // the same for all patches: a body has one error at a time
+    std::vector<std::size_t> near;
+    if (body.surface)
+      near = nearest_draws(
+          *body.surface, result.bodies ? along(largest, wheel ? result.bodies->X_TA : result.bodies->X_TS, which) : 0.0,
+          own, wheel ? 2.0 * kPi : 0.0);
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      const io::PatchResult& patch = *patches[k];
+      const Grid2& grid = uncertain[k].grid;
+      const double middle =
+                       body.arc_at(side * (wheel ? patch.y_wheel : patch.y_rail), wheel ? patch.z_wheel : patch.z_rail),
+                   way = wheel ? -side : side;
+      for (std::size_t draw = 0; draw < draws; ++draw) {
         // the other body may have more draws: errors are as probable the other way round
         const double sign = draw / own % 2 == 0 ? 1.0 : -1.0;
-        errors[draw][static_cast<std::size_t>(iy)] +=
-            sign * (body.draws ? body.draws->at(draw % own, s)
-                               : BrokenLine(body.s, body.surface->draws[near[draw % own]]).held_at(s));
+        for (int iy = 0; iy < grid.ny; ++iy)
+          uncertain[k].errors[draw][static_cast<std::size_t>(iy)] +=
+              sign * body.error(draw % own, near, middle + way * (grid.y(iy) - patch.reference_s));
       }
-  };
-  std::optional<double> on_rail, on_wheel;
-  if (result.bodies) {
-    on_rail = along(patch, result.bodies->X_TS, Body::rail);
-    on_wheel = along(patch, result.bodies->X_TA, Body::wheel);
+    }
   }
-  add(rail_, on_rail, 0.0, patch.y_rail, patch.z_rail, 1.0);
-  add(wheel_, on_wheel, 2.0 * kPi, patch.y_wheel, patch.z_wheel, -1.0);
-  const measured::PatchSpread spread = measured::patch_spread(rows, errors);
-  return {spread.pressure * patch.pmax, spread.area * patch.ncon * grid.cell_area(),
-          input.vertical_force_prescribed ? 0.0 : spread.force * patch.fn, spread.shift};
 }
 
 void NoiseOfResults::add(const io::WheelRailCase& input, io::CaseResult& result) const {
   constexpr double kLarge = 0.025;  // so that hardly any error of 5 % is not doubted
   if (!any()) return;
-  for (std::size_t k = 0; k < result.patches.size(); ++k) {
-    io::PatchResult& patch = result.patches[k];
-    if (patch.fields.gap.size() != patch.fields.grid.size() || !(patch.pmax > 0.0)) continue;
-    const io::PatchResult::Noise noise = of_patch(input, result, patch);
-    patch.noise = noise;
-    if (!(noise.pmax > kLarge * patch.pmax)) continue;
-    std::string why;
-    for (const auto& [name, body] : {std::pair{"wheel", &wheel_}, std::pair{"rail", &rail_}})
-      if (body->known()) why += (why.empty() ? "" : ", ") + body->in_words(name);
+  std::vector<io::PatchResult*> patches;
+  std::vector<wheelrail::UncertainPatch> uncertain;
+  for (io::PatchResult& patch : result.patches) {
+    const io::PatchFields& f = patch.fields;
+    if (f.gap.empty() || f.gap.size() != f.grid.size() || !(patch.pmax > 0.0)) continue;
+    const double force = f.grid.cell_area() * std::accumulate(f.pressure.begin(), f.pressure.end(), 0.0);
+    patches.push_back(&patch);
+    uncertain.push_back({f.grid,
+                         f.gap,
+                         patch.approach,
+                         force,
+                         patch.loads ? patch.loads->track.force.z() : force * f.X_TC.rotation(2, 2),
+                         f.X_TC.rotation(2, 2),
+                         {}});
+  }
+  if (patches.empty()) return;
+  add_errors(input, result, patches, uncertain);
+  const std::vector<std::optional<wheelrail::ErrorSpread>> spread =
+      wheelrail::error_spread(uncertain, input.material, input.vertical_force_prescribed);
+  std::string why;
+  for (const Body body : {Body::wheel, Body::rail})
+    if (const Known& one = body == Body::wheel ? wheel_ : rail_; one.known())
+      why += (why.empty() ? "" : ", ") + one.in_words(body_name(body));
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    if (!spread[k]) continue;
+    io::PatchResult& patch = *patches[k];
+    patch.noise = {spread[k]->pressure * patch.pmax, spread[k]->area * patch.ncon * patch.fields.grid.cell_area(),
+                   spread[k]->force * patch.fn, spread[k]->place, spread[k]->approach};
+    if (!(spread[k]->pressure > kLarge)) continue;
     result.remarks.push_back(
-        {RemarkKind::noisy_profile, static_cast<int>(k) + 1,
+        {RemarkKind::noisy_profile, static_cast<int>(&patch - result.patches.data()) + 1,
          fmt::format("the largest pressure is known to +-{:.2g} % (standard deviation): {}; measure "
                      "with closer points or less noise, or take the mean of several measurements",
-                     100.0 * noise.pmax / patch.pmax, why)});
+                     100.0 * spread[k]->pressure, why)});
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
 #include "treadmark/model/shape/surface_errors.hpp"
+#include "treadmark/solvers/wheelrail/error_spread.hpp"
 
 namespace treadmark::app {
 
@@ -25,8 +27,9 @@ class NoiseOfResults {
 
   /// Whether a profile of the pair was smoothed by its noise, or one of its surfaces imported with its errors.
   bool any() const { return rail_.known() || wheel_.known(); }
-  /// Adds to each patch the uncertainty that noise leaves of its surfaces, and a remark where it is large. Patches
-  /// without fields stay as they are.
+  /// Adds to each patch the uncertainty that noise leaves of its surfaces, and a remark where it is large: by solving
+  /// the normal problem again for some of the errors that they may have, 16 of profiles and as many of surfaces, those
+  /// nearest along them. Patches without fields stay as they are.
   void add(const io::WheelRailCase& input, io::CaseResult& result) const;
 
  private:
@@ -37,13 +40,16 @@ class NoiseOfResults {
     std::vector<double> s, y, z;  ///< points, or places across, with their arc lengths [m]
     bool known() const { return draws || surface; }
     std::size_t draws_count() const;
-    /// Arc length of the nearest point [m].
+    /// Arc length of the nearest place of the section [m].
     double arc_at(double y_at, double z_at) const;
+    /// Across the surface at an arc length [m]; of a surface the draw is one of those near the contact.
+    double error(std::size_t draw, std::span<const std::size_t> near, double arc) const;
     std::string in_words(const std::string& name) const;
   };
   static Known known_of(const NaturalSurface& natural);
-  io::PatchResult::Noise of_patch(const io::WheelRailCase& input, const io::CaseResult& result,
-                                  const io::PatchResult& patch) const;
+  /// Errors of the gap in the rows of patches, draw by draw.
+  void add_errors(const io::WheelRailCase& input, const io::CaseResult& result,
+                  std::span<io::PatchResult* const> patches, std::span<wheelrail::UncertainPatch> uncertain) const;
 
   Known rail_, wheel_;
 };

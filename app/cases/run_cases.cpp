@@ -32,17 +32,19 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// What is to be said of results on surfaces that are there: moments, for which those of a cancelled run are kept.
+/// What is to be said of results on surfaces that are there; also of what a cancelled run keeps.
 void describe_results(const io::CaseFile& file, const ProfilesOfRun& profiles, SurfaceStore& store,
                       io::RunResult& run) {
   const NeverCancelled whole;
   run.doubts = profile_doubts(profiles);
   ResultNotes notes(profiles, store);
+  std::vector<const io::Case*> cases;
   auto c = file.cases.begin();
-  for (io::CaseResult& result : run.cases) {
+  for (const io::CaseResult& result : run.cases) {
     while (c->number != result.number) ++c;
-    notes.add(*c, *c, result);
+    cases.push_back(&*c);
   }
+  parallel_for(cases.size(), [&](std::size_t i) { notes.add(*cases[i], *cases[i], run.cases[i]); });
 }
 
 }  // namespace

@@ -174,9 +174,10 @@ struct PatchResult {
     double pmax = 0.0, area = 0.0, force = 0.0;  ///< of the largest pressure, of the contact area, of forces
   };
   std::optional<Refinement> refinement;
-  /// Standard deviations of what noise of the measured profiles has left uncertain.
+  /// Standard deviations of what noise of the measured profiles and scans has left uncertain.
   struct Noise {
     double pmax = 0.0, area = 0.0, fn = 0.0, place = 0.0;  ///< [Pa], [m^2], [N], across the rolling direction [m]
+    double approach = 0.0;                                 ///< [m]
   };
   std::optional<Noise> noise;
 
