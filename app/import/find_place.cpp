@@ -103,7 +103,8 @@ void add_doubts(const PlacedScan& scan, io::ImportReport& report) {
         fmt::format("y = 0 is 70 mm from the back of the flange, {:.2f} mm from where the flange of {} would put it: "
                     "is the flange worn?",
                     kMilli * std::fabs(placement.moved_by_back), report.nominal));
-  for (const measured::Doubt& doubt : placement.doubts) report.warnings.push_back(doubt.text);
+  for (const measured::Doubt& doubt : placement.doubts)
+    report.warnings.push_back(fmt::format("{}: {}", doubt.name, doubt.text));
   if (!placement.match || !placement.match->ways) return;
   const scans::SectionMatch::Ways& ways = *placement.match->ways;
   if (!ways.clear && ways.asymmetry > kSymmetric)

@@ -6,6 +6,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -174,6 +177,36 @@ measured::SectionPoints with_back(const Section& section, std::span<const Vec2> 
   return out;
 }
 
+/// Where y = 0 lies on a wheel is measured where its flange is, over the tip or on its back; its face wears.
+std::optional<measured::Doubt> missing_flange(const measured::WheelMarks& marks, bool nominal) {
+  if (marks.back_y || marks.tip_seen || marks.second_flange) return std::nullopt;
+  return measured::Doubt{
+      "no_flange",
+      fmt::format("{} scanned: y = 0 was put {}; scan the flange over its tip, or its back",
+                  marks.tip_y ? "only the face of the flange was" : "the flange was not",
+                  nominal ? "where what was fits the nominal profile best, millimetres off where that is worn"
+                          : "70 mm from where the section begins, as if its back were there")};
+}
+
+/// Sides tell where y = 0 lies on a rail, and how it is rolled: one of them if it is compared with a nominal section,
+/// else both. points: (y, v) as it was placed.
+std::optional<measured::Doubt> missing_sides(std::span<const Vec2> points, bool nominal) {
+  constexpr double kDeep = 5e-3, kTop = 0.999, kLowest = 0.01;  // but for strays
+  std::vector<double> heights;
+  for (const Vec2& p : points) heights.push_back(p.y());
+  const double top = part_of(heights, kTop);
+  std::array<std::vector<double>, 2> below;
+  for (const Vec2& p : points) below[p.x() < 0.0 ? 0 : 1].push_back(top - p.y());
+  std::size_t deep = 0;
+  for (std::vector<double>& side : below) deep += !side.empty() && part_of(side, 1.0 - kLowest) >= kDeep ? 1 : 0;
+  if (deep >= (nominal ? 1u : 2u)) return std::nullopt;
+  return measured::Doubt{
+      "no_sides",
+      fmt::format("{} of the head was scanned as far as {:g} mm below its top: where y = 0 lies and how the "
+                  "rail is rolled follow from its top, which wears; scan its field side, too",
+                  nominal || deep == 0 ? "neither side" : "only one side", kMilli * kDeep)};
+}
+
 }  // namespace
 
 RoughPlace find_roughly(std::span<const Vec3> points, std::span<const std::uint8_t> keep, Body body) {
@@ -340,8 +373,12 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
     measured::Understanding understood = measured::understand(seen, {measured::Turn::no, measured::Turn::no});
     found.moved_by_back = understood.shift_y;
     found.doubts = std::move(understood.doubts);
+    if (auto doubt = missing_flange(understood.wheel, settings.nominal.has_value()))
+      found.doubts.push_back(*std::move(doubt));
     X_CS = X_CS * Pose{Vec3(0.0, -found.moved_by_back, 0.0), Mat3::Identity()};
     for (Vec2& p : section) p.x() += found.moved_by_back;
+  } else if (auto doubt = missing_sides(section, settings.nominal.has_value())) {
+    found.doubts.push_back(*std::move(doubt));
   }
   constexpr double kReach = 5e-3, kKnots = 4e-3;
   const SectionFit fit = fit_section(outline(section), section, kReach, kKnots);

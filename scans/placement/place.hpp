@@ -51,7 +51,7 @@ struct Placement {
   Section section;                      ///< of the undamaged part, in (y, v) of the surface frame: v the radius, or -z
   std::optional<SectionMatch> match;    ///< of the section with the nominal one
   double moved_by_back = 0.0;           ///< y of a wheel, from where the nominal section's flange would have put it [m]
-  std::vector<measured::Doubt> doubts;  ///< about what the section of a wheel is
+  std::vector<measured::Doubt> doubts;  ///< about its section; "no_flange", "no_sides": was not scanned
   double scatter = 0.0;                 ///< of most points about the section: robust standard deviation [m]
   double undamaged = 0.0;               ///< part of the points that fixed the axis
   double position_error = 0.0, direction_error = 0.0;  ///< standard errors of the axis [m], [rad]

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "treadmark/app/cases/noise_of_results.hpp"
@@ -206,8 +207,37 @@ class ImportedNoise : public ::testing::Test {
     return import_scan(request);
   }
 
+  /// A wheel that is hollow by 4 mm over 50 mm, smoothly, down to y [m]; its flange has its tip at -55 mm.
+  void write_hollow(const std::string& name, double last) const {
+    std::ofstream file(path(name));
+    for (const Vec2& p : wheel_points(last)) {
+      const double x = p.x() / 25e-3;
+      const double worn = std::fabs(x) < 1.0 ? 4e-3 * std::pow(std::cos(0.5 * kPi * x), 4) : 0.0;
+      file << fmt::format("{:.9f}, {:.9f}\n", 1e3 * p.x(), 1e3 * (p.y() - worn));
+    }
+  }
+
   testing::SampleInput input;
 };
+
+TEST_F(ImportedNoise, TreadsWithoutTheirFlangeAreDoubted) {
+  for (const double last : {-28e-3, -66e-3}) {
+    write_hollow("hollow.csv", last);
+    input.write("truth.toml",
+                case_text("shape.file = \"hollow.csv\"\nshape.smoothing = \"none\"", "shape.standard = \"60E1\"", "0"));
+    io::ImportSettings settings;
+    settings.fit.errors = false;
+    const io::ImportReport report = import("truth.toml", Body::wheel, 60000, 20e-6, "found.slcw", settings);
+    const bool doubted = std::ranges::any_of(report.warnings, [](const std::string& warning) {
+      return warning.starts_with("no_flange: ") && warning.find("not scanned") != std::string::npos;
+    });
+    EXPECT_EQ(doubted, last > -55e-3) << ::testing::PrintToString(report.warnings);
+    // the scan lies in the frame of the wheel
+    if (!doubted) {
+      EXPECT_NEAR(report.X_CS.origin.y(), 0.0, 0.1e-3);
+    }
+  }
+}
 
 TEST_F(ImportedNoise, EveryFileKeepsItThatHasRoomForIt) {
   input.write("truth.toml", case_text("shape.standard = \"S1002\"", "shape.standard = \"60E1\"", "0"));
@@ -272,14 +302,7 @@ struct Trial {
 /// Contacts on imported scans against those on the shapes that were scanned: what is stated covers the difference, and
 /// what is far off is doubted.
 TEST_F(ImportedNoise, CoversWhatResultsAreOff) {
-  {
-    std::ofstream file(path("hollow.csv"));  // 4 mm deep, 50 mm wide, smooth; with its flange over the tip
-    for (const Vec2& p : wheel_points(-66e-3)) {
-      const double x = p.x() / 25e-3;
-      const double worn = std::fabs(x) < 1.0 ? 4e-3 * std::pow(std::cos(0.5 * kPi * x), 4) : 0.0;
-      file << fmt::format("{:.9f}, {:.9f}\n", 1e3 * p.x(), 1e3 * (p.y() - worn));
-    }
-  }
+  write_hollow("hollow.csv", -66e-3);
   const std::string new_wheel = "shape.standard = \"S1002\"", new_rail = "shape.standard = \"60E1\"";
   const Trial trials[] = {
       {"new wheel", Body::wheel, new_wheel, "[-3, 0, 3, 5.5]", 600000},

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -105,6 +107,31 @@ TEST(Place, AWornFlangeIsPlacedByItsBack) {
   EXPECT_GT(std::fabs(axle_error(by_fit.X_CS, frame).y), 2e-3);
   ASSERT_EQ(by_fit.doubts.size(), 1u);
   EXPECT_EQ(by_fit.doubts.front().name, "tape_line");
+}
+
+/// Names of the doubts about what was scanned from y to y.
+std::vector<std::string> doubts_of(const Surface& surface, Body body, double y_min, double y_max) {
+  const double end = body == Body::wheel ? kPi : 0.3;
+  const auto cloud =
+      tests::simple_cloud(surface, body, -end, end, y_min, y_max, 300, 100, 20e-6, 0.0, tests::some_frame(2), 2);
+  std::vector<std::string> names;
+  for (const measured::Doubt& doubt :
+       place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, body), with_nominal(body)).doubts)
+    names.push_back(doubt.name);
+  return names;
+}
+
+TEST(Place, WhatDoesNotTellItsPlaceAcrossIsDoubted) {
+  using ::testing::Contains;
+  using ::testing::Not;
+  const auto wheel = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
+  EXPECT_THAT(doubts_of(*wheel, Body::wheel, -30e-3, 60e-3), Contains("no_flange")) << "the tread alone";
+  EXPECT_THAT(doubts_of(*wheel, Body::wheel, -45e-3, 60e-3), Contains("no_flange")) << "and the face of the flange";
+  EXPECT_THAT(doubts_of(*wheel, Body::wheel, -62e-3, 60e-3), Not(Contains("no_flange"))) << "over its tip";
+  const auto rail = create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
+  EXPECT_THAT(doubts_of(*rail, Body::rail, -26e-3, 26e-3), Contains("no_sides"));
+  EXPECT_THAT(doubts_of(*rail, Body::rail, -26e-3, 35e-3), Not(Contains("no_sides"))) << "one side fixes its place";
+  EXPECT_THAT(doubts_of(*rail, Body::rail, -35e-3, 35e-3), Not(Contains("no_sides")));
 }
 
 TEST(Place, RailWithASquatInAnyFrame) {
