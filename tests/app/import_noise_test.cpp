@@ -186,6 +186,38 @@ TEST(NoiseOfScans, IsWhatWavesMakeOfResults) {
   }
 }
 
+TEST(NoiseOfScans, IsTheSameOnTheLeft) {
+  const testing::SampleInput input;
+  auto errors = std::make_shared<SurfaceErrors>();
+  for (const Vec2& p : wheel_points(-66e-3)) errors->y.push_back(p.x()), errors->z.push_back(p.y());
+  for (int phase = 0; phase < 4; ++phase) {
+    errors->u.push_back(phase);
+    std::vector<double>& draw = errors->draws.emplace_back();
+    // steeper towards the flange, so that its side counts
+    for (const double at : arc_lengths(*errors))
+      draw.push_back(1e-6 * std::exp(at / 10e-3 - 8.0) * std::cos(2.0 * kPi * (at / 8e-3 + 0.25 * phase)));
+  }
+  const NaturalSurface rail = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
+  NaturalSurface wheel = create_natural({Body::wheel, kScannedRadius, StandardProfile{"S1002"}, {}});
+  wheel.spec.errors = errors;
+  std::vector<io::PatchResult> sides;
+  for (const auto& [y_mm, more] : {std::pair{"3", ""}, std::pair{"-3", "case.side = \"left\"\n"}}) {
+    const std::string text =
+        case_text("shape.standard = \"S1002\"", "shape.standard = \"60E1\"", y_mm) + std::string(more);
+    const io::CaseFile file = io::parse_case_text(text, input.folder() / "case.toml");
+    io::CaseResult result = run_cases(file).cases.at(0);
+    NoiseOfResults(rail, wheel).add(std::get<io::WheelRailCase>(file.cases.at(0).content), result);
+    ASSERT_EQ(result.patches.size(), 1u);
+    ASSERT_TRUE(result.patches.front().noise);
+    sides.push_back(std::move(result.patches.front()));
+  }
+  ASSERT_LT(sides[0].y_tr * sides[1].y_tr, 0.0);
+  constexpr double kSame = 1e-6;
+  EXPECT_GT(sides[0].noise->pmax, 1e-3 * sides[0].pmax);
+  EXPECT_NEAR(sides[1].noise->pmax / sides[0].noise->pmax, 1.0, kSame);
+  EXPECT_NEAR(sides[1].noise->place / sides[0].noise->place, 1.0, kSame);
+}
+
 class ImportedNoise : public ::testing::Test {
  protected:
   fs::path path(const std::string& name) const { return input.folder() / name; }
