@@ -10,6 +10,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/model/shape/arc_at.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/profile_scatter.hpp"
 
@@ -56,16 +57,6 @@ std::size_t NoiseOfResults::Known::draws_count() const {
   return draws ? draws->size() : surface ? std::min(kNearestDraws, surface->draws.size()) : 0;
 }
 
-double NoiseOfResults::Known::arc_at(double y_at, double z_at) const {
-  double arc = s.front(), least = kInfinity;
-  for (std::size_t i = 1; i < y.size(); ++i) {
-    const Vec2 from(y[i - 1], z[i - 1]), along = Vec2(y[i], z[i]) - from, to = Vec2(y_at, z_at) - from;
-    const double t = std::clamp(to.dot(along) / std::max(along.squaredNorm(), 1e-30), 0.0, 1.0);
-    if (const double d = (to - t * along).norm(); d < least) least = d, arc = s[i - 1] + t * (s[i] - s[i - 1]);
-  }
-  return arc;
-}
-
 double NoiseOfResults::Known::error(std::size_t draw, std::span<const std::size_t> near, double arc) const {
   return draws ? draws->at(draw, arc) : BrokenLine(s, surface->draws[near[draw]]).held_at(arc);
 }
@@ -103,7 +94,8 @@ void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseRe
       const io::PatchResult& patch = *patches[k];
       const Grid2& grid = uncertain[k].grid;
       const double middle =
-                       body.arc_at(side * (wheel ? patch.y_wheel : patch.y_rail), wheel ? patch.z_wheel : patch.z_rail),
+                       arc_at(body.s, body.y, body.z,
+                              {side * (wheel ? patch.y_wheel : patch.y_rail), wheel ? patch.z_wheel : patch.z_rail}),
                    way = wheel ? -side : side;
       for (std::size_t draw = 0; draw < draws; ++draw) {
         // the other body may have more draws: errors are as probable the other way round

@@ -40,8 +40,6 @@ class NoiseOfResults {
     std::vector<double> s, y, z;  ///< points, or places across, with their arc lengths [m]
     bool known() const { return draws || surface; }
     std::size_t draws_count() const;
-    /// Arc length of the nearest place of the section [m].
-    double arc_at(double y_at, double z_at) const;
     /// Across the surface at an arc length [m]; of a surface the draw is one of those near the contact.
     double error(std::size_t draw, std::span<const std::size_t> near, double arc) const;
     std::string in_words(const std::string& name) const;

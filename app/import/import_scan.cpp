@@ -30,6 +30,7 @@
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
+#include "treadmark/model/shape/arc_at.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
 #include "treadmark/scans/fit/half_fits.hpp"
@@ -190,12 +191,8 @@ std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, 
     out->u.push_back(slices.u[k]);
     std::vector<double>& draw = out->draws.emplace_back();
     for (std::size_t i = 0; i < out->y.size(); ++i) {
-      std::size_t nearest = 0;
-      double least = kInfinity;
-      for (std::size_t j = 0; j < profile.y.size(); ++j)
-        if (const double d = std::hypot(profile.y[j] - out->y[i], profile.z[j] - out->z[i]); d < least)
-          least = d, nearest = j;
-      draw.push_back(mean * draws.at(out->u.size() % draws.size(), profile.scatter->s[nearest]));
+      draw.push_back(mean * draws.at(out->u.size() % draws.size(),
+                                     arc_at(profile.scatter->s, profile.y, profile.z, {out->y[i], out->z[i]})));
     }
   }
   return out->draws.empty() ? nullptr : out;
