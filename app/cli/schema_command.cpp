@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+
 #include <iostream>
 
 #include "treadmark/app/bench/bench_report.hpp"
@@ -38,7 +40,8 @@ Command add_schema(CLI::App& verb) {
   auto what = std::make_shared<std::string>("case");
   std::vector<std::string> names;
   for (const FileSchema& schema : kSchemas) names.emplace_back(schema.name);
-  verb.add_option("WHAT", *what, "Kind of file, default case")->check(CLI::IsMember(names));
+  verb.add_option("WHAT", *what, fmt::format("{}; without it case", fmt::join(names, ", ")))
+      ->check(CLI::IsMember(names).description(""));
   return [what](const CommonOptions&) -> int {
     for (const FileSchema& schema : kSchemas)
       if (*what == schema.name) std::cout << schema.text() << '\n';

@@ -24,7 +24,6 @@
 #include "treadmark/app/surfaces/written_surface.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
-#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/extension.hpp"
