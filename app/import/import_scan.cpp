@@ -161,38 +161,48 @@ std::optional<double> smooth_sections(SliceSet& slices) {
   return std::sqrt(squares / static_cast<double>(slices.profiles.size()));
 }
 
-/// What noise leaves uncertain of smoothed sections, of those nearest to stations.
+/// What noise leaves uncertain of smoothed sections, in the mean over those that a contact patch near a station
+/// touches.
 std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, const scans::FittedBand& fitted,
                                                         const std::vector<double>& stations) {
-  constexpr double kPlaces = 0.5e-3;  // across [m]
-  // of a section amid others when they are control points of cubic splines, one, four and one sixths of which count
-  const double mean = slices.approximate_u ? std::sqrt(18.0) / 6.0 : 1.0;
+  constexpr double kPlaces = 0.5e-3, kHalfPatch = 6e-3;  // across, along [m]
+  const bool wheel = slices.body == Body::wheel;
+  const double radius = wheel ? fitted.band.radius : 1.0;
   auto out = std::make_shared<SurfaceErrors>();
-  const Profile section =
-      scans::section_profile(fitted, slices.body == Body::wheel ? fitted.band.radius : 0.0, kPlaces, slices.name);
+  const Profile section = scans::section_profile(fitted, wheel ? radius : 0.0, kPlaces, slices.name);
   out->y = section.y;
   out->z = section.z;
-  std::vector<std::size_t> chosen;
   for (const double a : stations) {
     const double u = fitted.u_at(a);
-    const auto distance = [&](double other) {
-      return std::fabs(slices.body == Body::wheel ? wrap_angle(other - u) : other - u);
+    const auto distance = [&](std::size_t k) {
+      const double off = slices.u[k] - u;
+      return radius * std::fabs(wheel ? wrap_angle(off) : off);
     };
-    chosen.push_back(static_cast<std::size_t>(std::ranges::min_element(slices.u, {}, distance) - slices.u.begin()));
-  }
-  std::ranges::sort(chosen);
-  const auto repeated = std::ranges::unique(chosen);
-  chosen.erase(repeated.begin(), repeated.end());
-  for (const std::size_t k : chosen) {
-    const Profile& profile = slices.profiles[k];
-    if (!measured::is_smoothed(profile)) continue;
-    const measured::ErrorDraws draws(profile);
-    out->u.push_back(slices.u[k]);
-    std::vector<double>& draw = out->draws.emplace_back();
-    for (std::size_t i = 0; i < out->y.size(); ++i) {
-      draw.push_back(mean * draws.at(out->u.size() % draws.size(),
-                                     arc_at(profile.scatter->s, profile.y, profile.z, {out->y[i], out->z[i]})));
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < slices.u.size(); ++k)
+      if (distance(k) < distance(nearest)) nearest = k;
+    // as much as a Hertzian patch carries there
+    std::vector<std::pair<std::size_t, double>> parts;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < slices.u.size(); ++k)
+      if (const double share = 1.0 - std::pow(distance(k) / kHalfPatch, 2); share > 0.0)
+        parts.emplace_back(k, share), sum += share;
+    if (parts.size() < 2) {
+      // amid others as a control point of a cubic spline, one, four and one sixths of which count
+      parts = {{nearest, slices.approximate_u ? std::sqrt(18.0) / 6.0 : 1.0}}, sum = 1.0;
     }
+    std::vector<double> draw(out->y.size(), 0.0);
+    bool known = false;
+    for (const auto& [k, share] : parts) {
+      const Profile& profile = slices.profiles[k];
+      if (!measured::is_smoothed(profile)) continue;
+      known = true;
+      const measured::ErrorDraws draws(profile);
+      for (std::size_t i = 0; i < draw.size(); ++i)
+        draw[i] += share / sum *
+                   draws.at(k % draws.size(), arc_at(profile.scatter->s, profile.y, profile.z, {out->y[i], out->z[i]}));
+    }
+    if (known) out->u.push_back(u), out->draws.push_back(std::move(draw));
   }
   return out->draws.empty() ? nullptr : out;
 }
