@@ -218,6 +218,15 @@ TEST(NoiseOfScans, IsTheSameOnTheLeft) {
   EXPECT_NEAR(sides[1].noise->place / sides[0].noise->place, 1.0, kSame);
 }
 
+struct Trial {
+  const char* name;
+  Body body;
+  std::string keys;  ///< of the shape
+  std::string y_mm;
+  std::size_t points = 0;
+  std::string sections = "auto";
+};
+
 class ImportedNoise : public ::testing::Test {
  protected:
   fs::path path(const std::string& name) const { return input.folder() / name; }
@@ -248,6 +257,10 @@ class ImportedNoise : public ::testing::Test {
       file << fmt::format("{:.9f}, {:.9f}\n", 1e3 * p.x(), 1e3 * (p.y() - worn));
     }
   }
+
+  /// Contacts on imported scans against those on the shapes that were scanned: what is stated covers the difference,
+  /// and what is far off is doubted.
+  void compare(const std::vector<Trial>& trials, int least) const;
 
   testing::SampleInput input;
 };
@@ -322,33 +335,15 @@ TEST_F(ImportedNoise, EveryFileKeepsItThatHasRoomForIt) {
   EXPECT_EQ(io::read_surface_errors(path("found.slcs")), nullptr);
 }
 
-struct Trial {
-  const char* name;
-  Body body;
-  std::string keys;  ///< of the shape
-  std::string y_mm;
-  std::size_t points = 0;
-  std::string sections = "auto";
-};
+const std::string kNewWheel = "shape.standard = \"S1002\"", kNewRail = "shape.standard = \"60E1\"";
 
-/// Contacts on imported scans against those on the shapes that were scanned: what is stated covers the difference, and
-/// what is far off is doubted.
-TEST_F(ImportedNoise, CoversWhatResultsAreOff) {
-  write_hollow("hollow.csv", -66e-3);
-  const std::string new_wheel = "shape.standard = \"S1002\"", new_rail = "shape.standard = \"60E1\"";
-  const Trial trials[] = {
-      {"new wheel", Body::wheel, new_wheel, "[-3, 0, 3, 5.5]", 600000},
-      {"hollow wheel", Body::wheel, "shape.file = \"hollow.csv\"\nshape.smoothing = \"none\"", "[-3, 0, 3, 5.5]",
-       600000},
-      {"squat", Body::rail, new_rail + "\n[[rail.squats]]\nlength_mm = 40\nwidth_mm = 30\ndepth_mm = 0.4", "[-3, 0, 3]",
-       150000},
-      {"lines of a wheel", Body::wheel, new_wheel, "[-3, 0, 3, 5.5]", 30000, "keep"}};
+void ImportedNoise::compare(const std::vector<Trial>& trials, int least) const {
   int compared = 0, covered = 0;
   double stated = 0.0, true_square = 0.0;  // of pressures over their values: mean squares
   for (const Trial& trial : trials) {
     const bool wheel = trial.body == Body::wheel;
     const auto text = [&](const std::string& keys) {
-      return case_text(wheel ? keys : new_wheel, wheel ? new_rail : keys, trial.y_mm);
+      return case_text(wheel ? keys : kNewWheel, wheel ? kNewRail : keys, trial.y_mm);
     };
     input.write("truth.toml", text(trial.keys));
     const io::RunResult truth = run_text(text(trial.keys), input.folder());
@@ -377,20 +372,37 @@ TEST_F(ImportedNoise, CoversWhatResultsAreOff) {
             return remark.kind == RemarkKind::noisy_profile && remark.patch == 1 + (patch - patches.begin());
           });
           constexpr double kSame = 0.01, kFar = 0.05;
+          // a fit rounds the jump of curvature between the arcs of the gauge corner (docs/scans.md)
+          constexpr double kRounded = 0.12, kJump = 741e-3;
           ++compared;
           covered += std::fabs(off) <= std::max(2.5 * sigma, kSame * meant.pmax) ? 1 : 0;
           stated += std::pow(sigma / meant.pmax, 2), true_square += std::pow(off / meant.pmax, 2);
           const std::string where =
               fmt::format("{}, {} um, case {}, y = {:.1f} mm: {:.1f} MPa, truly {:.1f}, sigma {:.1f}", trial.name,
                           1e6 * noise, k + 1, 1e3 * meant.y_tr, 1e-6 * patch->pmax, 1e-6 * meant.pmax, 1e-6 * sigma);
-          EXPECT_TRUE(doubted || std::fabs(off) < kFar * meant.pmax) << where;
+          EXPECT_TRUE(doubted || std::fabs(off) < (!wheel && meant.y_tr < kJump ? kRounded : kFar) * meant.pmax)
+              << where;
         }
     }
   }
-  EXPECT_GE(compared, 25);
+  EXPECT_GE(compared, least);
   EXPECT_GE(covered, compared * 4 / 5) << compared;
   constexpr double kMostOverstated = 3.0;  // what covers everything says nothing
   EXPECT_LT(std::sqrt(stated), kMostOverstated * std::sqrt(true_square));
+}
+
+TEST_F(ImportedNoise, OfFitsCoversWhatResultsAreOff) {
+  write_hollow("hollow.csv", -66e-3);
+  compare({{"new wheel", Body::wheel, kNewWheel, "[-3, 0, 3, 5.5]", 600000},
+           {"hollow wheel", Body::wheel, "shape.file = \"hollow.csv\"\nshape.smoothing = \"none\"", "[-3, 0, 3, 5.5]",
+            600000},
+           {"squat", Body::rail, kNewRail + "\n[[rail.squats]]\nlength_mm = 40\nwidth_mm = 30\ndepth_mm = 0.4",
+            "[-3, 0, 3]", 150000}},
+          25);
+}
+
+TEST_F(ImportedNoise, OfKeptLinesCoversWhatResultsAreOff) {
+  compare({{"lines of a wheel", Body::wheel, kNewWheel, "[-3, 0, 3, 5.5]", 30000, "keep"}}, 8);
 }
 
 }  // namespace
