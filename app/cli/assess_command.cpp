@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
-#include <charconv>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -11,6 +9,8 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -25,7 +25,7 @@ struct AssessOptions {
 
 double metres(std::string_view text, const std::string& section) {
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size())
     throw Error(ErrorKind::configuration, fmt::format("--section {}: '{}' is no number", section, text), {},
                 "write NAME:FROM:TO or NAME:FROM:TO:KIND, places in metres");
@@ -45,7 +45,7 @@ AssessmentSection section_of(const std::string& text) {
                 "write NAME:FROM:TO or NAME:FROM:TO:KIND, places in metres");
   AssessmentSection section{parts[0], metres(parts[1], text), metres(parts[2], text), SectionKind::straight};
   if (parts.size() == 4) {
-    const auto kind = std::ranges::find(kSectionKinds, parts[3]);
+    const auto kind = ranges::find(kSectionKinds, parts[3]);
     if (kind == kSectionKinds.end())
       throw Error(ErrorKind::configuration, fmt::format("--section {}: there is no kind '{}'", text, parts[3]), {},
                   fmt::format("kinds: {}", fmt::join(kSectionKinds, ", ")));
@@ -56,7 +56,7 @@ AssessmentSection section_of(const std::string& text) {
 
 int assess_command(const AssessOptions& options, const CommonOptions&) {
   AssessmentRequest request;
-  const auto kind = std::ranges::find(kVehicleKinds, options.vehicle);
+  const auto kind = ranges::find(kVehicleKinds, options.vehicle);
   request.vehicle = static_cast<VehicleKind>(kind - kVehicleKinds.begin());
   request.from = options.from;
   request.spectra = options.spectra;
@@ -73,10 +73,10 @@ int assess_command(const AssessOptions& options, const CommonOptions&) {
   print_results(options.json_file, json,
                 [&] { return options.csv_file == "-" ? app::assessment_csv(runs) : app::assessment_text(runs); });
   const auto good = [](const app::AssessedRun& run) {
-    return std::ranges::any_of(run.quantities,
-                               [](const measures::Assessed& a) { return a.status == measures::AssessedStatus::ok; });
+    return ranges::any_of(run.quantities,
+                          [](const measures::Assessed& a) { return a.status == measures::AssessedStatus::ok; });
   };
-  return std::ranges::all_of(runs, good) ? kOk : kFailed;
+  return ranges::all_of(runs, good) ? kOk : kFailed;
 }
 
 }  // namespace

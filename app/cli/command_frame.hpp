@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -49,7 +50,9 @@ class ProgressLine {
   std::chrono::steady_clock::time_point start_, last_;
   std::mutex mutex_;
   std::string step_;  ///< of different units
-  std::jthread clock_;
+  std::thread clock_;
+  std::condition_variable end_;
+  bool ended_ = false;
 };
 
 /// What several verbs have in common: options, and the frame round their work.

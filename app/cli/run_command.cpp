@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -15,6 +14,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_json.hpp"
@@ -36,8 +36,7 @@ struct RunOptions {
 
 /// Whether a resolution means something to it.
 bool is_sampled(const io::SurfaceSource& source) {
-  return (!source.backend.empty() && backend_of(source.backend).resample) ||
-         std::ranges::any_of(source.parts, is_sampled);
+  return (!source.backend.empty() && backend_of(source.backend).resample) || ranges::any_of(source.parts, is_sampled);
 }
 
 void choose_backends(io::CaseFile& file, const RunOptions& options) {

@@ -16,6 +16,7 @@
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
@@ -86,7 +87,7 @@ void print_table(const io::StudyResult& study) {
   }
   for (const char* name : {"q_max_N", "q_max_over_static", "ty_max_N", "pmax_Pa"}) {
     const auto shown = [&](const io::SimulationRun& run) { return io::shown_number(io::summary_value(run, name), -1); };
-    if (std::ranges::all_of(study.runs, [&](const auto& run) { return shown(run) == "-"; })) continue;
+    if (ranges::all_of(study.runs, [&](const auto& run) { return shown(run) == "-"; })) continue;
     lines.front().emplace_back(name);
     for (std::size_t i = 0; i < study.runs.size(); ++i) lines[i + 1].push_back(shown(study.runs[i]));
   }
@@ -142,7 +143,7 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   if (place.rank == 0) print_table(outcome.study);
   if (speaks && share.whole()) std::cerr << "results: " << options.output_folder << '\n';
   const bool all_good =
-      std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
+      ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
   return all_good ? kOk : kFailed;
 }
 

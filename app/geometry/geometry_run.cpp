@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -21,6 +20,8 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -36,7 +37,7 @@ namespace fs = std::filesystem;
 /// A number that is all of the text.
 std::optional<double> whole_number(std::string_view text) {
   double value = 0.0;
-  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, trouble] = from_chars(text.data(), text.data() + text.size(), value);
   if (trouble != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
@@ -122,7 +123,7 @@ void add_load(GeometryResult& out) {
   };
   std::vector<Doubt> doubts;
   const auto met = [&](const std::string& what, double y) {
-    auto known = std::ranges::find(doubts, what, &Doubt::what);
+    auto known = ranges::find(doubts, what, &Doubt::what);
     if (known == doubts.end()) known = doubts.insert(known, {what, y});
     ++known->count;
   };
@@ -383,7 +384,7 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request) {
   std::vector<std::string> out, seen;
   for (const auto& [name, body] : {std::pair{request.wheel, Body::wheel}, std::pair{request.wheel_left, Body::wheel},
                                    std::pair{request.rail, Body::rail}, std::pair{request.rail_left, Body::rail}}) {
-    if (std::ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name)) continue;
+    if (ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name)) continue;
     seen.push_back(name);
     const io::ExpectedProfile expected{{}, {}, true, request.cant};
     if (io::is_slices_file(name)) {

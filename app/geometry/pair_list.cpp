@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app {
@@ -66,7 +66,7 @@ void set_cell(GeometryRequest& request, const PairKey* key, const std::string& c
   io::CaseValue value{where, (key->factors & kFileOfPair) == kFileOfPair ? resolved(folder, cell) : cell};
   if (key->info.type == io::KeyType::number) {
     double number = 0.0;
-    const auto [end, trouble] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    const auto [end, trouble] = from_chars(cell.data(), cell.data() + cell.size(), number);
     if (trouble != std::errc() || end != cell.data() + cell.size() || !std::isfinite(number))
       throw Error(ErrorKind::input_data, fmt::format("'{}' is no number for {}", cell, key->info.path), where);
     value.data = number;

@@ -16,6 +16,7 @@
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/vehicle/contacts/check_rail.hpp"
@@ -68,7 +69,7 @@ namespace {
 /// Place of an axle along the vehicle [m].
 double axle_x(const io::SimulationFile& file, int wheelset) {
   const std::string& body = file.vehicle.wheelsets.at(static_cast<std::size_t>(wheelset)).body;
-  return std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
+  return ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
 }
 
 }  // namespace
@@ -386,7 +387,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       if (rail.side == on.side) on.element = beside(rail, file, file.wheels[i], on);
     return rails ? rails->upon(on) : on.element;
   };
-  const double load = *std::ranges::max_element(v.system.wheelset_load) / 2.0;
+  const double load = *ranges::max_element(v.system.wheelset_load) / 2.0;
   const auto tabulated = [&](Side side) {
     const Stopwatch watch(built.table_seconds);
     return std::make_shared<vehicle::TableContact>(builder.table(side, load), side, builder.creep_table(progress));
@@ -421,7 +422,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
     on.element = mounted(on.element, i);
   }
   v.connect();
-  const bool any_full = std::ranges::any_of(built.full, [](const auto& full) { return full != nullptr; });
+  const bool any_full = ranges::any_of(built.full, [](const auto& full) { return full != nullptr; });
   if (any_full && v.line && v.line->point(0.0).curvature.value != 0.0 && builder.has_section(Side::left) &&
       builder.has_section(Side::right)) {
     lay_rails();
@@ -433,7 +434,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   const auto damaged = [](const io::WheelContactInput& w) {
     return w.model == io::ContactModelInput::full && w.defects;
   };
-  if (fields && std::ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
+  if (fields && ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
   return built;
 }
 
@@ -464,7 +465,7 @@ vehicle::SimulationSettings integration_settings(const io::SimulationFile& file)
   out.min_step = s.min_step;
   out.max_step = s.max_step.value_or(1e-3);
   const bool any_full =
-      std::ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
+      ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
   constexpr double kNoLimit = 0.1;  // [m]
   // A wheelset may run a little ahead of the vehicle.
   constexpr double kWithin = 0.99;

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <span>
 #include <string>
@@ -18,6 +17,7 @@
 #include "treadmark/backends/analytic/wheel_sections.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 
 namespace treadmark::analytic {
 namespace {
@@ -76,7 +76,7 @@ std::optional<double> number_after(std::string_view name, std::string_view word)
   if (!name.starts_with(word)) return std::nullopt;
   name.remove_prefix(word.size());
   double value = 0.0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), value);
+  const auto [end, error] = from_chars(name.data(), name.data() + name.size(), value);
   if (error != std::errc() || end != name.data() + name.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }

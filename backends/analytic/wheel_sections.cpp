@@ -3,7 +3,6 @@
 #include "treadmark/backends/analytic/wheel_sections.hpp"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <span>
@@ -16,6 +15,7 @@
 #include "treadmark/backends/analytic/curve_pieces.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::analytic {
@@ -178,7 +178,7 @@ void append_eps(GraphCurve& curve, double thickness, double slope) {
 
 std::optional<double> number(std::string_view text) {
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -15,6 +14,8 @@
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/app/simulation/pages/history_panels.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
@@ -37,7 +38,7 @@ const std::string kDistance = "x_m", kCase = "case";  // what histories of simul
 
 std::optional<double> to_number(const std::string& text) {
   double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
   return value;
 }
@@ -51,7 +52,7 @@ std::optional<std::vector<double>> numbers_of(const io::StudyTable& table, const
     if (!number) return {};
     out.push_back(*number);
   }
-  if (out.empty() || std::ranges::min(out) == std::ranges::max(out)) return {};
+  if (out.empty() || ranges::min(out) == ranges::max(out)) return {};
   return out;
 }
 
@@ -89,7 +90,7 @@ ChartView over_key(const io::StudyResult& study, const io::StudyTable& table, co
   ChartView view;
   view.x = Axis{name_of_key(study, key), unit_of_key(key), false, {}};
   for (const std::string& quantity : kQuantities) {
-    const auto known = std::ranges::find(table.quantities, quantity, &io::NamedValue::name);
+    const auto known = ranges::find(table.quantities, quantity, &io::NamedValue::name);
     if (known == table.quantities.end()) continue;
     const ShownUnit unit = shown_unit(quantity);
     Panel panel{known->description, unit.name};
@@ -102,7 +103,7 @@ ChartView over_key(const io::StudyResult& study, const io::StudyTable& table, co
     }
     for (const std::string& name : order) {
       std::vector<std::size_t>& runs = lines[name];
-      std::ranges::stable_sort(runs, {}, [&](std::size_t i) { return x[i]; });
+      ranges::stable_sort(runs, {}, [&](std::size_t i) { return x[i]; });
       Series series{name, {}};
       series.marks = Series::Marks::both;
       for (const std::size_t i : runs) {
@@ -144,7 +145,7 @@ ChartView history_by_run(const io::StudyTable& table) {
 }
 
 bool has_history(const ChartView& view) {
-  return std::ranges::any_of(view.by_step, [](const ChartView::Curves& curves) { return curves.x.size() > 1; });
+  return ranges::any_of(view.by_step, [](const ChartView::Curves& curves) { return curves.x.size() > 1; });
 }
 
 Table run_table(const io::StudyTable& table) {
@@ -208,7 +209,7 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
       }
     }
     if (std::isnan(most)) continue;
-    const auto known = std::ranges::find(table.quantities, quantity, &io::NamedValue::name);
+    const auto known = ranges::find(table.quantities, quantity, &io::NamedValue::name);
     const ShownUnit unit = shown_unit(quantity);
     cards.cards.push_back({known->description, fmt::format("{} {}", shown({unit.factor * most}), unit.name), where});
   }
@@ -272,7 +273,7 @@ std::vector<int> runs_of(const fs::path& file) {
     if (!line.starts_with("run ")) continue;
     int number = 0;
     const char* end = line.data() + line.size();
-    const auto [at, error] = std::from_chars(line.data() + 4, end, number);
+    const auto [at, error] = from_chars(line.data() + 4, end, number);
     if (error != std::errc() || at != end || number < 1)
       throw Error(ErrorKind::input_data, fmt::format("\"{}\" names no run", line), {file.string()},
                   "give a folder that treadmark sweep wrote");
@@ -315,7 +316,7 @@ StudyOnDisk read_study_folder(const fs::path& folder) {
   std::vector<fs::path> pictures;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".svg") pictures.push_back(entry.path());
-  std::ranges::sort(pictures);
+  ranges::sort(pictures);
   for (const fs::path& picture : pictures)
     out.pictures.emplace_back(picture.filename().string(), io::profiles::read_text(picture, "study", {}));
   return out;

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::pictures {
@@ -23,7 +23,7 @@ constexpr double kStudyMargin = 0.04;  // of x, beyond the values
 double number(const std::string& text, const std::string& key, int run) {
   double value = 0.0;
   const char* end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  const auto [rest, error] = from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value))
     refuse_study(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
   return value;
