@@ -70,7 +70,7 @@ std::string table_text(const std::vector<std::vector<std::string>>& lines, const
   std::vector<std::string> block = keys;
   for (std::size_t column = blocks.front(); column < lines.front().size(); ++column) {
     std::vector<std::string> wider = with(block, column);
-    if (column > blocks.front() && (ranges::count(blocks, column) > 0 || width_of(wider.front()) > kWidest)) {
+    if (column > blocks.front() && (ranges::count(blocks, column) > 0 || characters_of(wider.front()) > kWidest)) {
       written(block);
       text += '\n';
       wider = with(keys, column);
