@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"

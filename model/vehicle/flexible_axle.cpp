@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "treadmark/core/line.hpp"
 #include "treadmark/core/platform/ranges.hpp"
