@@ -361,7 +361,7 @@ void cntc_getpotcontact(int* ire, int* icp, int* lenarr, double* values) {
     const treadmark::Grid2 g = grid_of(a);
     const double l = a.problem.units.length;
     const auto out = room(values, lenarr, "values");
-    ranges::fill(out, 0.0);
+    treadmark::ranges::fill(out, 0.0);
     fill(out, std::array{static_cast<double>(g.nx), static_cast<double>(g.ny), g.x0 / l, g.y0 / l, g.dx / l, g.dy / l});
   });
 }
@@ -400,7 +400,7 @@ void cntc_getglobalforces(int* ire, int* icp, int* lenarr, double* values) {
     const auto* r = patch_result(p, a.patch);
     const auto& loads = a.patch < 0 ? p.result->loads : r != nullptr ? r->loads : std::optional<treadmark::io::Loads>();
     const auto out = room(values, lenarr, "values");
-    ranges::fill(out, 0.0);
+    treadmark::ranges::fill(out, 0.0);
     if (loads) fill(out, global_forces(*loads, p.units));
   });
 }

@@ -132,7 +132,7 @@ class Calls {
     if (kind >= 232) {
       std::uint64_t bits = 0;
       for (int i = 0; i < 8; ++i) bits = bits << 8 | byte();
-      return bit_cast<double>(bits);
+      return treadmark::bit_cast<double>(bits);
     }
     constexpr double kSpecial[] = {0.0,
                                    -1.0,
