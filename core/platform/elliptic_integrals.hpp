@@ -7,7 +7,7 @@
 
 #include "treadmark/core/constants.hpp"
 
-namespace treadmark::own {
+namespace treadmark::platform {
 
 /// Complete elliptic integrals of the first and second kind by arithmetic and geometric means (Gauss; Abramowitz and
 /// Stegun 1964, 17.6). k: modulus, at most 1.
@@ -30,14 +30,14 @@ struct EllipticIntegrals {
 inline double comp_ellint_1(double k) { return EllipticIntegrals(k).first; }
 inline double comp_ellint_2(double k) { return EllipticIntegrals(k).second; }
 
-}  // namespace treadmark::own
+}  // namespace treadmark::platform
 
 namespace treadmark {
 #if defined(__cpp_lib_math_special_functions)
 using std::comp_ellint_1;
 using std::comp_ellint_2;
 #else
-using own::comp_ellint_1;
-using own::comp_ellint_2;
+using platform::comp_ellint_1;
+using platform::comp_ellint_2;
 #endif
 }  // namespace treadmark

@@ -8,7 +8,7 @@
 #if defined(_LIBCPP_VERSION) && _LIBCPP_VERSION < 200000
 #include "treadmark/core/platform/own_from_chars.hpp"
 namespace treadmark {
-using own::from_chars;
+using platform::from_chars;
 }
 #endif
 

@@ -15,7 +15,7 @@
 #include <system_error>
 
 /// std::from_chars for doubles where the standard library has it for whole numbers only.
-namespace treadmark::own {
+namespace treadmark::platform {
 
 /// The letters at the start of a text that say infinity or nan, as many as belong to it; 0 where there are none.
 inline std::size_t not_finite_length(std::string_view text) {
@@ -102,4 +102,4 @@ inline std::from_chars_result from_chars(const char* first, const char* last, do
   return {at, {}};
 }
 
-}  // namespace treadmark::own
+}  // namespace treadmark::platform

@@ -132,7 +132,7 @@ TEST(OwnRanges, ChangeWhatTheyAreGiven) {
 using Reader = std::from_chars_result (*)(const char*, const char*, double&);
 
 /// Ours, and the one that the sources use.
-const Reader kReaders[] = {&own::from_chars, [](const char* first, const char* last, double& value) {
+const Reader kReaders[] = {&platform::from_chars, [](const char* first, const char* last, double& value) {
                              return from_chars(first, last, value);
                            }};
 
@@ -241,16 +241,16 @@ TEST(EllipticIntegrals, AreThoseOfTheTrapezoidalRule) {
       second += 0.5 * kPi / kPoints * root;
     }
     constexpr double kSums = 1e-13, kGcc = 1e-12;  // of so many terms; of Carlson's iteration in GCC's library
-    EXPECT_NEAR(own::comp_ellint_1(k), first, kSums);
-    EXPECT_NEAR(own::comp_ellint_2(k), second, kSums);
+    EXPECT_NEAR(platform::comp_ellint_1(k), first, kSums);
+    EXPECT_NEAR(platform::comp_ellint_2(k), second, kSums);
     EXPECT_NEAR(comp_ellint_1(k), first, kGcc);
     EXPECT_NEAR(comp_ellint_2(k), second, kGcc);
   }
-  EXPECT_EQ(own::comp_ellint_2(1.0), 1.0);
-  EXPECT_TRUE(std::isnan(own::comp_ellint_1(1.0)));
+  EXPECT_EQ(platform::comp_ellint_2(1.0), 1.0);
+  EXPECT_TRUE(std::isnan(platform::comp_ellint_1(1.0)));
   // ln(4/k') + (ln(4/k') - 1) k'^2 / 4 for k' = 1e-3
   const double k = std::sqrt((1.0 - 1e-3) * (1.0 + 1e-3)), large = std::log(4e3);
-  EXPECT_NEAR(own::comp_ellint_1(k), large + 0.25e-6 * (large - 1.0), 1e-9);
+  EXPECT_NEAR(platform::comp_ellint_1(k), large + 0.25e-6 * (large - 1.0), 1e-9);
 }
 
 }  // namespace
