@@ -7,7 +7,7 @@
 
 #if defined(__cpp_lib_ranges)
 namespace treadmark {
-/// The algorithms of the standard library over ranges, or our own where it has none (libc++ before 15). Everything
+/// The algorithms of the standard library over ranges, or our own where it has none (libc++ before 16). Everything
 /// else asks for them here.
 namespace ranges = std::ranges;
 }  // namespace treadmark
