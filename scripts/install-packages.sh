@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 # usage: install-packages.sh [--tests|--fuzz|--libcxx]
-# Installs what building needs on Debian 12, with --tests also what only tests and the parts under the GPL need, with --fuzz also what libFuzzer needs,
-# with --libcxx also what the preset clang-libcxx needs. Does nothing where all of it is installed already.
+# Installs what building needs on Debian 12, with --tests also what only tests and the parts under the GPL need, with --fuzz also what
+# libFuzzer needs, with --libcxx also what the preset clang-libcxx needs. Does nothing where all of it is installed already.
 set -euo pipefail
 
 packages=(
