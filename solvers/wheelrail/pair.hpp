@@ -18,6 +18,7 @@
 #include "treadmark/solvers/wheelrail/contact_shape.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 #include "treadmark/solvers/wheelrail/loads.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -129,7 +130,8 @@ class Pair {
   Instant choose_previous(const Problem& problem) const;
 
   Geometry geometry_;
-  detection::BodyPair bodies_;                  ///< without places; wheel_lines from the first search that wants them
+  detection::BodyPair bodies_;  ///< without places; wheel_lines from the first search that wants them
+  std::optional<RailMemory> rail_memory_;
   std::vector<kalker::ContactSolver> solvers_;  ///< by number of the patch; keep coefficients
   kalker::ContactSolver coarse_solver_;         ///< to estimate what refining would change
   std::shared_ptr<const State> state_;

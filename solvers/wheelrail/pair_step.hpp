@@ -16,6 +16,7 @@
 #include "treadmark/solvers/wheelrail/element_choice.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/patch_memory.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -25,7 +26,8 @@ namespace treadmark::wheelrail {
 class PairStep {
  public:
   PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous,
-           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies);
+           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies,
+           RailMemory& rail_memory);
 
   /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other; at a given height evaluate()
   /// finds that out, its least_gap() is no number then.
@@ -123,6 +125,7 @@ class PairStep {
   const Instant& previous_;
   std::vector<kalker::ContactSolver>& solvers_;
   PhaseTimes& times_;
+  RailMemory& rail_memory_;
 
   Placement start_, placement_;  ///< at z = start_z_, and as it is
   double start_z_ = 0.0, z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
