@@ -148,11 +148,11 @@ std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::Conten
   wheelrail::write(vehicle::table_problem(prototype, options), decides);
   for (const double value : {load, options.lateral_range, options.step, options.element_size}) decides.put(value);
   decides.put(options.relative_loads);
-  const auto columns = kept_or_made<std::vector<vehicle::ContactTableColumn>>(
+  const auto sheets = kept_or_made<std::vector<vehicle::ContactTableColumns>>(
       cache, "contact table of " + bodies + "\nwith " + hex_of(decides),
-      [&] { return vehicle::solve_contact_columns(geometry, prototype, load, options); }, vehicle::read_columns,
-      vehicle::write_columns);
-  return vehicle::contact_table_of(columns, geometry, prototype, load, options);
+      [&] { return vehicle::solve_contact_sheets(geometry, prototype, load, options); }, vehicle::read_sheets,
+      vehicle::write_sheets);
+  return vehicle::contact_table_of(sheets, geometry, prototype, load, options);
 }
 
 std::shared_ptr<const vehicle::CreepTable> kept_creep_table(

@@ -19,6 +19,7 @@
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 #include "treadmark/solvers/wheelrail/plausibility.hpp"
 #include "treadmark/solvers/wheelrail/present_part.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -136,7 +137,7 @@ PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
 Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)), state_(std::make_shared<State>()) {
   require_facing(geometry_.rail, Facing::up, "rail");
   require_facing(geometry_.wheel, Facing::down, "wheel");
-  rail_memory_.emplace(*geometry_.rail);
+  rail_memory_ = std::make_unique<RailMemory>(*geometry_.rail);
   bodies_.rail = geometry_.rail.get(), bodies_.wheel = geometry_.wheel.get();
   bodies_.wheel_profile = detection::whole_profile(*geometry_.wheel);
 }

@@ -18,7 +18,6 @@
 #include "treadmark/solvers/wheelrail/contact_shape.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 #include "treadmark/solvers/wheelrail/loads.hpp"
-#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -96,6 +95,7 @@ struct PairSolution {
 };
 
 struct Instant;
+class RailMemory;
 
 /// Contact of one wheel and one rail (Kalker 1990; Vollebregt's grid-based contact search).
 /// Geometry is set once; solve() is called for one state after the other. Without history (Problem::history == start)
@@ -131,7 +131,7 @@ class Pair {
 
   Geometry geometry_;
   detection::BodyPair bodies_;  ///< without places; wheel_lines from the first search that wants them
-  std::optional<RailMemory> rail_memory_;
+  std::unique_ptr<RailMemory> rail_memory_;
   std::vector<kalker::ContactSolver> solvers_;  ///< by number of the patch; keep coefficients
   kalker::ContactSolver coarse_solver_;         ///< to estimate what refining would change
   std::shared_ptr<const State> state_;

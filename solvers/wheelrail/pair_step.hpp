@@ -16,9 +16,10 @@
 #include "treadmark/solvers/wheelrail/element_choice.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/patch_memory.hpp"
-#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
+
+class RailMemory;
 
 /// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail,
 /// patches with their normal problems per height of the wheel over the rail, tangential problems per pitch rate. A

@@ -2,11 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <optional>
-#include <utility>
 
+#include "treadmark/core/recent.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
 
 namespace treadmark::wheelrail {
@@ -32,27 +30,10 @@ class RailMemory {
     bool at_innermost = false;
     friend bool operator==(const GaugeKey&, const GaugeKey&) = default;
   };
-  /// The last few answers; a rail that rolls on its springs asks for ever new ones.
-  template <class Key, class Value>
-  struct Answers {
-    std::array<std::optional<std::pair<Key, Value>>, 4> kept;
-    std::size_t next = 0;
-
-    template <class Make>
-    Value get(const Key& key, Make&& make) {
-      for (const auto& one : kept)
-        if (one && one->first == key) return one->second;
-      const Value made = make();
-      kept[next] = {key, made};
-      next = (next + 1) % kept.size();
-      return made;
-    }
-  };
-
   const Surface* rail_;
   std::optional<Box3> box_;
-  Answers<GaugeKey, GaugePoint> gauges_;
-  Answers<Mat3, LateralRange> ranges_;
+  Recent<GaugeKey, GaugePoint> gauges_;
+  Recent<Mat3, LateralRange> ranges_;  ///< by the rotation of the rail
 };
 
 }  // namespace treadmark::wheelrail

@@ -24,17 +24,18 @@ namespace treadmark::vehicle {
 
 namespace {
 
-using Columns = std::vector<ContactTableColumn>;
+using Columns = ContactTableColumns;
 
 void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::configuration, message);
 }
 
-const Columns& checked(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
+void check_columns(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
   require(columns.size() >= 2, "a contact table needs two lateral positions or more");
   require(!loads.empty() && loads.front() > 0.0 && std::isfinite(loads.back()) &&
               std::ranges::is_sorted(loads, std::less_equal<>{}),
           "the loads of a contact table must be positive and increase");
+  require(loads.size() <= ContactTable::kMostLevels, "a contact table has eight loads at most");
   require(reference_level < loads.size(), "a contact table has no such reference level");
   for (const ContactTableColumn& column : columns) {
     require(column.under.size() == loads.size(), "every lateral position of a contact table needs all loads");
@@ -45,7 +46,31 @@ const Columns& checked(const Columns& columns, const std::vector<double>& loads,
       require(k == 0 || c.z > column.under[k - 1].z, "the wheel of a contact table must sink as the load grows");
     }
   }
-  return columns;
+}
+
+bool make_sense(const TableAngles& angles, int fewest) {
+  constexpr int kMost = 64;
+  constexpr double kSteepest = 0.2;  // [rad], what is small against 1
+  if (angles.intervals == 0) return true;
+  return angles.intervals >= fewest && angles.intervals <= kMost && angles.most > 0.0 && angles.most <= kSteepest;
+}
+
+void check_angles(const TableAngles& roll, const TableAngles& yaw) {
+  require(make_sense(roll, 2) && make_sense(yaw, 1),
+          "a contact table needs rolls and yaws up to 200 mrad, with two intervals of roll and one of yaw at least");
+}
+
+/// All of an axis [rad].
+std::vector<double> rolls_of(const TableAngles& roll) {
+  std::vector<double> all;
+  for (int i = 0; i <= roll.intervals; ++i)
+    all.push_back(roll.intervals == 0 ? 0.0 : roll.most * (2.0 * i / roll.intervals - 1.0));
+  return all;
+}
+std::vector<double> yaws_of(const TableAngles& yaw) {
+  std::vector<double> all;
+  for (int i = 0; i <= yaw.intervals; ++i) all.push_back(yaw.intervals == 0 ? 0.0 : yaw.most * i / yaw.intervals);
+  return all;
 }
 
 template <class Value>
@@ -85,16 +110,26 @@ LoadLevel load_level(const Columns& columns, std::size_t level, double load) {
 
 }  // namespace
 
-ContactTable::ContactTable(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level,
-                           wheelrail::Problem problem, const wheelrail::Placement& nominal)
-    : y_min_(checked(columns, loads, reference_level).front().y),
-      y_max_(columns.back().y),
-      problem_(std::move(problem)),
-      nominal_(nominal),
-      energy_height_(heights_less_energy(columns, loads.front())),
-      wheel_y_(curve(columns, reference_level, &ContactUnderLoad::wheel_y)),
-      wheel_z_(curve(columns, reference_level, &ContactUnderLoad::wheel_z)) {
-  for (std::size_t k = 0; k < loads.size(); ++k) levels_.push_back(load_level(columns, k, loads[k]));
+ContactTable::ContactTable(const std::vector<Columns>& sheets, const TableAngles& roll, const TableAngles& yaw,
+                           const std::vector<double>& loads, std::size_t reference_level, wheelrail::Problem problem,
+                           const wheelrail::Placement& nominal)
+    : roll_(roll), yaw_(yaw), problem_(std::move(problem)), nominal_(nominal) {
+  check_angles(roll, yaw);
+  const std::vector<double> rolls = rolls_of(roll);
+  const std::size_t yaws = yaws_of(yaw).size();
+  require(sheets.size() == rolls.size() * yaws, "a contact table needs a sheet for every roll and yaw");
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const Columns& columns = sheets[i];
+    check_columns(columns, loads, reference_level);
+    y_min_ = std::max(y_min_, columns.front().y), y_max_ = std::min(y_max_, columns.back().y);
+    ContactSheet sheet{rolls[i / yaws],
+                       heights_less_energy(columns, loads.front()),
+                       curve(columns, reference_level, &ContactUnderLoad::wheel_y),
+                       curve(columns, reference_level, &ContactUnderLoad::wheel_z),
+                       {}};
+    for (std::size_t k = 0; k < loads.size(); ++k) sheet.levels.push_back(load_level(columns, k, loads[k]));
+    sheets_.push_back(std::move(sheet));
+  }
 }
 
 namespace {
@@ -152,9 +187,11 @@ PatchShape patch_shape(const wheelrail::PatchSolution& patch) {
   return {25.0 / 24.0 * sum_of_roots * sum_of_roots / sum * patch.grid.cell_area(), std::sqrt(second.x() / second.y())};
 }
 
-ContactUnderLoad under_load(double y, double load, const wheelrail::PairSolution& s, const Vec3& wheel_origin) {
+/// wheel_origin: of the wheel's profile at rest; moved: how far it is from there.
+ContactUnderLoad under_load(double load, const wheelrail::PairSolution& s, const Vec3& wheel_origin,
+                            const Vec3& moved) {
   ContactUnderLoad c;
-  c.z = s.z;
+  c.z = moved.z();
   double height = 0.0, normal_force = 0.0, log_aspect = 0.0;
   for (const wheelrail::PatchSolution& patch : s.patches) {
     const double force = patch.contact.force_n;
@@ -174,8 +211,8 @@ ContactUnderLoad under_load(double y, double load, const wheelrail::PairSolution
   const double z = height / normal_force;
   const double place_y = marker.y() + (s.load.track.moment.x() + (z - marker.z()) * force.y()) / force.z();
   const double to_wheel = 2.5 * c.elastic_energy / load / (1.0 + c.slope * c.slope);
-  c.wheel_y = place_y - c.slope * to_wheel - (wheel_origin.y() + y);
-  c.wheel_z = z + to_wheel - (wheel_origin.z() + s.z);
+  c.wheel_y = place_y - c.slope * to_wheel - (wheel_origin.y() + moved.y());
+  c.wheel_z = z + to_wheel - (wheel_origin.z() + moved.z());
   return c;
 }
 
@@ -188,8 +225,14 @@ struct Attempt {
 class Builder {
  public:
   Builder(const wheelrail::Geometry& geometry, const wheelrail::Problem& rest, const wheelrail::Placement& nominal,
-          std::vector<double> loads)
-      : geometry_(geometry), rest_(rest), wheel_origin_(nominal.X_TW.origin), loads_(std::move(loads)) {}
+          std::vector<double> loads, double roll, double yaw)
+      : geometry_(geometry),
+        rest_(rest),
+        wheel_origin_(nominal.X_TW.origin),
+        turned_aside_(turned_aside(nominal, roll, yaw)),
+        loads_(std::move(loads)) {
+    rest_.state.position.roll = roll, rest_.state.position.yaw = yaw;
+  }
 
   std::vector<Attempt> solve(const std::vector<double>& y) const {
     std::vector<Attempt> attempts(y.size());
@@ -198,27 +241,35 @@ class Builder {
   }
 
  private:
+  /// What turning the wheelset about its centre moves the origin of the wheel's profile by.
+  static Vec3 turned_aside(const wheelrail::Placement& nominal, double roll, double yaw) {
+    if (roll == 0.0 && yaw == 0.0) return Vec3::Zero();
+    const Vec3 arm = nominal.X_TW.origin - nominal.X_TWs.origin;
+    return rotation_x(roll) * rotation_z(yaw) * arm - arm;
+  }
+
   Attempt attempt(double y) const {
     Attempt a;
     a.column.y = y;
     wheelrail::Problem p = rest_;
-    p.state.position.y = y;
+    p.state.position.y = y - turned_aside_.y();
     wheelrail::Pair pair(geometry_);
     for (const double load : loads_) {
       p.vertical_force = load;
       const wheelrail::PairSolution s = pair.solve(p);
-      const bool sinks = a.column.under.empty() || s.z > a.column.under.back().z;
+      const Vec3 moved(0.0, y, s.z + turned_aside_.z());
+      const bool sinks = a.column.under.empty() || moved.z() > a.column.under.back().z;
       a.solved = s.status == Status::ok && !s.patches.empty() && sinks;
       a.message = s.message;
       if (!a.solved) break;
-      a.column.under.push_back(under_load(y, load, s, wheel_origin_));
+      a.column.under.push_back(under_load(load, s, wheel_origin_, moved));
     }
     return a;
   }
 
   const wheelrail::Geometry& geometry_;
-  const wheelrail::Problem& rest_;
-  Vec3 wheel_origin_;
+  wheelrail::Problem rest_;
+  Vec3 wheel_origin_, turned_aside_;
   std::vector<double> loads_;
 };
 
@@ -282,33 +333,41 @@ std::vector<double> loads_of(double reference_load, const ContactTableOptions& o
 
 }  // namespace
 
-std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry& geometry,
+std::vector<ContactTableColumns> solve_contact_sheets(const wheelrail::Geometry& geometry,
                                                       const wheelrail::Problem& prototype, double reference_load,
-                                                      const ContactTableOptions& options) {
+                                                      const ContactTableOptions& options, const Progress& progress) {
   check(geometry, prototype, reference_load, options);
+  check_angles(options.roll, options.yaw);
   const wheelrail::Problem rest = table_problem(prototype, options);
   const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
-  const Builder builder(geometry, rest, nominal, loads_of(reference_load, options));
-
   constexpr double kRounding = 1e-9;
   const auto each_way = to_whole<std::size_t>(options.lateral_range / options.step + kRounding);
   std::vector<double> y;
   for (std::size_t i = 0; i <= 2 * each_way; ++i)
     y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));
-  std::vector<ContactTableColumn> columns = connected(builder.solve(y), each_way);
-  constexpr int kRefinements = 3;
-  for (int i = 0; i < kRefinements; ++i) refine(builder, columns);
-  return columns;
+
+  const std::vector<double> rolls = rolls_of(options.roll), yaws = yaws_of(options.yaw);
+  std::vector<ContactTableColumns> sheets;
+  for (const double roll : rolls)
+    for (const double yaw : yaws) {
+      const Builder builder(geometry, rest, nominal, loads_of(reference_load, options), roll, yaw);
+      ContactTableColumns columns = connected(builder.solve(y), each_way);
+      constexpr int kRefinements = 3;
+      for (int i = 0; i < kRefinements; ++i) refine(builder, columns);
+      sheets.push_back(std::move(columns));
+      if (progress.report) progress.report(sheets.size(), rolls.size() * yaws.size(), "contact under load");
+    }
+  return sheets;
 }
 
-std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTableColumn>& columns,
+std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTableColumns>& sheets,
                                                      const wheelrail::Geometry& geometry,
                                                      const wheelrail::Problem& prototype, double reference_load,
                                                      const ContactTableOptions& options) {
   const wheelrail::Problem rest = table_problem(prototype, options);
   const auto nearest =
       std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
-  return std::make_shared<ContactTable>(columns, loads_of(reference_load, options),
+  return std::make_shared<ContactTable>(sheets, options.roll, options.yaw, loads_of(reference_load, options),
                                         static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest,
                                         wheelrail::place(geometry, rest));
 }
@@ -316,32 +375,38 @@ std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTa
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
                                                         const wheelrail::Problem& prototype, double reference_load,
                                                         const ContactTableOptions& options) {
-  return contact_table_of(solve_contact_columns(geometry, prototype, reference_load, options), geometry, prototype,
+  return contact_table_of(solve_contact_sheets(geometry, prototype, reference_load, options), geometry, prototype,
                           reference_load, options);
 }
 
-void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& out) {
-  out.put(columns.size());
-  for (const auto& [y, under] : columns) {
-    out.put(y);
-    out.put(under.size());
-    for (const auto& [z, energy, slope, wheel_y, wheel_z, area, aspect_ratio] : under)
-      for (const double value : {z, energy, slope, wheel_y, wheel_z, area, aspect_ratio}) out.put(value);
+void write_sheets(const std::vector<ContactTableColumns>& sheets, ByteWriter& out) {
+  out.put(sheets.size());
+  for (const ContactTableColumns& columns : sheets) {
+    out.put(columns.size());
+    for (const auto& [y, under] : columns) {
+      out.put(y);
+      out.put(under.size());
+      for (const auto& [z, energy, slope, wheel_y, wheel_z, area, aspect_ratio] : under)
+        for (const double value : {z, energy, slope, wheel_y, wheel_z, area, aspect_ratio}) out.put(value);
+    }
   }
 }
 
-std::vector<ContactTableColumn> read_columns(ByteReader& in) {
-  std::vector<ContactTableColumn> columns;
-  for (auto count = in.get<std::size_t>(); count > 0; --count) {
-    ContactTableColumn& column = columns.emplace_back();
-    in.get(column.y);
-    for (auto loads = in.get<std::size_t>(); loads > 0; --loads) {
-      ContactUnderLoad& c = column.under.emplace_back();
-      for (double* value : {&c.z, &c.elastic_energy, &c.slope, &c.wheel_y, &c.wheel_z, &c.area, &c.aspect_ratio})
-        in.get(*value);
+std::vector<ContactTableColumns> read_sheets(ByteReader& in) {
+  std::vector<ContactTableColumns> sheets;
+  for (auto left = in.get<std::size_t>(); left > 0; --left) {
+    ContactTableColumns& columns = sheets.emplace_back();
+    for (auto count = in.get<std::size_t>(); count > 0; --count) {
+      ContactTableColumn& column = columns.emplace_back();
+      in.get(column.y);
+      for (auto loads = in.get<std::size_t>(); loads > 0; --loads) {
+        ContactUnderLoad& c = column.under.emplace_back();
+        for (double* value : {&c.z, &c.elastic_energy, &c.slope, &c.wheel_y, &c.wheel_z, &c.area, &c.aspect_ratio})
+          in.get(*value);
+      }
     }
   }
-  return columns;
+  return sheets;
 }
 
 namespace {
@@ -378,10 +443,9 @@ ShapeCurve ShapeCurve::monotone(std::vector<double> x, std::vector<double> value
   return {std::move(x), std::move(value), std::move(slope)};
 }
 
-ShapeCurve::Point ShapeCurve::at(double x) const {
+ShapeCurve::Point ShapeCurve::at(double x, std::size_t i) const {
   if (x <= x_.front()) return {value_.front() + slope_.front() * (x - x_.front()), slope_.front()};
   if (x >= x_.back()) return {value_.back() + slope_.back() * (x - x_.back()), slope_.back()};
-  const std::size_t i = piece_at(x_, x);
   const double length = x_[i + 1] - x_[i], chord = (value_[i + 1] - value_[i]) / length, first = slope_[i],
                last = slope_[i + 1];
   // The slope runs straight from its first value to 'middle' at the share 'knot' of the way, and on to its last value;

@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -39,6 +41,7 @@ ContactReaction mirrored(ContactReaction r) {
   r.on_rail = seen.track;
   r.on_wheelset = seen.wheelset;
   r.lateral_creep_force = -r.lateral_creep_force;
+  r.spin_moment = -r.spin_moment;
   r.contact_y = -r.contact_y;
   for (PatchTangent& t : r.tangents) {
     t.X_TC.origin.y() = -t.X_TC.origin.y();
@@ -63,7 +66,7 @@ RelativePlace relative_place(const wheelrail::Placement& nominal, const wheelrai
                              const PairMotion& m) {
   const Vec3 at_rest = nominal.X_TW.origin - nominal.X_TR.origin;
   const Vec3 moved = rotation_x(-m.rail.roll) * (now.X_TW.origin - now.X_TR.origin) - at_rest;
-  return {moved.y(), moved.z(), m.wheelset.roll - m.rail.roll};
+  return {moved.y(), moved.z(), m.wheelset.roll - m.rail.roll, m.wheelset.yaw};
 }
 
 /// Where the normal meets the axle: the pressure of a round wheel has no moment about it, also where yaw moves the
@@ -84,6 +87,13 @@ void put_below_the_axle(Pose& X_TC, const Pose& X_TWs, double curvature) {
 ContactReaction not_covered(const ContactTable& table, const RelativePlace& place) {
   ContactReaction r;
   r.status = Status::failed;
+  const auto turned = [&](const char* how, double angle, const TableAngles& angles) {
+    r.message = fmt::format("the wheel {} by {:.4g} mrad; the contact table reaches to {:.4g} mrad each way", how,
+                            1e3 * angle, 1e3 * angles.most);
+    return r;
+  };
+  if (!table.roll().covers(place.roll)) return turned("rolls against the rail", place.roll, table.roll());
+  if (!table.yaw().covers(place.yaw)) return turned("is yawed", place.yaw, table.yaw());
   r.message = fmt::format(
       "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
       "reaches from {:.4g} to {:.4g} mm: the flange climbs, or the wheel leaves the rail",
@@ -110,6 +120,43 @@ ContactReaction TableContact::evaluate(const PairMotion& motion) {
   require_finite(motion);
   if (side_ == wheelrail::Side::right) return evaluate_right_hand(motion);
   return mirrored(evaluate_right_hand(mirrored(motion)));
+}
+
+ContactReaction TableContact::under_load(PairMotion motion, double load) {
+  require_finite(motion);
+  if (!(load > 0.0) || !std::isfinite(load))
+    throw Error(ErrorKind::configuration, "the vertical load of a wheel must be positive and finite");
+  const bool right = side_ == wheelrail::Side::right;
+  if (!right) motion = mirrored(motion);
+  const auto height_for = [&](double carried) {
+    const RelativePlace place = relative_place(table_->nominal(), placed(*table_, motion), motion);
+    const std::optional<double> z = height_under_load(*table_, place, carried);
+    return z ? std::optional(motion.wheelset.z + *z - place.z) : std::nullopt;
+  };
+  // What the pressures carry, so that they and the friction carry the load: a secant.
+  constexpr int kMost = 40;
+  constexpr double kBalance = 1e-9;
+  ContactReaction r;
+  double carried = load, before = 0.0, excess_before = 0.0;
+  for (int i = 0; i < kMost; ++i) {
+    const std::optional<double> z = height_for(carried);
+    motion.wheelset.z = z.value_or(motion.wheelset.z);
+    r = evaluate_right_hand(motion);
+    if (!z || r.status != Status::ok) break;
+    r.wheelset_z = motion.wheelset.z;
+    const double excess = r.on_rail.force.z() - load;
+    if (std::abs(excess) <= kBalance * load) return right ? r : mirrored(r);
+    const double slope = i == 0 ? 1.0 : (excess - excess_before) / (carried - before);
+    before = carried, excess_before = excess;
+    carried -= excess / (slope > 0.0 ? slope : 1.0);
+    carried = std::clamp(carried, 0.2 * before, 5.0 * before);
+  }
+  if (r.status == Status::ok) {
+    r.status = Status::not_converged;
+    r.message =
+        fmt::format("no height gives the vertical load of {:.6g} N: friction on the flange carries the wheel", load);
+  }
+  return right ? r : mirrored(r);
 }
 
 ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
@@ -152,6 +199,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   r.on_wheelset = {-at_centre.force, -at_centre.moment};
   r.longitudinal_creep_force = creep.force.x();
   r.lateral_creep_force = creep.force.y();
+  r.spin_moment = creep.moment;
   r.normal_force = elastic.normal_force;
   r.area = std::numbers::pi * elastic.a * elastic.b;
   r.max_pressure = 1.5 * elastic.normal_force / r.area;

@@ -14,8 +14,9 @@ namespace treadmark::vehicle {
 /// Fast force element of a round wheel on a prismatic straight rail: a nonlinear Hertzian spring from a table
 /// (ElasticContact), creepages of the rigid bodies' exact velocities, creep forces of the linear theory with saturation
 /// (creep_law) or of the exact theory (creep_table). The coefficient of friction is the law's static one. Yaw counts in
-/// the creepages and in where the force acts along the rail, not in the heights: a yawed flange that touches ahead of
-/// or behind the axle is taken to touch no sooner. A place that the table does not cover (flange climbing) gives
+/// the creepages and in where the force acts along the rail, and in the heights of tables that have yaws; with others a
+/// yawed flange that touches ahead of or behind the axle is taken to touch no sooner. A place that the table does not
+/// cover (flange climbing) gives
 /// Status::failed. It has no memory: accept() does nothing, and there is nothing to save.
 class TableContact : public ContactElement {
  public:
@@ -25,6 +26,9 @@ class TableContact : public ContactElement {
                std::shared_ptr<const CreepTable> creep = nullptr);
 
   ContactReaction evaluate(const PairMotion& motion) override;
+  /// The same with the wheelset at the height at which the rail takes this vertical load > 0 [N], which wheelset_z of
+  /// the reaction then is; motion.wheelset.z does not count. Status::not_converged where friction leaves none.
+  ContactReaction under_load(PairMotion motion, double load);
   void accept() override {}
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;

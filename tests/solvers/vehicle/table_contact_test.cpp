@@ -50,7 +50,8 @@ std::shared_ptr<const ContactTable> tread_table(double cant) {
 PairMotion pressed(const ContactTable& table, double y, double depth) {
   PairMotion m;
   m.wheelset.y = y;
-  m.wheelset.z = table.energy_height().at(y).value - 0.6 * table.levels().front().compression.at(y).value + depth;
+  m.wheelset.z = table.sheets().front().energy_height.at(y).value -
+                 0.6 * table.sheets().front().levels.front().compression.at(y).value + depth;
   return m;
 }
 
@@ -383,11 +384,12 @@ TEST(TableContact, TheTableDoesNotDependOnThreads) {
   };
   const auto one = build(1), two = build(2);
   for (double y = -3e-3; y <= 3e-3; y += 0.17e-3) {
-    EXPECT_EQ(one->energy_height().at(y).value, two->energy_height().at(y).value);
-    EXPECT_EQ(one->wheel_y().at(y).value, two->wheel_y().at(y).value);
-    for (std::size_t k = 0; k < one->levels().size(); ++k) {
-      EXPECT_EQ(one->levels()[k].compression.at(y).value, two->levels()[k].compression.at(y).value);
-      EXPECT_EQ(one->levels()[k].area.at(y).slope, two->levels()[k].area.at(y).slope);
+    EXPECT_EQ(one->sheets().front().energy_height.at(y).value, two->sheets().front().energy_height.at(y).value);
+    EXPECT_EQ(one->sheets().front().wheel_y.at(y).value, two->sheets().front().wheel_y.at(y).value);
+    for (std::size_t k = 0; k < one->sheets().front().levels.size(); ++k) {
+      EXPECT_EQ(one->sheets().front().levels[k].compression.at(y).value,
+                two->sheets().front().levels[k].compression.at(y).value);
+      EXPECT_EQ(one->sheets().front().levels[k].area.at(y).slope, two->sheets().front().levels[k].area.at(y).slope);
     }
   }
 }
