@@ -61,15 +61,9 @@ void check_angles(const TableAngles& roll, const TableAngles& yaw) {
 }
 
 /// All of an axis [rad].
-std::vector<double> rolls_of(const TableAngles& roll) {
+std::vector<double> angles_of(const TableAngles& angles, bool both_sides) {
   std::vector<double> all;
-  for (int i = 0; i <= roll.intervals; ++i)
-    all.push_back(roll.intervals == 0 ? 0.0 : roll.most * (2.0 * i / roll.intervals - 1.0));
-  return all;
-}
-std::vector<double> yaws_of(const TableAngles& yaw) {
-  std::vector<double> all;
-  for (int i = 0; i <= yaw.intervals; ++i) all.push_back(yaw.intervals == 0 ? 0.0 : yaw.most * i / yaw.intervals);
+  for (int i = 0; i <= angles.intervals; ++i) all.push_back(angles.at(i, both_sides));
   return all;
 }
 
@@ -115,8 +109,8 @@ ContactTable::ContactTable(const std::vector<Columns>& sheets, const TableAngles
                            const wheelrail::Placement& nominal)
     : roll_(roll), yaw_(yaw), problem_(std::move(problem)), nominal_(nominal) {
   check_angles(roll, yaw);
-  const std::vector<double> rolls = rolls_of(roll);
-  const std::size_t yaws = yaws_of(yaw).size();
+  const std::vector<double> rolls = angles_of(roll, true);
+  const std::size_t yaws = static_cast<std::size_t>(yaw.intervals) + 1;
   require(sheets.size() == rolls.size() * yaws, "a contact table needs a sheet for every roll and yaw");
   for (std::size_t i = 0; i < sheets.size(); ++i) {
     const Columns& columns = sheets[i];
@@ -346,7 +340,7 @@ std::vector<ContactTableColumns> solve_contact_sheets(const wheelrail::Geometry&
   for (std::size_t i = 0; i <= 2 * each_way; ++i)
     y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));
 
-  const std::vector<double> rolls = rolls_of(options.roll), yaws = yaws_of(options.yaw);
+  const std::vector<double> rolls = angles_of(options.roll, true), yaws = angles_of(options.yaw, false);
   std::vector<ContactTableColumns> sheets;
   for (const double roll : rolls)
     for (const double yaw : yaws) {

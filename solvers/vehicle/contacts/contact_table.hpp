@@ -46,6 +46,12 @@ struct TableAngles {
   double most = 0.0;  ///< [rad]
   int intervals = 0;  ///< of rolls none, or two and more
 
+  /// Of a node [rad].
+  double at(int node, bool both_sides) const {
+    if (intervals == 0) return 0.0;
+    const double share = static_cast<double>(node) / intervals;
+    return most * (both_sides ? 2.0 * share - 1.0 : share);
+  }
   bool covers(double angle) const { return intervals == 0 || std::abs(angle) <= most; }
   friend bool operator==(const TableAngles&, const TableAngles&) = default;
 };
