@@ -64,6 +64,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
          "simulation.vehicle=vehicles/single-wheelset.toml", "--set", "simulation.wheels=[]"},
         "vehicle"}},
       {"track", {{TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml", "--count", "10"}, "vehicle"}},
+      {"table", {{toml, "--lateral-range-mm", "1", "--step-mm", "1", "--element-mm", "2", "--roll-intervals", "0", "--yaw-intervals", "0", "--creep-forces", "linear", "--check-points", "1"}, "vehicle"}},
       {"fmu", {{toml, "-o", path("wheel.fmu")}, "fmu"}},
       {"report", {{out}, "report"}},
       {"plot", {{out, "--what", "pressure", "-o", "-"}, "report"}},
