@@ -89,6 +89,21 @@ class SampledWheel {
   const std::vector<double>&r_, &by_y_;
 };
 
+/// The samples of a profile but for those at either end whose circles lie aside of [low, high] of y in T altogether;
+/// one of these stays at each end.
+std::pair<std::size_t, std::size_t> samples_over(const Pose& X_TW, const SampledProfile& s, double low, double high) {
+  const double along = X_TW.rotation(1, 1), swing = std::hypot(X_TW.rotation(1, 0), X_TW.rotation(1, 2));
+  const std::size_t n = s.radius.size();
+  const auto side = [&](std::size_t i) {
+    const double middle = X_TW.origin.y() + along * s.y(i), reach = swing * s.radius[i];
+    return middle + reach < low ? -1 : middle - reach > high ? 1 : 0;
+  };
+  std::size_t begin = 0, end = n;
+  for (const int first = side(0); first != 0 && begin + 1 < n && side(begin + 1) == first;) ++begin;
+  for (const int last = side(n - 1); last != 0 && end > begin + 1 && side(end - 2) == last;) --end;
+  return {begin, end};
+}
+
 /// Whether the rail runs along x of T.
 bool runs_along(const Pose& X_TR) {
   constexpr double kStraight = 1e-12;
@@ -163,7 +178,8 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
   std::vector<double> wheel_y(m, kNaN);
   const Silhouette silhouette(bodies_.X_TW);
   SilhouettePoint a{kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
-  for (std::size_t i = 0; i < n; ++i) {
+  const auto [begin, end] = samples_over(bodies_.X_TW, s, rows.y(0), rows.y(rows.count - 1));
+  for (std::size_t i = begin; i < end; ++i) {
     const std::size_t before = i > 0 && !std::isnan(r[i - 1]) ? i - 1 : i,
                       after = i + 1 < n && !std::isnan(r[i + 1]) ? i + 1 : i;
     const double by_yy =

@@ -112,17 +112,28 @@ ContactTable::ContactTable(const std::vector<Columns>& sheets, const TableAngles
   const std::vector<double> rolls = angles_of(roll, true);
   const std::size_t yaws = static_cast<std::size_t>(yaw.intervals) + 1;
   require(sheets.size() == rolls.size() * yaws, "a contact table needs a sheet for every roll and yaw");
+  double highest = 0.0;  // of contact places [m]
   for (std::size_t i = 0; i < sheets.size(); ++i) {
     const Columns& columns = sheets[i];
     check_columns(columns, loads, reference_level);
     y_min_ = std::max(y_min_, columns.front().y), y_max_ = std::min(y_max_, columns.back().y);
     ContactSheet sheet{rolls[i / yaws],
+                       columns.front().y,
+                       columns.back().y,
                        heights_less_energy(columns, loads.front()),
                        curve(columns, reference_level, &ContactUnderLoad::wheel_y),
                        curve(columns, reference_level, &ContactUnderLoad::wheel_z),
                        {}};
     for (std::size_t k = 0; k < loads.size(); ++k) sheet.levels.push_back(load_level(columns, k, loads[k]));
+    for (const ContactTableColumn& column : columns)
+      highest = std::max(highest, std::abs(column.under[reference_level].wheel_z));
     sheets_.push_back(std::move(sheet));
+  }
+  // A place between two rolls is looked up in up to four sheets, aside by the turn times the height of the contact.
+  if (roll.intervals > 0) {
+    const double aside = 2.0 * (2.0 * roll.most / roll.intervals) * highest;
+    y_min_ += aside, y_max_ -= aside;
+    require(y_min_ < y_max_, "a contact table has too few lateral positions for rolls so far apart");
   }
 }
 

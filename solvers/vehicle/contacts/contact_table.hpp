@@ -95,7 +95,8 @@ struct LoadLevel {
 
 /// Curves over the lateral displacement y at one roll and yaw.
 struct ContactSheet {
-  double roll = 0.0;  ///< [rad]
+  double roll = 0.0;                ///< [rad]
+  double y_min = 0.0, y_max = 0.0;  ///< [m]
   /// Height of the first level less its elastic energy over its load [m]. Its slope is the tangent of the contact angle
   /// there.
   ShapeCurve energy_height;
@@ -122,7 +123,7 @@ class ContactTable {
       : ContactTable(std::vector<ContactTableColumns>{columns}, {}, {}, loads, reference_level, std::move(problem),
                      nominal) {}
 
-  /// What all sheets have in common.
+  /// What all sheets have in common, with room for the places between rolls.
   double y_min() const { return y_min_; }
   double y_max() const { return y_max_; }
   const TableAngles& roll() const { return roll_; }

@@ -50,7 +50,7 @@ LocalCurves local_curves(const ContactTable& table, const RelativePlace& place) 
       const ShapeCurve::Point arm_y = sheet.wheel_y.at(place.y, here), arm_z = sheet.wheel_z.at(place.y, here);
       // Where the wheel would have to stand at the sheet's roll to have its contact place there.
       const double y = place.y - turned * arm_z.value, y_by_y = 1.0 - turned * arm_z.slope;
-      out.covered = out.covered && y >= table.y_min() && y <= table.y_max();
+      out.covered = out.covered && y >= sheet.y_min && y <= sheet.y_max;
       const std::size_t piece = turned == 0.0 ? here : sheet.energy_height.piece(y);
       const auto add = [&](Mixed& to, const ShapeCurve::Point& p, double lifted, double lifted_by_y,
                            double lifted_by_roll) {

@@ -174,6 +174,8 @@ TableCheck check_table(const ForceTable& table, const wheelrail::Geometry& geome
   const ForceTable right = table.on(wheelrail::Side::right);
   wheelrail::Problem rest = table.contact().problem();
   rest.regime = kalker::Regime::steady;
+  rest.tangential_model = kalker::TangentialModel::full;
+  rest.refinement = rest.surface_loads = false;
   rest.discretisation = exact.discretisation;
   const std::vector<CheckPoint> points = draw(right, rest, options);
   std::vector<Compared> compared(points.size());
