@@ -3,7 +3,6 @@
 #include "treadmark/solvers/vehicle/contacts/elastic_contact.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -15,42 +14,39 @@ namespace {
 
 double two_thirds(double load) { return std::cbrt(load * load); }
 
-/// A number with its derivatives.
-struct Mixed {
-  double value = 0.0, by_y = 0.0, by_roll = 0.0;
-};
+bool covers(const ContactTable& table, const RelativePlace& place) {
+  return place.y >= table.y_min() && place.y <= table.y_max() && table.roll().covers(place.roll) &&
+         table.yaw().covers(place.yaw);
+}
 
-/// What a table's curves are at one place: of its sheets round it.
-struct LocalCurves {
-  bool covered = true;
-  Mixed energy_height;
-  std::array<Mixed, ContactTable::kMostLevels> compression;
-  std::array<double, ContactTable::kMostLevels> area{}, log_aspect{};
-  double arm_z = 0.0;
-};
+}  // namespace
+
+LocalContact::LocalContact(const ContactTable& table, const RelativePlace& place)
+    : place_(place), covered_(covers(table, place)), levels_(&table.sheets().front().levels) {
+  if (covered_) mix(table);
+}
 
 /// Each sheet tells of the wheel turned from its own roll to this one, to first order, and cubic weights make one of
 /// what they tell: roll counts to second order between them.
-LocalCurves local_curves(const ContactTable& table, const RelativePlace& place) {
-  LocalCurves out;
+void LocalContact::mix(const ContactTable& table) {
   const TableAngles &rolls = table.roll(), &yaws = table.yaw();
   const double nodes_of_roll = rolls.intervals > 0 ? 0.5 * rolls.intervals / rolls.most : 0.0,
                nodes_of_yaw = yaws.intervals > 0 ? yaws.intervals / yaws.most : 0.0;
-  const NodeWeights by_roll = node_weights(nodes_of_roll * (place.roll + rolls.most), rolls.intervals, false),
-                    by_yaw = node_weights(nodes_of_yaw * std::abs(place.yaw), yaws.intervals, true);
-  const std::size_t levels = table.sheets().front().levels.size();
+  const NodeWeights by_roll = node_weights(nodes_of_roll * (place_.roll + rolls.most), rolls.intervals, false),
+                    by_yaw = node_weights(nodes_of_yaw * std::abs(place_.yaw), yaws.intervals, true);
+  Mixed energy_height;
   for (int i = 0; i < by_roll.count; ++i)
     for (int j = 0; j < by_yaw.count; ++j) {
       const auto r = static_cast<std::size_t>(i), q = static_cast<std::size_t>(j);
       const double weight = by_roll.value[r] * by_yaw.value[q],
                    weight_by_roll = nodes_of_roll * by_roll.slope[r] * by_yaw.value[q];
       const ContactSheet& sheet = table.sheet(by_roll.first + i, by_yaw.first + j);
-      const double turned = place.roll - sheet.roll;
-      const std::size_t here = sheet.wheel_y.piece(place.y);
-      const ShapeCurve::Point arm_y = sheet.wheel_y.at(place.y, here), arm_z = sheet.wheel_z.at(place.y, here);
+      const double turned = place_.roll - sheet.roll;
+      const std::size_t here = sheet.wheel_y.piece(place_.y);
+      const ShapeCurve::Point arm_y = sheet.wheel_y.at(place_.y, here), arm_z = sheet.wheel_z.at(place_.y, here);
       // Where the wheel would have to stand at the sheet's roll to have its contact place there.
-      const double y = place.y - turned * arm_z.value, y_by_y = 1.0 - turned * arm_z.slope;
-      out.covered = out.covered && y >= sheet.y_min && y <= sheet.y_max;
+      const double y = place_.y - turned * arm_z.value, y_by_y = 1.0 - turned * arm_z.slope;
+      covered_ = covered_ && y >= sheet.y_min && y <= sheet.y_max;
       const std::size_t piece = turned == 0.0 ? here : sheet.energy_height.piece(y);
       const auto add = [&](Mixed& to, const ShapeCurve::Point& p, double lifted, double lifted_by_y,
                            double lifted_by_roll) {
@@ -58,36 +54,33 @@ LocalCurves local_curves(const ContactTable& table, const RelativePlace& place) 
         to.by_y += weight * (p.slope * y_by_y + lifted_by_y);
         to.by_roll += weight * (lifted_by_roll - p.slope * arm_z.value) + weight_by_roll * (p.value + lifted);
       };
-      add(out.energy_height, sheet.energy_height.at(y, piece), -turned * arm_y.value, -turned * arm_y.slope,
-          -arm_y.value);
-      for (std::size_t k = 0; k < levels; ++k) {
+      add(energy_height, sheet.energy_height.at(y, piece), -turned * arm_y.value, -turned * arm_y.slope, -arm_y.value);
+      for (std::size_t k = 0; k < levels_->size(); ++k) {
         const LoadLevel& level = sheet.levels[k];
-        add(out.compression[k], level.compression.at(y, piece), 0.0, 0.0, 0.0);
-        out.area[k] += weight * level.area.at(y, piece).value;
-        out.log_aspect[k] += weight * level.log_aspect_ratio.at(y, piece).value;
+        add(compression_[k], level.compression.at(y, piece), 0.0, 0.0, 0.0);
+        area_[k] += weight * level.area.at(y, piece).value;
+        log_aspect_[k] += weight * level.log_aspect_ratio.at(y, piece).value;
       }
-      out.arm_z += weight * arm_z.value;
+      arm_z_ += weight * arm_z.value;
     }
-  return out;
+  // Hertz: 2/5 of the compression under the first load are in its energy height.
+  constexpr double kRest = 0.6;
+  const Mixed& first = compression_.front();
+  touching_ = {energy_height.value - kRest * first.value, energy_height.by_y - kRest * first.by_y,
+               energy_height.by_roll - kRest * first.by_roll};
 }
-
-/// Vertical force over the displacement at one place.
-struct Compression {
-  double force = 0.0, stiffness = 0.0, energy = 0.0;
-  double by_y = 0.0, by_roll = 0.0;  ///< -dU/dy [N], -dU/droll [N m]
-  double area = 0.0, log_aspect = 0.0;
-};
 
 /// Marches up the levels. In each the displacement is c u with u = (phi - phi_0) / (phi_1 - phi_0), phi = F^(2/3); its
 /// complementary energy is the integral c B(F) of the displacement over the force, and the sum of all by y is the
 /// lateral force, by roll the moment (Engesser's theorem).
-Compression compress(const std::vector<LoadLevel>& levels, const LocalCurves& curves, const Mixed& touching, double z) {
+LocalContact::Compression LocalContact::compress(double z) const {
   Compression out;
-  if (!(z > touching.value)) return out;
+  if (!(z > touching_.value)) return out;
+  const std::vector<LoadLevel>& levels = *levels_;
   // The force first.
-  double below = touching.value, phi_0 = 0.0, phi = 0.0;
+  double below = touching_.value, phi_0 = 0.0, phi = 0.0;
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    const double c = curves.compression[k].value, phi_1 = two_thirds(levels[k].load), steep = (phi_1 - phi_0) / c;
+    const double c = compression_[k].value, phi_1 = two_thirds(levels[k].load), steep = (phi_1 - phi_0) / c;
     phi = phi_0 + steep * (z - below);
     out.stiffness = 1.5 * std::sqrt(phi) * steep;
     if (phi <= phi_1) break;
@@ -96,7 +89,7 @@ Compression compress(const std::vector<LoadLevel>& levels, const LocalCurves& cu
   }
   out.force = phi * std::sqrt(phi);
 
-  out.by_y = out.force * touching.by_y, out.by_roll = out.force * touching.by_roll;
+  out.by_y = out.force * touching_.by_y, out.by_roll = out.force * touching_.by_roll;
   double load_0 = 0.0, area_0 = 0.0, aspect_0 = 0.0;
   phi_0 = 0.0;
   for (std::size_t k = 0; k < levels.size() && (k == 0 || phi > phi_0); ++k) {
@@ -106,47 +99,28 @@ Compression compress(const std::vector<LoadLevel>& levels, const LocalCurves& cu
     const double u = (end - phi_0) / (phi_1 - phi_0);
     const double phi_integral = 0.6 * (end * end * std::sqrt(end) - phi_0 * phi_0 * std::sqrt(phi_0));
     const double b = (phi_integral - phi_0 * (end_load - load_0)) / (phi_1 - phi_0) + u * (out.force - end_load);
-    const Mixed& c = curves.compression[k];
+    const Mixed& c = compression_[k];
     out.by_y += b * c.by_y, out.by_roll += b * c.by_roll;
     out.energy += c.value * (out.force * u - b);
-    const double area = curves.area[k], aspect = curves.log_aspect[k];
-    out.area = area_0 + u * (area - area_0);
-    out.log_aspect = k == 0 ? aspect : aspect_0 + std::min(u, 1.0) * (aspect - aspect_0);
-    area_0 = area, aspect_0 = aspect, load_0 = levels[k].load, phi_0 = phi_1;
+    out.area = area_0 + u * (area_[k] - area_0);
+    out.log_aspect = k == 0 ? log_aspect_[k] : aspect_0 + std::min(u, 1.0) * (log_aspect_[k] - aspect_0);
+    area_0 = area_[k], aspect_0 = log_aspect_[k], load_0 = levels[k].load, phi_0 = phi_1;
   }
   return out;
 }
 
-/// Hertz: 2/5 of the compression under the first load are in its energy height.
-Mixed touching_height(const LocalCurves& curves) {
-  const Mixed &height = curves.energy_height, &first = curves.compression.front();
-  return {height.value - 0.6 * first.value, height.by_y - 0.6 * first.by_y, height.by_roll - 0.6 * first.by_roll};
-}
-
-bool covers(const ContactTable& table, const RelativePlace& place) {
-  return place.y >= table.y_min() && place.y <= table.y_max() && table.roll().covers(place.roll) &&
-         table.yaw().covers(place.yaw);
-}
-
-}  // namespace
-
-ElasticContact elastic_contact(const ContactTable& table, const RelativePlace& place) {
+ElasticContact LocalContact::at(double z) const {
   ElasticContact c;
-  c.in_table = covers(table, place);
-  if (!c.in_table) return c;
-  const LocalCurves curves = local_curves(table, place);
-  c.in_table = curves.covered;
-  if (!c.in_table) return c;
-
-  const Mixed touching = touching_height(curves);
-  const Compression vertical = compress(table.sheets().front().levels, curves, touching, place.z);
+  c.in_table = covered_;
+  if (!covered_) return c;
+  const Compression vertical = compress(z);
   const bool pressed = vertical.force > 0.0;
-  c.slope = pressed ? vertical.by_y / vertical.force : touching.by_y;
+  c.slope = pressed ? vertical.by_y / vertical.force : touching_.by_y;
   const double per_vertical = std::sqrt(1.0 + c.slope * c.slope);
-  c.penetration = (place.z - touching.value) / per_vertical;
-  c.arm_z = curves.arm_z;
+  c.penetration = (z - touching_.value) / per_vertical;
+  c.arm_z = arm_z_;
   // The line of action is the gradient's by roll.
-  c.arm_y = -(pressed ? vertical.by_roll / vertical.force : touching.by_roll) - c.slope * c.arm_z;
+  c.arm_y = -(pressed ? vertical.by_roll / vertical.force : touching_.by_roll) - c.slope * c.arm_z;
   if (!pressed) return c;
 
   c.normal_force = vertical.force * per_vertical;
@@ -158,19 +132,18 @@ ElasticContact elastic_contact(const ContactTable& table, const RelativePlace& p
   return c;
 }
 
-std::optional<double> height_under_load(const ContactTable& table, const RelativePlace& place, double load) {
-  if (!covers(table, place)) return std::nullopt;
-  const LocalCurves curves = local_curves(table, place);
-  if (!curves.covered) return std::nullopt;
-  double z = touching_height(curves).value, phi_0 = 0.0;
-  const std::vector<LoadLevel>& levels = table.sheets().front().levels;
+double LocalContact::height_under_load(double load) const {
+  double z = touching_.value, phi_0 = 0.0;
   const double phi = two_thirds(load);
-  for (std::size_t k = 0; k < levels.size(); ++k) {
-    const double phi_1 = two_thirds(levels[k].load), c = curves.compression[k].value;
-    if (phi <= phi_1 || k + 1 == levels.size()) return z + c * (phi - phi_0) / (phi_1 - phi_0);
+  for (std::size_t k = 0;; ++k) {
+    const double phi_1 = two_thirds((*levels_)[k].load), c = compression_[k].value;
+    if (phi <= phi_1 || k + 1 == levels_->size()) return z + c * (phi - phi_0) / (phi_1 - phi_0);
     z += c, phi_0 = phi_1;
   }
-  return z;
+}
+
+ElasticContact elastic_contact(const ContactTable& table, const RelativePlace& place) {
+  return LocalContact(table, place).at(place.z);
 }
 
 }  // namespace treadmark::vehicle

@@ -2,7 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <optional>
+#include <array>
+#include <vector>
 
 #include "treadmark/solvers/vehicle/contacts/contact_table.hpp"
 
@@ -27,16 +28,51 @@ struct ElasticContact {
   bool in_table = true;             ///< false: the table does not reach so far, nothing else is known
 };
 
+/// A table at one lateral place, roll and yaw.
 /// The elastic energy U(y, z, roll) is a function of the place, and the force with its line of action is minus its
 /// gradient: whatever path the wheel takes, no work is gained. The lateral force is therefore not read from a table of
 /// angles, but follows from the heights as they are interpolated. Between two loads of the table the height is linear
 /// in F^(2/3): U is Hertz's 2/5 K p^(5/2) up to the first one. Relative roll moves the contact place sideways and
 /// vertically, to first order from the sheets of the nearest rolls; that it inclines the wheel's profile comes out as
 /// the gradient of these displacements. All of it runs with continuous slopes. Thread-safe.
-ElasticContact elastic_contact(const ContactTable& table, const RelativePlace& place);
+class LocalContact {
+ public:
+  /// place.z does not count. The table must outlive this.
+  LocalContact(const ContactTable& table, const RelativePlace& place);
 
-/// Where the wheel has this vertical load > 0 [N] without friction: its place z [m]; place.z does not count. Nothing
-/// where the table does not reach so far. Thread-safe.
-std::optional<double> height_under_load(const ContactTable& table, const RelativePlace& place, double load);
+  /// False: the table does not reach so far, nothing else is known.
+  bool covered() const { return covered_; }
+  bool is_at(const RelativePlace& place) const {
+    return place.y == place_.y && place.roll == place_.roll && place.yaw == place_.yaw;
+  }
+  ElasticContact at(double z) const;
+  /// Where the wheel has this vertical load > 0 [N] without friction: its place z [m].
+  double height_under_load(double load) const;
+
+ private:
+  /// A number with its derivatives.
+  struct Mixed {
+    double value = 0.0, by_y = 0.0, by_roll = 0.0;
+  };
+  /// Vertical force over the displacement.
+  struct Compression {
+    double force = 0.0, stiffness = 0.0, energy = 0.0;
+    double by_y = 0.0, by_roll = 0.0;  ///< -dU/dy [N], -dU/droll [N m]
+    double area = 0.0, log_aspect = 0.0;
+  };
+  void mix(const ContactTable& table);
+  Compression compress(double z) const;
+
+  RelativePlace place_;
+  bool covered_ = false;
+  const std::vector<LoadLevel>* levels_;
+  Mixed touching_;  ///< height of first touch
+  std::array<Mixed, ContactTable::kMostLevels> compression_;
+  std::array<double, ContactTable::kMostLevels> area_{}, log_aspect_{};
+  double arm_z_ = 0.0;
+};
+
+/// LocalContact::at, for one height.
+ElasticContact elastic_contact(const ContactTable& table, const RelativePlace& place);
 
 }  // namespace treadmark::vehicle

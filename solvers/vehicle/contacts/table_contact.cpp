@@ -128,21 +128,19 @@ ContactReaction TableContact::under_load(PairMotion motion, double load) {
     throw Error(ErrorKind::configuration, "the vertical load of a wheel must be positive and finite");
   const bool right = side_ == wheelrail::Side::right;
   if (!right) motion = mirrored(motion);
-  const auto height_for = [&](double carried) {
-    const RelativePlace place = relative_place(table_->nominal(), placed(*table_, motion), motion);
-    const std::optional<double> z = height_under_load(*table_, place, carried);
-    return z ? std::optional(motion.wheelset.z + *z - place.z) : std::nullopt;
-  };
   // What the pressures carry, so that they and the friction carry the load: a secant.
   constexpr int kMost = 40;
   constexpr double kBalance = 1e-9;
   ContactReaction r;
+  std::optional<LocalContact> local;
   double carried = load, before = 0.0, excess_before = 0.0;
   for (int i = 0; i < kMost; ++i) {
-    const std::optional<double> z = height_for(carried);
-    motion.wheelset.z = z.value_or(motion.wheelset.z);
-    r = evaluate_right_hand(motion);
-    if (!z || r.status != Status::ok) break;
+    // On a rail that rolls the place changes aside with the height.
+    const RelativePlace place = relative_place(table_->nominal(), placed(*table_, motion), motion);
+    if (!local || !local->is_at(place)) local.emplace(*table_, place);
+    if (local->covered()) motion.wheelset.z += local->height_under_load(carried) - place.z;
+    r = evaluate_right_hand(motion, &*local);
+    if (r.status != Status::ok) break;
     r.wheelset_z = motion.wheelset.z;
     const double excess = r.on_rail.force.z() - load;
     if (std::abs(excess) <= kBalance * load) return right ? r : mirrored(r);
@@ -159,10 +157,10 @@ ContactReaction TableContact::under_load(PairMotion motion, double load) {
   return right ? r : mirrored(r);
 }
 
-ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
+ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion, const LocalContact* local) {
   const wheelrail::Placement now = placed(*table_, motion);
   const RelativePlace place = relative_place(table_->nominal(), now, motion);
-  const ElasticContact elastic = elastic_contact(*table_, place);
+  const ElasticContact elastic = local && local->is_at(place) ? local->at(place.z) : elastic_contact(*table_, place);
   if (!elastic.in_table) return not_covered(*table_, place);
 
   ContactReaction r;

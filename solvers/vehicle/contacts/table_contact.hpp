@@ -11,6 +11,8 @@
 
 namespace treadmark::vehicle {
 
+class LocalContact;
+
 /// Fast force element of a round wheel on a prismatic straight rail: a nonlinear Hertzian spring from a table
 /// (ElasticContact), creepages of the rigid bodies' exact velocities, creep forces of the linear theory with saturation
 /// (creep_law) or of the exact theory (creep_table). The coefficient of friction is the law's static one. Yaw counts in
@@ -34,7 +36,8 @@ class TableContact : public ContactElement {
   void restore(ByteReader& in) override;
 
  private:
-  ContactReaction evaluate_right_hand(const PairMotion& motion);
+  /// local: the table there, where it is known.
+  ContactReaction evaluate_right_hand(const PairMotion& motion, const LocalContact* local = nullptr);
 
   std::shared_ptr<const ContactTable> table_;
   std::shared_ptr<const CreepTable> creep_;

@@ -116,9 +116,10 @@ TEST(ForceTable, AtANodeTheWheelStandsWhereItWasSolved) {
       ASSERT_EQ(s.status, Status::ok);
       const RelativePlace place{1e-3, 0.0, roll, yaw};
       const Vec3 moved = s.placement.X_TW.origin - turned_table()->nominal().X_TW.origin;
-      const auto z = height_under_load(*turned_table(), place, kCarried);
-      ASSERT_TRUE(z.has_value());
-      EXPECT_NEAR(*z, moved.z(), 1e-8);  // forces are balanced to 1e-5 of an approach of 70 um, both times
+      const LocalContact local(*turned_table(), place);
+      ASSERT_TRUE(local.covered());
+      EXPECT_NEAR(local.height_under_load(kCarried), moved.z(),
+                  1e-8);  // forces are balanced to 1e-5 of an approach of 70 um, both times
     }
 }
 
@@ -128,7 +129,7 @@ TEST(ForceTable, ForcesAreTheGradientOfTheEnergy) {
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
   for (int i = 0; i < 60; ++i) {
     RelativePlace at{between(-2.5e-3, 2.5e-3), 0.0, between(-5e-3, 5e-3), between(-10e-3, 10e-3)};
-    at.z = *height_under_load(table, at, between(2e4, 1.5e5));
+    at.z = LocalContact(table, at).height_under_load(between(2e4, 1.5e5));
     const ElasticContact c = elastic_contact(table, at);
     ASSERT_GT(c.normal_force, 0.0);
     const double upright = 1.0 / std::sqrt(1.0 + c.slope * c.slope), vertical = c.normal_force * upright;
