@@ -34,7 +34,7 @@ struct ElasticContact {
 /// angles, but follows from the heights as they are interpolated. Between two loads of the table the height is linear
 /// in F^(2/3): U is Hertz's 2/5 K p^(5/2) up to the first one. Relative roll moves the contact place sideways and
 /// vertically, to first order from the sheets of the nearest rolls; that it inclines the wheel's profile comes out as
-/// the gradient of these displacements. All of it runs with continuous slopes. Thread-safe.
+/// the gradient of these displacements. The energy runs with continuous slopes, forces without jumps. Thread-safe.
 class LocalContact {
  public:
   /// place.z does not count. The table must outlive this.
