@@ -17,6 +17,9 @@ namespace treadmark::detection {
 namespace {
 
 constexpr int kFineRows = 240;
+/// Where only the least gap is wanted: a parabola through rows 10 um apart is good to a tenth of a nanometre, also
+/// where curvatures jump by those of profiles.
+constexpr int kFewRows = 48;
 
 /// The silhouette of the wheel along x of T, at one point of its profile.
 struct SilhouettePoint {
@@ -244,9 +247,9 @@ void ContactLocus::measure_curves(Fine& fine, int from, int to) const {
   }
 }
 
-ContactLocus::Fine& ContactLocus::fine_outline(int first_row, int last_row) {
+ContactLocus::Fine& ContactLocus::fine_outline(int first_row, int last_row, int count) {
   for (Fine& fine : fine_)
-    if (fine.first_row == first_row && fine.last_row == last_row) return fine;
+    if (fine.first_row == first_row && fine.last_row == last_row && fine.outline.rows.count == count) return fine;
   const Rows& coarse = outline_.rows;
   const double low = coarse.y(first_row), high = coarse.y(last_row);
   // The part of the profile that these rows show, and a little more.
@@ -260,9 +263,8 @@ ContactLocus::Fine& ContactLocus::fine_outline(int first_row, int last_row) {
   y_min -= margin, y_max += margin;
   constexpr std::size_t kKept = 8;
   if (fine_.size() >= kKept) fine_.erase(fine_.begin());
-  SampledProfile profile =
-      sample_profile(*bodies_.wheel, wheel_angle_, y_min, (y_max - y_min) / (kFineRows - 1), kFineRows);
-  Outline outline = trace({low, (high - low) / (kFineRows - 1), kFineRows}, profile);
+  SampledProfile profile = sample_profile(*bodies_.wheel, wheel_angle_, y_min, (y_max - y_min) / (count - 1), count);
+  Outline outline = trace({low, (high - low) / (count - 1), count}, profile);
   fine_.push_back({first_row, last_row, std::move(outline), std::move(profile), {}, {}});
   return fine_.back();
 }
@@ -375,11 +377,18 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
     } else if (!is_minimum) {
       continue;
     }
-    Fine& fine = fine_outline(std::max(0, first - 1), std::min(rows.count - 1, i + 1));
+    const int from = std::max(0, first - 1), to = std::min(rows.count - 1, i + 1);
+    if (!(gap(first) < look_below)) {
+      // On steep flanks a shallow contact may lie deeper below the rows.
+      const double here_closest = fine_outline(from, to, kFewRows).outline.closest;
+      if (!(here_closest < wheel_dz)) {
+        closest = std::fmin(closest, here_closest - wheel_dz);
+        continue;
+      }
+    }
+    Fine& fine = fine_outline(from, to, kFineRows);
     closest = std::fmin(closest, fine.outline.closest - wheel_dz);
-    // On steep flanks a shallow contact may lie deeper below the rows.
-    if (gap(first) < look_below || fine.outline.closest < wheel_dz)
-      weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
+    weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
   }
   // As in the grid search: deepest first, two near misses at most.
   const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };

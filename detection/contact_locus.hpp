@@ -64,7 +64,7 @@ class ContactLocus {
     std::vector<double> cubic;
   };
   Outline trace(const Rows& rows, const SampledProfile& profile);
-  Fine& fine_outline(int first_row, int last_row);
+  Fine& fine_outline(int first_row, int last_row, int count);
   void measure_curves(Fine& fine, int from, int to) const;
   void weigh_fine(Fine& looked_at, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest,
                   Found& found) const;
