@@ -15,7 +15,7 @@ using unit::kM;
 using unit::kN;
 using unit::kOne;
 
-constexpr FileUnit kRad{"rad"}, kMrad{"mrad", 1e3, "rad"}, kM2{"m2"}, kSpeed{"m/s"};
+constexpr FileUnit kRad{"rad"}, kM2{"m2"}, kSpeed{"m/s"};
 
 // clang-format off
 constexpr Column<H> kHead[] = {
