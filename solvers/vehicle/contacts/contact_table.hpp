@@ -63,8 +63,8 @@ struct ContactTableOptions {
   /// Loads over the reference load, increasing. One: a Hertzian spring. More: its stiffness follows the profiles from
   /// load to load.
   std::vector<double> relative_loads = {0.3, 0.6, 1.0, 2.0};
-  TableAngles roll;  ///< of the wheel against the rail
-  TableAngles yaw;   ///< of the wheelset
+  TableAngles roll = {};  ///< of the wheel against the rail
+  TableAngles yaw = {};   ///< of the wheelset
 };
 
 /// Contact under one load at one lateral displacement of the wheel against the rail; right-hand side, track axes.
