@@ -40,8 +40,8 @@ class ForceTable:
     motion_numbers: list[tuple[str, str, str]] = [(row[0], row[1], row[2]) for row in _treadmark.tables()["motion"]]
     force_numbers: list[tuple[str, str, str]] = [(row[0], row[1], row[2]) for row in _treadmark.tables()["forces"]]
 
-    def __init__(self, table: _treadmark.ForceTable) -> None:
-        self._table = table
+    def __init__(self, held: _treadmark.ForceTable) -> None:
+        self._table = held
         self._lock = threading.Lock()
 
     @classmethod
