@@ -13,7 +13,7 @@
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
-#include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
