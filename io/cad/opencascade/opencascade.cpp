@@ -385,11 +385,11 @@ class FaceTriangles {
       return points_[static_cast<std::size_t>(a)].SquareDistance(points_[static_cast<std::size_t>(b)]);
     };
     double area = 0.0;
-    for (const auto& [a, b, c] : triangles_) {
-      const auto side = [&](int to) {
-        return points_[static_cast<std::size_t>(to)].XYZ() - points_[static_cast<std::size_t>(a)].XYZ();
+    for (const auto& t : triangles_) {
+      const auto side = [&](std::size_t to) {
+        return points_[static_cast<std::size_t>(t[to])].XYZ() - points_[static_cast<std::size_t>(t[0])].XYZ();
       };
-      area += 0.5 * side(b).Crossed(side(c)).Modulus();
+      area += 0.5 * side(1).Crossed(side(2)).Modulus();
     }
     // of equal sides at best
     if (area > 0.25 * std::sqrt(3.0) * longest * longest * static_cast<double>(most)) return false;
