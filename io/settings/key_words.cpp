@@ -106,12 +106,8 @@ KeyWords words_of_key(std::string_view path) {
     const UnitWord* word = unit_word(name.substr(last + 1));
     if (word == nullptr) break;
     const bool per = word->key == "per";
-    if (per)
-      unit = "/" + unit;
-    else if (after == nullptr || after->key == "per")
-      unit = std::string(word->shown) + unit;
-    else
-      unit = std::string(word->shown) + (word->over ? "/" : " ") + unit;
+    if (per || (after != nullptr && after->key != "per")) unit.insert(0, per || word->over ? "/" : " ");
+    if (!per) unit.insert(0, word->shown);
     after = word;
     name = name.substr(0, last);
   }
