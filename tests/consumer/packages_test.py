@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-"""Makes the packages for Debian of a build, looks into them, and runs the program from them where they were unpacked.
+"""Makes packages of a build as scripts/packages.sh begins to, looks into them, and runs the program from them where they were unpacked.
+Licences are added later (cmake/finish_packages.py).
 
 usage: packages_test.py BUILD FOLDER
 """
+import fnmatch
 import os
 import pathlib
 import shutil
@@ -14,8 +16,8 @@ import sys
 # What each package must have, by the name without -gpl.
 CONTENTS = {
     "treadmark": ["usr/bin/treadmark", "usr/share/man/man1/treadmark.1", "usr/share/doc/@/examples/wheel-flat.toml"],
-    "libtreadmark0": ["usr/lib/*/libtreadmark.so.0"],
-    "libtreadmark-dev": ["usr/include/treadmark.h", "usr/lib/*/libtreadmark.so", "usr/lib/*/cmake/Treadmark/TreadmarkConfig.cmake"],
+    "libtreadmark0": ["usr/lib/*libtreadmark.so.0"],
+    "libtreadmark-dev": ["usr/include/treadmark.h", "usr/lib/*libtreadmark.so", "usr/lib/*cmake/Treadmark/TreadmarkConfig.cmake"],
     "python3-treadmark": ["usr/lib/python3/dist-packages/treadmark/__init__.py"],
 }
 
@@ -39,14 +41,15 @@ def main():
         plain = name.removesuffix("-gpl")
         root = unpacked[plain] = folder / plain
         told("dpkg-deb", "-x", str(package), str(root))
-        wanted = [*CONTENTS.get(plain, []), f"usr/share/doc/{name}/copyright", f"usr/share/doc/{name}/NOTICE"]
-        faults += [f"{package.name} has no {path}" for path in wanted if not any(root.glob(path.replace("@", plain)))]
+        wanted = [*CONTENTS.get(plain, []), f"usr/share/doc/{name}/NOTICE"]
+        names = [path.relative_to(root).as_posix() for path in root.rglob("*")]
+        faults += [f"{package.name} has no {path}" for path in wanted if not fnmatch.filter(names, path.replace("@", plain))]
         depends = told("dpkg-deb", "-f", str(package), "Depends")
         if plain == "treadmark" and "libc6" not in depends:
             faults.append(f"{package.name} depends on {depends!r}")
     faults += [f"there is no package {name}" for name in ("treadmark", "libtreadmark0", "libtreadmark-dev") if name not in unpacked]
     if not faults:
-        libraries = next(unpacked["libtreadmark0"].glob("usr/lib/*/libtreadmark.so.0")).parent
+        libraries = next(unpacked["libtreadmark0"].glob("usr/lib/**/libtreadmark.so.0")).parent
         version = told(str(unpacked["treadmark"] / "usr/bin/treadmark"), "--version", env={**os.environ, "LD_LIBRARY_PATH": str(libraries)})
         print(version.splitlines()[0])
     print("\n".join(faults), file=sys.stderr)
