@@ -193,7 +193,7 @@ class Iteration {
   std::optional<bool> iterate_under_load(const ForceBalance::Target& target, double& z, bool& evaluated) {
     constexpr double kDeeper = 2.0;
     constexpr int kMost = 16;
-    const double touching = step_.touching_z(), still = 2.0 * eps_;
+    const double touching = step_.touching_z(), still = 4.0 * eps_;
     double laid = z;
     bool lay = true, shares_known = step_.knows_earlier_shares();
     for (int i = 0; i < std::min(kMost, p_.max_force_iterations); ++i) {
