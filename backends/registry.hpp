@@ -15,6 +15,14 @@
 
 namespace treadmark {
 
+/// Where slopes of a representation jump, so that differences of heights tell nothing of its curvatures.
+enum class Creases {
+  none,
+  cells,   ///< at the borders of cells, within which it is curved
+  chords,  ///< across, from chord to chord
+  facets,  ///< everywhere: between them it is flat, with curvatures of 0
+};
+
 /// One representation of surfaces: all that the rest of Treadmark knows of it.
 struct Backend {
   std::string name;     ///< for case files and the command line, see is_backend_name; Surface::backend() says the same
@@ -40,6 +48,8 @@ struct Backend {
 
   /// Made for one place, the middle of the region: cases at different places get surfaces of their own.
   bool one_place = false;
+
+  Creases creases = Creases::none;  ///< what conformance (backends/conformance/promises.hpp) does not ask of it
 };
 
 /// Adds a representation; from then on it is a choice wherever names of backends are read, and last in every list.
