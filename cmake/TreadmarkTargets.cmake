@@ -11,7 +11,7 @@ endif()
 add_library(treadmark_warnings INTERFACE)
 # Sources that are compiled together see each other's names: only alone can those of a whole file be told to be hidden.
 target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic
-  $<IF:$<BOOL:${TREADMARK_SHARED_PARSING}>,-Wshadow=local,-Wshadow> -Wnon-virtual-dtor
+  $<IF:$<BOOL:${TREADMARK_SHARED_PARSING}>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow> -Wnon-virtual-dtor
   $<$<BOOL:${TREADMARK_WARNINGS_AS_ERRORS}>:-Werror>)
 
 set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")

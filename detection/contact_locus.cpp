@@ -8,6 +8,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/closest_gap.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
@@ -358,8 +359,8 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
   }
   // As in the grid search: deepest first, two near misses at most.
   const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };
-  std::ranges::stable_sort(found.patches, deeper);
-  std::ranges::stable_sort(found.near_misses, deeper);
+  ranges::stable_sort(found.patches, deeper);
+  ranges::stable_sort(found.near_misses, deeper);
   constexpr std::size_t kMaxNearMisses = 2;
   if (found.near_misses.size() > kMaxNearMisses) found.near_misses.resize(kMaxNearMisses);
   found.closest = closest;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::measured {
 
@@ -82,8 +83,8 @@ PatchSpread patch_spread(const PatchRows& rows, std::span<const std::vector<doub
   const RowContact base = row_contact(rows, kStart, false);
   if (!(base.pressure > 0.0)) return out;
   PatchRows moved = rows;
-  const double least = *std::ranges::min_element(
-      rows.gap, [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
+  const double least =
+      *ranges::min_element(rows.gap, [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
   const RowContact held = row_contact(rows, base.approach + least, true);
   for (const std::vector<double>& error : errors) {
     for (std::size_t j = 0; j < rows.gap.size(); ++j) moved.gap[j] = rows.gap[j] + error[j];

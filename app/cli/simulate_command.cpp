@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
@@ -42,7 +42,7 @@ struct SimulateOptions {
 };
 
 double doubtful_steps(const io::SimulationResult& result) {
-  const auto found = std::ranges::find(result.summary, "doubtful_steps", &io::NamedValue::name);
+  const auto found = ranges::find(result.summary, "doubtful_steps", &io::NamedValue::name);
   return found == result.summary.end() ? 0.0 : found->value;
 }
 

@@ -27,6 +27,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
@@ -178,11 +179,10 @@ std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, 
     const auto distance = [&](double other) {
       return std::fabs(slices.body == Body::wheel ? wrap_angle(other - u) : other - u);
     };
-    chosen.push_back(static_cast<std::size_t>(std::ranges::min_element(slices.u, {}, distance) - slices.u.begin()));
+    chosen.push_back(static_cast<std::size_t>(ranges::min_element(slices.u, {}, distance) - slices.u.begin()));
   }
-  std::ranges::sort(chosen);
-  const auto repeated = std::ranges::unique(chosen);
-  chosen.erase(repeated.begin(), repeated.end());
+  ranges::sort(chosen);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
   for (const std::size_t k : chosen) {
     const Profile& profile = slices.profiles[k];
     if (!measured::is_smoothed(profile)) continue;

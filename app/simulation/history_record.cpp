@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 
 namespace treadmark::app {
@@ -62,7 +63,7 @@ namespace {
 
 /// The first wheel with full contact, else the first one: what summaries and pictures are about.
 std::size_t watched_wheel(const io::SimulationFile& file) {
-  const auto first = std::ranges::find(file.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
+  const auto first = ranges::find(file.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
   return first == file.wheels.end() ? 0u : static_cast<std::size_t>(first - file.wheels.begin());
 }
 
@@ -251,7 +252,7 @@ void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
   for (const io::PointInput& point : request.points)
     add_point(fmt::format("{}.{}", kPointKinds[static_cast<std::size_t>(point.kind)], point.name),
               fmt::format("a point of {}", point.body),
-              *std::ranges::find(system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm);
+              *ranges::find(system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm);
 }
 
 void HistoryRecord::keep_only(const io::HistoryRequest& request) {
@@ -320,8 +321,7 @@ std::vector<HistorySummary::Row> HistorySummary::rows(bool has_pressure) {
   const std::initializer_list<Row> rest = {
       {"contact_lost", "1", "how often a wheel lost contact",
        [](S s) {
-         return static_cast<double>(
-             std::ranges::count(s.simulation_.events(), false, &vehicle::ContactEvent::regained));
+         return static_cast<double>(ranges::count(s.simulation_.events(), false, &vehicle::ContactEvent::regained));
        }},
       {"energy_turnover_J", "J", "work of contacts and dampers, all counted positive",
        [](S s) { return s.simulation_.energy().turnover; }},

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/kept_tables.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -17,6 +16,7 @@
 
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/solvers/wheelrail/problem_bytes.hpp"
 
@@ -98,7 +98,7 @@ std::string find_identity() {
   dl_iterate_phdr(note_module, &modules);
   const std::string cpu = processor();
   if (modules.own.empty() || !modules.all_known || cpu.empty()) return {};
-  std::ranges::sort(modules.libraries);
+  ranges::sort(modules.libraries);
   std::string text = modules.own + '\n' + cpu;
   for (const std::string& library : modules.libraries) text += library + '\n';
   return io::sha256_hex(text);

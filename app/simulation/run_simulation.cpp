@@ -18,6 +18,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/histories/history_model.hpp"
@@ -45,7 +46,7 @@ std::vector<std::string> simulation_doubts(const io::SimulationFile& file) {
             ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true}
             : io::ExpectedProfile{{}, {}, contact.track.gauge_based, contact.track.cant};
     for (std::string& doubt : source_doubts(source, body, expected))
-      if (std::ranges::find(out, doubt) == out.end()) out.push_back(std::move(doubt));
+      if (ranges::find(out, doubt) == out.end()) out.push_back(std::move(doubt));
   };
   look(contact.wheel, Body::wheel);
   if (file.other_wheel) look(*file.other_wheel, Body::wheel);
@@ -99,7 +100,7 @@ class Run {
       }
     }
     const wheelrail::PhaseTimes after = contact_times();
-    times_.shared = thread_count() > 1 && std::ranges::count(built_.full, nullptr) + 2 <= std::ssize(built_.full);
+    times_.shared = thread_count() > 1 && ranges::count(built_.full, nullptr) + 2 <= std::ssize(built_.full);
     times_.contact = {after.search_s - before.search_s,           after.distance_s - before.distance_s,
                       after.normal_s - before.normal_s,           after.tangential_s - before.tangential_s,
                       after.searches - before.searches,           after.distances - before.distances,
@@ -131,10 +132,10 @@ class Run {
 
   void say_if_unstable() {
     // Forces of full contacts jump with their elements: their slopes tell less.
-    const bool any_full = std::ranges::any_of(built_.full, [](const auto& element) { return element != nullptr; });
+    const bool any_full = ranges::any_of(built_.full, [](const auto& element) { return element != nullptr; });
     const double growing = any_full ? -0.01 : -1e-3;
     constexpr double kSlowest = 0.1;  // [Hz]
-    const auto least = std::ranges::min_element(result_.modes, {}, &io::ModeRow::damping_ratio);
+    const auto least = ranges::min_element(result_.modes, {}, &io::ModeRow::damping_ratio);
     if (least == result_.modes.end() || !(least->damping_ratio < growing) || !(least->frequency_Hz > kSlowest)) return;
     if (!result_.message.empty()) result_.message += "; ";
     result_.message += fmt::format(

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <exception>
 #include <fstream>
@@ -14,6 +13,8 @@
 
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -31,8 +32,8 @@ bool is_shared(std::string_view path) {
                                         "case.time_step_s",
                                         "case.history",
                                         "case.sequence"};
-  return std::ranges::any_of(kSections, [&](std::string_view section) { return path.starts_with(section); }) ||
-         std::ranges::find(kKeys, path) != std::end(kKeys);
+  return ranges::any_of(kSections, [&](std::string_view section) { return path.starts_with(section); }) ||
+         ranges::find(kKeys, path) != std::end(kKeys);
 }
 
 bool is_number(const CaseKey& key) { return key.info.type == KeyType::number || key.info.type == KeyType::integer; }
@@ -53,13 +54,13 @@ std::ifstream opened(const std::filesystem::path& file) {
 CaseValue cell_value(const KeyInfo& key, const std::string& cell, const SourcePosition& where) {
   const char *const first = cell.data() + (cell.starts_with('+') ? 1 : 0), *const last = cell.data() + cell.size();
   const auto parsed = [&](auto value) -> CaseValue {
-    const auto [end, trouble] = std::from_chars(first, last, value);
+    const auto [end, trouble] = from_chars(first, last, value);
     if (trouble == std::errc() && end == last) return {where, value};
     return {where, cell};
   };
   switch (key.type) {
     case KeyType::number:
-      if (std::ranges::find(key.choices, cell) != key.choices.end()) return {where, cell};
+      if (ranges::find(key.choices, cell) != key.choices.end()) return {where, cell};
       return parsed(double{});
     case KeyType::integer:
       return parsed(std::int64_t{});
@@ -135,13 +136,13 @@ void CaseRows::take_heads(const std::string& line, int number) {
       throw Error(ErrorKind::configuration, fmt::format("{} cannot differ from row to row", head), at(number),
                   "rows of cases_file are contacts of one pair, each by itself: give it in the case file, or use "
                   "[[cases]]");
-    if (std::ranges::find(columns_, key, &Column::key) != columns_.end())
+    if (ranges::find(columns_, key, &Column::key) != columns_.end())
       throw Error(ErrorKind::configuration, fmt::format("two columns have the name {}", head), at(number));
     check_exclusive(key->info, at(number), chosen);
     columns_.push_back({key, i, numbers_.size()});
     if (is_number(*key)) numbers_.push_back(key);
   }
-  std::ranges::sort(columns_, {}, &Column::key);  // keys stand in the order in which they are applied
+  ranges::sort(columns_, {}, &Column::key);  // keys stand in the order in which they are applied
 }
 
 std::vector<CaseRow> CaseRows::block(std::size_t k) const {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
@@ -307,7 +307,7 @@ Json seconds(const ImportReport& report) {
 std::vector<ImportReport::Removed> removed_by_reason(const ImportReport& report) {
   std::vector<ImportReport::Removed> out;
   for (const ImportReport::Removed& one : report.removed) {
-    const auto known = std::ranges::find(out, one.reason, &ImportReport::Removed::reason);
+    const auto known = ranges::find(out, one.reason, &ImportReport::Removed::reason);
     if (known == out.end()) {
       out.push_back(one);
       continue;

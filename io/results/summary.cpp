@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
@@ -102,7 +103,7 @@ std::string summary(const CaseResult& result) {
   std::string heading = fmt::format("case {}: {}", result.number, status_word(result));
   if (!result.message.empty()) heading += " (" + result.message + ")";
   if (result.patches.size() > 1) heading += fmt::format(", {} patches", result.patches.size());
-  const auto doubts = std::ranges::count_if(result.remarks, &Remark::grave);
+  const auto doubts = ranges::count_if(result.remarks, &Remark::grave);
   if (doubts > 0) heading += fmt::format(", {} warning{}", doubts, doubts > 1 ? "s" : "");
   table.line(heading + fmt::format(", {:.3f} s", result.seconds));
   if (result.has_wheelset) add_wheelset(table, result);
@@ -113,7 +114,7 @@ std::string summary(const CaseResult& result) {
 
 std::string summary_list(std::span<const CaseResult> cases) {
   using enum Label::Digits;
-  const bool posed = std::ranges::any_of(cases, &CaseResult::has_wheelset);
+  const bool posed = ranges::any_of(cases, &CaseResult::has_wheelset);
   std::size_t status = 6;
   for (const CaseResult& c : cases) status = std::max(status, status_word(c).size());
   // Rows of 80 characters where no status is longer than "no_contact".

@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/solvers/wheelrail/damping.hpp"
 #include "treadmark/solvers/wheelrail/force_iteration.hpp"
@@ -60,7 +61,7 @@ void move_down(PairSolution& s, double dz) {
     patch.region.deepest_T.z() += dz;
     const auto lower = [dz](detection::PatchExtent& e) { e.z_at_y_min += dz, e.z_at_y_max += dz; };
     lower(patch.region.extent);
-    std::ranges::for_each(patch.region.parts, lower);
+    ranges::for_each(patch.region.parts, lower);
   }
 }
 

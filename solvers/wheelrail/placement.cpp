@@ -12,6 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/rail_head.hpp"
 
@@ -134,7 +135,7 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, dou
   // Frame with the rail's origin and the track's orientation; the rail is rolled by -cant in it.
   const Pose X_RT{Vec3::Zero(), rotation_x(cant)};
   const Section section = lateral_section(rail, X_RT, x, box_range(rail, X_RT), kScanStep);
-  if (std::ranges::all_of(section.z, [](double z) { return std::isnan(z); })) refuse_without_surface(rail, x);
+  if (ranges::all_of(section.z, [](double z) { return std::isnan(z); })) refuse_without_surface(rail, x);
   const std::optional<RailHead> head =
       head_of_rail(section.y, section.z, track.gauge_height, track.gauge_at_innermost,
                    [&](std::size_t top) { return top_height(rail, X_RT, x, section, top); });

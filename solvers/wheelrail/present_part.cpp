@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
@@ -27,7 +27,7 @@ std::string missing_part(const Surface& wheel, double lowest) {
     HeightsOut out;
     out.z = r;
     section_heights(wheel, Body::wheel, theta, y, out);
-    return std::ranges::any_of(r, [](double value) { return !std::isnan(value); });
+    return ranges::any_of(r, [](double value) { return !std::isnan(value); });
   };
   if (present(wrap_angle(lowest))) return {};
   std::array<bool, kTurn> there{};

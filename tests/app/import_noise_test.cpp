@@ -21,6 +21,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/surface_errors.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
@@ -112,7 +113,7 @@ TEST(NoiseOfScans, OfPressureIsWhatRipplesMakeOfIt) {
       constexpr double kRows = 2.0;  // what the contact of rows leaves open
       EXPECT_GT(patch.noise->pmax, truth / kRows) << length << ' ' << k;
       EXPECT_LT(patch.noise->pmax, truth * kRows) << length << ' ' << k;
-      const bool told = std::ranges::any_of(base.cases[k].remarks, [](const Remark& remark) {
+      const bool told = ranges::any_of(base.cases[k].remarks, [](const Remark& remark) {
         return remark.kind == RemarkKind::noisy_profile && remark.text.find("the wheel, a scan") != std::string::npos;
       });
       EXPECT_EQ(told, patch.noise->pmax > 0.025 * patch.pmax);
@@ -234,7 +235,7 @@ TEST_F(ImportedNoise, CoversWhatResultsAreOff) {
           constexpr double kSmall = 0.3, kNear = 3e-3;  // of the wheel's force; [m]
           if (meant.fn < kSmall * 80e3) continue;
           const std::vector<io::PatchResult>& patches = found.cases[k].patches;
-          const auto patch = std::ranges::min_element(
+          const auto patch = ranges::min_element(
               patches, {}, [&](const io::PatchResult& p) { return std::fabs(p.y_tr - meant.y_tr); });
           const bool doubted = any_grave(found.cases[k].remarks);
           if (patch == patches.end() || std::fabs(patch->y_tr - meant.y_tr) > kNear) {

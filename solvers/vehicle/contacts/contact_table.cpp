@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -17,6 +16,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/line.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
@@ -33,7 +33,7 @@ void require(bool holds, const char* message) {
 const Columns& checked(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
   require(columns.size() >= 2, "a contact table needs two lateral positions or more");
   require(!loads.empty() && loads.front() > 0.0 && std::isfinite(loads.back()) &&
-              std::ranges::is_sorted(loads, std::less_equal<>{}),
+              ranges::is_sorted(loads, std::less_equal<>{}),
           "the loads of a contact table must be positive and increase");
   require(reference_level < loads.size(), "a contact table has no such reference level");
   for (const ContactTableColumn& column : columns) {
@@ -119,7 +119,7 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
       refuse("range, step and element size of a contact table must be positive and finite");
   const std::vector<double>& loads = options.relative_loads;
   if (loads.empty() || !(loads.front() > 0.0) || !std::isfinite(loads.back()) ||
-      !std::ranges::is_sorted(loads, std::less_equal<>{}))
+      !ranges::is_sorted(loads, std::less_equal<>{}))
     refuse("the relative loads of a contact table must be positive and increase");
   constexpr double kMostSteps = 5000.0;
   if (!(options.step <= options.lateral_range) || options.lateral_range / options.step > kMostSteps)
@@ -250,7 +250,7 @@ void refine(const Builder& builder, std::vector<ContactTableColumn>& columns) {
     if (angles_differ_much(columns[i], columns[i + 1])) between.push_back(0.5 * (columns[i].y + columns[i + 1].y));
   for (const Attempt& a : builder.solve(between))
     if (a.solved) columns.push_back(a.column);
-  std::ranges::sort(columns, {}, &ContactTableColumn::y);
+  ranges::sort(columns, {}, &ContactTableColumn::y);
 }
 
 }  // namespace
@@ -307,7 +307,7 @@ std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTa
                                                      const ContactTableOptions& options) {
   const wheelrail::Problem rest = table_problem(prototype, options);
   const auto nearest =
-      std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
+      ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
   return std::make_shared<ContactTable>(columns, loads_of(reference_load, options),
                                         static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest,
                                         wheelrail::place(geometry, rest));
@@ -347,7 +347,7 @@ std::vector<ContactTableColumn> read_columns(ByteReader& in) {
 namespace {
 
 void require_points(const std::vector<double>& x, std::size_t values) {
-  if (x.size() < 2 || values != x.size() || std::ranges::adjacent_find(x, std::greater_equal<>{}) != x.end())
+  if (x.size() < 2 || values != x.size() || ranges::adjacent_find(x, std::greater_equal<>{}) != x.end())
     throw Error(ErrorKind::configuration, "a curve needs two points or more, in increasing order");
 }
 

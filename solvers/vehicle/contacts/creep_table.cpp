@@ -13,6 +13,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
@@ -232,7 +233,7 @@ CreepTable::CreepTable(double poisson, const CreepTableOptions& options, std::ve
       slopes_.size() != static_cast<std::size_t>(9 * ratios))
     refuse_saved_state("a table of creep forces lacks values");
   for (const std::vector<double>* numbers : {&values_, &slopes_})
-    if (!std::ranges::all_of(*numbers, [](double v) { return std::isfinite(v); }))
+    if (!ranges::all_of(*numbers, [](double v) { return std::isfinite(v); }))
       refuse_saved_state("a table of creep forces holds what is no number");
   nodes_.resize(node(ratios + 1, -1, -n - 1, -1));
   std::size_t from = 0;

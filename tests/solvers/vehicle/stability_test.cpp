@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -13,6 +12,7 @@
 
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
@@ -133,7 +133,7 @@ struct ByHand {
   }
   std::complex<double> hunting() const {
     const auto all = roots();
-    return *std::ranges::max_element(all, {}, [](std::complex<double> z) { return z.imag() > 0.0 ? z.real() : -1e9; });
+    return *ranges::max_element(all, {}, [](std::complex<double> z) { return z.imag() > 0.0 ? z.real() : -1e9; });
   }
 };
 
@@ -372,7 +372,7 @@ TEST(Stability, AnOverdampedMassHasTheTwoRealEigenvaluesOfItsFormula) {
       [&](double speed) { return on_hertz_springs(wheel_on_mass(1813.0, m, k, c), {}, speed, 1e15); }, 20.0);
   const double half = 0.5 * c / m, root = std::sqrt(half * half - k / m);
   for (const double expected : {-half + root, -half - root})
-    EXPECT_TRUE(std::ranges::any_of(at.modes, [&](const Eigenmode& mode) {
+    EXPECT_TRUE(ranges::any_of(at.modes, [&](const Eigenmode& mode) {
       return mode.frequency == 0.0 && mode.damping_ratio == 1.0 &&
              std::abs(mode.value.real() - expected) < 1e-3 * std::abs(expected);
     })) << expected;
@@ -390,13 +390,13 @@ TEST(Stability, MotionsKeepTheirNumberFromSpeedToSpeed) {
   int number = -1;
   for (const ModesAtSpeed& at : r.at) {
     const std::complex<double> swaying = hunting(at).value;
-    const auto place = std::ranges::find(at.modes, swaying, &Eigenmode::value) - at.modes.begin();
+    const auto place = ranges::find(at.modes, swaying, &Eigenmode::value) - at.modes.begin();
     const int here = at.branch[static_cast<std::size_t>(place)];
     if (number < 0) number = here;
     EXPECT_EQ(here, number) << at.speed;
     std::vector<int> sorted = at.branch;
-    std::ranges::sort(sorted);
-    EXPECT_EQ(std::ranges::adjacent_find(sorted), sorted.end());
+    ranges::sort(sorted);
+    EXPECT_EQ(ranges::adjacent_find(sorted), sorted.end());
   }
 }
 
