@@ -105,8 +105,12 @@ class Run {
                       after.normal_s - before.normal_s,           after.tangential_s - before.tangential_s,
                       after.searches - before.searches,           after.distances - before.distances,
                       after.normal_solves - before.normal_solves, after.tangential_solves - before.tangential_solves};
+    if (!simulation_->derailed().empty()) {
+      result_.status = "derailed";
+      result_.message = simulation_->derailed();
+    }
     finish();
-    if (result_.status != "complete") keep_checkpoint();
+    if (!result_.ended()) keep_checkpoint();
   }
 
  private:
@@ -199,6 +203,7 @@ class Run {
       } catch (const Cancelled&) {
         return stop();
       }
+      if (!simulation_->derailed().empty()) return;
       summary_->note();
       snapshots_.take_passed(*simulation_, before);
       if (due(built_.vehicle.travel(simulation_->state().time).distance)) record_->append(result_.values);
@@ -337,7 +342,7 @@ bool is_finished(const std::filesystem::path& store, const io::SimulationFile& f
                  const std::vector<std::string>& settings) {
   if (!std::filesystem::exists(store)) return false;
   require_same_simulation(store, io::read_checkpoint(store), file, settings);
-  return io::read_simulation_head(store).status == "complete";
+  return io::read_simulation_head(store).ended();
 }
 
 }  // namespace treadmark::app

@@ -125,6 +125,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
       const ContactReaction& reaction = step.reactions[i];
       if (is_unsolved(reaction)) {
         step.why_not = fmt::format("{}: {}", vehicle_.wheels[i].name, reaction.message);
+        step.derailed = reaction.derailed;
         return step;
       }
       forces.push_back(generalised_force(reaction, m));

@@ -238,6 +238,11 @@ void Simulation::take_step() {
     const bool good = step.converged && step.position_error <= settings_.position_tolerance;
     if (good) break;
     ++counts_.rejected;
+    constexpr double kNear = 1e-5;  // [s]
+    if (step.derailed && h <= std::max(kNear, settings_.min_step)) {
+      derailed_ = step.why_not;
+      return;
+    }
     const double factor =
         step.converged ? std::min(0.8, step_factor(step.position_error, settings_.position_tolerance)) : 0.3;
     if (!(h * factor >= settings_.min_step && h * factor > 0.0))  // no number either

@@ -169,6 +169,7 @@ void add_simulation_banners(const Result& result, Section& overview, const std::
     add(Banner::Kind::failed, "Interrupted.",
         fmt::format("{}{}The history ends before the end of the track; the same command goes on.", result.message,
                     result.message.empty() ? "" : ". "));
+  if (result.status == "derailed") add(Banner::Kind::failed, "Derailed.", result.message);
   if (result.status == "failed") add(Banner::Kind::failed, "Failed.", result.message);
   if (!result.events.empty())
     add(Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below.");

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
+
 #include "treadmark/solvers/vehicle/contacts/contact_table.hpp"
 
 namespace treadmark::vehicle {
@@ -12,6 +14,14 @@ struct RelativePlace {
   double y = 0.0, z = 0.0, roll = 0.0;
 };
 
+/// What slides: an ellipse.
+struct ElasticPart {
+  double normal_force;  ///< [N]
+  double angle;         ///< against the rail's axes [rad]
+  double arm_y, arm_z;  ///< place on the wheel, from its profile origin [m]
+  double a, b;          ///< semi-axes [m]
+};
+
 /// Elastic part of a Hertzian contact from a table. Not in contact: penetration <= 0 and forces 0.
 struct ElasticContact {
   double penetration = 0.0;         ///< along the normal [m]
@@ -20,8 +30,10 @@ struct ElasticContact {
   double energy = 0.0;              ///< [J]
   double stiffness = 0.0;           ///< d(normal force)/d(penetration) [N/m]
   double arm_y = 0.0, arm_z = 0.0;  ///< contact place on the wheel, from its profile origin [m]
-  double a = 0.0, b = 0.0;          ///< semi-axes of the ellipse [m]
-  bool in_table = true;             ///< false: the table does not reach so far, nothing else is known
+  /// Between columns and loads: the first 'count' ones.
+  std::array<ElasticPart, 4 * kMostParts> parts;
+  std::size_t count = 0;
+  bool in_table = true;  ///< false: the table does not reach so far, nothing else is known
 };
 
 /// The elastic energy U(y, z, roll) is a function of the place, and the force with its line of action is minus its

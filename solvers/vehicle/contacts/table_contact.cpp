@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -81,13 +82,14 @@ void put_below_the_axle(Pose& X_TC, const Pose& X_TWs, double curvature) {
   }
 }
 
-ContactReaction not_covered(const ContactTable& table, const RelativePlace& place) {
+ContactReaction derailed(const RelativePlace& place) {
   ContactReaction r;
   r.status = Status::failed;
+  r.derailed = true;
   r.message = fmt::format(
-      "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
-      "reaches from {:.4g} to {:.4g} mm: the flange climbs, or the wheel leaves the rail",
-      1e3 * place.y, 1e3 * table.y_min(), 1e3 * table.y_max());
+      "the {}: the wheel stands {:.4g} mm {} of its central position over the rail and {:.4g} mm {}",
+      place.y > 0.0 ? "flange has climbed the rail" : "tread has left the rail", 1e3 * std::abs(place.y),
+      place.y > 0.0 ? "outside" : "inside", 1e3 * std::abs(place.z), place.z < 0.0 ? "above it" : "below it");
   return r;
 }
 
@@ -116,7 +118,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   const wheelrail::Placement now = placed(*table_, motion);
   const RelativePlace place = relative_place(table_->nominal(), now, motion);
   const ElasticContact elastic = elastic_contact(*table_, place);
-  if (!elastic.in_table) return not_covered(*table_, place);
+  if (!elastic.in_table) return derailed(place);
 
   ContactReaction r;
   r.least_gap = -elastic.penetration;
@@ -125,42 +127,57 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
     r.message = "wheel and rail do not touch";
     return r;
   }
-  const double angle = std::atan(elastic.slope) + motion.rail.roll;
-  Pose X_TC{now.X_TW.origin + rotation_x(motion.rail.roll) * Vec3(0.0, elastic.arm_y, elastic.arm_z),
-            rotation_x(angle)};
+  const Mat3 rolled = rotation_x(motion.rail.roll);
   // The arm ends on the undeformed wheel, the contact point lies on the rail.
-  X_TC.origin -= elastic.penetration * X_TC.rotation.col(2);
-  put_below_the_axle(X_TC, now.X_TWs, motion.curvature);
+  const auto pose = [&](double angle, double arm_y, double arm_z) {
+    Pose X_TC{now.X_TW.origin + rolled * Vec3(0.0, arm_y, arm_z), rotation_x(angle + motion.rail.roll)};
+    X_TC.origin -= elastic.penetration * X_TC.rotation.col(2);
+    put_below_the_axle(X_TC, now.X_TWs, motion.curvature);
+    return X_TC;
+  };
+  const Pose resultant = pose(std::atan(elastic.slope), elastic.arm_y, elastic.arm_z);
+  // Friction takes what the creepages put in: forces act where these are those of both bodies.
+  const auto act = [&](const Pose& X_TC, const Vec3& force, const Vec3& moment) {
+    const Vec3 on_wheel = X_TC.apply({0.0, 0.0, elastic.penetration});
+    r.on_rail += {force, (X_TC.origin - now.X_TR.origin).cross(force) + moment};
+    r.on_wheelset += {-force, -((on_wheel - now.X_TWs.origin).cross(force) + moment)};
+  };
+  act(resultant, elastic.normal_force * resultant.rotation.col(2), Vec3::Zero());
+  r.tangents.push_back({resultant, elastic.stiffness, 0.0, 0.0, elastic.normal_force});
 
   problem_.state.position = motion.wheelset;
   problem_.state.velocity = motion.wheelset_velocity;
   problem_.track.vy = motion.rail.vy, problem_.track.vz = motion.rail.vz, problem_.track.vroll = motion.rail.vroll;
-  const wheelrail::ContactKinematics creepage = wheelrail::contact_kinematics(problem_, now, X_TC, elastic.penetration);
-  const FrictionLaw law = friction_at(problem_.friction_inclination, problem_.friction_laws, angle, problem_.friction);
-  const CreepContact patch{elastic.a, elastic.b, law.static_friction() * elastic.normal_force};
-  const CreepForce creep =
-      creep_ ? creep_force(*creep_, patch, material_, creepage) : creep_force(patch, material_, creepage);
-
-  const Vec3 force = X_TC.rotation * Vec3(creep.force.x(), creep.force.y(), elastic.normal_force);
-  const Vec3 moment = creep.moment * X_TC.rotation.col(2);
-  const auto about = [&](const Vec3& point, const Vec3& at) {
-    return wheelrail::Wrench{force, (at - point).cross(force) + moment};
-  };
-  // Friction takes what the creepages put in: forces act where these are those of both bodies.
-  r.on_rail = about(now.X_TR.origin, X_TC.origin);
-  const wheelrail::Wrench at_centre = about(now.X_TWs.origin, X_TC.apply({0.0, 0.0, elastic.penetration}));
-  r.on_wheelset = {-at_centre.force, -at_centre.moment};
-  r.longitudinal_creep_force = creep.force.x();
-  r.lateral_creep_force = creep.force.y();
+  double most = 0.0;
+  for (std::size_t i = 0; i < elastic.count; ++i) {
+    const ElasticPart& part = elastic.parts[i];
+    const Pose X_TC = pose(part.angle, part.arm_y, part.arm_z);
+    const wheelrail::ContactKinematics creepage =
+        wheelrail::contact_kinematics(problem_, now, X_TC, elastic.penetration);
+    const FrictionLaw law = friction_at(problem_.friction_inclination, problem_.friction_laws,
+                                        part.angle + motion.rail.roll, problem_.friction);
+    const CreepContact patch{part.a, part.b, law.static_friction() * part.normal_force};
+    const CreepForce creep =
+        creep_ ? creep_force(*creep_, patch, material_, creepage) : creep_force(patch, material_, creepage);
+    act(X_TC, X_TC.rotation * Vec3(creep.force.x(), creep.force.y(), 0.0), creep.moment * X_TC.rotation.col(2));
+    r.longitudinal_creep_force += creep.force.x();
+    r.lateral_creep_force += creep.force.y();
+    r.frictional_power += creep.power;
+    const double area = std::numbers::pi * part.a * part.b;
+    r.area += area;
+    r.max_pressure = std::max(r.max_pressure, 1.5 * part.normal_force / area);
+    ++r.patches;
+    if (i == 0)
+      r.tangents.front().damping_x = creep.damping.x(), r.tangents.front().damping_s = creep.damping.y();
+    else
+      r.tangents.push_back({X_TC, 0.0, creep.damping.x(), creep.damping.y(), 0.0});
+    if (part.normal_force <= most) continue;
+    most = part.normal_force;
+    r.contact_x = X_TC.origin.x();
+    r.contact_y = X_TC.origin.y();
+  }
   r.normal_force = elastic.normal_force;
-  r.area = std::numbers::pi * elastic.a * elastic.b;
-  r.max_pressure = 1.5 * elastic.normal_force / r.area;
-  r.contact_x = X_TC.origin.x();
-  r.contact_y = X_TC.origin.y();
-  r.patches = 1;
   r.elastic_energy = elastic.energy;
-  r.frictional_power = creep.power;
-  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y(), elastic.normal_force});
   return r;
 }
 

@@ -15,8 +15,9 @@ namespace treadmark::vehicle {
 /// (ElasticContact), creepages of the rigid bodies' exact velocities, creep forces of the linear theory with saturation
 /// (creep_law) or of the exact theory (creep_table). The coefficient of friction is the law's static one. Yaw counts in
 /// the creepages and in where the force acts along the rail, not in the heights: a yawed flange that touches ahead of
-/// or behind the axle is taken to touch no sooner. A place that the table does not cover (flange climbing) gives
-/// Status::failed. It has no memory: accept() does nothing, and there is nothing to save.
+/// or behind the axle is taken to touch no sooner. Where the table ends, the wheel stands on the tip of its flange or
+/// its tread has left the rail: Status::failed, derailed. It has no memory: accept() does nothing, and there is nothing
+/// to save.
 class TableContact : public ContactElement {
  public:
   /// creep: where creep forces are taken from; null: the linear theory. Errors: Error(configuration) without a table of

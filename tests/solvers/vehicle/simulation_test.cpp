@@ -246,6 +246,34 @@ TEST(Simulation, CancelledStepsLeaveItWhereItWas) {
   EXPECT_EQ(disturbed.counts().evaluations, whole.counts().evaluations);
 }
 
+/// A wheel that climbs its rail at a place.
+class Climbing : public HertzSpring {
+ public:
+  using HertzSpring::HertzSpring;
+  ContactReaction evaluate(const PairMotion& m) override {
+    ContactReaction r = HertzSpring::evaluate(m);
+    if (!(m.wheelset.x > kPlace)) return r;
+    r.status = Status::failed;
+    r.derailed = true;
+    r.message = "the flange has climbed the rail";
+    return r;
+  }
+  static constexpr double kPlace = 0.731;
+};
+
+TEST(Simulation, ADerailmentIsAResult) {
+  VehicleOnTrack v = test_vehicle();
+  const SystemState start = lifted(v, -0.01);
+  v.wheels.at(0).element = std::make_shared<Climbing>(kHertz, -0.75);
+  Simulation s(v, start, fixed_steps(0.1, 1e-3));
+  run(s);
+  EXPECT_NEAR(s.state().time, Climbing::kPlace / v.speed, 1e-5);
+  EXPECT_EQ(s.derailed(), v.wheels[0].name + ": the flange has climbed the rail");
+  const long steps = s.counts().steps;
+  EXPECT_NO_THROW(s.advance());
+  EXPECT_EQ(s.counts().steps, steps);
+}
+
 TEST(Simulation, BadSettingsAndStuckStepsAreErrors) {
   const VehicleOnTrack v = test_vehicle();
   const SystemState start = lifted(v, 0.0);
