@@ -150,24 +150,24 @@ std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::Conten
   decides.put(options.relative_loads);
   decides.put(options.heavier);
   decides.put(options.growth);
-  using Columns = std::vector<vehicle::ContactTableColumn>;
+  using Columns = vehicle::ContactTableColumns;
   const auto kept = [key = "contact table of " + bodies + "\nwith " + hex_of(decides),
                      cache = cache ? std::optional(*cache) : std::nullopt](const std::string& which, auto make) {
     return kept_or_made<Columns>(cache ? &*cache : nullptr, key + which, make, vehicle::read_columns,
                                  vehicle::write_columns);
   };
-  const Columns central = kept("", [&] { return vehicle::solve_contact_columns(geometry, prototype, load, options); });
-  return vehicle::contact_table_of(central, geometry, prototype, load, options,
-                                   {[=](double from) {
-                                      return kept(fmt::format("\nbeyond {:a} m", from), [&] {
-                                        return vehicle::solve_columns_beyond(geometry, prototype, load, from, options);
-                                      });
-                                    },
-                                    [=](const Columns& columns) {
-                                      return kept(fmt::format("\nheavier from {:a} m", columns.front().y), [&] {
-                                        return vehicle::solve_heavier(geometry, prototype, load, columns, options);
-                                      });
-                                    }});
+  const Columns central =
+      kept("", [&] { return vehicle::solve_contact_sheets(geometry, prototype, load, options).front(); });
+  return vehicle::contact_table_of(
+      {central}, geometry, prototype, load, options,
+      {[=](const vehicle::TableTurn& turn, double from) {
+         return kept(fmt::format("\nbeyond {:a} m", from),
+                     [&] { return vehicle::solve_columns_beyond(geometry, prototype, load, turn, from, options); });
+       },
+       [=](const vehicle::TableTurn& turn, const Columns& columns) {
+         return kept(fmt::format("\nheavier from {:a} m", columns.front().y),
+                     [&] { return vehicle::solve_heavier(geometry, prototype, load, turn, columns, options); });
+       }});
 }
 
 std::shared_ptr<const vehicle::CreepTable> kept_creep_table(

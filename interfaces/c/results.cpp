@@ -164,6 +164,12 @@ tm_status tm_list(tm_table table, size_t i, const char** name, const char** unit
       case TM_PATCH_FIELDS:
         row = row_at(fields(), i);
         break;
+      case TM_MOTION_NUMBERS:
+        row = row_at(motion_numbers(), i);
+        break;
+      case TM_FORCE_NUMBERS:
+        row = row_at(force_numbers(), i);
+        break;
       default:
         require(false, "there is no such table");
     }

@@ -46,6 +46,8 @@ struct ContactReaction {
   wheelrail::Wrench on_wheelset;            ///< track axes; moment about the wheelset's centre [N], [N m]
   double lateral_creep_force = 0.0;         ///< T_y: sum of F_s over the patches, on the rail [N]
   double longitudinal_creep_force = 0.0;    ///< T_x: sum of F_x [N]
+  double spin_moment = 0.0;                 ///< of creep, about n, on the rail [N m]; 0 where the element does not know
+  double wheelset_z = 0.0;                  ///< where a load was given: the height found [m]
   double normal_force = 0.0;                ///< sum of F_n [N]
   double least_gap = 0.0;                   ///< < 0: greatest penetration [m]
   double give = 0.0;                        ///< how far a rail at rest would still sink under the wheel's load [m]

@@ -20,6 +20,7 @@
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 #include "treadmark/solvers/wheelrail/plausibility.hpp"
 #include "treadmark/solvers/wheelrail/present_part.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -134,6 +135,7 @@ PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
 Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)), state_(std::make_shared<State>()) {
   require_facing(geometry_.rail, Facing::up, "rail");
   require_facing(geometry_.wheel, Facing::down, "wheel");
+  rail_memory_ = std::make_unique<RailMemory>(*geometry_.rail);
   bodies_.rail = geometry_.rail.get(), bodies_.wheel = geometry_.wheel.get();
   bodies_.wheel_profile = detection::whole_profile(*geometry_.wheel);
 }
@@ -190,7 +192,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   if (geometry_.wheel->constant_profile() && !bodies_.wheel_lines &&
       p.discretisation.search == Discretisation::SearchGrid::reference_locus)
     bodies_.wheel_lines = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
-  PairStep step(geometry_, p, next->previous, solvers_, solution.times, bodies_);
+  PairStep step(geometry_, p, next->previous, solvers_, solution.times, bodies_, *rail_memory_);
   const double known = next->previous.stiffness;
   Balance balance =
       find_balance(step, p, known > 0.0 ? known : stiffest(p.material), next->previous.end_slope, known > 0.0);

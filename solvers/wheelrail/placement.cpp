@@ -15,6 +15,7 @@
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/rail_head.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -158,16 +159,18 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, dou
   return point;
 }
 
-Placement place(const Geometry& geometry, const Problem& p) {
+Placement place(const Geometry& geometry, const Problem& p, RailMemory* memory) {
+  RailMemory own(*geometry.rail);
+  RailMemory& rail = memory ? *memory : own;
   Placement placed;
   const Track& t = p.track;
   const double cant = p.roller ? 0.0 : t.cant;
   placed.X_TR.rotation = rotation_x(-cant + t.roll);
   if (t.gauge_based) {
     // A rail without a section at x = 0 is held where the wheelset is.
-    const Box3 box = geometry.rail->bounds();
+    const Box3& box = rail.box();
     const bool at_zero = p.roller || (box.min.x() <= 0.0 && box.max.x() >= 0.0);
-    const GaugePoint gauge = gauge_point(*geometry.rail, cant, t, at_zero ? 0.0 : p.state.position.x);
+    const GaugePoint gauge = rail.gauge(cant, t, at_zero ? 0.0 : p.state.position.x);
     placed.gauge_seen = gauge.seen;
     // A roller's height is that of its nominal circle.
     placed.X_TR.origin = {0.0, 0.5 * t.gauge_width - gauge.y + t.dy, (p.roller ? 0.0 : -gauge.z_top) + t.dz};

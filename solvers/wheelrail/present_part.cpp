@@ -17,6 +17,7 @@
 namespace treadmark::wheelrail {
 
 std::string missing_part(const Surface& wheel, double lowest) {
+  if (wheel.constant_profile()) return {};
   constexpr int kTurn = 360, kAcross = 17;
   constexpr double kDegree = std::numbers::pi / 180.0;
   const Box3 box = wheel.bounds();

@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/line.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
@@ -24,7 +23,7 @@ namespace treadmark::vehicle {
 
 namespace {
 
-using Columns = std::vector<ContactTableColumn>;
+using Columns = ContactTableColumns;
 
 void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::configuration, message);
@@ -46,6 +45,18 @@ void check(const Columns& columns, const std::vector<double>& loads, std::size_t
       require(k == 0 || c.z > column.under[k - 1].z, "the wheel of a contact table must sink as the load grows");
     }
   }
+}
+
+bool make_sense(const TableAngles& angles, int fewest) {
+  constexpr int kMost = 64;
+  constexpr double kSteepest = 0.2;  // [rad], what is small against 1
+  if (angles.intervals == 0) return true;
+  return angles.intervals >= fewest && angles.intervals <= kMost && angles.most > 0.0 && angles.most <= kSteepest;
+}
+
+void check(const TableAngles& roll, const TableAngles& yaw) {
+  require(make_sense(roll, 2) && make_sense(yaw, 1),
+          "a contact table needs rolls and yaws up to 200 mrad, with two intervals of roll and one of yaw at least");
 }
 
 template <class Value>
@@ -142,25 +153,58 @@ TableStretch stretch_of(Columns columns, const std::vector<double>& loads, std::
 
 }  // namespace
 
-ContactTable::ContactTable(Columns columns, Loads loads, wheelrail::Problem problem,
-                           const wheelrail::Placement& nominal, Growth growth)
+std::vector<TableTurn> table_turns(const TableAngles& roll, const TableAngles& yaw) {
+  const auto angle = [](const TableAngles& angles, double share) {
+    return angles.intervals == 0 ? 0.0 : angles.most * share / angles.intervals;
+  };
+  std::vector<TableTurn> turns;
+  for (int i = 0; i <= roll.intervals; ++i)
+    for (int j = 0; j <= yaw.intervals; ++j) turns.push_back({angle(roll, 2.0 * i - roll.intervals), angle(yaw, j)});
+  return turns;
+}
+
+ContactTable::ContactTable(std::vector<Columns> sheets, Loads loads, wheelrail::Problem problem,
+                           const wheelrail::Placement& nominal, const TableAngles& roll, const TableAngles& yaw,
+                           Growth growth)
     : loads_(std::move(loads)),
       problem_(std::move(problem)),
       nominal_(nominal),
-      growth_(std::move(growth)),
-      central_(stretch_of(std::move(columns), loads_.first, loads_.reference, nullptr)) {}
+      roll_(roll),
+      yaw_(yaw),
+      growth_(std::move(growth)) {
+  check(roll, yaw);
+  if (!growth_.heavier) loads_.heavier.clear();
+  require(loads_.first.size() + loads_.heavier.size() <= kMostLevels, "a contact table has eight loads at most");
+  const std::vector<TableTurn> turns = table_turns(roll, yaw);
+  require(sheets.size() == turns.size(), "a contact table needs a sheet for every roll and yaw");
+  sheets_.reserve(sheets.size());
+  double highest = 0.0;  // of contact places [m]
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    sheets_.push_back({turns[i], stretch_of(std::move(sheets[i]), loads_.first, loads_.reference, nullptr)});
+    const TableStretch& central = sheets_.back().central;
+    y_min_ = std::max(y_min_, central.y_min), y_max_ = std::min(y_max_, central.y_max);
+    for (const ContactTableColumn& column : central.columns)
+      highest = std::max(highest, std::abs(column.under[loads_.reference].wheel_z));
+  }
+  // A place between two rolls is looked up in up to four sheets, aside by the turn times the height of the contact.
+  if (roll.intervals > 0) {
+    const double aside = 2.0 * (2.0 * roll.most / roll.intervals) * highest;
+    y_min_ += aside, y_max_ -= aside;
+  }
+  require(y_min_ < y_max_, "a contact table has too few lateral positions for its rolls and yaws");
+}
 
-const TableStretch* ContactTable::beyond(double y) const {
+const TableStretch* ContactTable::beyond(double y, const Sheet& sheet) const {
   if (!growth_.beyond || !std::isfinite(y)) return nullptr;
   const bool high = y > 0.0;
-  Wing& wing = high ? high_ : low_;
+  Wing& wing = high ? sheet.high : sheet.low;
   const std::lock_guard lock(growing_);
   for (;;) {
     for (const TableStretch& stretch : wing.made)
       if (y >= stretch.y_min && y <= stretch.y_max) return &stretch;
     if (wing.ended) return nullptr;
-    const TableStretch& last = wing.made.empty() ? central_ : wing.made.back();
-    Columns columns = growth_.beyond(high ? last.y_max : last.y_min);
+    const TableStretch& last = wing.made.empty() ? sheet.central : wing.made.back();
+    Columns columns = growth_.beyond(sheet.turn, high ? last.y_max : last.y_min);
     if (columns.size() < 2)
       wing.ended = true;
     else
@@ -168,22 +212,23 @@ const TableStretch* ContactTable::beyond(double y) const {
   }
 }
 
-const TableStretch* ContactTable::heavier(const TableStretch& stretch) const {
-  if (!growth_.heavier || loads_.heavier.empty()) return nullptr;
+const TableStretch* ContactTable::heavier(const TableStretch& stretch, std::size_t index) const {
+  if (loads_.heavier.empty()) return nullptr;
+  const Sheet& sheet = sheets_[index];
   std::vector<double> loads = loads_.first;
   loads.insert(loads.end(), loads_.heavier.begin(), loads_.heavier.end());
   const auto make = [&](const TableStretch& from, const TableStretch* beside) {
-    return stretch_of(growth_.heavier(from.columns), loads, loads_.reference, beside);
+    return stretch_of(growth_.heavier(sheet.turn, from.columns), loads, loads_.reference, beside);
   };
   const std::lock_guard lock(growing_);
-  if (!central_heavier_) central_heavier_ = make(central_, nullptr);
-  if (&stretch == &central_) return &*central_heavier_;
+  if (!sheet.central_heavier) sheet.central_heavier = make(sheet.central, nullptr);
+  if (&stretch == &sheet.central) return &*sheet.central_heavier;
   // One after the other, as each goes on from the one before.
-  for (Wing* wing : {&low_, &high_}) {
+  for (Wing* wing : {&sheet.low, &sheet.high}) {
     if (ranges::none_of(wing->made, [&](const TableStretch& one) { return &one == &stretch; })) continue;
     for (std::size_t i = 0; i < wing->made.size(); ++i) {
       if (wing->heavier.size() == i)
-        wing->heavier.push_back(make(wing->made[i], i == 0 ? &*central_heavier_ : &wing->heavier.back()));
+        wing->heavier.push_back(make(wing->made[i], i == 0 ? &*sheet.central_heavier : &wing->heavier.back()));
       if (&wing->made[i] == &stretch) return &wing->heavier[i];
     }
   }
@@ -207,9 +252,11 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
   if (p.roller) refuse("a contact table knows no rollers");
   if (!(load > 0.0) || !std::isfinite(load))
     refuse("the reference load of a contact table must be positive and finite");
-  for (const double length : {options.lateral_range, options.growth, options.step, options.element_size})
+  for (const double length : {options.lateral_range, options.step, options.element_size})
     if (!(length > 0.0) || !std::isfinite(length))
       refuse("range, step and element size of a contact table must be positive and finite");
+  if (!(options.growth >= 0.0) || !std::isfinite(options.growth))
+    refuse("a contact table must grow by a finite length that is not negative");
   std::vector<double> loads = options.relative_loads;
   loads.insert(loads.end(), options.heavier.begin(), options.heavier.end());
   if (loads.empty() || !(loads.front() > 0.0) || !std::isfinite(loads.back()) ||
@@ -219,6 +266,7 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
   if (!(options.step <= options.lateral_range) || options.lateral_range / options.step > kMostSteps)
     refuse(fmt::format("a contact table over +-{:.6g} mm cannot have a step of {:.6g} mm", 1e3 * options.lateral_range,
                        1e3 * options.step));
+  check(options.roll, options.yaw);
 }
 
 /// Rows of a patch's elements that belong together.
@@ -315,10 +363,12 @@ ContactPart part_of(const Rows& rows, const Surface& rail, const Pose& X_TR, dou
           0.5 * std::log(second.x() / second.y())};
 }
 
-ContactUnderLoad under_load(const Surface& rail, double y, double load, const wheelrail::PairSolution& s,
-                            const Vec3& wheel_origin) {
+/// wheel_origin: of the wheel's profile at rest; moved: how far it is from there.
+ContactUnderLoad under_load(const Surface& rail, double load, const wheelrail::PairSolution& s,
+                            const Vec3& wheel_origin, const Vec3& moved) {
   ContactUnderLoad c;
-  c.z = s.z;
+  c.z = moved.z();
+  const Vec3 origin = wheel_origin + moved;
   double height = 0.0, normal_force = 0.0;
   for (const wheelrail::PatchSolution& patch : s.patches) {
     c.elastic_energy += patch.contact.elastic_energy;
@@ -334,14 +384,14 @@ ContactUnderLoad under_load(const Surface& rail, double y, double load, const wh
   const double place_y = marker.y() + (s.load.track.moment.x() + (z - marker.z()) * force.y()) / force.z();
   const double per_vertical = std::sqrt(1.0 + c.slope * c.slope),
                to_wheel = 2.5 * c.elastic_energy / load / (per_vertical * per_vertical);
-  c.wheel_y = place_y - c.slope * to_wheel - (wheel_origin.y() + y);
-  c.wheel_z = z + to_wheel - (wheel_origin.z() + s.z);
+  c.wheel_y = place_y - c.slope * to_wheel - origin.y();
+  c.wheel_z = z + to_wheel - origin.z();
   double carried = 0.0;
   for (const Rows& rows : parts_of(s)) {
     ContactPart& part = c.parts.emplace_back(part_of(rows, rail, s.placement.X_TR, to_wheel * per_vertical));
     carried += rows.force;
-    part.wheel_y -= wheel_origin.y() + y;
-    part.wheel_z -= wheel_origin.z() + s.z;
+    part.wheel_y -= origin.y();
+    part.wheel_z -= origin.z();
   }
   if (c.parts.size() == 1) {
     ContactPart& all = c.parts.front();
@@ -367,14 +417,16 @@ bool part(const wheelrail::PairSolution& s) {
 
 class Builder {
  public:
-  Builder(const wheelrail::Geometry& geometry, const wheelrail::Problem& rest, const wheelrail::Placement& nominal,
-          std::vector<double> loads, double reference_load, bool parallel)
-      : geometry_(geometry),
-        rest_(rest),
-        wheel_origin_(nominal.X_TW.origin),
-        loads_(std::move(loads)),
-        reference_(reference_load),
-        parallel_(parallel) {}
+  Builder(const wheelrail::Geometry& geometry, const wheelrail::Problem& rest, std::vector<double> loads,
+          double reference_load, const TableTurn& turn, bool parallel)
+      : geometry_(geometry), rest_(rest), loads_(std::move(loads)), reference_(reference_load), parallel_(parallel) {
+    const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
+    wheel_origin_ = nominal.X_TW.origin;
+    rest_.state.position.roll = turn.roll, rest_.state.position.yaw = turn.yaw;
+    if (turn.roll == 0.0 && turn.yaw == 0.0) return;
+    const Vec3 arm = wheel_origin_ - nominal.X_TWs.origin;
+    turned_aside_ = rotation_x(turn.roll) * rotation_z(turn.yaw) * arm - arm;
+  }
 
   std::vector<Attempt> solve(const std::vector<double>& y) const {
     std::vector<Attempt> attempts(y.size());
@@ -409,7 +461,7 @@ class Builder {
     std::vector<ContactUnderLoad>& under = a.column.under;
     const std::size_t loads = loads_.size();
     wheelrail::Problem p = rest_;
-    p.state.position.y = a.column.y;
+    p.state.position.y = a.column.y - turned_aside_.y();
     wheelrail::Pair pair(geometry_);
     while (under.size() < loads) {
       const double load = loads_[under.size()];
@@ -419,8 +471,9 @@ class Builder {
       const wheelrail::PairSolution s = pair.solve(p);
       a.parts = a.parts || (load <= reference_ && part(s));
       a.message = s.message;
-      if (s.status != Status::ok || s.patches.empty() || !(under.empty() || s.z > under.back().z)) break;
-      under.push_back(under_load(*geometry_.rail, a.column.y, load, s, wheel_origin_));
+      const Vec3 moved(0.0, a.column.y, s.z + turned_aside_.z());
+      if (s.status != Status::ok || s.patches.empty() || !(under.empty() || moved.z() > under.back().z)) break;
+      under.push_back(under_load(*geometry_.rail, load, s, wheel_origin_, moved));
     }
     if (under.size() < loads && (under.empty() || loads_[under.size() - 1] < reference_)) return false;
     while (under.size() < loads) under.push_back(like_hertz(under));
@@ -440,23 +493,24 @@ class Builder {
   }
 
   const wheelrail::Geometry& geometry_;
-  const wheelrail::Problem& rest_;
-  Vec3 wheel_origin_;
+  wheelrail::Problem rest_;
   static constexpr double kFine = 2.0;  ///< up to so much of the reference load elements are as wanted
   std::vector<double> loads_;
   double reference_;
   bool parallel_;
+  Vec3 wheel_origin_;                 ///< of its profile, at rest
+  Vec3 turned_aside_ = Vec3::Zero();  ///< what turning the wheelset about its centre moves it by
 };
 
 constexpr std::size_t kMostBetween = 3;  ///< columns without a solution between two that have one
 
 /// Those round the central one that have a solution.
-std::vector<ContactTableColumn> connected(const std::vector<Attempt>& attempts, std::size_t centre) {
+Columns connected(const std::vector<Attempt>& attempts, std::size_t centre) {
   if (!attempts[centre].solved)
     throw Error(ErrorKind::numerical,
                 "wheel and rail have no contact in their central position: " + attempts[centre].message, {},
                 "check gauge, flange-back distance and profiles; smooth those that were measured");
-  std::vector<ContactTableColumn> columns{attempts[centre].column};
+  Columns columns{attempts[centre].column};
   for (const int way : {-1, 1}) {
     std::size_t without = 0;
     for (auto i = static_cast<std::ptrdiff_t>(centre) + way;
@@ -480,7 +534,7 @@ bool differ_much(const ContactTableColumn& a, const ContactTableColumn& b) {
 }
 
 /// Columns between those whose contacts differ much.
-void refine(const Builder& builder, std::vector<ContactTableColumn>& columns) {
+void refine(const Builder& builder, Columns& columns) {
   constexpr int kTimes = 3;
   for (int time = 0; time < kTimes; ++time) {
     std::vector<double> between;
@@ -524,34 +578,36 @@ std::vector<double> loads_of(double reference_load, const ContactTableOptions& o
 
 }  // namespace
 
-std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry& geometry,
-                                                      const wheelrail::Problem& prototype, double reference_load,
-                                                      const ContactTableOptions& options) {
+std::vector<Columns> solve_contact_sheets(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
+                                          double reference_load, const ContactTableOptions& options,
+                                          const Progress& progress) {
   check(geometry, prototype, reference_load, options);
   const wheelrail::Problem rest = table_problem(prototype, options);
-  const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
-  const Builder builder(geometry, rest, nominal, loads_of(reference_load, options), reference_load, true);
-
   constexpr double kRounding = 1e-9;
   const auto each_way = to_whole<std::size_t>(options.lateral_range / options.step + kRounding);
   std::vector<double> y;
   for (std::size_t i = 0; i <= 2 * each_way; ++i)
     y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));
-  std::vector<ContactTableColumn> columns = connected(builder.solve(y), each_way);
-  refine(builder, columns);
-  return columns;
+
+  const std::vector<TableTurn> turns = table_turns(options.roll, options.yaw);
+  std::vector<Columns> sheets;
+  for (const TableTurn& turn : turns) {
+    const Builder builder(geometry, rest, loads_of(reference_load, options), reference_load, turn, true);
+    refine(builder, sheets.emplace_back(connected(builder.solve(y), each_way)));
+    if (progress.report) progress.report(sheets.size(), turns.size(), "contact under load");
+  }
+  return sheets;
 }
 
-std::vector<ContactTableColumn> solve_columns_beyond(const wheelrail::Geometry& geometry,
-                                                     const wheelrail::Problem& prototype, double reference_load,
-                                                     double from, const ContactTableOptions& options) {
-  const wheelrail::Problem rest = table_problem(prototype, options);
+Columns solve_columns_beyond(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
+                             double reference_load, const TableTurn& turn, double from,
+                             const ContactTableOptions& options) {
   // One after the other: whoever evaluates wheels on several threads may wait for this table.
-  const Builder builder(geometry, rest, wheelrail::place(geometry, rest), loads_of(reference_load, options),
-                        reference_load, false);
+  const Builder builder(geometry, table_problem(prototype, options), loads_of(reference_load, options), reference_load,
+                        turn, false);
   const double step = std::copysign(options.step, from);
   const auto most = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(options.growth / std::abs(step))));
-  std::vector<ContactTableColumn> columns;
+  Columns columns;
   for (std::size_t i = 0, without = 0; i <= most && without <= kMostBetween; ++i) {
     const Attempt a = builder.attempt(from + static_cast<double>(i) * step);
     if (a.parts && i > 0) break;
@@ -564,17 +620,16 @@ std::vector<ContactTableColumn> solve_columns_beyond(const wheelrail::Geometry& 
 }
 
 Columns solve_heavier(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype, double reference_load,
-                      Columns columns, const ContactTableOptions& options) {
-  const wheelrail::Problem rest = table_problem(prototype, options);
+                      const TableTurn& turn, Columns columns, const ContactTableOptions& options) {
   std::vector<double> loads = loads_of(reference_load, options);
   const std::vector<double> heavier = multiplied(options.heavier, reference_load);
   loads.insert(loads.end(), heavier.begin(), heavier.end());
-  Builder(geometry, rest, wheelrail::place(geometry, rest), std::move(loads), reference_load, false)
+  Builder(geometry, table_problem(prototype, options), std::move(loads), reference_load, turn, false)
       .press_harder(columns);
   return columns;
 }
 
-std::shared_ptr<const ContactTable> contact_table_of(Columns columns, const wheelrail::Geometry& geometry,
+std::shared_ptr<const ContactTable> contact_table_of(std::vector<Columns> sheets, const wheelrail::Geometry& geometry,
                                                      const wheelrail::Problem& prototype, double reference_load,
                                                      const ContactTableOptions& options, ContactTable::Growth growth) {
   const wheelrail::Problem rest = table_problem(prototype, options);
@@ -582,17 +637,22 @@ std::shared_ptr<const ContactTable> contact_table_of(Columns columns, const whee
       ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
   const ContactTable::Loads loads{loads_of(reference_load, options), multiplied(options.heavier, reference_load),
                                   static_cast<std::size_t>(nearest - options.relative_loads.begin())};
-  return std::make_shared<ContactTable>(std::move(columns), loads, rest, wheelrail::place(geometry, rest),
-                                        std::move(growth));
+  if (options.growth == 0.0) growth.beyond = nullptr;
+  return std::make_shared<ContactTable>(std::move(sheets), loads, rest, wheelrail::place(geometry, rest), options.roll,
+                                        options.yaw, std::move(growth));
 }
 
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
                                                         const wheelrail::Problem& prototype, double reference_load,
                                                         const ContactTableOptions& options) {
-  return contact_table_of(
-      solve_contact_columns(geometry, prototype, reference_load, options), geometry, prototype, reference_load, options,
-      {[=](double from) { return solve_columns_beyond(geometry, prototype, reference_load, from, options); },
-       [=](const Columns& columns) { return solve_heavier(geometry, prototype, reference_load, columns, options); }});
+  return contact_table_of(solve_contact_sheets(geometry, prototype, reference_load, options), geometry, prototype,
+                          reference_load, options,
+                          {[=](const TableTurn& turn, double from) {
+                             return solve_columns_beyond(geometry, prototype, reference_load, turn, from, options);
+                           },
+                           [=](const TableTurn& turn, const Columns& columns) {
+                             return solve_heavier(geometry, prototype, reference_load, turn, columns, options);
+                           }});
 }
 
 namespace {
@@ -605,7 +665,7 @@ constexpr double ContactPart::*kPartNumbers[] = {&ContactPart::share,   &Contact
 
 }  // namespace
 
-void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& out) {
+void write_columns(const Columns& columns, ByteWriter& out) {
   out.put(columns.size());
   for (const auto& [y, under] : columns) {
     out.put(y);
@@ -619,8 +679,8 @@ void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& o
   }
 }
 
-std::vector<ContactTableColumn> read_columns(ByteReader& in) {
-  std::vector<ContactTableColumn> columns;
+Columns read_columns(ByteReader& in) {
+  Columns columns;
   for (auto count = in.get<std::size_t>(); count > 0; --count) {
     ContactTableColumn& column = columns.emplace_back();
     in.get(column.y);
@@ -670,10 +730,9 @@ ShapeCurve ShapeCurve::monotone(std::vector<double> x, std::vector<double> value
   return {std::move(x), std::move(value), std::move(slope)};
 }
 
-ShapeCurve::Point ShapeCurve::at(double x) const {
+ShapeCurve::Point ShapeCurve::at(double x, std::size_t i) const {
   if (x <= x_.front()) return {value_.front() + slope_.front() * (x - x_.front()), slope_.front()};
   if (x >= x_.back()) return {value_.back() + slope_.back() * (x - x_.back()), slope_.back()};
-  const std::size_t i = piece_at(x_, x);
   const double length = x_[i + 1] - x_[i], chord = (value_[i + 1] - value_[i]) / length, first = slope_[i],
                last = slope_[i + 1];
   // The slope runs straight from its first value to 'middle' at the share 'knot' of the way, and on to its last value;

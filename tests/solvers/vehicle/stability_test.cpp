@@ -38,18 +38,20 @@ struct Wheelset {
 /// Contact of a cone with an edge: the contact stays on the edge, and the cone slides up or down on it.
 std::shared_ptr<const ContactTable> cone_on_edge(const Wheelset& w) {
   const double load = 0.5 * w.weight();
-  std::vector<ContactTableColumn> columns;
-  for (const double y : {-8e-3, -4e-3, 0.0, 4e-3, 8e-3})
+  ContactTableColumns columns;
+  for (const double y : {-8e-3, -4e-3, 0.0, 4e-3, 8e-3}) {
+    const ContactPart all{1.0, std::atan(-w.conicity), -y, w.conicity * y, w.area, std::log(w.aspect)};
     columns.push_back(
-        {y,
-         {{w.approach - w.conicity * y, 0.4 * load * w.approach, -w.conicity, -y, w.conicity * y, w.area, w.aspect}}});
+        {y, {{w.approach - w.conicity * y, 0.4 * load * w.approach, -w.conicity, -y, w.conicity * y, {all}}}});
+  }
   wheelrail::Problem p;
   p.friction.kinetic = 1e4;  // no saturation
   p.wheelset.nominal_radius = w.radius;
   wheelrail::Placement nominal;
   nominal.X_TR.origin = nominal.X_TW.origin = Vec3(0.0, w.half_distance, 0.0);
   nominal.X_TWs.origin = Vec3(0.0, 0.0, -w.radius);
-  return std::make_shared<ContactTable>(columns, std::vector{load}, 0, p, nominal);
+  return std::make_shared<ContactTable>(std::vector<ContactTableColumns>{columns}, ContactTable::Loads{{load}}, p,
+                                        nominal);
 }
 
 VehicleAtSpeed on_edges(const Wheelset& w) {
