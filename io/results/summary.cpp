@@ -86,10 +86,12 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
                             Block::creepage, Block::energy, Block::relative, Block::heat, Block::count})
     for (const Quantity<PatchResult>& row : quantities<PatchResult>()) {
       if (row.block != block || row.label.text.empty() || !has_block(patches.front(), block)) continue;
+      const auto known = [&](const PatchResult& p) { return row.has(p) && std::isfinite(row.access.get(p)); };
+      if (ranges::none_of(patches, known)) continue;
       const Unit& unit = row.unit_in(shift);
       table.row(shift && !row.label.in_shift.empty() ? row.label.in_shift : row.label.text,
                 unit.shown.empty() ? "" : fmt::format("[{}]", unit.shown), patches, [&](const PatchResult& p) {
-                  return row.has(p) ? in_digits(unit.to_shown(row.access.get(p)), row.label.digits) : "";
+                  return known(p) ? in_digits(unit.to_shown(row.access.get(p)), row.label.digits) : "";
                 });
     }
   table.row("  adhesion / slip", "", patches,
