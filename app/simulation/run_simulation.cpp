@@ -203,7 +203,10 @@ class Run {
       } catch (const Cancelled&) {
         return stop();
       }
-      if (!simulation_->derailed().empty()) return;
+      if (!simulation_->derailed().empty()) {
+        if (last_written(0) < simulation_->state().time) record_->append(result_.values);
+        return;
+      }
       summary_->note();
       snapshots_.take_passed(*simulation_, before);
       if (due(built_.vehicle.travel(simulation_->state().time).distance)) record_->append(result_.values);
@@ -227,12 +230,16 @@ class Run {
     result_.message = fmt::format("stopped at t = {:.6g} s", simulation_->state().time);
   }
 
+  /// Of the last instant that was written down: 0: when, 1: where.
+  double last_written(std::size_t column) const {
+    return result_.values[result_.values.size() - result_.columns.size() + column];
+  }
+
   /// Whether the instant at x is to be written down.
   bool due(double x) {
     const double every = file_.settings.output_every;
     if (every <= 0.0 || simulation_->finished()) return true;
-    const double last = result_.values[result_.values.size() - result_.columns.size() + 1];
-    return std::floor(x / every) > std::floor(last / every);
+    return std::floor(x / every) > std::floor(last_written(1) / every);
   }
 
   void finish() {

@@ -132,7 +132,7 @@ class Falls {
     remove_file(store);
     io::SimulationResult result = run_simulation(file, store_, options, progress_);
     write_simulation_folder(folder, result);
-    if (result.status == "complete") remove_file(options.checkpoint_file);
+    if (result.ended()) remove_file(options.checkpoint_file);
     return result;
   }
 

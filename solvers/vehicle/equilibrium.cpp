@@ -350,6 +350,10 @@ void run_in(const VehicleOnTrack& vehicle, const Balance& balance, const Equilib
     Simulation simulation(staying(vehicle), balance.start(), run);
     for (int piece = 1; piece <= kPieces && found.residual > settings.acceptable; ++piece) {
       while (!simulation.finished() && simulation.state().time * vehicle.speed < piece * kLength) simulation.advance();
+      if (!simulation.derailed().empty()) {
+        why = simulation.derailed();
+        return;
+      }
       Equilibrium now;
       now.state = balance.standing(simulation.state());
       now.iterations = found.iterations;
