@@ -29,6 +29,19 @@ void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::configuration, message);
 }
 
+constexpr double ContactUnderLoad::*kNumbers[] = {&ContactUnderLoad::z, &ContactUnderLoad::elastic_energy,
+                                                  &ContactUnderLoad::slope, &ContactUnderLoad::wheel_y,
+                                                  &ContactUnderLoad::wheel_z};
+constexpr double ContactPart::*kPartNumbers[] = {&ContactPart::share,   &ContactPart::angle, &ContactPart::wheel_y,
+                                                 &ContactPart::wheel_z, &ContactPart::area,  &ContactPart::log_aspect};
+
+bool is_finite(const ContactUnderLoad& c) {
+  return ranges::all_of(kNumbers, [&](auto number) { return std::isfinite(c.*number); }) &&
+         ranges::all_of(c.parts, [](const ContactPart& part) {
+           return ranges::all_of(kPartNumbers, [&](auto number) { return std::isfinite(part.*number); });
+         });
+}
+
 void check(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
   require(columns.size() >= 2, "a contact table needs two lateral positions or more");
   require(!loads.empty() && loads.front() > 0.0 && std::isfinite(loads.back()) &&
@@ -37,6 +50,8 @@ void check(const Columns& columns, const std::vector<double>& loads, std::size_t
   require(reference_level < loads.size(), "a contact table has no such reference level");
   for (const ContactTableColumn& column : columns) {
     require(column.under.size() == loads.size(), "every lateral position of a contact table needs all loads");
+    require(std::isfinite(column.y) && ranges::all_of(column.under, is_finite),
+            "a contact table holds what is no number");
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const ContactUnderLoad& c = column.under[k];
       require(c.elastic_energy > 0.0 && !c.parts.empty() && c.parts.size() <= kMostParts &&
@@ -154,6 +169,7 @@ TableStretch stretch_of(Columns columns, const std::vector<double>& loads, std::
 }  // namespace
 
 std::vector<TableTurn> table_turns(const TableAngles& roll, const TableAngles& yaw) {
+  check(roll, yaw);
   const auto angle = [](const TableAngles& angles, double share) {
     return angles.intervals == 0 ? 0.0 : angles.most * share / angles.intervals;
   };
@@ -172,7 +188,6 @@ ContactTable::ContactTable(std::vector<Columns> sheets, Loads loads, wheelrail::
       roll_(roll),
       yaw_(yaw),
       growth_(std::move(growth)) {
-  check(roll, yaw);
   if (!growth_.heavier) loads_.heavier.clear();
   require(loads_.first.size() + loads_.heavier.size() <= kMostLevels, "a contact table has eight loads at most");
   const std::vector<TableTurn> turns = table_turns(roll, yaw);
@@ -312,6 +327,7 @@ std::vector<Rows> parts_of(const wheelrail::PairSolution& s) {
   std::vector<Rows> parts;
   double all = 0.0;
   for (const wheelrail::PatchSolution& patch : s.patches) {
+    if (!(patch.contact.force_n > 0.0)) continue;  // it was looked at, and is none
     parts.push_back({&patch, 0, patch.grid.ny - 1, patch.contact.force_n});
     all += patch.contact.force_n;
   }
@@ -473,7 +489,9 @@ class Builder {
       a.message = s.message;
       const Vec3 moved(0.0, a.column.y, s.z + turned_aside_.z());
       if (s.status != Status::ok || s.patches.empty() || !(under.empty() || moved.z() > under.back().z)) break;
-      under.push_back(under_load(*geometry_.rail, load, s, wheel_origin_, moved));
+      const ContactUnderLoad c = under_load(*geometry_.rail, load, s, wheel_origin_, moved);
+      if (!is_finite(c)) break;
+      under.push_back(c);
     }
     if (under.size() < loads && (under.empty() || loads_[under.size() - 1] < reference_)) return false;
     while (under.size() < loads) under.push_back(like_hertz(under));
@@ -655,16 +673,6 @@ std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometr
                            }});
 }
 
-namespace {
-
-constexpr double ContactUnderLoad::*kNumbers[] = {&ContactUnderLoad::z, &ContactUnderLoad::elastic_energy,
-                                                  &ContactUnderLoad::slope, &ContactUnderLoad::wheel_y,
-                                                  &ContactUnderLoad::wheel_z};
-constexpr double ContactPart::*kPartNumbers[] = {&ContactPart::share,   &ContactPart::angle, &ContactPart::wheel_y,
-                                                 &ContactPart::wheel_z, &ContactPart::area,  &ContactPart::log_aspect};
-
-}  // namespace
-
 void write_columns(const Columns& columns, ByteWriter& out) {
   out.put(columns.size());
   for (const auto& [y, under] : columns) {
@@ -691,6 +699,7 @@ Columns read_columns(ByteReader& in) {
         ContactPart& part = c.parts.emplace_back();
         for (const auto number : kPartNumbers) in.get(part.*number);
       }
+      if (!is_finite(c) || !std::isfinite(column.y)) refuse_saved_state("a contact table holds what is no number");
     }
   }
   return columns;

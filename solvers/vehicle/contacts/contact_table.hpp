@@ -56,7 +56,7 @@ struct TableAngles {
 struct TableTurn {
   double roll = 0.0, yaw = 0.0;
 };
-/// Of all sheets of a table, all yaws of the first roll first.
+/// Of all sheets of a table, all yaws of the first roll first. Errors: Error(configuration) for angles without meaning.
 std::vector<TableTurn> table_turns(const TableAngles& roll, const TableAngles& yaw);
 
 struct ContactTableOptions {
@@ -66,10 +66,10 @@ struct ContactTableOptions {
   double element_size = 0.5e-3;  ///< of the contact problems, dx = ds [m]; grows with what is pressed harder
   /// Loads over the reference load, increasing. One: a Hertzian spring. More: its stiffness follows the profiles from
   /// load to load, and like Hertz beyond the last one, or one above the reference that has no solution.
-  std::vector<double> relative_loads = {0.3, 0.6, 1.0, 2.0};
-  std::vector<double> heavier = {5.0, 10.0};  ///< what it grows by where a wheel is pressed harder than by all of these
-  TableAngles roll = {};                      ///< of the wheel against the rail
-  TableAngles yaw = {};                       ///< of the wheelset
+  std::vector<double> relative_loads = {0.3, 0.6, 1.0, 1.4, 2.0};
+  std::vector<double> heavier = {3.5, 7.0, 10.0};  ///< what it grows by where a wheel is pressed harder than by these
+  TableAngles roll = {};                           ///< of the wheel against the rail
+  TableAngles yaw = {};                            ///< of the wheelset
 };
 
 /// What a wheel touches the rail with: a patch, or a part of one between two valleys of its pressure.
@@ -140,7 +140,8 @@ class ContactTable {
 
   /// sheets: columns of each of table_turns, with the contact under the first loads. problem: of which track, wheelset,
   /// material and friction count; nominal: its placement at rest. Errors: Error(configuration) for less than two
-  /// columns, loads or compressions that do not increase, other numbers of sheets, angles without meaning.
+  /// columns, loads or compressions that do not increase, what is no finite number, other numbers of sheets, angles
+  /// without meaning.
   ContactTable(std::vector<ContactTableColumns> sheets, Loads loads, wheelrail::Problem problem,
                const wheelrail::Placement& nominal, const TableAngles& roll = {}, const TableAngles& yaw = {},
                Growth growth = {});
@@ -227,7 +228,7 @@ std::shared_ptr<const ContactTable> contact_table_of(std::vector<ContactTableCol
                                                      ContactTable::Growth growth = {});
 
 void write_columns(const ContactTableColumns& columns, ByteWriter& out);
-/// Errors: Error(input_data) for bytes that end too early.
+/// Errors: Error(input_data) for bytes that end too early, and for what is no finite number.
 ContactTableColumns read_columns(ByteReader& in);
 
 }  // namespace treadmark::vehicle

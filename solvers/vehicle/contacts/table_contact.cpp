@@ -218,10 +218,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion, cons
     r.spin_moment += moment;
     r.frictional_power += weight * creep.power;
     patches += weight;
-    if (i == 0)
-      r.tangents.front().damping_x = damping.x(), r.tangents.front().damping_s = damping.y();
-    else
-      r.tangents.push_back({X_TC, 0.0, damping.x(), damping.y(), 0.0});
+    r.tangents.push_back({X_TC, 0.0, damping.x(), damping.y(), 0.0});
     if (!part.strongest) continue;
     r.contact_x += weight * X_TC.origin.x();
     r.contact_y += weight * X_TC.origin.y();

@@ -13,7 +13,6 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
-#include "treadmark/solvers/vehicle/contacts/full_contact.hpp"
 #include "treadmark/solvers/vehicle/multibody.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
@@ -185,7 +184,6 @@ struct Wheel {
   const char* name;
   std::function<std::shared_ptr<const Surface>()> make;
   double least_y, most_y;  ///< that the table must reach [m]
-  double error = 0.03;     ///< of the vertical force at the same height, at most
 };
 void PrintTo(const Wheel& wheel, std::ostream* out) { *out << wheel.name; }
 
@@ -210,16 +208,32 @@ TEST_P(WholeRange, ElasticForcesAreThoseOfTheSolvedContact) {
   const wheelrail::Problem problem = standard_problem(1.0 / 40.0);
   const auto table = build_contact_table(bodies, problem, kLoad);
   TableContact element(table, Side::right);
+  constexpr double kForce = 0.03;  // of the vertical force at the same height
+  const auto solve = [&](double y, double load) {
+    wheelrail::Problem p = problem;
+    p.state.position.y = y;
+    p.vertical_force = load;
+    p.regime = kalker::Regime::frictionless;
+    return wheelrail::Pair(bodies).solve(p);
+  };
+  // Of what gives way without loss: the tangent of the force is how the height less the energy over the load changes
+  // aside, under the same load.
+  const auto slope = [&](double y, double load) {
+    constexpr double kStep = 0.1e-3;  // heights are good to 10 nm, from elements to elements
+    double height[2];
+    for (const int way : {0, 1}) {
+      const wheelrail::PairSolution s = solve(y + (way == 0 ? -kStep : kStep), load);
+      height[way] = s.status == Status::ok ? s.z : std::nan("");
+      for (const wheelrail::PatchSolution& patch : s.patches) height[way] -= patch.contact.elastic_energy / load;
+    }
+    return (height[1] - height[0]) / (2.0 * kStep);
+  };
   double least = 0.0, most = 0.0;
   for (const int way : {-1, 1})
     for (double y = 0.3e-3 * way; table->at(y) != nullptr; y += 3.1e-3 * way)
       for (const double load : {3e4, 1e5, 7.5e5}) {
         SCOPED_TRACE(::testing::Message() << "y = " << 1e3 * y << " mm, " << 1e-3 * load << " kN");
-        wheelrail::Problem p = problem;
-        p.state.position.y = y;
-        p.vertical_force = load;
-        p.regime = kalker::Regime::frictionless;
-        const wheelrail::PairSolution s = wheelrail::Pair(bodies).solve(p);
+        const wheelrail::PairSolution s = solve(y, load);
         if (s.status != Status::ok) continue;  // more than the material could bear, or at the end of a profile
         if (load < kLoad) least = std::min(least, y), most = std::max(most, y);
         PairMotion m;
@@ -227,11 +241,10 @@ TEST_P(WholeRange, ElasticForcesAreThoseOfTheSolvedContact) {
         m.wheelset.z = s.z;
         const ContactReaction r = element.evaluate(m);
         ASSERT_EQ(r.status, Status::ok) << r.message;
-        EXPECT_NEAR(r.on_rail.force.z(), load, GetParam().error * load);
-        // In the flange's root, and the more the harder it is pressed, the plane of the solved contact is another one
-        // than what gives way.
+        EXPECT_NEAR(r.on_rail.force.z(), load, kForce * load);
         if (load > 2.0 * kLoad) continue;
-        const double angle = std::atan(-s.load.track.force.y() / s.load.track.force.z());
+        const double angle = std::atan(slope(y, load));
+        if (std::isnan(angle)) continue;  // at the end of a profile
         EXPECT_NEAR(std::atan(-r.on_rail.force.y() / r.on_rail.force.z()), angle, 0.002 + 0.06 * std::abs(angle));
       }
   EXPECT_LT(least, GetParam().least_y);
@@ -242,7 +255,7 @@ INSTANTIATE_TEST_SUITE_P(Wheels, WholeRange,
                          ::testing::Values(Wheel{"S1002", [] { return named_wheel("S1002"); }, -58e-3, 17e-3},
                                            Wheel{"cone10", [] { return named_wheel("cone 1:10"); }, -55e-3, 30e-3},
                                            Wheel{"cone4", [] { return named_wheel("cone 1:4"); }, -45e-3, 20e-3},
-                                           Wheel{"hollow", [] { return hollow_wheel(0.1); }, -18e-3, 20e-3, 0.05},
+                                           Wheel{"hollow", [] { return hollow_wheel(0.1); }, -18e-3, 20e-3},
                                            Wheel{"deep", [] { return hollow_wheel(0.25); }, -18e-3, 20e-3}),
                          [](const auto& wheel) { return wheel.param.name; });
 
@@ -359,34 +372,105 @@ TEST_P(AtPlace, FrictionTakesWhatTheForcesDoAndTheSpringDoesNotStore) {
 /// On the tread; on tread and flange root at a time.
 INSTANTIATE_TEST_SUITE_P(Places, AtPlace, ::testing::Values(2.3e-3, 5.3e-3));
 
-/// Where wheel and rail touch at two places, each rolls on a circle of its own and at an angle of its own. One ellipse
-/// at the resultant's place lost a third of the power and twice as much of the lateral force as is allowed here.
-TEST(TableContact, TwoContactsSlideByThemselves) {
-  wheelrail::Problem problem = standard_problem(1.0 / 40.0);
-  problem.regime = kalker::Regime::steady;
-  problem.discretisation.dx = problem.discretisation.ds = 0.4e-3;
-  problem.reference_surface = wheelrail::ReferenceSurface::plane_surface_slip;
-  constexpr double kWheelLoad = 54.5e3;
-  FullContact full(standard_geometry(), problem, 0.0, 1e-3);
-  TableContact element(build_contact_table(standard_geometry(), problem, kWheelLoad, {.lateral_range = 7e-3}),
-                       Side::right);
-  for (const auto& [y, yaw] : {std::pair{5e-3, 0.0}, {5e-3, 0.3e-3}, {5.3e-3, 0.5e-3}, {5.5e-3, 0.5e-3}}) {
-    SCOPED_TRACE(::testing::Message() << "y = " << 1e3 * y << " mm, yaw " << 1e3 * yaw << " mrad");
-    wheelrail::Problem p = problem;
-    p.state.position.y = y;
-    p.vertical_force = kWheelLoad;
-    p.regime = kalker::Regime::frictionless;
-    PairMotion m;
-    m.wheelset.y = y;
-    m.wheelset.z = wheelrail::Pair(standard_geometry()).solve(p).z;
-    m.wheelset.yaw = yaw;
-    m = rolling(m);
-    const ContactReaction r = element.evaluate(m), exact = full.evaluate(m);
-    EXPECT_EQ(r.patches, 2);
-    EXPECT_NEAR(r.frictional_power, exact.frictional_power, 0.07 * exact.frictional_power);
-    EXPECT_NEAR(r.longitudinal_creep_force, exact.longitudinal_creep_force, 0.07 * kWheelLoad * 0.3);
-    EXPECT_NEAR(r.lateral_creep_force, exact.lateral_creep_force, 0.07 * kWheelLoad * 0.3);
+/// A cone on a rail with two crests, canted until the cone lies on both: two contacts of half the load each, at one
+/// angle, on circles of which one is by what they are apart times the sine of this angle larger.
+struct TwoCrests {
+  double incline = 0.2, crest_radius = 0.1;        ///< [rad], [m]
+  double half_turn = 0.15, valley_length = 30e-3;  ///< of a crest to either side [rad]; [m]
+  double apart = (2.0 * crest_radius + valley_length / half_turn) * std::sin(half_turn);  ///< crests [m]
+
+  wheelrail::Geometry bodies() const {
+    const double aside = crest_radius * std::sin(half_turn), arc = 2.0 * crest_radius * half_turn;
+    ArcChain rail, cone;
+    rail.start_y = -0.5 * apart - aside;
+    rail.start_z = crest_radius * (1.0 - std::cos(half_turn));
+    rail.start_angle = -half_turn;
+    rail.segments = {
+        {arc, 1.0 / crest_radius}, {valley_length, -2.0 * half_turn / valley_length}, {arc, 1.0 / crest_radius}};
+    constexpr double kHalfWidth = 70e-3;
+    cone.start_y = -kHalfWidth;
+    cone.start_z = kHalfWidth * std::tan(incline);
+    cone.start_angle = -incline;
+    cone.segments = {{2.0 * kHalfWidth / std::cos(incline), 0.0}};
+    return {analytic::make_prismatic_surface(rail), analytic::make_revolved_surface(cone, kRadius), true, true};
   }
+  wheelrail::Problem problem(double friction) const {
+    wheelrail::Problem p;
+    p.track.gauge_based = false;
+    p.track.rail_y0 = 0.75;
+    p.track.cant = incline;
+    p.friction.kinetic = friction;
+    return p;
+  }
+  std::shared_ptr<const ContactTable> table(double friction) const {
+    return build_contact_table(bodies(), problem(friction), kLoad, {.lateral_range = 2e-3, .step = 0.5e-3});
+  }
+};
+
+/// Where wheel and rail touch at two places, each slides on a circle of its own. So far apart they slide altogether,
+/// and by Coulomb's law: a wheel that rolls freely on the mean circle loses the bound of friction of both over half the
+/// difference of both circles, though no force is left. One ellipse at the place of the resultant would roll.
+TEST(TableContact, TwoContactsSlideByThemselves) {
+  constexpr double kFriction = 0.3;
+  constexpr double kSpin = 0.02;        // of the bound, what the spin of the cone turns forces by
+  constexpr double kOfTheTable = 0.02;  // between loads and places that were solved
+  const TwoCrests crests;
+  const auto table = crests.table(kFriction);
+  TableContact element(table, Side::right);
+  const double bound = kFriction * kLoad / std::cos(crests.incline);
+  const double circle = 0.5 * crests.apart * std::sin(crests.incline);  // off the mean one [m]
+  for (const double y : {0.0, 0.3e-3})
+    for (const double faster : {0.0, 0.05, -0.05}) {
+      SCOPED_TRACE(::testing::Message() << "y = " << 1e3 * y << " mm, turns faster by " << faster);
+      PairMotion m;
+      m.wheelset.y = y;
+      const double mean = kRadius + y * std::tan(crests.incline);  // the rail stays where it is
+      m.wheelset_velocity.x = kSpeed;
+      m.wheelset_velocity.pitch = -(1.0 + faster) * kSpeed / mean;
+      m.wheelset.z = element.under_load(m, kLoad).wheelset_z;
+      const ContactReaction r = element.evaluate(m);
+      ASSERT_EQ(r.status, Status::ok) << r.message;
+      EXPECT_EQ(r.patches, 2);
+      double lost = 0.0, force = 0.0;
+      for (const double side : {-1.0, 1.0}) {
+        const double creepage = (1.0 + faster) * (1.0 + side * circle / mean) - 1.0;
+        lost += 0.5 * bound * kSpeed * std::abs(creepage);
+        force -= std::copysign(0.5 * bound, creepage);
+      }
+      EXPECT_NEAR(r.frictional_power, lost, (kSpin + kOfTheTable) * lost);
+      EXPECT_NEAR(r.longitudinal_creep_force, force, (kSpin + kOfTheTable) * bound);
+    }
+}
+
+/// Where friction is not used up creep damps a turn of the wheelset by what both contacts are apart.
+TEST(TableContact, CreepDampsAtEachContact) {
+  const TwoCrests crests;
+  constexpr double kFriction = 20.0;  // of which contacts use little
+  const auto table = crests.table(kFriction);
+  TableContact element(table, Side::right);
+  PairMotion m = rolling(pressed(*table, 0.0, 1e-4));
+  const ContactReaction r = element.evaluate(m);
+  ASSERT_EQ(r.patches, 2);
+  const PairMatrix damping = pair_tangent(r, m, table->nominal().X_TR.origin, kRadius).damping;
+  // By rates of the wheelset along the track and about the vertical.
+  const auto numeric = [&](double wheelrail::SixMotion::*rate, double step, int of) {
+    double force[2];
+    for (const int way : {0, 1}) {
+      PairMotion moved = m;
+      moved.wheelset_velocity.*rate += way == 0 ? -step : step;
+      force[way] = generalised_force(element.evaluate(moved), moved)(of);
+    }
+    return -(force[1] - force[0]) / (2.0 * step);
+  };
+  constexpr double kSpin = 0.01;  // which tangents leave out
+  const double along = numeric(&wheelrail::SixMotion::x, 1e-4, 0),
+               turning = numeric(&wheelrail::SixMotion::yaw, 1e-4, 5);
+  EXPECT_NEAR(damping(0, 0), along, kSpin * along);
+  EXPECT_NEAR(damping(5, 5), turning, kSpin * turning);
+  // About the axis between both.
+  const double apart = crests.apart * std::cos(crests.incline);
+  EXPECT_NEAR(damping(5, 5) - damping(0, 5) * damping(0, 5) / damping(0, 0), 0.25 * apart * apart * damping(0, 0),
+              0.02 * 0.25 * apart * apart * damping(0, 0));
 }
 
 /// A wheelset that follows a curve yaws with it: its flange, which touches ahead of the axle, comes no nearer to a rail
