@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,33 +47,50 @@ std::string case_text(const MadeTable& made) {
 constexpr const char* kCreepCounts[] = {"intervals", "ratio_intervals", "nx", "ny"};
 std::vector<int> counts_of(const CreepTableOptions& o) { return {o.intervals, o.ratio_intervals, o.nx, o.ny}; }
 
+struct StoredCreep {
+  double poisson = 0.0, greatest_ratio = 0.0;
+  std::vector<int> counts;
+  std::vector<double> values, slopes;
+};
+
 /// What a file holds.
 struct Stored {
   std::string text;
   TableHead head;
   std::vector<TableNode> nodes;
   std::optional<TableCheck> check;
-  std::shared_ptr<const CreepTable> creep;
+  std::optional<StoredCreep> creep;
 };
 
-std::shared_ptr<const CreepTable> creep_of(double poisson, const std::vector<int>& counts, double greatest_ratio,
-                                           std::vector<double> values, std::vector<double> slopes) {
+std::shared_ptr<const CreepTable> creep_of(StoredCreep from) {
   CreepTableOptions o;
-  o.intervals = counts[0], o.ratio_intervals = counts[1], o.nx = counts[2], o.ny = counts[3];
-  o.greatest_ratio = greatest_ratio;
-  return std::make_shared<const CreepTable>(poisson, o, std::move(values), std::move(slopes));
+  o.intervals = from.counts[0], o.ratio_intervals = from.counts[1], o.nx = from.counts[2], o.ny = from.counts[3];
+  o.greatest_ratio = from.greatest_ratio;
+  return std::make_shared<const CreepTable>(from.poisson, o, std::move(from.values), std::move(from.slopes));
 }
 
 /// Nodes stand in the order of the sheets, columns, loads and parts.
-std::vector<vehicle::ContactTableColumns> sheets_of(const std::vector<TableNode>& nodes) {
+std::vector<vehicle::ContactTableColumns> sheets_of(const std::filesystem::path& file,
+                                                    const std::vector<TableNode>& nodes,
+                                                    const std::vector<vehicle::TableTurn>& turns,
+                                                    const std::vector<double>& loads) {
   std::vector<vehicle::ContactTableColumns> sheets;
   const TableNode* before = nullptr;
   for (const TableNode& node : nodes) {
-    if (!before || node.roll != before->roll || node.yaw != before->yaw) sheets.emplace_back();
+    if (!before || node.roll != before->roll || node.yaw != before->yaw) {
+      const std::size_t sheet = sheets.size();
+      if (sheet == turns.size() || node.roll != turns[sheet].roll || node.yaw != turns[sheet].yaw)
+        refuse(file, "this table of forces has nodes at other rolls and yaws than its head says");
+      sheets.emplace_back();
+    }
     vehicle::ContactTableColumns& columns = sheets.back();
     if (columns.empty() || node.y != columns.back().y) columns.push_back({node.y, {}});
     auto& under = columns.back().under;
-    if (under.empty() || node.load != before->load) under.push_back(node.contact);
+    if (under.empty() || node.load != before->load) {
+      if (under.size() == loads.size() || node.load != loads[under.size()])
+        refuse(file, "this table of forces has other loads from place to place");
+      under.push_back(node.contact);
+    }
     under.back().parts.push_back(node.part);
     before = &node;
   }
@@ -94,6 +113,10 @@ MadeTable made_of(const std::filesystem::path& file, Stored stored) {
   const io::Case& given = cases.cases.front();
   const auto& pair = std::get<io::WheelRailCase>(given.content);
   const TableHead& h = stored.head;
+  for (const Column<TableHead>& column : columns<TableHead>())
+    if (column.access.get != nullptr && !std::isfinite(column.access.get(h)))
+      refuse(file, fmt::format("this table of forces has no {}", column.key));
+  if (!(h.load > 0.0)) refuse(file, "this table of forces has no load");
   wheelrail::Problem problem = to_problem(pair, true);
   problem.side = wheelrail::Side::right;
   vehicle::ContactTableOptions axes;
@@ -105,13 +128,14 @@ MadeTable made_of(const std::filesystem::path& file, Stored stored) {
   const std::vector<double> loads = loads_of(stored.nodes);
   if (loads.empty()) refuse(file, "this table of forces holds no nodes");
   const auto nearest = ranges::min_element(loads, {}, [&](double load) { return std::abs(load / h.load - 1.0); });
+  const vehicle::TableAngles roll{h.roll_most, h.roll_intervals}, yaw{h.yaw_most, h.yaw_intervals};
   auto contact = std::make_shared<const vehicle::ContactTable>(
-      sheets_of(stored.nodes),
+      sheets_of(file, stored.nodes, vehicle::table_turns(roll, yaw), loads),
       vehicle::ContactTable::Loads{loads, {}, static_cast<std::size_t>(nearest - loads.begin())},
-      vehicle::table_problem(problem, axes), nominal, vehicle::TableAngles{h.roll_most, h.roll_intervals},
-      vehicle::TableAngles{h.yaw_most, h.yaw_intervals});
-  MadeTable made{given, h, std::move(stored.nodes),
-                 vehicle::ForceTable(std::move(contact), pair.side, std::move(stored.creep))};
+      vehicle::table_problem(problem, axes), nominal, roll, yaw);
+  MadeTable made{
+      given, h, std::move(stored.nodes),
+      vehicle::ForceTable(std::move(contact), pair.side, stored.creep ? creep_of(*std::move(stored.creep)) : nullptr)};
   if (stored.check) made.table.keep(*std::move(stored.check));
   return made;
 }
@@ -160,8 +184,8 @@ Stored read_hdf5(const std::filesystem::path& file) {
     const io::Hdf5GroupReader group = root.open_group("creep");
     std::vector<int> counts;
     for (const char* name : kCreepCounts) counts.push_back(group.integer(name));
-    stored.creep = creep_of(group.number("poisson"), counts, group.number("greatest_ratio"), group.numbers("values"),
-                            group.numbers("slopes"));
+    stored.creep = {group.number("poisson"), group.number("greatest_ratio"), std::move(counts), group.numbers("values"),
+                    group.numbers("slopes")};
   }
   return stored;
 }
@@ -214,8 +238,8 @@ Stored read_json_table(const std::filesystem::path& file) {
   if (const auto creep = in.find("creep")) {
     std::vector<int> counts;
     for (const char* name : kCreepCounts) counts.push_back(creep->at(name).integer());
-    stored.creep = creep_of(creep->number("poisson"), counts, creep->number("greatest_ratio"),
-                            creep->at("values").numbers(), creep->at("slopes").numbers());
+    stored.creep = {creep->number("poisson"), creep->number("greatest_ratio"), std::move(counts),
+                    creep->at("values").numbers(), creep->at("slopes").numbers()};
   }
   return stored;
 }

@@ -83,7 +83,6 @@ class ForceTable:
             found, status, messages = self._table.evaluate(rows, len(_FORCES))
         outside = [i for i, word in enumerate(status) if word in ("failed", "not_converged")]
         if outside:
-            found[outside] = np.nan
             warnings.warn(f"{status[outside[0]]}: {messages[outside[0]]}" + (f" ({len(outside)} motions)" if len(outside) > 1 else ""),
                           ConvergenceWarning, stacklevel=3)
         return {name: found[:, i].reshape(shape) for i, name in enumerate(_FORCES)}

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -26,6 +27,23 @@ ForceTable::ForceTable(std::shared_ptr<const ContactTable> contact, wheelrail::S
                        std::shared_ptr<const CreepTable> creep)
     : contact_(std::move(contact)), creep_(std::move(creep)), side_(side), element_(contact_, side, creep_) {}
 
+namespace {
+
+/// All numbers of an answer that there is not.
+WheelForces without_numbers(ContactReaction r) {
+  using R = ContactReaction;
+  for (wheelrail::Wrench* load : {&r.on_rail, &r.on_wheelset}) load->force = load->moment = Vec3::Constant(kNaN);
+  for (double R::*number : {&R::least_gap, &R::normal_force, &R::longitudinal_creep_force, &R::lateral_creep_force,
+                            &R::spin_moment, &R::frictional_power, &R::elastic_energy, &R::contact_x, &R::contact_y,
+                            &R::area, &R::max_pressure, &R::wheelset_z})
+    r.*number = kNaN;
+  r.patches = 0;
+  r.tangents.clear();
+  return {std::move(r), kNaN, kNaN, kNaN};
+}
+
+}  // namespace
+
 WheelForces ForceTable::at(const WheelMotion& wanted) {
   if (!(wanted.vertical_load >= 0.0) || !std::isfinite(wanted.vertical_load))
     throw Error(ErrorKind::configuration, "the vertical load of a wheel must not be negative", {},
@@ -40,11 +58,11 @@ WheelForces ForceTable::at(const WheelMotion& wanted) {
   // What the pressures carry, friction apart.
   const double carried = answered ? r.normal_force * r.tangents.front().X_TC.rotation(2, 2) : 0.0;
   if (!(carried <= most)) {
-    r = {};
     r.status = Status::failed;
     r.message = fmt::format("the wheel presses with {:.4g} kN; the contact table reaches to {:.4g} kN", 1e-3 * carried,
                             1e-3 * most);
   }
+  if (is_unsolved(r)) return without_numbers(std::move(r));
   if (r.status != Status::ok) return out;
   const double speed = std::abs(wanted.motion.wheelset_velocity.x);
   out.t_gamma = speed > 0.0 ? r.frictional_power / speed : 0.0;
@@ -70,7 +88,7 @@ struct CheckPoint {
 };
 
 constexpr int kCompared = 6;
-constexpr std::array<std::array<const char*, 2>, kCompared> kNumbers = {
+constexpr std::array<std::array<const char*, 2>, kCompared> kComparedNumbers = {
     {{"z", ""},
      {"normal_force", "normal force"},
      {"fx", "friction bound"},
@@ -151,7 +169,9 @@ Compared compare(ForceTable table, wheelrail::Pair& pair, const wheelrail::Probl
   const FrictionLaw law =
       friction_at(rest.friction_inclination, rest.friction_laws, largest->frame.angle, rest.friction);
   constexpr double kLeastCreepage = 1e-4;
-  const double bound = law.static_friction() * normal, size = std::sqrt(area * std::numbers::inv_pi),
+  // Without friction nothing is off by any share of it.
+  const double bound = std::max(std::numeric_limits<double>::min(), law.static_friction() * normal),
+               size = std::sqrt(area * std::numbers::inv_pi),
                creepage = std::max(kLeastCreepage, std::hypot(creep.xi, creep.eta, size * creep.phi));
   const double speed = c.wanted.motion.wheelset_velocity.x;
   out.error = {under_load.z - s.z,
@@ -193,7 +213,8 @@ TableCheck check_table(const ForceTable& table, const wheelrail::Geometry& geome
 
   TableCheck check;
   check.options = options;
-  for (const auto& [number, over] : kNumbers) check.errors.push_back({number, over, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  for (const auto& [number, over] : kComparedNumbers)
+    check.errors.push_back({number, over, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Compared& c = compared[i];
     (!c.solved ? check.unsolved : !c.answered ? check.unanswered : check.compared) += 1;
@@ -223,7 +244,6 @@ namespace {
 using access::of;
 using access::word;
 using unit::kM;
-using unit::kMm;
 using unit::kN;
 using unit::kOne;
 using vehicle::TableCheck;
@@ -232,8 +252,7 @@ using vehicle::WheelForces;
 using vehicle::WheelMotion;
 using wheelrail::SixMotion;
 
-constexpr FileUnit kRad{"rad"}, kMrad{"mrad", 1e3, "rad"}, kSpeed{"m/s"}, kRate{"rad/s"}, kNm{"N m"}, kW{"W"},
-    kM2{"m2"}, kPa{"Pa"};
+constexpr FileUnit kRad{"rad"}, kSpeed{"m/s"}, kRate{"rad/s"}, kNm{"N m"}, kW{"W"}, kM2{"m2"}, kPa{"Pa"};
 
 template <auto Member>
 constexpr Access<WheelMotion> place() {
@@ -315,9 +334,9 @@ constexpr Column<TableError> kErrors[] = {
     {"over", kOne, "over", of<&TableError::over>(), "what it is divided by; empty: z, in m", kInTable, "over"},
     {"worst", kOne, "worst", of<&TableError::worst>(), "magnitude", kInTable, "worst", 6},
     {"rms", kOne, "rms", of<&TableError::rms>(), "root of the mean square", kInTable, "rms", 6},
-    {"y_mm", kMm, "y", of<&TableError::y>(), "where it was worst", kInTable, "at y", 2},
-    {"roll_mrad", kMrad, "roll", of<&TableError::roll>(), "", kInTable, "roll", 2},
-    {"yaw_mrad", kMrad, "yaw", of<&TableError::yaw>(), "", kInTable, "yaw", 2},
+    {"y_m", kM, "y", of<&TableError::y>(), "where it was worst", kInTable, "at y", 5},
+    {"roll_rad", kRad, "roll", of<&TableError::roll>(), "", kInTable, "roll", 5},
+    {"yaw_rad", kRad, "yaw", of<&TableError::yaw>(), "", kInTable, "yaw", 5},
     {"load_N", kN, "load", of<&TableError::load>(), "vertical", kInTable, "load", 0}};
 
 constexpr Column<TableCheck> kCheck[] = {

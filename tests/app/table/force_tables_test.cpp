@@ -136,7 +136,13 @@ TEST(ForceTables, DamagedFilesAreRefused) {
   refused([](auto& j) { j.erase("nodes"); });
   refused([](auto& j) { j["nodes"]["z_m"].erase(0); });
   refused([](auto& j) { j["nodes"]["area_m2"][3] = -1.0; });
+  refused([](auto& j) { j["nodes"]["z_m"][0] = nullptr; });
+  refused([](auto& j) { j["nodes"]["load_N"][1] = 1e3; });
+  refused([](auto& j) { j["nodes"]["roll_rad"][1] = 1e-3; });
   refused([](auto& j) { j["head"]["roll_intervals"] = 4; });
+  refused([](auto& j) { j["head"]["roll_most_rad"] = 5e-3; });
+  refused([](auto& j) { j["head"]["wheel_z_m"] = nullptr; });
+  refused([](auto& j) { j["creep"]["poisson"] = -1.0; });
   refused([](auto& j) { j["creep"]["values"].erase(0); });
   refused([](auto& j) { j["case"] = "nonsense = 1"; });
 }
