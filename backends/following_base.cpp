@@ -17,6 +17,7 @@
 #include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark {
@@ -98,7 +99,7 @@ class Sections {
     parallel_for(places.size(), [&](std::size_t k) { wanted[k] = off(base, places[k]) > kOff; });
     for (std::size_t k = 0; k < places.size(); ++k)
       if (wanted[k] != 0) kept_[middles[k / 3]] = true;
-    bool any = std::ranges::find(wanted, 1) != wanted.end();
+    bool any = ranges::find(wanted, 1) != wanted.end();
     if (any) even_out();
     return any;
   }
@@ -157,7 +158,7 @@ class Sections {
   bool same_parts(std::size_t a, std::size_t b) const {
     const auto missing = [](double s) { return std::isnan(s); };
     for (std::size_t i = a; i < b; ++i)
-      if (!std::ranges::equal(given_->features[i], given_->features[i + 1], {}, missing, missing)) return false;
+      if (!ranges::equal(given_->features[i], given_->features[i + 1], {}, missing, missing)) return false;
     return true;
   }
 

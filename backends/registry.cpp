@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/registry.hpp"
 
-#include <algorithm>
 #include <mutex>
 #include <shared_mutex>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/backend_name.hpp"
 
 namespace treadmark {
@@ -85,7 +85,7 @@ std::vector<const Backend*> left_out_backends() { return Registry::the().those(f
 
 const Backend& backend_of(std::string_view name) {
   const auto all = Registry::the().all();
-  const auto found = std::ranges::find(all, name, &Backend::name);
+  const auto found = ranges::find(all, name, &Backend::name);
   if (found == all.end()) {
     const std::vector<std::string_view> known = backend_names();
     throw Error(ErrorKind::configuration, fmt::format("unknown backend '{}'", name), {},
@@ -113,7 +113,7 @@ std::vector<BackendChoice> backend_choices(const std::vector<std::string>& names
   if (names.empty()) chosen = backends();
   std::vector<BackendChoice> all;
   for (const Backend* backend : chosen) {
-    const bool given = std::ranges::all_of(
+    const bool given = ranges::all_of(
         surfaces, [&](const NaturalSurface* natural) { return natural->surface->backend() == backend->name; });
     const bool sampled = static_cast<bool>(backend->resample);
     if (given || (!sampled && !names.empty())) all.push_back({backend->name, 0.0});

@@ -15,6 +15,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark {
@@ -62,9 +63,9 @@ class Fit {
       for (const double share : kPlaces) {
         const double u = grid.u[i] + share * (next - grid.u[i]);
         const std::vector<double> at_nodes = distances(spline, u, grid.y);
-        along[i] = std::max(along[i], *std::ranges::max_element(at_nodes));
+        along[i] = std::max(along[i], *ranges::max_element(at_nodes));
         const std::vector<double> inside = distances(spline, u, between);
-        both[i] = std::max(both[i], *std::ranges::max_element(inside));
+        both[i] = std::max(both[i], *ranges::max_element(inside));
       }
     });
     Off out{along, std::vector<double>(ny - 1), 0.0};
@@ -74,7 +75,7 @@ class Fit {
       for (const double d : *list) out.most = std::max(out.most, d);
     // what is left where both directions are good by themselves
     const auto good = [tolerance](double d) { return d <= tolerance; };
-    if (std::ranges::all_of(out.along, good) && std::ranges::all_of(out.across, good)) out.along = both;
+    if (ranges::all_of(out.along, good) && ranges::all_of(out.across, good)) out.along = both;
     return out;
   }
 

@@ -24,5 +24,9 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/TreadmarkConfig.cmake.i
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/TreadmarkConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/TreadmarkConfig.cmake" "${PROJECT_BINARY_DIR}/TreadmarkConfigVersion.cmake"
   DESTINATION ${package_folder})
+if(TREADMARK_LIBCXX)
+  install(FILES "${CMAKE_CURRENT_LIST_DIR}/libcxx/Findfmt.cmake" "${CMAKE_CURRENT_LIST_DIR}/libcxx/Findtomlplusplus.cmake"
+    DESTINATION ${package_folder}/libcxx)
+endif()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION ${CMAKE_INSTALL_DOCDIR})
 include(TreadmarkPackages)

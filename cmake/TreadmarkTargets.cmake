@@ -14,7 +14,7 @@ add_compile_options("$<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=400;--param
 add_library(treadmark_warnings INTERFACE)
 # Sources that are compiled together see each other's names: only alone can those of a whole file be told to be hidden.
 target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic
-  $<IF:$<BOOL:${TREADMARK_SHARED_PARSING}>,-Wshadow=local,-Wshadow> -Wnon-virtual-dtor
+  $<IF:$<BOOL:${TREADMARK_SHARED_PARSING}>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow> -Wnon-virtual-dtor
   $<$<BOOL:${TREADMARK_WARNINGS_AS_ERRORS}>:-Werror>)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 sees bounds in std::string that are not there (its bug 105329), here or there as sources are put together.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/output_claim.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 namespace {
@@ -26,7 +27,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   std::error_code code;
   for (fs::directory_iterator one(folder, code), end; !code && one != end && names.size() < kMost; one.increment(code))
     names.push_back(one->path().filename().string());
-  std::ranges::sort(names);
+  ranges::sort(names);
   return names;
 }
 
@@ -71,7 +72,7 @@ std::string advice_on_name(std::string_view name, std::span<const std::string> k
 std::string advice_on_missing(const fs::path& file, const std::string& otherwise) {
   std::error_code code;
   std::string portable = file.string();
-  std::ranges::replace(portable, '\\', '/');
+  ranges::replace(portable, '\\', '/');
   if (portable != file.string() && fs::exists(portable, code)) return "did you mean " + portable + "?";
   for (const fs::path& part : file)
     if (part == "~" || part.string().starts_with("$"))

@@ -4,8 +4,9 @@
 
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <cstdlib>
+
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 
@@ -16,7 +17,7 @@ std::vector<fs::path> module_folders() {
   std::vector<fs::path> folders;
   // What the working directory holds is nobody's module: programs are known by the name that they were called by.
   const auto add = [&](const fs::path& folder) {
-    if (folder.is_absolute() && std::ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
+    if (folder.is_absolute() && ranges::find(folders, folder) == folders.end()) folders.push_back(folder);
   };
   std::error_code failed;
   if (const fs::path program = fs::read_symlink("/proc/self/exe", failed); !failed)

@@ -11,7 +11,8 @@ namespace treadmark {
 /// this alternative it asks.
 struct NeverHeld {
   NeverHeld() = delete;
-  NeverHeld(const NeverHeld&) {}                  // NOLINT(modernize-use-equals-default): must not be trivial
+  NeverHeld(const NeverHeld&) {}  // NOLINT(modernize-use-equals-default): must not be trivial
+  NeverHeld& operator=(const NeverHeld&) = default;
   operator std::monostate() const { return {}; }  // for visitors
 };
 

@@ -2,11 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <system_error>
+
+#include "treadmark/core/platform/from_chars.hpp"
 
 namespace treadmark {
 
@@ -14,7 +15,7 @@ namespace treadmark {
 inline std::optional<double> finite_number(std::string_view text) {
   double value = 0.0;
   const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  const auto [rest, error] = from_chars(text.data(), end, value);
   return error == std::errc() && rest == end && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstdio>
 #include <functional>
 #include <iterator>
@@ -25,6 +24,8 @@
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_claim.hpp"
+#include "treadmark/core/platform/exchange_names.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 
 namespace treadmark {
 
@@ -109,7 +110,7 @@ std::optional<int> descriptor_number(const fs::path& path) {
   const std::string own = "/proc/" + std::to_string(::getpid()) + "/fd";
   if (folder != "/proc/self/fd" && folder != "/dev/fd" && folder != own) return {};
   int number = -1;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  const auto [end, error] = from_chars(name.data(), name.data() + name.size(), number);
   if (error != std::errc{} || end != name.data() + name.size() || number < 0) return {};
   return number;
 }
@@ -197,11 +198,6 @@ void remove_dead(const fs::path& folder, const std::string& start) noexcept {
     for (const fs::path& path : found) remove_if_dead(path);
   } catch (...) {  // what is left over disturbs nobody
   }
-}
-
-/// Whether a rename exchanged two names; false where the system cannot.
-bool exchange(const fs::path& a, const fs::path& b) {
-  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
 }  // namespace
@@ -342,7 +338,7 @@ void OutputFolder::replace(const fs::path& as) {
   if (const int error = folder_to_disk(temporary_); error != 0) cannot_write(target_, error);
   std::error_code error;
   if (fs::exists(target_, error)) {
-    if (!exchange(temporary_, target_)) {
+    if (!exchange_names(temporary_.c_str(), target_.c_str())) {
       const fs::path aside = hidden_name(target_, target_.parent_path());
       fs::rename(target_, aside, error);
       if (error) fail(error);

@@ -2,17 +2,17 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/core/parts.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 namespace {
 
 const Part& part_of(std::string_view key) {
   const auto all = parts();
-  const auto found = std::ranges::find(all, key, &Part::key);
+  const auto found = ranges::find(all, key, &Part::key);
   if (found == all.end()) throw std::invalid_argument("no part of Treadmark: " + std::string(key));
   return *found;
 }

@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <set>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -86,11 +87,14 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
       std::call_once(failed, [&] { first = std::current_exception(); });
     }
   };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t k = 1; k < threads; ++k) others.emplace_back(work);
-    work();
+  std::vector<std::thread> others;
+  others.reserve(threads - 1);
+  try {
+    while (others.size() + 1 < threads) others.emplace_back(work);
+  } catch (const std::system_error&) {  // there are no more: fewer do the same
   }
+  work();
+  for (std::thread& other : others) other.join();
   if (first) std::rethrow_exception(first);
 }
 

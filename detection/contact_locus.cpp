@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/closest_gap.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
@@ -16,6 +18,9 @@ namespace treadmark::detection {
 namespace {
 
 constexpr int kFineRows = 240;
+/// Where only the least gap is wanted: a parabola through rows 10 um apart is good to a tenth of a nanometre, also
+/// where curvatures jump by those of profiles.
+constexpr int kFewRows = 48;
 
 /// The silhouette of the wheel along x of T, at one point of its profile.
 struct SilhouettePoint {
@@ -88,6 +93,21 @@ class SampledWheel {
   const std::vector<double>&r_, &by_y_;
 };
 
+/// The samples of a profile but for those at either end whose circles lie aside of [low, high] of y in T altogether;
+/// one of these stays at each end.
+std::pair<std::size_t, std::size_t> samples_over(const Pose& X_TW, const SampledProfile& s, double low, double high) {
+  const double along = X_TW.rotation(1, 1), swing = std::hypot(X_TW.rotation(1, 0), X_TW.rotation(1, 2));
+  const std::size_t n = s.radius.size();
+  const auto side = [&](std::size_t i) {
+    const double middle = X_TW.origin.y() + along * s.y(i), reach = swing * s.radius[i];
+    return middle + reach < low ? -1 : middle - reach > high ? 1 : 0;
+  };
+  std::size_t begin = 0, end = n;
+  for (const int first = side(0); first != 0 && begin + 1 < n && side(begin + 1) == first;) ++begin;
+  for (const int last = side(n - 1); last != 0 && end > begin + 1 && side(end - 2) == last;) --end;
+  return {begin, end};
+}
+
 /// Whether the rail runs along x of T.
 bool runs_along(const Pose& X_TR) {
   constexpr double kStraight = 1e-12;
@@ -143,10 +163,10 @@ ContactLocus::ContactLocus(const BodyPair& bodies, const Grid2& g)
     : bodies_(bodies), x_low_(g.x(0)), x_high_(g.x(g.nx - 1)) {
   const auto profile = bodies.wheel_profile ? bodies.wheel_profile : whole_profile(*bodies.wheel);
   wheel_angle_ = profile->angle;
-  outline_ = trace({g.y0, g.dy, g.ny}, *profile, false);
+  outline_ = trace({g.y0, g.dy, g.ny}, *profile);
 }
 
-ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile& s, bool curves) {
+ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile& s) {
   const auto n = s.radius.size(), m = static_cast<std::size_t>(rows.count);
   const std::vector<double>&r = s.radius, &by_y = s.slope;
   Outline line;
@@ -156,12 +176,14 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
                         {line.rail_z, {}, line.rail_slope});
 
   // Of several parts of the outline over one y the lowest one (greatest z) counts.
-  std::vector<double> wheel_z(m, kNaN);
+  std::vector<double>& wheel_z = line.wheel_z;
+  wheel_z.assign(m, kNaN);
   line.gap.assign(m, kNaN), line.x.assign(m, kNaN), line.radius.assign(m, kNaN);
   std::vector<double> wheel_y(m, kNaN);
   const Silhouette silhouette(bodies_.X_TW);
   SilhouettePoint a{kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
-  for (std::size_t i = 0; i < n; ++i) {
+  const auto [begin, end] = samples_over(bodies_.X_TW, s, rows.y(0), rows.y(rows.count - 1));
+  for (std::size_t i = begin; i < end; ++i) {
     const std::size_t before = i > 0 && !std::isnan(r[i - 1]) ? i - 1 : i,
                       after = i + 1 < n && !std::isnan(r[i + 1]) ? i + 1 : i;
     const double by_yy =
@@ -192,22 +214,6 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
     }
     a = b;
   }
-  line.cubic.assign(m, 0.0);
-  if (curves) {
-    // The curve through its lowest point and one on either side, about as far as contact reaches.
-    constexpr double kReach = 8e-3;  // [m]
-    const SampledWheel wheel(bodies_.X_TW, s.first, s.step, r, by_y);
-    for (std::size_t k = 0; k < m; ++k) {
-      if (std::isnan(wheel_z[k])) continue;
-      const double y = rows.y(static_cast<int>(k)), guess = wheel_z[k] - 0.5 * kReach * kReach / line.radius[k];
-      const double before = wheel.height(line.x[k] - kReach, y, guess),
-                   behind = wheel.height(line.x[k] + kReach, y, guess);
-      const double drop = wheel_z[k] - 0.5 * (before + behind);
-      if (!(drop > 0.0)) continue;
-      line.radius[k] = 0.5 * (kReach * kReach + drop * drop) / drop;
-      line.cubic[k] = 0.5 * (behind - before) / (kReach * kReach * kReach);
-    }
-  }
   line.least = kNaN;
   std::size_t deepest = 0;
   for (std::size_t k = 0; k < m; ++k) {
@@ -222,9 +228,29 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
   return line;
 }
 
-const ContactLocus::Outline& ContactLocus::fine_outline(int first_row, int last_row) {
-  for (const Fine& fine : fine_)
-    if (fine.first_row == first_row && fine.last_row == last_row) return fine.outline;
+/// Of rows from one to another: the curve through its lowest point and one on either side, about as far as contact
+/// reaches.
+void ContactLocus::measure_curves(Fine& fine, int from, int to) const {
+  constexpr double kReach = 8e-3;  // [m]
+  Outline& line = fine.outline;
+  const SampledProfile& s = fine.profile;
+  const SampledWheel wheel(bodies_.X_TW, s.first, s.step, s.radius, s.slope);
+  fine.measured.resize(line.x.size(), 0), fine.cubic.resize(line.x.size(), 0.0);
+  for (auto k = static_cast<std::size_t>(from); k <= static_cast<std::size_t>(to); ++k) {
+    if (std::isnan(line.wheel_z[k]) || std::exchange(fine.measured[k], char{1}) != 0) continue;
+    const double y = line.rows.y(static_cast<int>(k)), guess = line.wheel_z[k] - 0.5 * kReach * kReach / line.radius[k];
+    const double before = wheel.height(line.x[k] - kReach, y, guess),
+                 behind = wheel.height(line.x[k] + kReach, y, guess);
+    const double drop = line.wheel_z[k] - 0.5 * (before + behind);
+    if (!(drop > 0.0)) continue;
+    line.radius[k] = 0.5 * (kReach * kReach + drop * drop) / drop;
+    fine.cubic[k] = 0.5 * (behind - before) / (kReach * kReach * kReach);
+  }
+}
+
+ContactLocus::Fine& ContactLocus::fine_outline(int first_row, int last_row, int count) {
+  for (Fine& fine : fine_)
+    if (fine.first_row == first_row && fine.last_row == last_row && fine.outline.rows.count == count) return fine;
   const Rows& coarse = outline_.rows;
   const double low = coarse.y(first_row), high = coarse.y(last_row);
   // The part of the profile that these rows show, and a little more.
@@ -238,15 +264,15 @@ const ContactLocus::Outline& ContactLocus::fine_outline(int first_row, int last_
   y_min -= margin, y_max += margin;
   constexpr std::size_t kKept = 8;
   if (fine_.size() >= kKept) fine_.erase(fine_.begin());
-  fine_.push_back(
-      {first_row, last_row,
-       trace({low, (high - low) / (kFineRows - 1), kFineRows},
-             sample_profile(*bodies_.wheel, wheel_angle_, y_min, (y_max - y_min) / (kFineRows - 1), kFineRows), true)});
-  return fine_.back().outline;
+  SampledProfile profile = sample_profile(*bodies_.wheel, wheel_angle_, y_min, (y_max - y_min) / (count - 1), count);
+  Outline outline = trace({low, (high - low) / (count - 1), count}, profile);
+  fine_.push_back({first_row, last_row, std::move(outline), std::move(profile), {}, {}});
+  return fine_.back();
 }
 
-void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight,
+void ContactLocus::weigh_fine(Fine& looked_at, double wheel_dz, double near_miss_gap, PenetrationWeight weight,
                               bool at_deepest, Found& found) const {
+  const Outline& fine = looked_at.outline;
   const Rows& rows = fine.rows;
   const auto gap = [&](int i) { return fine.gap[static_cast<std::size_t>(i)] - wheel_dz; };
   const auto rail_z = [&](double y) {
@@ -283,12 +309,14 @@ void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     p.extent.box = {kInfinity, -kInfinity, 0.0, 0.0};
     double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;
-    for (; i < rows.count && gap(i) < 0.0; last = i++) {
+    while (last + 1 < rows.count && gap(last + 1) < 0.0) ++last;
+    measure_curves(looked_at, first, last);
+    for (; i <= last; ++i) {
       const auto j = static_cast<std::size_t>(i);
       const double c = -gap(i), half = std::sqrt(c * std::max(0.0, 2.0 * fine.radius[j] - c)),
                    w = row_weight(weight, c, half);
       sum += w;
-      const double shift = fine.cubic[j] * half * half * fine.radius[j];  // of both ends
+      const double shift = looked_at.cubic[j] * half * half * fine.radius[j];  // of both ends
       sum_x += w * (fine.x[j] + middle_share(weight) * shift);
       sum_y += w * rows.y(i);
       sum_a += w * std::atan(fine.rail_slope[j]);
@@ -350,16 +378,23 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
     } else if (!is_minimum) {
       continue;
     }
-    const Outline& fine = fine_outline(std::max(0, first - 1), std::min(rows.count - 1, i + 1));
-    closest = std::fmin(closest, fine.closest - wheel_dz);
-    // On steep flanks a shallow contact may lie deeper below the rows.
-    if (gap(first) < look_below || fine.closest < wheel_dz)
-      weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
+    const int from = std::max(0, first - 1), to = std::min(rows.count - 1, i + 1);
+    if (!(gap(first) < look_below)) {
+      // On steep flanks a shallow contact may lie deeper below the rows.
+      const double here_closest = fine_outline(from, to, kFewRows).outline.closest;
+      if (!(here_closest < wheel_dz)) {
+        closest = std::fmin(closest, here_closest - wheel_dz);
+        continue;
+      }
+    }
+    Fine& fine = fine_outline(from, to, kFineRows);
+    closest = std::fmin(closest, fine.outline.closest - wheel_dz);
+    weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
   }
   // As in the grid search: deepest first, two near misses at most.
   const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };
-  std::ranges::stable_sort(found.patches, deeper);
-  std::ranges::stable_sort(found.near_misses, deeper);
+  ranges::stable_sort(found.patches, deeper);
+  ranges::stable_sort(found.near_misses, deeper);
   constexpr std::size_t kMaxNearMisses = 2;
   if (found.near_misses.size() > kMaxNearMisses) found.near_misses.resize(kMaxNearMisses);
   found.closest = closest;

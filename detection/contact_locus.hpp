@@ -46,17 +46,27 @@ class ContactLocus {
     double y(int i) const { return first + i * step; }
     friend bool operator==(const Rows&, const Rows&) = default;
   };
-  /// Per row: gap there, where along x, the wheel's curve along x as a circle with a cubic part (a yawed wheel is
-  /// askew), and the rail. NaN gap: none.
+  /// Per row: gap there, where along x, the radius of the wheel's curve along x, the rail. NaN gap: none.
   struct Outline {
     Rows rows;
-    std::vector<double> gap, x, radius, cubic, rail_z, rail_slope;
+    std::vector<double> gap, x, radius, wheel_z, rail_z, rail_slope;
     double least = 0.0;
     double closest = 0.0;  ///< least gap, between the rows as well [m]
   };
-  Outline trace(const Rows& rows, const SampledProfile& profile, bool curves);
-  const Outline& fine_outline(int first_row, int last_row);
-  void weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest,
+  /// Rows between two rows of the outline.
+  struct Fine {
+    int first_row, last_row;
+    Outline outline;
+    SampledProfile profile;
+    /// The wheel's curve along x is a circle with a cubic part (a yawed wheel is askew), both measured where bodies
+    /// interpenetrate: radius is then that one.
+    std::vector<char> measured;
+    std::vector<double> cubic;
+  };
+  Outline trace(const Rows& rows, const SampledProfile& profile);
+  Fine& fine_outline(int first_row, int last_row, int count);
+  void measure_curves(Fine& fine, int from, int to) const;
+  void weigh_fine(Fine& looked_at, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest,
                   Found& found) const;
 
   BodyPair bodies_;
@@ -64,11 +74,7 @@ class ContactLocus {
   double wheel_angle_ = 0.0;  ///< where the wheel's profile is taken [rad]
   Outline outline_;
   std::vector<double> wheel_y_;  ///< y on the profile of the wheel that each row of the outline shows
-  struct Fine {
-    int first_row, last_row;
-    Outline outline;
-  };
-  std::vector<Fine> fine_;  ///< made before
+  std::vector<Fine> fine_;       ///< made before
 };
 
 }  // namespace treadmark::detection

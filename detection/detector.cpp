@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/detection/detector.hpp"
 
-#include <algorithm>
 #include <mutex>
 #include <shared_mutex>
 #include <utility>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/model/backend_name.hpp"
 
@@ -72,7 +72,7 @@ std::vector<const DetectorRow*> detectors() { return Registry::the().all(); }
 
 const DetectorRow& detector_of(std::string_view name) {
   const std::vector<const DetectorRow*> all = detectors();
-  const auto found = std::ranges::find(all, name, &DetectorRow::name);
+  const auto found = ranges::find(all, name, &DetectorRow::name);
   if (found != all.end()) return **found;
   std::vector<std::string> names;
   for (const DetectorRow* row : all) names.push_back(row->name);

@@ -12,8 +12,7 @@ namespace treadmark::detection {
 
 Grid2 part_of(const Grid2& g, const IndexBox& b) { return {g.x(b.ix), g.y(b.iy), g.dx, g.dy, b.nx, b.ny}; }
 
-GapField::Tile::Tile(const IndexBox& points)
-    : box(points), numbers_(std::make_unique_for_overwrite<double[]>(3 * points.size())) {
+GapField::Tile::Tile(const IndexBox& points) : box(points), numbers_(new double[3 * points.size()]) {
   const std::size_t n = points.size();
   rail_z = {numbers_.get(), n}, gap = {numbers_.get() + n, n}, rail_slope = {numbers_.get() + 2 * n, n};
 }

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::detection {
 namespace {
@@ -88,7 +89,7 @@ void GapSource::fill(std::span<GapField::Tile* const> tiles) {
   // Columns of tiles first, then columns of the same length side by side.
   std::vector<Patch> columns, patches;
   std::vector<GapField::Tile*> sorted(tiles.begin(), tiles.end());
-  std::ranges::sort(sorted, [](const auto* a, const auto* b) {
+  ranges::sort(sorted, [](const auto* a, const auto* b) {
     return a->box.ix != b->box.ix ? a->box.ix < b->box.ix : a->box.iy < b->box.iy;
   });
   for (GapField::Tile* tile : sorted) {
@@ -128,7 +129,7 @@ void GapSource::fill_patch(const Patch& patch) {
   const Grid2 part = part_of(grid_, box);
   const std::size_t n = box.size();
   const bool alone = patch.tiles.size() == 1;
-  const auto scratch = std::make_unique_for_overwrite<double[]>(alone ? 0 : 3 * n);
+  const std::unique_ptr<double[]> scratch(new double[alone ? 0 : 3 * n]);
   const auto array = [&](std::size_t i, std::span<double> of_tile) {
     return alone ? of_tile : std::span(scratch.get() + i * n, n);
   };

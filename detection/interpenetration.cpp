@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "treadmark/core/platform/ranges.hpp"
+
 namespace treadmark::detection {
 namespace {
 
@@ -35,7 +37,7 @@ std::vector<Minimum> local_minima(const GapField& field, double wheel_dz, double
         minima.push_back({ix, iy, v - wheel_dz});
       }
   }
-  std::ranges::sort(minima, [](const Minimum& a, const Minimum& b) {
+  ranges::sort(minima, [](const Minimum& a, const Minimum& b) {
     return std::tie(a.gap, a.iy, a.ix) < std::tie(b.gap, b.iy, b.ix);
   });
   return minima;

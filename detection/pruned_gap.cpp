@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::detection {
 namespace {
@@ -43,11 +45,11 @@ IndexBox PrunedGap::box(int tx, int ty, int nx, int ny) const {
 void PrunedGap::push(const Node& node) {
   frontier_.push_back(node);
   frontier_.back().bounds.low -= kRounding;
-  std::ranges::push_heap(frontier_, later);
+  ranges::push_heap(frontier_, later);
 }
 
 PrunedGap::Node PrunedGap::pop() {
-  std::ranges::pop_heap(frontier_, later);
+  ranges::pop_heap(frontier_, later);
   const Node node = frontier_.back();
   frontier_.pop_back();
   return node;
@@ -161,7 +163,7 @@ double PrunedGap::least() {
 
 void PrunedGap::dive(Node node) {
   for (std::vector<Node> smaller = refined(node); !smaller.empty(); smaller = refined(node)) {
-    std::ranges::swap(*std::ranges::max_element(smaller, later), smaller.back());
+    std::swap(*ranges::max_element(smaller, later), smaller.back());
     node = smaller.back();
     for (std::size_t i = 0; i + 1 < smaller.size(); ++i) push(smaller[i]);
   }

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 
@@ -15,7 +15,7 @@ std::optional<RemarkKind> remark_named(std::string_view name) {
 }
 
 bool any_grave(std::span<const Remark> remarks) {
-  return std::ranges::any_of(remarks, [](const Remark& r) { return r.grave(); });
+  return ranges::any_of(remarks, [](const Remark& r) { return r.grave(); });
 }
 
 std::string with_grave(std::string message, std::span<const Remark> remarks) {

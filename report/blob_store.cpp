@@ -6,12 +6,12 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/bit_cast.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 
@@ -63,7 +63,7 @@ Packed BlobStore::add(std::span<const double> values, Precision precision) {
   Packed packed{static_cast<int>(texts_.size()), out.size(), values.size(), precision};
   if (precision == Precision::single) {
     std::vector<std::uint32_t> codes;
-    for (const double value : values) codes.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(value)));
+    for (const double value : values) codes.push_back(bit_cast<std::uint32_t>(static_cast<float>(value)));
     append_planes<std::uint32_t>(out, codes);
     return packed;
   }

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/report/field_catalogue.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::report {
 namespace {
@@ -50,7 +50,7 @@ std::vector<FieldInfo> shown_fields() {
   std::vector<FieldInfo> out(std::begin(kMadeFields), std::end(kMadeFields));
   for (const io::FieldColumn& column : io::kFieldColumns)
     if (column.shown.rank > 0) out.push_back({column.shown, column.name, &column});
-  std::ranges::sort(out, {}, [](const FieldInfo& field) { return field.rank; });
+  ranges::sort(out, {}, [](const FieldInfo& field) { return field.rank; });
   return out;
 }
 

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/report/page_data.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/summary.hpp"
@@ -130,10 +130,10 @@ class Writer {
   static Json fields(const PackedSets& packed) {
     Json out = Json::array();
     for (const FieldInfo& field : field_catalogue()) {
-      const bool used = std::ranges::any_of(packed, [&](const auto& set) {
-        return std::ranges::any_of(set, [&](const PackedFrame& frame) {
-          return std::ranges::any_of(frame.patches, [&](const PackedPatch& patch) {
-            return std::ranges::any_of(patch.values, [&](const auto& value) { return value.first == field.name; });
+      const bool used = ranges::any_of(packed, [&](const auto& set) {
+        return ranges::any_of(set, [&](const PackedFrame& frame) {
+          return ranges::any_of(frame.patches, [&](const PackedPatch& patch) {
+            return ranges::any_of(patch.values, [&](const auto& value) { return value.first == field.name; });
           });
         });
       });

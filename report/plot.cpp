@@ -2,12 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/report/plot.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/field_catalogue.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/static_figure.hpp"
@@ -48,7 +47,7 @@ bool has_steps(const Figure& figure) {
 /// The step of a page's only set that shows this case.
 std::size_t step_of(const Page& page, int number) {
   const std::vector<Frame>& frames = page.sets.front().frames;
-  const auto found = std::ranges::find(frames, number, [](const Frame& frame) { return frame.result->number; });
+  const auto found = ranges::find(frames, number, [](const Frame& frame) { return frame.result->number; });
   return static_cast<std::size_t>(found - frames.begin());
 }
 
@@ -59,13 +58,13 @@ std::vector<Frame> chosen(const Page& page, const std::vector<int>& cases) {
     for (const Frame& frame : set.frames) {
       const int number = frame.result->number;
       if (&set == &page.sets.front()) known += fmt::format("{}{}", known.empty() ? "" : ", ", number);
-      if (!cases.empty() && std::ranges::find(cases, number) == cases.end()) continue;
+      if (!cases.empty() && ranges::find(cases, number) == cases.end()) continue;
       frames.push_back(frame);
       if (page.sets.size() > 1) frames.back().name = fmt::format("{}: {}", set.name, frame.name);
     }
   }
   for (const int wanted : cases)
-    if (std::ranges::none_of(frames, [&](const Frame& frame) { return frame.result->number == wanted; }))
+    if (ranges::none_of(frames, [&](const Frame& frame) { return frame.result->number == wanted; }))
       throw Error(ErrorKind::configuration, fmt::format("there is no case {}", wanted), {}, "there are " + known);
   return frames;
 }

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::report {
@@ -147,9 +148,7 @@ class StepFilter {
     for (const FrameSet& set : page.sets)
       if (set.nominal) wanted.insert(*set.nominal);
     const std::vector<int> order(wanted.begin(), wanted.end());
-    const auto place = [&](int frame) {
-      return static_cast<int>(std::ranges::lower_bound(order, frame) - order.begin());
-    };
+    const auto place = [&](int frame) { return static_cast<int>(ranges::lower_bound(order, frame) - order.begin()); };
     for (FrameSet& set : page.sets) {
       std::vector<Frame> frames;
       frames.reserve(order.size());
@@ -186,12 +185,12 @@ std::string where_all_are(const Page& page) {
 void say(Page& page, std::string heading, std::string text) {
   if (page.sections.empty()) return;
   std::vector<Block>& blocks = page.sections.front().blocks;
-  const auto after = std::ranges::find_if_not(blocks, [](const Block& b) { return std::holds_alternative<Banner>(b); });
+  const auto after = ranges::find_if_not(blocks, [](const Block& b) { return std::holds_alternative<Banner>(b); });
   blocks.insert(after, Banner{Banner::Kind::note, std::move(heading), std::move(text)});
 }
 
 void keep_few_rows(Table& table, const std::string& where) {
-  if (table.rows.size() <= kMostRows || std::ranges::any_of(table.rows, [](const auto& row) { return row.step >= 0; }))
+  if (table.rows.size() <= kMostRows || ranges::any_of(table.rows, [](const auto& row) { return row.step >= 0; }))
     return;
   const std::size_t count = table.rows.size();
   std::vector<Table::Row> rows;
@@ -225,7 +224,7 @@ std::vector<std::size_t> spread_rows(std::size_t count, std::size_t most, const 
       if (low < count) kept.insert({low, high});
     }
   std::vector<std::size_t> others;
-  std::ranges::copy_if(all, std::back_inserter(others), [&](std::size_t row) { return !kept.contains(row); });
+  ranges::copy_if(all, std::back_inserter(others), [&](std::size_t row) { return !kept.contains(row); });
   for (const std::size_t row : evenly(others, most - std::min(most, kept.size()))) kept.insert(row);
   return {kept.begin(), kept.end()};
 }
@@ -242,10 +241,10 @@ Page with_shown_steps(Page page) {
   if (steps <= most) return page;
   std::vector<std::size_t> wanted = page.timeline->notable;
   wanted.push_back(page.timeline->start);
-  std::ranges::sort(wanted);
+  ranges::sort(wanted);
   std::vector<std::size_t> kept = spread_rows(steps, most, curves_over(page, steps), wanted);
-  if (!std::ranges::binary_search(kept, page.timeline->start))  // among many notable ones
-    kept.insert(std::ranges::lower_bound(kept, page.timeline->start), page.timeline->start);
+  if (!ranges::binary_search(kept, page.timeline->start))  // among many notable ones
+    kept.insert(ranges::lower_bound(kept, page.timeline->start), page.timeline->start);
   const std::string label = page.timeline->label;
   StepFilter(kept, steps).apply(page);
   say(page, fmt::format("{} of {} {}s are on this page:", kept.size(), steps, label),

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/field_catalogue.hpp"
 #include "treadmark/report/pictures/chart.hpp"
 #include "treadmark/report/pictures/patch_picture.hpp"
@@ -78,8 +79,7 @@ const FrameSet& set_of(const Page& page, int index) {
 }
 
 bool has_pressure(const io::CaseResult& result) {
-  return std::ranges::any_of(result.patches,
-                             [](const io::PatchResult& patch) { return !patch.fields.pressure.empty(); });
+  return ranges::any_of(result.patches, [](const io::PatchResult& patch) { return !patch.fields.pressure.empty(); });
 }
 
 /// All frames or, of many, some at equal distances.
@@ -150,8 +150,8 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page, s
   const std::vector<int>& sets = std::get<ContactView>(figure.view).sets;
   for (const int index : sets) {
     const FrameSet& set = set_of(page, index);
-    const bool named = sets.size() > 1 &&
-                       std::ranges::any_of(set.frames, [](const Frame& frame) { return has_pressure(*frame.result); });
+    const bool named =
+        sets.size() > 1 && ranges::any_of(set.frames, [](const Frame& frame) { return has_pressure(*frame.result); });
     pictures.push_back(named ? field_svg(set.frames, *find_field("pressure"), set.name) : contact_svg(set));
   }
   return pictures;
@@ -214,7 +214,7 @@ std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, 
     if (panel.patches.empty()) panel.words = pictures::reason_without_patches(*frame.result);
     sheet.least_step = std::max(sheet.least_step, pictures::text_width(frame.name, pictures::kChartFont));
   }
-  if (std::ranges::all_of(sheet.panels, [](const auto& panel) { return panel.patches.empty(); }))
+  if (ranges::all_of(sheet.panels, [](const auto& panel) { return panel.patches.empty(); }))
     throw Error(ErrorKind::configuration, fmt::format("these results have no {}", field.label));
   place_windows(sheet, kPanel);
   explain(sheet, field);

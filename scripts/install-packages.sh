@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# usage: install-packages.sh [--tests|--fuzz]
-# Installs what building needs on Debian 12, with --tests also what only tests and the parts under the GPL need, with --fuzz also what libFuzzer needs. Does nothing where all of it is installed already.
+# usage: install-packages.sh [--tests|--fuzz|--libcxx]
+# Installs what building needs on Debian 12, with --tests also what only tests and the parts under the GPL need, with --fuzz also what
+# libFuzzer needs, with --libcxx also what the preset clang-libcxx needs. Does nothing where all of it is installed already.
 set -euo pipefail
 
 packages=(
@@ -16,6 +17,7 @@ packages=(
 [[ ${1:-} != --tests ]] || packages+=(libfftw3-dev libcgal-dev libgmp-dev libmpfr-dev chromium clang-format clang-tidy doxygen dpkg-dev file gfortran python3-h5py python3-pytest python3-mypy python3-pandas python3-xarray python3-matplotlib python3-distributed python3-pip python3-setuptools python3-venv python3-wheel libxml2-utils libsimbody-dev slurmctld slurmd slurm-client munge valgrind
   python3-sphinx python3-myst-parser furo)
 [[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev)
+[[ ${1:-} != --libcxx ]] || packages+=(clang libc++-dev libc++abi-dev googletest)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

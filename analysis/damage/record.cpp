@@ -13,6 +13,7 @@
 
 #include "treadmark/analysis/damage/wear.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::damage {
@@ -230,7 +231,7 @@ void smooth_across(CellSheet& sheet, const SurfaceCells& cells, double deviation
   const int reach = static_cast<int>(weights.size()) - 1;
   CellSheet out(sheet.nu());
   for (const auto& [j, row] : sheet.rows()) {
-    if (std::ranges::count(row, 0.0) == static_cast<std::ptrdiff_t>(row.size())) continue;
+    if (ranges::count(row, 0.0) == static_cast<std::ptrdiff_t>(row.size())) continue;
     double sum = 0.0;
     for (int k = -reach; k <= reach; ++k)
       if (cells.exists(j + k)) sum += weights[static_cast<std::size_t>(std::abs(k))];

@@ -8,6 +8,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "treadmark/core/platform/ranges.hpp"
+
 namespace treadmark::damage {
 namespace {
 
@@ -77,7 +79,7 @@ Ball smallest_ball(const std::vector<Deviator>& points) {
   Ball ball = ball_through({points.front()});
   for (int step = 0; step < kMostSteps; ++step) {
     const auto far =
-        std::ranges::max_element(points, {}, [&](const Deviator& p) { return (p - ball.centre).squaredNorm(); });
+        ranges::max_element(points, {}, [&](const Deviator& p) { return (p - ball.centre).squaredNorm(); });
     if (ball.holds(*far)) break;
     std::vector<Deviator> few = ball.touching;
     few.insert(few.begin(), *far);

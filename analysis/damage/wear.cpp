@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::damage {
 namespace {
 
 double in_regime(const std::vector<double>& values, const std::vector<double>& limits, double where) {
-  const auto above = std::ranges::lower_bound(limits, where);
+  const auto above = ranges::lower_bound(limits, where);
   return values[static_cast<std::size_t>(above - limits.begin())];
 }
 

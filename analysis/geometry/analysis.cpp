@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::geometry {
 namespace {
@@ -49,7 +50,7 @@ std::pair<double, std::string> amplitude_by_rule(double clearance) {
 
 /// What intervals cover together.
 double covered(std::vector<std::array<double, 2>> parts) {
-  std::ranges::sort(parts);
+  ranges::sort(parts);
   double sum = 0.0, end = -kInfinity;
   for (const auto& [low, high] : parts) {
     if (high > end) sum += high - std::max(low, end);
@@ -79,7 +80,7 @@ ContactSpread spread_of(const ContactFunctions& f, double middle, double amplitu
 
 Steering steering_of(const ContactFunctions& f, double contact_distance, double radius) {
   double to_right = -kInfinity, to_left = -kInfinity;
-  const auto middle = std::ranges::lower_bound(f.rows, -1e-9, {}, &Position::y);
+  const auto middle = ranges::lower_bound(f.rows, -1e-9, {}, &Position::y);
   for (auto p = middle; p != f.rows.end() && p->right.angle < kFlangeAngle; ++p)
     to_right = std::max(to_right, p->radius_difference());
   for (auto p = std::make_reverse_iterator(middle); p != f.rows.rend() && p->left.angle < kFlangeAngle; ++p)

@@ -12,6 +12,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::geometry {
@@ -164,7 +165,7 @@ ContactFunctions contact_functions(const WheelsetOnTrack& wheelset, const Functi
   if (wheelset.symmetric()) {
     std::vector<Jump> all;
     for (const Jump& jump : out.jumps) all.push_back({mirrored(jump.after), mirrored(jump.before), !jump.right});
-    std::ranges::reverse(all);
+    ranges::reverse(all);
     all.insert(all.end(), out.jumps.begin(), out.jumps.end());
     out.jumps = std::move(all);
   }

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/roots.hpp"
 
 namespace treadmark::geometry {
@@ -66,7 +67,7 @@ KinematicMotion::KinematicMotion(RadiusDifference difference) : d_(std::move(dif
     if (z.rising && (!equilibrium_ || std::fabs(nearest(z)) < std::fabs(*equilibrium_))) equilibrium_ = nearest(z);
   }
   if (!equilibrium_) {
-    const auto [least, most] = std::ranges::minmax_element(d_.dr);
+    const auto [least, most] = ranges::minmax_element(d_.dr);
     no_equilibrium_ =
         fmt::format("no equilibrium: the radii differ by {:.3g} to {:.3g} mm at all shifts from {:.3g} to {:.3g} mm",
                     kMilli * *least, kMilli * *most, kMilli * d_.y.front(), kMilli * d_.y.back());

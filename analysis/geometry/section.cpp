@@ -12,6 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/roots.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/rail_head.hpp"
@@ -156,7 +157,7 @@ WheelMarks wheel_marks(const Section& wheel) {
     if (std::isfinite(z[i]) && (tip == z.size() || z[i] > z[tip])) tip = i;
   const double tread =
       std::isnan(out.tape_z)
-          ? *std::ranges::min_element(z, [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); })
+          ? *ranges::min_element(z, [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); })
           : out.tape_z;
   if (tip == z.size() || z[tip] - tread < kLeastFlange) return out;
   out.tip_y = wheel.y(tip);

@@ -7,6 +7,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/roots.hpp"
 #include "treadmark/core/to_whole.hpp"
 
@@ -209,7 +210,7 @@ void WheelsetOnTrack::minima(const Side& side, double y, double roll, double wit
   }
   if (candidates.empty()) return;
   const double z_top = side.z_top;
-  std::ranges::sort(candidates, {}, &Candidate::gap);
+  ranges::sort(candidates, {}, &Candidate::gap);
 
   double best = kInfinity;
   for (const Candidate& c : candidates) {
@@ -219,7 +220,7 @@ void WheelsetOnTrack::minima(const Side& side, double y, double roll, double wit
     best = std::min(best, m.gap);
     out.push_back(m);
   }
-  std::ranges::sort(out, {}, &Minimum::gap);
+  ranges::sort(out, {}, &Minimum::gap);
   while (!out.empty() && out.back().gap > out.front().gap + within) out.pop_back();
 }
 
@@ -309,7 +310,7 @@ std::vector<Touch> WheelsetOnTrack::further_touches(const Position& position, bo
   std::vector<Touch> out;
   std::vector<double> taken;
   for (const Minimum& m : found) {
-    const bool apart = std::ranges::all_of(taken, [&](double s) { return std::fabs(s - m.s) > kApart; });
+    const bool apart = ranges::all_of(taken, [&](double s) { return std::fabs(s - m.s) > kApart; });
     if (!apart || m.end != ProfileEnd::none) continue;
     taken.push_back(m.s);
     if (taken.size() == 1) continue;

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measured {
@@ -69,17 +70,17 @@ double rounding_of(const std::vector<double>& values) {
   steps.insert(steps.end(), std::begin(kInch), std::end(kInch));
   std::sort(steps.rbegin(), steps.rend());
   const auto fits = [&values](double step) {
-    return std::ranges::all_of(values, [&](double v) {
+    return ranges::all_of(values, [&](double v) {
       const double multiples = (v - values.front()) / step;
       return std::fabs(multiples - std::round(multiples)) < kExact + 1e-12 / step;
     });
   };
-  const auto step = std::ranges::find_if(steps, fits);
+  const auto step = ranges::find_if(steps, fits);
   if (step == steps.end()) return 0.0;
   std::map<long long, std::size_t> increments;
   for (std::size_t i = 1; i < values.size(); ++i)
     ++increments[to_whole<long long>(std::round((values[i] - values[i - 1]) / *step))];
-  const auto usual = std::ranges::max_element(increments, {}, [](const auto& entry) { return entry.second; });
+  const auto usual = ranges::max_element(increments, {}, [](const auto& entry) { return entry.second; });
   const bool gauge =
       usual->first != 0 && static_cast<double>(usual->second) > kMostEqual * static_cast<double>(values.size() - 1);
   return gauge ? 0.0 : *step;

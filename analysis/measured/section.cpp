@@ -13,6 +13,7 @@
 #include <Eigen/Dense>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measured {
@@ -237,7 +238,7 @@ Readings rail_z(const Envelope& down, const Envelope& up) {
   const double top = quantile(up.height, 1.0), bottom = quantile(up.height, 0.0);
   if (top - bottom > kGrooved) {
     const auto width = [&](auto&& belongs) {
-      return kStep * static_cast<double>(std::ranges::count_if(up.height, belongs));
+      return kStep * static_cast<double>(ranges::count_if(up.height, belongs));
     };
     const double near_top = width([&](double h) { return h > top - kNearTop; }),
                  near_bottom = width([&](double h) { return h < bottom + kNearTop; });
@@ -348,7 +349,7 @@ void find_back(const SectionPoints& p, std::size_t tip, WheelMarks& marks) {
 
 /// Of the line through the lowest points of both halves of a section.
 double tips_lean(const SectionPoints& p) {
-  const auto [low, high] = std::ranges::minmax(p.y);
+  const auto [low, high] = ranges::minmax(p.y);
   std::array<std::size_t, 2> tip{p.y.size(), p.y.size()};
   for (std::size_t i = 0; i < p.y.size(); ++i) {
     std::size_t& of = tip[p.y[i] > 0.5 * (low + high)];

@@ -18,6 +18,7 @@
 #include "treadmark/analysis/measured/noise.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/core/recent.hpp"
 #include "treadmark/core/roots.hpp"
@@ -249,9 +250,9 @@ std::optional<Straightened> straighten(Points& points, const Curve& curve, doubl
   Straightened out;
   Values feet(points.s);
   for (double& s : points.s) s = arc_at(s);
-  const auto [least, greatest] = std::ranges::minmax_element(points.s);
+  const auto [least, greatest] = ranges::minmax_element(points.s);
   constexpr double kFolded = 1.5;
-  const bool folded = !std::ranges::all_of(points.s, [](double s) { return std::isfinite(s); }) ||
+  const bool folded = !ranges::all_of(points.s, [](double s) { return std::isfinite(s); }) ||
                       !(arc.back() < kFolded * (old.last() - old.first)) || !(*greatest - *least < 2.0 * arc.back());
   if (folded) return std::nullopt;
   out.knots = Knots::over(*least, *greatest, knot_step);
@@ -688,7 +689,7 @@ std::optional<Laid> lay_curve(Points points, const PointNoise& noise, const Assu
       if (round == 0 || breaks.size() == kMostBreaks) break;
       const Break found_break = problem.likeliest_break(laid.fit);
       if (found_break.significance < assumed.least_break) break;
-      const auto nearest = std::ranges::min_element(line.s, {}, [&](double s) { return std::fabs(s - found_break.s); });
+      const auto nearest = ranges::min_element(line.s, {}, [&](double s) { return std::fabs(s - found_break.s); });
       breaks.emplace_back(static_cast<std::size_t>(nearest - line.s.begin()), found_break);
       free_break(line.knots, found_break, third_differences);
     }

@@ -10,6 +10,7 @@
 
 #include "treadmark/analysis/measures/signal.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -216,7 +217,7 @@ bool means_of_windows(Samples samples) { return samples == Samples::ratio_means 
 
 void describe(Assessed& out, const std::vector<double>& samples, Value value) {
   out.samples = samples.size();
-  const auto [least, most] = std::ranges::minmax(samples);
+  const auto [least, most] = ranges::minmax(samples);
   out.least = least, out.most = most;
   out.mean = 0.0;
   for (const double v : samples) out.mean += v / static_cast<double>(samples.size());
@@ -293,8 +294,7 @@ class Assessor {
   };
   Part part_of(const AssessmentSection& section) const {
     Part part;
-    const auto begin = std::ranges::lower_bound(place_, section.from),
-               end = std::ranges::upper_bound(place_, section.to);
+    const auto begin = ranges::lower_bound(place_, section.from), end = ranges::upper_bound(place_, section.to);
     part.first = static_cast<std::size_t>(begin - place_.begin());
     part.end = std::max(part.first, static_cast<std::size_t>(end - place_.begin()));
     part.duration = kRunStep * static_cast<double>(part.end - part.first);

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::measures {
@@ -98,7 +99,7 @@ std::vector<double> both_ways(std::span<const double> values, const FilterSectio
     v.push_back(2.0 * values.back() - values[static_cast<std::size_t>(n - 1 - i)]);
   for (int pass = 0; pass < 2; ++pass) {
     filter_in_place(v, section);
-    std::ranges::reverse(v);
+    ranges::reverse(v);
   }
   return {v.begin() + more, v.begin() + more + n};
 }

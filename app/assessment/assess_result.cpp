@@ -3,7 +3,6 @@
 #include "treadmark/app/assessment/assess_result.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -13,6 +12,8 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 
@@ -33,7 +34,7 @@ std::optional<WheelPlace> wheel_place(const std::string& name) {
   if (!name.starts_with("ws")) return {};
   WheelPlace place;
   const char* const end = name.data() + name.size();
-  const auto [rest, error] = std::from_chars(name.data() + 2, end, place.wheelset);
+  const auto [rest, error] = from_chars(name.data() + 2, end, place.wheelset);
   const std::string side(rest, end);
   if (error != std::errc() || place.wheelset == 0 || (side != "_left" && side != "_right")) return {};
   --place.wheelset;
@@ -66,7 +67,7 @@ void add_spectra(AssessedRun& run) {
   const io::SimulationResult& result = *run.result;
   const std::vector<double> time = io::column_values(result, io::column_index(result, "t_s"));
   const std::vector<double> place = io::column_values(result, io::column_index(result, "x_m"));
-  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(place, run.request.from) - place.begin());
+  const auto first = static_cast<std::size_t>(ranges::lower_bound(place, run.request.from) - place.begin());
   for (const std::size_t column : io::fitting_columns(result.columns, run.request.spectra)) {
     const std::string name = io::channel_name(result.columns[column]);
     const double usual = usual_step(time, first), longest = longest_step(time, first);
@@ -76,7 +77,7 @@ void add_spectra(AssessedRun& run) {
       continue;
     }
     const std::vector<double> values = io::column_values(result, column);
-    if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) {
+    if (!ranges::all_of(values, [](double v) { return std::isfinite(v); })) {
       run.doubts.push_back(fmt::format("{}: it has no spectrum, not all of its values are numbers", name));
       continue;
     }
@@ -131,8 +132,8 @@ std::vector<std::string> names_of(const std::vector<std::string>& results) {
     names.push_back(path.filename().string());
   }
   std::vector<std::string> sorted = names;
-  std::ranges::sort(sorted);
-  return std::ranges::adjacent_find(sorted) == sorted.end() ? names : results;
+  ranges::sort(sorted);
+  return ranges::adjacent_find(sorted) == sorted.end() ? names : results;
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ double acceleration_level(double rms) {
 
 measures::RunSignals signals_of(const io::SimulationResult& result) {
   for (const char* name : {"t_s", "x_m"})
-    if (std::ranges::find(result.columns, name, &io::HistoryColumn::name) == result.columns.end())
+    if (ranges::find(result.columns, name, &io::HistoryColumn::name) == result.columns.end())
       throw Error(ErrorKind::input_data, fmt::format("the history has no column {}", name), {},
                   "only simulations of vehicles can be assessed");
   measures::RunSignals run;
@@ -161,7 +162,7 @@ measures::RunSignals signals_of(const io::SimulationResult& result) {
       if (!wheels.contains(parts[0])) order.push_back(parts[0]);
       wheels[parts[0]][parts[1]] = i;
     }
-    const auto kind = parts.size() == 3 ? std::ranges::find(kPointKinds, parts[0]) : kPointKinds.end();
+    const auto kind = parts.size() == 3 ? ranges::find(kPointKinds, parts[0]) : kPointKinds.end();
     if (kind != kPointKinds.end() && (parts[2] == "ay_m_s2" || parts[2] == "az_m_s2"))
       run.points.push_back(
           {parts[1], static_cast<PointKind>(kind - kPointKinds.begin()), parts[2] == "ay_m_s2", values(i)});

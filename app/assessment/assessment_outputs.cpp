@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/json/json_tree.hpp"
@@ -110,7 +110,7 @@ std::string assessment_csv(std::span<const AssessedRun> runs) {
   text += '\n';
   for (const AssessedRun& run : runs)
     for (const Assessed& one : run.quantities) {
-      const auto section = std::ranges::find(run.request.sections, one.section, &AssessmentSection::name);
+      const auto section = ranges::find(run.request.sections, one.section, &AssessmentSection::name);
       text += fmt::format("{},{},{},{},{},{},{},{},{},{}", io::csv_cell(run.name), io::csv_cell(one.section),
                           io::csv_number(section->from), io::csv_number(section->to),
                           kSectionKinds[static_cast<std::size_t>(section->kind)], io::csv_cell(one.place), one.quantity,
@@ -214,7 +214,7 @@ std::string spectra_svg(std::span<const AssessedRun> runs) {
   std::vector<std::string> units;  // a chart each
   for (const AssessedRun& run : runs)
     for (const ChannelSpectrum& s : run.spectra)
-      if (!s.bands.empty() && std::ranges::find(units, s.unit) == units.end()) units.push_back(s.unit);
+      if (!s.bands.empty() && ranges::find(units, s.unit) == units.end()) units.push_back(s.unit);
   for (const std::string& unit : units) {
     pictures::Chart chart;
     chart.x_label = "frequency [Hz]";
@@ -279,9 +279,9 @@ void write_assessment_folder(const std::filesystem::path& folder, std::span<cons
   for (std::size_t c = 1; c < drawn.front().columns.size(); ++c) {
     const io::HistoryColumn& column = drawn.front().columns[c];
     const auto in_all = [&](const io::SimulationResult& one) {
-      return std::ranges::find(one.columns, column.name, &io::HistoryColumn::name) != one.columns.end();
+      return ranges::find(one.columns, column.name, &io::HistoryColumn::name) != one.columns.end();
     };
-    if (!std::ranges::all_of(drawn, in_all)) continue;
+    if (!ranges::all_of(drawn, in_all)) continue;
     const bool force = column.unit == "N";
     const std::string name = force ? column.name.substr(0, column.name.rfind('_')) + " [kN]" : column.name;
     chart.y.push_back({column.name, name, force ? 1e-3 : 1.0});

@@ -2,12 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/bench/bench_pair.hpp"
 
-#include <algorithm>
-
 #include "treadmark/app/bench/check_surface.hpp"
 #include "treadmark/app/bench/machine.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 
 namespace treadmark::app {
@@ -42,7 +41,7 @@ class PairBench {
   /// Of names that are in no list: not.
   bool one_place() const {
     const auto all = backends();
-    return std::ranges::any_of(all, [&](const Backend* b) { return b->name == pair_.backend && b->one_place; });
+    return ranges::any_of(all, [&](const Backend* b) { return b->name == pair_.backend && b->one_place; });
   }
 
   BenchRow body_row(Body body) {

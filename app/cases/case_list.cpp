@@ -16,6 +16,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/results/write_json.hpp"
 
@@ -165,17 +166,16 @@ SolvedList::SolvedList(io::ListedCases given, SurfaceStore& store, const ListOpt
     : json_(options.json) {
   const CancellationScope scope(progress.stop);
   const auto start = SteadyClock::now();
-  const bool wheel_on_rail =
-      std::ranges::any_of(given.file.cases, [](const io::Case& c) { return c.content.index() == 0; });
+  const bool wheel_on_rail = ranges::any_of(given.file.cases, [](const io::Case& c) { return c.content.index() == 0; });
   if (given.rows) given_keys_ = given.rows->numbers();
   for (const std::string& name : options.numbers) {
-    if (std::ranges::find(numbers_, name, &io::ListedNumber::name) != numbers_.end())
+    if (ranges::find(numbers_, name, &io::ListedNumber::name) != numbers_.end())
       throw Error(ErrorKind::configuration, fmt::format("{} stands twice among the numbers of the list", name));
     numbers_.push_back(io::listed_number(name));
   }
   if (numbers_.empty()) numbers_ = io::usual_numbers(wheel_on_rail);
   std::erase_if(numbers_, [&](const io::ListedNumber& number) {  // what rows give is there, in their unit
-    return std::ranges::any_of(given_keys_, [&](const io::CaseKey* key) { return si_name(*key) == number.si_name; });
+    return ranges::any_of(given_keys_, [&](const io::CaseKey* key) { return si_name(*key) == number.si_name; });
   });
 
   store.begin_run();
@@ -298,7 +298,7 @@ void SolvedList::for_each(const std::function<void(const ListedResult&)>& visit)
     Open& at = place->second;
     if (fresh) {
       at.rows = rows_in(log_->content(part));
-      std::ranges::sort(at.rows, {}, &ListedResult::number);
+      ranges::sort(at.rows, {}, &ListedResult::number);
     }
     visit(at.rows.at(at.next++));
     if (at.next == at.rows.size()) open.erase(place);

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/shape/arc_at.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/profile_scatter.hpp"
@@ -78,7 +79,7 @@ void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseRe
   const std::size_t draws = std::max(rail_.draws_count(), wheel_.draws_count());
   for (std::size_t k = 0; k < patches.size(); ++k)
     uncertain[k].errors.assign(draws, std::vector<double>(static_cast<std::size_t>(uncertain[k].grid.ny), 0.0));
-  const io::PatchResult& largest = **std::ranges::max_element(patches, {}, [](const auto* patch) { return patch->fn; });
+  const io::PatchResult& largest = **ranges::max_element(patches, {}, [](const auto* patch) { return patch->fn; });
   for (const Body which : {Body::rail, Body::wheel}) {
     const bool wheel = which == Body::wheel;
     const Known& body = wheel ? wheel_ : rail_;

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cases/output_files.hpp"
 
-#include <algorithm>
 #include <functional>
 #include <map>
 #include <system_error>
@@ -16,6 +15,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
@@ -102,7 +102,7 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
 std::vector<double> times_of(const io::RunResult& run) {
   using Case = io::CaseResult;
   constexpr double kDegrees = 180.0 / kPi;
-  if (run.cases.size() < 2 || !std::ranges::all_of(run.cases, &Case::has_wheelset)) return {};
+  if (run.cases.size() < 2 || !ranges::all_of(run.cases, &Case::has_wheelset)) return {};
   for (const auto& [place, factor] : {std::pair{&Case::pitch, kDegrees},
                                       {&Case::s, kMilli},
                                       {&Case::y, kMilli},
@@ -111,7 +111,7 @@ std::vector<double> times_of(const io::RunResult& run) {
     std::vector<double> times;
     times.reserve(run.cases.size());
     for (const Case& c : run.cases) times.push_back(io::rounded(factor * c.*place));
-    if (std::ranges::is_sorted(times, std::less_equal<>())) return times;
+    if (ranges::is_sorted(times, std::less_equal<>())) return times;
   }
   return {};
 }

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cases/position_picture.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
@@ -55,7 +55,7 @@ PositionSection position_section(const io::WheelRailCase& input, const wheelrail
   out.wheel = section(*geometry.wheel, placement.X_TA, x);
   if (left)
     for (auto* points : {&out.rail, &out.wheel}) {
-      std::ranges::reverse(*points);
+      ranges::reverse(*points);
       for (Vec2& point : *points) point.x() = -point.x();
     }
   return out;

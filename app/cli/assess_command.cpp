@@ -12,6 +12,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/number_text.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -45,7 +46,7 @@ AssessmentSection section_of(const std::string& text) {
                 "write NAME:FROM:TO or NAME:FROM:TO:KIND, places in metres");
   AssessmentSection section{parts[0], metres(parts[1], text), metres(parts[2], text), SectionKind::straight};
   if (parts.size() == 4) {
-    const auto kind = std::ranges::find(kSectionKinds, parts[3]);
+    const auto kind = ranges::find(kSectionKinds, parts[3]);
     if (kind == kSectionKinds.end())
       throw Error(ErrorKind::configuration, fmt::format("--section {}: there is no kind '{}'", text, parts[3]), {},
                   fmt::format("kinds: {}", fmt::join(kSectionKinds, ", ")));
@@ -56,7 +57,7 @@ AssessmentSection section_of(const std::string& text) {
 
 int assess_command(const AssessOptions& options, const CommonOptions&) {
   AssessmentRequest request;
-  const auto kind = std::ranges::find(kVehicleKinds, options.vehicle);
+  const auto kind = ranges::find(kVehicleKinds, options.vehicle);
   request.vehicle = static_cast<VehicleKind>(kind - kVehicleKinds.begin());
   request.from = options.from;
   request.spectra = options.spectra;
@@ -73,10 +74,10 @@ int assess_command(const AssessOptions& options, const CommonOptions&) {
   print_results(options.json_file, json,
                 [&] { return options.csv_file == "-" ? app::assessment_csv(runs) : app::assessment_text(runs); });
   const auto good = [](const app::AssessedRun& run) {
-    return std::ranges::any_of(run.quantities,
-                               [](const measures::Assessed& a) { return a.status == measures::AssessedStatus::ok; });
+    return ranges::any_of(run.quantities,
+                          [](const measures::Assessed& a) { return a.status == measures::AssessedStatus::ok; });
   };
-  return std::ranges::all_of(runs, good) ? kOk : kFailed;
+  return ranges::all_of(runs, good) ? kOk : kFailed;
 }
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
@@ -133,7 +134,7 @@ bool is_geometry_file(const std::string& name) { return app::is_profile_file(nam
 /// Null for profiles, surfaces and cases.
 const PlainKind* plain_kind_of(const std::string& name) {
   if (is_geometry_file(name)) return nullptr;
-  const auto found = std::ranges::find(kPlainKinds, io::file_kind(name), &PlainKind::kind);
+  const auto found = ranges::find(kPlainKinds, io::file_kind(name), &PlainKind::kind);
   return found == std::end(kPlainKinds) ? nullptr : &*found;
 }
 
@@ -141,9 +142,8 @@ const PlainKind* plain_kind_of(const std::string& name) {
 std::map<std::string, std::filesystem::path> picture_folders(const CheckOptions& options) {
   if (options.output_folder.empty()) return {};
   std::vector<std::string> names;
-  std::ranges::copy_if(options.cases, std::back_inserter(names), [](const std::string& name) {
-    return !is_geometry_file(name) && plain_kind_of(name) == nullptr;
-  });
+  ranges::copy_if(options.cases, std::back_inserter(names),
+                  [](const std::string& name) { return !is_geometry_file(name) && plain_kind_of(name) == nullptr; });
   const std::vector<std::filesystem::path> folders = app::output_folders(options.output_folder, names);
   std::map<std::string, std::filesystem::path> by_name;
   for (std::size_t k = 0; k < names.size(); ++k) by_name[names[k]] = folders[k];
@@ -165,7 +165,7 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
       check_case_file(options, pictures[name], input);
   }
   write_report_file(options.report_file, [&] { return app::pages::check_page(inputs); });
-  return std::ranges::any_of(inputs, [](const CheckedInput& input) { return doubts_of(input) > 0; }) ? kFailed : kOk;
+  return ranges::any_of(inputs, [](const CheckedInput& input) { return doubts_of(input) > 0; }) ? kFailed : kOk;
 }
 
 }  // namespace

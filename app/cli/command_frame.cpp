@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -19,6 +18,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/report/write_page.hpp"
@@ -90,7 +90,7 @@ Command add_left_out(CLI::App& verb) {
   verb.description(verb.get_description() + " (left out of this build)");
   verb.allow_extras();
   verb.fallthrough(false);
-  const auto row = std::ranges::find(verbs(), verb.get_name(), [](const Verb& v) { return std::string(v.name); });
+  const auto row = ranges::find(verbs(), verb.get_name(), [](const Verb& v) { return std::string(v.name); });
   return [row](const CommonOptions&) -> int { left_out(row->part, std::string("treadmark ") + row->name); };
 }
 
@@ -157,7 +157,11 @@ ProgressLine::ProgressLine(bool quiet, Units units)
 
 ProgressLine::~ProgressLine() {
   if (clock_.joinable()) {
-    clock_.request_stop();
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    end_.notify_one();
     clock_.join();
   }
   if (drawn_) std::fputs("\r\x1b[K", stderr);
@@ -190,10 +194,9 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
     step_ = fmt::format("step {} of {}: {}", std::min(finished + 1, total), total, what);
     draw(fmt::format("{}, {:.0f} s so far", step_, seconds()));
     if (!clock_.joinable())
-      clock_ = std::jthread([this, seconds](const std::stop_token& stop) {
-        std::condition_variable_any wake;
+      clock_ = std::thread([this, seconds] {
         std::unique_lock hold(mutex_);
-        while (!wake.wait_for(hold, stop, 1s, [] { return false; }) && !stop.stop_requested())
+        while (!end_.wait_for(hold, 1s, [this] { return ended_; }))
           draw(fmt::format("{}, {:.0f} s so far", step_, seconds()));
       });
     return;

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -54,7 +55,9 @@ class ProgressLine {
   std::size_t found_ = 0;  ///< units that were finished at the start: they say nothing of the time that others take
   std::mutex mutex_;
   std::string step_;  ///< of different units
-  std::jthread clock_;
+  std::thread clock_;
+  std::condition_variable end_;
+  bool ended_ = false;
 };
 
 /// What several verbs have in common: options, and the frame round their work.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <iostream>
 #include <string_view>
 
@@ -14,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/model/contact/theories.hpp"
@@ -50,7 +50,7 @@ void print_profiles() {
 void print_defects() {
   Defects::each(Defects{}, [](std::string_view path, Body, const auto&) {
     const auto keys = io::case_keys();
-    const auto list = std::ranges::find_if(keys, [path](const io::CaseKey& key) { return key.info.path == path; });
+    const auto list = ranges::find_if(keys, [path](const io::CaseKey& key) { return key.info.path == path; });
     std::string names;
     for (const io::KeyInfo& key : list->info.elements)
       names += fmt::format("{}{}{}", names.empty() ? "" : ", ", key.path, key.required ? " (required)" : "");

@@ -28,6 +28,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace {
 
@@ -135,7 +136,7 @@ int parse_and_run(int argc, char** argv) {
   std::vector<std::string> words = cli::with_help({argv + 1, argv + argc});
   cli::check_words(program, words);
   try {
-    std::ranges::reverse(words);  // as the parser takes them
+    ranges::reverse(words);  // as the parser takes them
     program.parse(std::move(words));
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) {

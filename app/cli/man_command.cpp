@@ -3,7 +3,6 @@
 // Manual pages, from what --help is made of.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
 #include <iostream>
 #include <string>
@@ -13,6 +12,7 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -59,7 +59,7 @@ std::string options(const CLI::App& app) {
 std::string page(const CLI::App& program, const CLI::App* verb) {
   std::string title = "treadmark", call = "treadmark", upper;
   if (verb != nullptr) title += '-' + verb->get_name(), call += ' ' + verb->get_name();
-  std::ranges::transform(title, std::back_inserter(upper), [](unsigned char c) { return std::toupper(c); });
+  ranges::transform(title, std::back_inserter(upper), [](unsigned char c) { return std::toupper(c); });
   const CLI::App& app = verb != nullptr ? *verb : program;
   std::string out = fmt::format(".TH {} 1 \"\" \"Treadmark {}\" \"Treadmark\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n",
                                 upper, app::version(), escaped(title), escaped(app.get_description()));
@@ -77,7 +77,7 @@ std::string page(const CLI::App& program, const CLI::App* verb) {
     }
   } else {
     out += ".PP\nOptions of \\fBtreadmark\\fR(1) may stand here too.\n";
-    const auto row = std::ranges::find(verbs(), verb->get_name(), [](const Verb& v) { return std::string(v.name); });
+    const auto row = ranges::find(verbs(), verb->get_name(), [](const Verb& v) { return std::string(v.name); });
     out += ".SH EXAMPLES\n.nf\n" + escaped(example_lines(*row)) + ".fi\n";
     others = "\\fBtreadmark\\fR(1)";
   }

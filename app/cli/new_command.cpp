@@ -14,6 +14,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/tables/number.hpp"
@@ -264,7 +265,7 @@ const std::vector<Start>& starts() {
                                        {"backend", ".py", kBackend, nullptr}};
   return list;
 }
-const Start& start_of(std::string_view kind) { return *std::ranges::find(starts(), kind, &Start::kind); }
+const Start& start_of(std::string_view kind) { return *ranges::find(starts(), kind, &Start::kind); }
 
 using io::Json;
 
@@ -327,9 +328,8 @@ std::string explained(const Start& start) {
     }
     const bool off = line.starts_with('#') && !line.starts_with("# ");
     const std::size_t from = off ? 1 : 0, to = std::min(line.find_first_of(" ="), line.size());
-    if (to <= from || !std::ranges::all_of(line.substr(from, to - from), [](unsigned char c) {
-          return std::isalnum(c) != 0 || c == '_' || c == '.';
-        })) {
+    if (to <= from || !ranges::all_of(line.substr(from, to - from),
+                                      [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; })) {
       out += line + '\n';  // a comment, or the rest of a value
       continue;
     }

@@ -7,7 +7,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
@@ -20,6 +19,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 
@@ -94,7 +94,7 @@ void check_page_name(const fs::path& file) {
     throw Error(ErrorKind::configuration, "a page becomes a PDF by Chromium, which is not installed", {file.string()},
                 "install it, or write the page as .html and print it from a browser");
   constexpr std::string_view kOthers[] = {".png", ".svg", ".jpg", ".jpeg", ".docx", ".odt", ".xlsx", ".json", ".csv"};
-  if (std::ranges::find(kOthers, ending) != std::end(kOthers))
+  if (ranges::find(kOthers, ending) != std::end(kOthers))
     throw Error(ErrorKind::configuration, "a report is a page (.html) or its print (.pdf)", {file.string()},
                 "name it so; single pictures are made by treadmark plot");
 }

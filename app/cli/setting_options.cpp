@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/setting_options.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <cstdint>
 #include <string>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::cli {
@@ -16,11 +16,11 @@ namespace {
 std::string words_of(const io::KeyInfo& key) {
   if (!key.option.empty()) return key.option;
   std::string words = "--" + key.path;
-  std::ranges::replace(words, '_', '-');
+  ranges::replace(words, '_', '-');
   std::string value(key.type == io::KeyType::value_list ? "_list" : io::unit_at_end(key.path).ending);
   if (value.empty()) return words;
   value.front() = ' ';
-  std::ranges::transform(value, value.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  ranges::transform(value, value.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return words + value;
 }
 

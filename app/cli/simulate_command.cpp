@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -21,6 +20,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
@@ -42,7 +42,7 @@ struct SimulateOptions {
 };
 
 double doubtful_steps(const io::SimulationResult& result) {
-  const auto found = std::ranges::find(result.summary, "doubtful_steps", &io::NamedValue::name);
+  const auto found = ranges::find(result.summary, "doubtful_steps", &io::NamedValue::name);
   return found == result.summary.end() ? 0.0 : found->value;
 }
 
@@ -156,7 +156,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     app::write_simulation_folder(folder, result);
     if (options.vtk) write_snapshots_vtk(folder / "vtk", result);
     std::error_code ignored;
-    if (result.status == "complete") std::filesystem::remove(run.checkpoint_file, ignored);
+    if (result.ended()) std::filesystem::remove(run.checkpoint_file, ignored);
   }
   write_report_file(options.report_file, [&] { return app::pages::simulation_page(shared, {}, own); });
   print_summary(
@@ -164,6 +164,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       app::summary_text(result) + (own ? app::assessment_text(std::span(own, 1)) : "") + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; the same command goes on from there") << '\n';
+  if (result.status == "derailed") std::cerr << "warning: derailed: " << result.message << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
   if (const double steps = doubtful_steps(result); steps > 0.0)
     std::cerr << fmt::format(

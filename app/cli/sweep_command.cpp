@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 
@@ -16,6 +15,8 @@
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
@@ -38,8 +39,8 @@ io::RunRange range_of(const std::string& text) {
   io::RunRange range;
   if (text.empty()) return range;
   const char* const end = text.data() + text.size();
-  const auto [dash, no_first] = std::from_chars(text.data(), end, range.first);
-  const auto [rest, no_last] = std::from_chars(std::min(dash + 1, end), end, range.last);
+  const auto [dash, no_first] = from_chars(text.data(), end, range.first);
+  const auto [rest, no_last] = from_chars(std::min(dash + 1, end), end, range.last);
   const bool read = no_first == std::errc() && dash != end && *dash == '-' && no_last == std::errc() && rest == end;
   if (!read || range.first < 1 || range.last < range.first)
     throw Error(ErrorKind::configuration, "--runs " + text + " is no range of runs", {}, "for example --runs 11-20");
@@ -88,7 +89,7 @@ void print_table(const io::StudyResult& study) {
   }
   for (const char* name : {"q_max_N", "q_max_over_static", "ty_max_N", "pmax_Pa"}) {
     const auto shown = [&](const io::SimulationRun& run) { return io::shown_number(io::summary_value(run, name), -1); };
-    if (std::ranges::all_of(study.runs, [&](const auto& run) { return shown(run) == "-"; })) continue;
+    if (ranges::all_of(study.runs, [&](const auto& run) { return shown(run) == "-"; })) continue;
     lines.front().emplace_back(name);
     for (std::size_t i = 0; i < study.runs.size(); ++i) lines[i + 1].push_back(shown(study.runs[i]));
   }
@@ -144,7 +145,7 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   if (place.rank == 0) print_table(outcome.study);
   if (speaks && share.whole()) std::cerr << "results: " << options.output_folder << '\n';
   const bool all_good =
-      std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
+      ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
   return all_good ? kOk : kFailed;
 }
 

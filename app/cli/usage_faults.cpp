@@ -13,13 +13,14 @@
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/settings/toml_faults.hpp"
 
 namespace treadmark::cli {
 namespace {
 
 bool is_verb(const std::string& word) {
-  return std::ranges::any_of(verbs(), [&](const Verb& verb) { return word == verb.name; });
+  return ranges::any_of(verbs(), [&](const Verb& verb) { return word == verb.name; });
 }
 
 /// Where the verb stands: the first word that is no option, nor the number of threads.
@@ -32,14 +33,11 @@ std::size_t place_of_verb(const std::vector<std::string>& words) {
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const OptionWords& words : option_words(app))
-    std::ranges::copy_if(words.names, std::back_inserter(names),
-                         [](const auto& name) { return name.starts_with("--"); });
+    ranges::copy_if(words.names, std::back_inserter(names), [](const auto& name) { return name.starts_with("--"); });
   return names;
 }
 
-bool has_option(const CLI::App& app, const std::string& name) {
-  return std::ranges::count(option_names(app), name) > 0;
-}
+bool has_option(const CLI::App& app, const std::string& name) { return ranges::count(option_names(app), name) > 0; }
 
 /// "treadmark run [OPTIONS] CASE..."
 std::string call_of(const CLI::App& program, const CLI::App* verb) {
@@ -64,7 +62,7 @@ Said unknown_option(const CLI::App& program, const CLI::App* verb, const std::st
     return {fmt::format("'{}' is taken for an option", word),
             fmt::format("a negative value stands behind a =: --option={}", word)};
   std::vector<std::string> known = option_names(program);
-  if (verb != nullptr) std::ranges::copy(option_names(*verb), std::back_inserter(known));
+  if (verb != nullptr) ranges::copy(option_names(*verb), std::back_inserter(known));
   const std::string asked = name.starts_with("--") ? name : '-' + name;
   Said said{fmt::format("there is no option '{}'", name), ""};
   for (const std::string& one : known)
@@ -85,7 +83,7 @@ Said extra_word(const CLI::App* verb, const std::string& word) {
     if (place->get_positional()) places.push_back(place->get_name(true));
   for (const OptionWords& words : option_words(*verb)) {
     for (const char* name : {"--wheel", "--rail"})
-      if (std::ranges::count(words.names, name) > 0) named.emplace_back(name);
+      if (ranges::count(words.names, name) > 0) named.emplace_back(name);
   }
   Said said{fmt::format("'{}' is one word too many: {} takes {}", word, verb->get_name(),
                         places.empty() ? "options only" : fmt::format("{}", fmt::join(places, " and "))),
@@ -102,7 +100,7 @@ Said wrong_value(const CLI::App* verb, std::string message) {
   if (verb != nullptr && end != std::string::npos && colon < end) {
     const std::string name = message.substr(0, colon), value = message.substr(colon + 2, end - colon - 2);
     for (const OptionWords& words : option_words(*verb)) {
-      if (words.value != name && std::ranges::count(words.names, name) == 0) continue;
+      if (words.value != name && ranges::count(words.names, name) == 0) continue;
       const std::string near = nearest_name(value, words.choices);
       return {fmt::format("{} cannot be '{}': choose {}", name, value, fmt::join(words.choices, ", ")),
               near.empty() ? "" : fmt::format("did you mean '{}'?", near)};

@@ -12,6 +12,7 @@ Command add_sweep(CLI::App& verb) { return add_left_out(verb); }
 Command add_evolve(CLI::App& verb) { return add_left_out(verb); }
 Command add_stability(CLI::App& verb) { return add_left_out(verb); }
 Command add_track(CLI::App& verb) { return add_left_out(verb); }
+Command add_table(CLI::App& verb) { return add_left_out(verb); }
 
 void check_study_file(const std::string& name, const std::vector<std::string>&) {
   left_out("vehicle", "studies such as " + name);

@@ -17,6 +17,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/results/summary.hpp"
@@ -97,7 +98,7 @@ io::CaseFile with(io::CaseFile file, const Choice& choice) {
 }
 
 bool elements_chosen(const io::CaseFile& file) {
-  return std::ranges::any_of(file.cases, [](const io::Case& c) {
+  return ranges::any_of(file.cases, [](const io::Case& c) {
     const auto* input = std::get_if<io::WheelRailCase>(&c.content);
     return input != nullptr && (input->discretisation.choose_dx || input->discretisation.choose_ds);
   });
@@ -154,8 +155,8 @@ double relative(double value, double truth) { return truth == 0.0 ? 0.0 : (value
 /// Whether the largest pressure of the main patch grows with smaller elements: no error of a representation.
 bool without_limit(const io::CaseResult& result) {
   const int number = 1 + static_cast<int>(main_patch(result) - result.patches.data());
-  return std::ranges::any_of(
-      result.remarks, [number](const Remark& r) { return r.kind == RemarkKind::edge_pressure && r.patch == number; });
+  return ranges::any_of(result.remarks,
+                        [number](const Remark& r) { return r.kind == RemarkKind::edge_pressure && r.patch == number; });
 }
 
 void compare(io::ComparisonRow& row, const io::CaseResult& result, const io::ComparisonRow& truth,

@@ -19,6 +19,7 @@
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
@@ -51,7 +52,7 @@ void place_along_bodies(const io::EvolutionFile& file, std::vector<PassedCase>& 
 void meet_rail(std::vector<RailMet>& rails, const io::WheelRailCase& input, std::shared_ptr<const Surface> rail,
                double weight) {
   RailMet met{std::move(rail), input.state.position.x, input.track.cant, placement_of(input), weight};
-  const auto known = std::ranges::find_if(rails, [&](const RailMet& r) {
+  const auto known = ranges::find_if(rails, [&](const RailMet& r) {
     return r.rail == met.rail && r.x == met.x && r.cant == met.cant && r.placement == met.placement;
   });
   if (known == rails.end())
@@ -164,7 +165,7 @@ class CaseContacts : public ContactSource {
       const io::SurfaceSource& source = source_of(input, body);
       refuse_one_place(source, "an evolution");
       const sampling::Region& region = body == Body::wheel ? regions_.wheel : regions_.rail;
-      const auto evolving = std::ranges::find(file_.bodies, body, &io::EvolvingBody::body);
+      const auto evolving = ranges::find(file_.bodies, body, &io::EvolvingBody::body);
       std::shared_ptr<const Surface> surface;
       bool constant = false;
       if (evolving == file_.bodies.end()) {
@@ -174,7 +175,7 @@ class CaseContacts : public ContactSource {
       } else {
         const NaturalSurface& natural = surfaces[static_cast<std::size_t>(evolving - file_.bodies.begin())];
         const std::string key = fmt::format("{} {} {:.17g}", body_name(body), source.backend, source.resolution);
-        auto known = std::ranges::find(made, key, [](const auto& m) { return m.first; });
+        auto known = ranges::find(made, key, [](const auto& m) { return m.first; });
         if (known == made.end())
           known = made.insert(made.end(), {key, represent(natural, {source.backend, source.resolution, region})});
         surface = known->second.surface;

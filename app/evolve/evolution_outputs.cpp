@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/tables/json_of.hpp"
@@ -77,7 +77,7 @@ std::string evolution_table(const io::EvolutionResult& result) {
     lines.push_back({fmt::format("{:>10}", g.number)});
     const std::vector<io::EvolutionQuantity> known = io::quantities_of(g);
     for (std::size_t k = 1; k < lines.front().size(); ++k) {
-      const auto found = std::ranges::find(known, lines.front()[k], &io::EvolutionQuantity::name);
+      const auto found = ranges::find(known, lines.front()[k], &io::EvolutionQuantity::name);
       lines.back().push_back(found == known.end() ? "-" : fmt::format("{:.5g}", found->value));
     }
   }

@@ -11,6 +11,7 @@
 
 #include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
 namespace treadmark::app {
@@ -86,7 +87,7 @@ std::string evolved_surface_vts(const Surface& surface, const io::EvolvedBody& b
     sections.push_back(section_at(surface, c.body, columns.first_edge + i * columns.step, y));
   // edges of rows at the border may lie beyond it
   const auto there = [&](std::size_t k) {
-    return std::ranges::all_of(sections, [k](const auto& z) { return std::isfinite(z[k]); });
+    return ranges::all_of(sections, [k](const auto& z) { return std::isfinite(z[k]); });
   };
   std::size_t low = 0, high = y.size() - 1;
   while (low < high && !there(low)) ++low;

@@ -12,6 +12,7 @@
 #include "treadmark/analysis/damage/fatigue.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/solvers/kalker/subsurface/subsurface_stress.hpp"
 
@@ -207,7 +208,7 @@ std::vector<damage::Stretch> stretches(const std::vector<double>& places, Body b
   const std::size_t n = places.size();
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return places[i]; });
+  ranges::sort(order, {}, [&](std::size_t i) { return places[i]; });
   std::vector<damage::Stretch> out(n);
   const double turn = 2.0 * kPi;
   for (std::size_t k = 0; k < n; ++k) {

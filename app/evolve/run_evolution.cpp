@@ -22,6 +22,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
@@ -260,7 +261,7 @@ class EvolutionRun {
       out.weight = place.weight / place.beside;
       out.patches = static_cast<int>(c.patches.size());
       out.remarks = static_cast<int>(c.remarks.size());
-      out.doubts = static_cast<int>(std::ranges::count_if(c.remarks, [](const Remark& r) { return r.grave(); }));
+      out.doubts = static_cast<int>(ranges::count_if(c.remarks, [](const Remark& r) { return r.grave(); }));
       for (const io::PatchResult& p : c.patches) {
         out.fn += p.fn, out.fx += p.fx, out.fs += p.fs;
         out.pmax = std::max(out.pmax, p.pmax);

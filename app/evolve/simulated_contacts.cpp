@@ -18,6 +18,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
@@ -41,7 +42,7 @@ constexpr SummaryRow kSummaryRows[] = {
     {"doubtful_steps", "doubtful_steps", "1", "steps of simulations with a warning about the contact", 1.0, sum}};
 
 double summary_value(const io::SimulationResult& result, std::string_view name) {
-  const auto row = std::ranges::find(result.summary, name, &io::NamedValue::name);
+  const auto row = ranges::find(result.summary, name, &io::NamedValue::name);
   return row == result.summary.end() ? 0.0 : row->value;
 }
 
@@ -106,7 +107,7 @@ class SimulatedContacts : public ContactSource {
       if (natural_of(store, run, true) != body.surface || run.contact.wheelset.nominal_radius != body.radius)
         throw Error(ErrorKind::configuration, "the positions have different wheels, which evolve",
                     run.contact.wheel.where, "what evolves is one surface; vary the other body");
-      if (!std::ranges::all_of(run.wheels, [&](const auto& wheel) { return passes(wheel); }) &&
+      if (!ranges::all_of(run.wheels, [&](const auto& wheel) { return passes(wheel); }) &&
           natural_of(store, run, false) == body.surface)
         throw Error(ErrorKind::configuration, "the wheel that evolves is that of the other wheels too", input.where,
                     "give it a defect of its own, or let all wheels evolve (contact = \"full\")");
@@ -150,7 +151,7 @@ class SimulatedContacts : public ContactSource {
   /// What an evolution asks of a simulation.
   void check(const io::SimulationFile& run) const {
     const SourcePosition where{run.path.string()};
-    const auto first = std::ranges::find(run.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
+    const auto first = ranges::find(run.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
     if (first == run.wheels.end() || !passes(*first))
       throw Error(ErrorKind::configuration, "the first wheel with full contact must be one that evolves", where,
                   "give it contact = \"full\", and leave defects = false to the others");
@@ -174,7 +175,7 @@ class SimulatedContacts : public ContactSource {
     return wheel.model == io::ContactModelInput::full && (wheel.defects || !wheel_evolves());
   }
   std::vector<io::WheelContactInput>::const_iterator first_passing(const io::SimulationFile& run) const {
-    return std::ranges::find_if(run.wheels, [this](const auto& wheel) { return passes(wheel); });
+    return ranges::find_if(run.wheels, [this](const auto& wheel) { return passes(wheel); });
   }
 
   static std::shared_ptr<const NaturalSurface> natural_of(SurfaceStore& store, io::SurfaceSource source, Body body,
@@ -195,7 +196,7 @@ class SimulatedContacts : public ContactSource {
   /// The instants of the wheels that evolve: those of a wheel share its weight.
   void take(PassedContacts& out, std::size_t k, const io::SimulationResult& result, SurfaceStore& store) const {
     const io::SimulationFile& run = runs_[k];
-    const auto wheels = std::ranges::count_if(run.wheels, [this](const auto& w) { return passes(w); });
+    const auto wheels = ranges::count_if(run.wheels, [this](const auto& w) { return passes(w); });
     for (std::size_t wheel = 0; wheel < run.wheels.size(); ++wheel) {
       if (!passes(run.wheels[wheel])) continue;
       const std::size_t first = out.passed.size();

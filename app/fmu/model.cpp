@@ -11,6 +11,7 @@
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -86,7 +87,7 @@ std::string token_of(const std::filesystem::path& resources) {
   if (failed || files.empty())
     throw Error(ErrorKind::input_data, fmt::format("cannot read the resources in {}", resources.string()), {},
                 "unpack the FMU again");
-  std::ranges::sort(files);
+  ranges::sort(files);
   const std::string digest = io::sha256_hex(fmt::format("{}\n{}", app::version(), fmt::join(files, "\n")));
   return fmt::format("{{{}-{}-{}-{}-{}}}", digest.substr(0, 8), digest.substr(8, 4), digest.substr(12, 4),
                      digest.substr(16, 4), digest.substr(20, 12));

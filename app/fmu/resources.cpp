@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
@@ -68,7 +68,7 @@ class Packer {
   /// Those that a file of slices names, beside it.
   void add_profiles(const fs::path& slices, const fs::path& place, Body body, const io::ProfileOptions& options) const {
     io::parse_slices(io::read_text(slices), slices.string(), body, [&](std::string name, const SourcePosition& where) {
-      std::ranges::replace(name, '\\', '/');
+      ranges::replace(name, '\\', '/');
       const fs::path relative = fs::path(name).lexically_normal();
       if (relative.is_absolute() || relative.begin()->string() == "..")
         throw Error(ErrorKind::configuration, fmt::format("'{}' lies outside the folder of the slices", name), where,
@@ -84,7 +84,7 @@ class Packer {
 };
 
 const io::Case& chosen_case(const io::CaseFile& file, int number) {
-  const auto found = std::ranges::find_if(file.cases, [number](const io::Case& c) {
+  const auto found = ranges::find_if(file.cases, [number](const io::Case& c) {
     return number > 0 ? c.number == number : std::holds_alternative<io::WheelRailCase>(c.content);
   });
   if (found == file.cases.end())
@@ -102,7 +102,7 @@ std::vector<io::Case> cases_of(const io::CaseFile& file, const FmuContent& conte
   if (content.wheelset) {
     const auto side = [](io::Case& c) -> Side& { return std::get<io::WheelRailCase>(c.content).side; };
     const Side there = side(cases.front()), wanted = there == Side::left ? Side::right : Side::left;
-    const auto other = std::ranges::find_if(file.cases, [wanted](const io::Case& c) {
+    const auto other = ranges::find_if(file.cases, [wanted](const io::Case& c) {
       const auto* given = std::get_if<io::WheelRailCase>(&c.content);
       return given != nullptr && given->side == wanted;
     });

@@ -71,6 +71,7 @@ class VehicleModel final : public Model {
         present_.clear();
         record_.append(present_);
       }
+      if (!simulation_.derailed().empty()) throw Error(ErrorKind::numerical, "derailed: " + simulation_.derailed());
     } catch (...) {
       ByteReader in(before.bytes());
       restore_state(in);

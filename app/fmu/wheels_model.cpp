@@ -14,6 +14,7 @@
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
@@ -152,7 +153,7 @@ constexpr FoundRow kFoundRows[] = {
      [](const wheelrail::PairSolution& s, double* out) { *out = static_cast<double>(s.status); }, 0, true},
     {"doubts", "1", "number of warnings about the contact: where it is not 0, numbers may be wrong",
      [](const wheelrail::PairSolution& s, double* out) {
-       *out = static_cast<double>(std::ranges::count_if(s.remarks, &Remark::grave));
+       *out = static_cast<double>(ranges::count_if(s.remarks, &Remark::grave));
      },
      0, true},
 };
@@ -171,12 +172,12 @@ constexpr PatchRow kPatchRows[] = {{"x_tr_mm", "x"},     {"y_tr_mm", "y"},
 
 const io::Quantity<io::PatchResult>& quantity(std::string_view key) {
   const auto rows = io::quantities<io::PatchResult>();
-  return *std::ranges::find(rows, key, &io::Quantity<io::PatchResult>::key);
+  return *ranges::find(rows, key, &io::Quantity<io::PatchResult>::key);
 }
 
 std::string fmi_unit(std::string_view si) {
   std::string unit(si);
-  std::ranges::replace(unit, ' ', '.');
+  ranges::replace(unit, ' ', '.');
   return unit;
 }
 

@@ -18,6 +18,7 @@ using io::Json;
 
 constexpr const char* kGeometrySchema =
 #include "treadmark/app/geometry/geometry.schema.json.in"
+#include "treadmark/core/platform/ranges.hpp"
     ;
 
 /// The settings that results repeat.
@@ -106,7 +107,7 @@ std::string geometry_json(const GeometryResult& result) {
 std::string geometry_schema() {
   using io::schema_rows;
   io::SchemaRows numbers = schema_rows<GeometryResult>();
-  std::ranges::move(echoed_rows(), std::back_inserter(numbers));
+  ranges::move(echoed_rows(), std::back_inserter(numbers));
   return io::filled_schema(kGeometrySchema, {{"geometry", std::move(numbers)},
                                              {"functions", function_rows()},
                                              {"conicity", io::listed(schema_rows<ConicityRow>())},

@@ -24,6 +24,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/model/magnitudes.hpp"
@@ -115,7 +116,7 @@ void add_load(GeometryResult& out) {
   };
   std::vector<Doubt> doubts;
   const auto met = [&](const std::string& what, double y) {
-    auto known = std::ranges::find(doubts, what, &Doubt::what);
+    auto known = ranges::find(doubts, what, &Doubt::what);
     if (known == doubts.end()) known = doubts.insert(known, {what, y});
     ++known->count;
   };
@@ -376,7 +377,7 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request) {
   std::vector<std::string> out, seen;
   for (const auto& [name, body] : {std::pair{request.wheel, Body::wheel}, std::pair{request.wheel_left, Body::wheel},
                                    std::pair{request.rail, Body::rail}, std::pair{request.rail_left, Body::rail}}) {
-    if (std::ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name)) continue;
+    if (ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name)) continue;
     seen.push_back(name);
     const io::ExpectedProfile expected{{}, {}, true, request.cant};
     if (io::is_slices_file(name)) {

@@ -26,6 +26,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/scans/read_scan.hpp"

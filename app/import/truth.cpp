@@ -20,6 +20,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -472,7 +473,7 @@ void compare_with_truth(const Truth& truth, const FittedScan& fit, io::ImportRep
   std::vector<float> known = known_of(errors);
   out.places = known.size();
   out.beside =
-      static_cast<std::size_t>(std::ranges::count_if(places.v, [](double v) { return !std::isnan(v); })) - known.size();
+      static_cast<std::size_t>(ranges::count_if(places.v, [](double v) { return !std::isnan(v); })) - known.size();
   out.shape = distances_of(std::move(known));
   out.shift_S = motion.origin;
   const Eigen::AngleAxisd turn(motion.rotation);

@@ -19,6 +19,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -211,9 +212,8 @@ TriangleMesh triangles_about(const Stations& stations, const std::filesystem::pa
   mesh::check_mesh(mesh, body);
   std::vector<std::uint8_t> near(mesh.vertices.size());
   for (std::size_t v = 0; v < near.size(); ++v) near[v] = stations.near(natural(body, mesh.vertices[v]).u, reach);
-  std::erase_if(mesh.triangles, [&](const auto& corners) {
-    return !std::ranges::any_of(corners, [&](auto v) { return near[v] != 0; });
-  });
+  std::erase_if(mesh.triangles,
+                [&](const auto& corners) { return !ranges::any_of(corners, [&](auto v) { return near[v] != 0; }); });
   return mesh;
 }
 

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "treadmark/app/lists/result_list.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/settings/key_words.hpp"
@@ -126,9 +126,9 @@ report::Page list_page(const ResultList& list) {
   cards.cards.push_back({list.things, fmt::format("{}", list.rows.size()), fmt::format("{} failed", list.failed())});
   std::vector<std::string> statuses;
   for (const ListRow& row : list.rows)
-    if (row.error.empty() && std::ranges::find(statuses, row.status) == statuses.end()) statuses.push_back(row.status);
+    if (row.error.empty() && ranges::find(statuses, row.status) == statuses.end()) statuses.push_back(row.status);
   for (const std::string& status : statuses)
-    cards.cards.push_back({status, fmt::format("{}", std::ranges::count(list.rows, status, &ListRow::status)), ""});
+    cards.cards.push_back({status, fmt::format("{}", ranges::count(list.rows, status, &ListRow::status)), ""});
   overview.blocks.emplace_back(std::move(cards));
   report::Facts facts;
   facts.entries = {{"version", std::string(version())}, {"settings", list.settings}};

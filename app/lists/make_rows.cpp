@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -14,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
@@ -116,7 +116,7 @@ ListRow made_row(const ListWork& work, std::size_t i) {
 }  // namespace
 
 std::size_t ResultList::failed() const {
-  return static_cast<std::size_t>(std::ranges::count_if(rows, [](const ListRow& row) { return !row.error.empty(); }));
+  return static_cast<std::size_t>(ranges::count_if(rows, [](const ListRow& row) { return !row.error.empty(); }));
 }
 
 std::vector<const ListRow*> ResultList::worst_first() const {
@@ -125,7 +125,7 @@ std::vector<const ListRow*> ResultList::worst_first() const {
   const auto rank = [](const ListRow* row) {
     return !row->error.empty() ? HUGE_VAL : std::isnan(row->badness) ? -HUGE_VAL : row->badness;
   };
-  std::ranges::stable_sort(out, std::greater<>(), rank);
+  ranges::stable_sort(out, std::greater<>(), rank);
   return out;
 }
 

@@ -19,6 +19,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/number_text.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
@@ -279,7 +280,7 @@ class WheelFile {
     std::vector<measures::RoundFlat>& all = out_.revolution->flats;
     std::vector<std::vector<measures::RoundFlat>> places;
     const auto add = [&](const measures::RoundFlat& flat) {
-      const auto same = std::ranges::find_if(places, [&](const std::vector<measures::RoundFlat>& place) {
+      const auto same = ranges::find_if(places, [&](const std::vector<measures::RoundFlat>& place) {
         return std::fabs(std::remainder(place.front().theta - flat.theta, kFullCircle)) * out_.revolution->radius <
                std::max(place.front().length.value, flat.length.value);
       });
@@ -297,7 +298,7 @@ class WheelFile {
     }
     all.clear();
     for (std::vector<measures::RoundFlat>& place : places) {
-      std::ranges::sort(place, std::greater<>(), [](const measures::RoundFlat& f) { return f.depth.value; });
+      ranges::sort(place, std::greater<>(), [](const measures::RoundFlat& f) { return f.depth.value; });
       const measures::RoundFlat &deepest = place.front(), &middle = place[place.size() / 2];
       const bool alike = deepest.depth.value - middle.depth.value < std::hypot(deepest.depth.uncertainty, error);
       all.push_back(alike ? middle : deepest);
@@ -580,7 +581,7 @@ std::vector<ListColumn> columns_of(const std::vector<Limit>& limits) {
     out.push_back(std::move(column));
     out.push_back({std::string(row.key) + "_uncertainty"});
   }
-  auto shown = static_cast<std::size_t>(std::ranges::count_if(out, &ListColumn::shown));
+  auto shown = static_cast<std::size_t>(ranges::count_if(out, &ListColumn::shown));
   for (std::size_t k = 0; k < out.size() && shown < kShown; k += 2)
     if (!out[k].shown) out[k].shown = true, ++shown;
   return out;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/io/tables/schema_of.hpp"
 #include "treadmark/model/shape/body_name.hpp"
@@ -56,7 +56,7 @@ Json stations_json(const std::vector<MeasuredStation<Numbers>>& stations, const 
   out[u] = Json::array();
   for (const auto& station : stations) out[u].push_back(number(station.u));
   for (const auto& row : number_rows(Numbers{}))
-    if (std::ranges::any_of(stations, [&](const auto& station) { return row.known(station.numbers); }))
+    if (ranges::any_of(stations, [&](const auto& station) { return row.known(station.numbers); }))
       for (const auto& station : stations) out[std::string(row.key)].push_back(io::value_of(station.numbers, row));
   return out;
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/report/html_text.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 /// Finds a line by its name, or begins it.
 SaidByAll& line_of(std::vector<SaidByAll>& lines, const std::string& what, std::size_t results, const char* otherwise) {
-  const auto found = std::ranges::find(lines, what, &SaidByAll::what);
+  const auto found = ranges::find(lines, what, &SaidByAll::what);
   if (found != lines.end()) return *found;
   lines.push_back({what, std::vector<std::string>(results, otherwise)});
   return lines.back();
@@ -112,7 +113,7 @@ Block difference_table(const std::vector<std::string>& names, const std::vector<
   Table table{"differs", "What differs between the results besides their numbers.", {{"what"}}};
   for (const std::string& name : names) table.columns.push_back({name});
   for (const SaidByAll& line : lines) {
-    if (std::ranges::all_of(line.texts, [&](const std::string& text) { return text == line.texts.front(); })) continue;
+    if (ranges::all_of(line.texts, [&](const std::string& text) { return text == line.texts.front(); })) continue;
     Table::Row row{{line.what}};
     for (const std::string& text : line.texts) row.cells.emplace_back(shortened(text));
     table.rows.push_back(std::move(row));
@@ -134,7 +135,7 @@ Section origins_section(const std::vector<std::string>& names, std::span<const O
 void add_version_note(std::span<const Origin> origins, Section& overview) {
   std::vector<std::string> versions;
   for (const Origin& origin : origins)
-    if (std::ranges::find(versions, version_of(origin)) == versions.end()) versions.push_back(version_of(origin));
+    if (ranges::find(versions, version_of(origin)) == versions.end()) versions.push_back(version_of(origin));
   if (versions.size() > 1)
     overview.blocks.emplace_back(Banner{
         Banner::Kind::note, "Versions differ:", joined(versions) + ". What differs below may come from the program."});

@@ -2,11 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/pages/plain_page.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/settings/key_words.hpp"
 #include "treadmark/io/tables/number.hpp"
@@ -59,7 +58,7 @@ Page plain_page(const fs::path& folder, const std::string& json, const std::stri
     if (entry.path().extension() == ".svg")
       pictures.push_back({"picture-" + name, io::words_of_key(name).name, PictureView{text_of(entry.path())}});
   }
-  std::ranges::sort(pictures, {}, &Figure::id);
+  ranges::sort(pictures, {}, &Figure::id);
   return plain_page(fs::path(json).stem().string(), lead, text_of(folder / json), std::move(pictures));
 }
 

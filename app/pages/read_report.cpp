@@ -24,6 +24,7 @@
 #include "treadmark/app/simulation/pages/sweep_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -116,8 +117,7 @@ Found find_results(const fs::path& given) {
   if (!fs::is_directory(folder, unknown))
     throw MissingFile(ErrorKind::input_data, "there is no such folder", {given.string()},
                       advice_on_missing(given, "give a folder that a command wrote with -o"));
-  const auto row =
-      std::ranges::find_if(kKinds, [&](const KindRow& one) { return fs::exists(folder / one.file, unknown); });
+  const auto row = ranges::find_if(kKinds, [&](const KindRow& one) { return fs::exists(folder / one.file, unknown); });
   if (row == std::end(kKinds))
     throw Error(ErrorKind::input_data, "the folder holds no results", {folder.string()},
                 "results are known by one of the files " + known_results());
@@ -153,7 +153,7 @@ std::vector<std::string> short_names(const std::vector<Found>& all) {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::string name = names[k].generic_string();
-    if (std::ranges::count(names, names[k]) > 1)
+    if (ranges::count(names, names[k]) > 1)
       name +=
           fmt::format(" ({})", 1 + std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(k), names[k]));
     out.push_back(std::move(name));

@@ -16,6 +16,7 @@
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/vehicle/contacts/check_rail.hpp"
@@ -68,7 +69,7 @@ namespace {
 /// Place of an axle along the vehicle [m].
 double axle_x(const io::SimulationFile& file, int wheelset) {
   const std::string& body = file.vehicle.wheelsets.at(static_cast<std::size_t>(wheelset)).body;
-  return std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
+  return ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
 }
 
 }  // namespace
@@ -381,7 +382,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
     if (!is_full || wheel.changes_over()) {
       builder.require_section(wheel);
       const Stopwatch watch(built.table_seconds);
-      const auto table = builder.table(on.side, *std::ranges::max_element(v.system.wheelset_load) / 2.0);
+      const auto table = builder.table(on.side, *ranges::max_element(v.system.wheelset_load) / 2.0);
       from_table = std::make_shared<vehicle::TableContact>(table, on.side, builder.creep_table(progress));
       on.rail_marker = table->nominal().X_TR.origin;
       if (on.side == Side::left) on.rail_marker.y() = -on.rail_marker.y();
@@ -411,7 +412,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   const auto damaged = [](const io::WheelContactInput& w) {
     return w.model == io::ContactModelInput::full && w.defects;
   };
-  if (fields && std::ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
+  if (fields && ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
   return built;
 }
 
@@ -442,7 +443,7 @@ vehicle::SimulationSettings integration_settings(const io::SimulationFile& file)
   out.min_step = s.min_step;
   out.max_step = s.max_step.value_or(1e-3);
   const bool any_full =
-      std::ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
+      ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
   constexpr double kNoLimit = 0.1;  // [m]
   // A wheelset may run a little ahead of the vehicle.
   constexpr double kWithin = 0.99;

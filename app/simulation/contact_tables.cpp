@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/contact_tables.hpp"
 
-#include <algorithm>
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::app {
 
@@ -12,7 +12,7 @@ ContactTables::Table ContactTables::get(const std::string& bodies, const wheelra
   Entry* entry = nullptr;
   {
     const std::lock_guard lock(mutex_);
-    auto found = std::ranges::find_if(
+    auto found = ranges::find_if(
         entries_, [&](const Entry& e) { return e.bodies == bodies && e.load == load && e.made_for == wanted; });
     if (found == entries_.end()) {
       found = entries_.emplace(entries_.end());

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 
 namespace treadmark::app {
@@ -62,7 +63,7 @@ namespace {
 
 /// The first wheel with full contact, else the first one: what summaries and pictures are about.
 std::size_t watched_wheel(const io::SimulationFile& file) {
-  const auto first = std::ranges::find(file.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
+  const auto first = ranges::find(file.wheels, io::ContactModelInput::full, &io::WheelContactInput::model);
   return first == file.wheels.end() ? 0u : static_cast<std::size_t>(first - file.wheels.begin());
 }
 
@@ -81,7 +82,9 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Simu
 
 HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::VehicleOnTrack& vehicle,
                              const vehicle::Simulation* simulation)
-    : vehicle_(vehicle), simulation_(simulation) {
+    : vehicle_(vehicle),
+      simulation_(simulation),
+      wheel_y_(0.5 * file.contact.wheelset.flange_back_distance - file.contact.wheelset.flange_back_position) {
   const auto& wheels = vehicle.wheels;
   const std::size_t watched = watched_wheel(file);
 
@@ -144,6 +147,18 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of,
       [=] { return reaction().longitudinal_creep_force; });
   add(prefix + "Y_N", "N", "lateral force on the rail" + of, [=] { return reaction().on_rail.force.y(); });
+  add(prefix + "angle_rad", "rad", "contact angle, of all normal forces together, 0 without contact" + of, [=] {
+    Vec3 normal = Vec3::Zero();
+    for (const vehicle::PatchTangent& t : reaction().tangents) normal += t.normal_force * t.X_TC.rotation.col(2);
+    return std::atan2(-normal.y(), normal.z());
+  });
+  const auto motion = [this, wheel] { return vehicle_.motion(wheel, simulation_->state()); };
+  add(prefix + "lift_m", "m", "how far the tape circle stands above its height at rest over the rail" + of, [=, this] {
+    Motion m = motion();
+    add_bending(reaction(), m);
+    const double y = vehicle_.wheels[wheel].side == wheelrail::Side::left ? -wheel_y_ : wheel_y_;
+    return m.rail.z - m.wheelset.z - y * m.wheelset.roll;
+  });
   if (!full) return;
   add(prefix + "Fn_N", "N", "normal force" + of, [=] { return reaction().normal_force; });
   add(prefix + "pmax_Pa", "Pa", "largest contact pressure" + of, [=] { return reaction().max_pressure; });
@@ -157,7 +172,6 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
       [=] { return static_cast<double>(reaction().doubts); });
   add(prefix + "friction_W", "W", "power dissipated by friction" + of,
       [=] { return reaction().frictional_power - reaction().rail_power; });
-  const auto motion = [this, wheel] { return vehicle_.motion(wheel, simulation_->state()); };
   for (const MotionColumn& column : kMotion)
     add(prefix + column.name, column.unit, column.description + of, [motion, reaction, place = column.place] {
       Motion m = motion();
@@ -251,7 +265,7 @@ void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
   for (const io::PointInput& point : request.points)
     add_point(fmt::format("{}.{}", kPointKinds[static_cast<std::size_t>(point.kind)], point.name),
               fmt::format("a point of {}", point.body),
-              *std::ranges::find(system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm);
+              *ranges::find(system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm);
 }
 
 void HistoryRecord::keep_only(const io::HistoryRequest& request) {
@@ -320,8 +334,7 @@ std::vector<HistorySummary::Row> HistorySummary::rows(bool has_pressure) {
   const std::initializer_list<Row> rest = {
       {"contact_lost", "1", "how often a wheel lost contact",
        [](S s) {
-         return static_cast<double>(
-             std::ranges::count(s.simulation_.events(), false, &vehicle::ContactEvent::regained));
+         return static_cast<double>(ranges::count(s.simulation_.events(), false, &vehicle::ContactEvent::regained));
        }},
       {"energy_turnover_J", "J", "work of contacts and dampers, all counted positive",
        [](S s) { return s.simulation_.energy().turnover; }},

@@ -58,6 +58,7 @@ class HistoryRecord {
 
   const vehicle::VehicleOnTrack& vehicle_;
   const vehicle::Simulation* simulation_;  ///< null: only names of columns are asked for
+  double wheel_y_;                         ///< from the middle of a wheelset to its tape circles [m]
   std::vector<Column> columns_;
 };
 

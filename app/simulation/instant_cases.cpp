@@ -10,6 +10,7 @@
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -22,7 +23,7 @@ std::size_t row_at(const std::vector<double>& times, double time, const SourcePo
   if (time < times.front() - slack || time > times.back() + slack)
     throw Error(ErrorKind::configuration,
                 fmt::format("t = {} s lies outside the history, {} to {} s", time, times.front(), times.back()), where);
-  const auto nearest = std::ranges::min_element(times, {}, [time](double one) { return std::abs(one - time); });
+  const auto nearest = ranges::min_element(times, {}, [time](double one) { return std::abs(one - time); });
   return static_cast<std::size_t>(nearest - times.begin());
 }
 

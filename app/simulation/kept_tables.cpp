@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/kept_tables.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -17,6 +16,7 @@
 
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/solvers/wheelrail/problem_bytes.hpp"
 
@@ -98,7 +98,7 @@ std::string find_identity() {
   dl_iterate_phdr(note_module, &modules);
   const std::string cpu = processor();
   if (modules.own.empty() || !modules.all_known || cpu.empty()) return {};
-  std::ranges::sort(modules.libraries);
+  ranges::sort(modules.libraries);
   std::string text = modules.own + '\n' + cpu;
   for (const std::string& library : modules.libraries) text += library + '\n';
   return io::sha256_hex(text);
@@ -148,11 +148,26 @@ std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::Conten
   wheelrail::write(vehicle::table_problem(prototype, options), decides);
   for (const double value : {load, options.lateral_range, options.step, options.element_size}) decides.put(value);
   decides.put(options.relative_loads);
-  const auto columns = kept_or_made<std::vector<vehicle::ContactTableColumn>>(
-      cache, "contact table of " + bodies + "\nwith " + hex_of(decides),
-      [&] { return vehicle::solve_contact_columns(geometry, prototype, load, options); }, vehicle::read_columns,
-      vehicle::write_columns);
-  return vehicle::contact_table_of(columns, geometry, prototype, load, options);
+  decides.put(options.heavier);
+  decides.put(options.growth);
+  using Columns = vehicle::ContactTableColumns;
+  const auto kept = [key = "contact table of " + bodies + "\nwith " + hex_of(decides),
+                     cache = cache ? std::optional(*cache) : std::nullopt](const std::string& which, auto make) {
+    return kept_or_made<Columns>(cache ? &*cache : nullptr, key + which, make, vehicle::read_columns,
+                                 vehicle::write_columns);
+  };
+  const Columns central =
+      kept("", [&] { return vehicle::solve_contact_sheets(geometry, prototype, load, options).front(); });
+  return vehicle::contact_table_of(
+      {central}, geometry, prototype, load, options,
+      {[=](const vehicle::TableTurn& turn, double from) {
+         return kept(fmt::format("\nbeyond {:a} m", from),
+                     [&] { return vehicle::solve_columns_beyond(geometry, prototype, load, turn, from, options); });
+       },
+       [=](const vehicle::TableTurn& turn, const Columns& columns) {
+         return kept(fmt::format("\nheavier from {:a} m", columns.front().y),
+                     [&] { return vehicle::solve_heavier(geometry, prototype, load, turn, columns, options); });
+       }});
 }
 
 std::shared_ptr<const vehicle::CreepTable> kept_creep_table(

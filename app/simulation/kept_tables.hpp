@@ -19,7 +19,7 @@ const std::string& computing_identity();
 /// Tables for vehicles as they are kept in a cache from process to process, else made, with the same bytes. cache: null
 /// where none is wanted. Thread-safe. Errors: those of making them.
 
-/// bodies: content keys of both surfaces.
+/// bodies: content keys of both surfaces. What it grows by is kept in the same way.
 std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::ContentCache* cache,
                                                                 const std::string& bodies,
                                                                 const wheelrail::Geometry& geometry,

@@ -3,10 +3,9 @@
 
 #include "treadmark/app/simulation/result_head.hpp"
 
-#include <algorithm>
-
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
@@ -47,7 +46,7 @@ namespace {
 class Hashes {
  public:
   void add(const std::filesystem::path& file, const SourcePosition& where) {
-    if (std::ranges::find(seen_, file) != seen_.end()) return;
+    if (ranges::find(seen_, file) != seen_.end()) return;
     try {
       hashes_.emplace_back(file.filename().string(), io::sha256_file(file));
     } catch (const Error& e) {

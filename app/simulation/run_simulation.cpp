@@ -18,6 +18,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/histories/history_model.hpp"
@@ -45,7 +46,7 @@ std::vector<std::string> simulation_doubts(const io::SimulationFile& file) {
             ? io::ExpectedProfile{contact.wheelset.flange_back_position, contact.wheelset.nominal_radius, true}
             : io::ExpectedProfile{{}, {}, contact.track.gauge_based, contact.track.cant};
     for (std::string& doubt : source_doubts(source, body, expected))
-      if (std::ranges::find(out, doubt) == out.end()) out.push_back(std::move(doubt));
+      if (ranges::find(out, doubt) == out.end()) out.push_back(std::move(doubt));
   };
   look(contact.wheel, Body::wheel);
   if (file.other_wheel) look(*file.other_wheel, Body::wheel);
@@ -99,13 +100,17 @@ class Run {
       }
     }
     const wheelrail::PhaseTimes after = contact_times();
-    times_.shared = thread_count() > 1 && std::ranges::count(built_.full, nullptr) + 2 <= std::ssize(built_.full);
+    times_.shared = thread_count() > 1 && ranges::count(built_.full, nullptr) + 2 <= std::ssize(built_.full);
     times_.contact = {after.search_s - before.search_s,           after.distance_s - before.distance_s,
                       after.normal_s - before.normal_s,           after.tangential_s - before.tangential_s,
                       after.searches - before.searches,           after.distances - before.distances,
                       after.normal_solves - before.normal_solves, after.tangential_solves - before.tangential_solves};
+    if (!simulation_->derailed().empty()) {
+      result_.status = "derailed";
+      result_.message = simulation_->derailed();
+    }
     finish();
-    if (result_.status != "complete") keep_checkpoint();
+    if (!result_.ended()) keep_checkpoint();
   }
 
  private:
@@ -131,10 +136,10 @@ class Run {
 
   void say_if_unstable() {
     // Forces of full contacts jump with their elements: their slopes tell less.
-    const bool any_full = std::ranges::any_of(built_.full, [](const auto& element) { return element != nullptr; });
+    const bool any_full = ranges::any_of(built_.full, [](const auto& element) { return element != nullptr; });
     const double growing = any_full ? -0.01 : -1e-3;
     constexpr double kSlowest = 0.1;  // [Hz]
-    const auto least = std::ranges::min_element(result_.modes, {}, &io::ModeRow::damping_ratio);
+    const auto least = ranges::min_element(result_.modes, {}, &io::ModeRow::damping_ratio);
     if (least == result_.modes.end() || !(least->damping_ratio < growing) || !(least->frequency_Hz > kSlowest)) return;
     if (!result_.message.empty()) result_.message += "; ";
     result_.message += fmt::format(
@@ -198,6 +203,10 @@ class Run {
       } catch (const Cancelled&) {
         return stop();
       }
+      if (!simulation_->derailed().empty()) {
+        if (last_written(0) < simulation_->state().time) record_->append(result_.values);
+        return;
+      }
       summary_->note();
       snapshots_.take_passed(*simulation_, before);
       if (due(built_.vehicle.travel(simulation_->state().time).distance)) record_->append(result_.values);
@@ -221,12 +230,16 @@ class Run {
     result_.message = fmt::format("stopped at t = {:.6g} s", simulation_->state().time);
   }
 
+  /// Of the last instant that was written down: 0: when, 1: where.
+  double last_written(std::size_t column) const {
+    return result_.values[result_.values.size() - result_.columns.size() + column];
+  }
+
   /// Whether the instant at x is to be written down.
   bool due(double x) {
     const double every = file_.settings.output_every;
     if (every <= 0.0 || simulation_->finished()) return true;
-    const double last = result_.values[result_.values.size() - result_.columns.size() + 1];
-    return std::floor(x / every) > std::floor(last / every);
+    return std::floor(x / every) > std::floor(last_written(1) / every);
   }
 
   void finish() {
@@ -336,7 +349,7 @@ bool is_finished(const std::filesystem::path& store, const io::SimulationFile& f
                  const std::vector<std::string>& settings) {
   if (!std::filesystem::exists(store)) return false;
   require_same_simulation(store, io::read_checkpoint(store), file, settings);
-  return io::read_simulation_head(store).status == "complete";
+  return io::read_simulation_head(store).ended();
 }
 
 }  // namespace treadmark::app

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/run_study.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -23,6 +22,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
@@ -56,11 +56,11 @@ class Workers {
       : study_(study), options_(options), progress_(progress), tables_(options.cache), finished_(study.runs.size(), 0) {
     for (std::size_t i = 0; i < study.runs.size(); ++i)
       if (found_finished(i)) finished_[i] = 1;
-    found_ = static_cast<std::size_t>(std::ranges::count(finished_, 1));
+    found_ = static_cast<std::size_t>(ranges::count(finished_, 1));
   }
 
   std::size_t found() const { return found_; }
-  bool complete() const { return std::ranges::count(finished_, 1) == static_cast<std::ptrdiff_t>(finished_.size()); }
+  bool complete() const { return ranges::count(finished_, 1) == static_cast<std::ptrdiff_t>(finished_.size()); }
 
   void work() {
     if (options_.workers < 1) return;
@@ -117,7 +117,7 @@ class Workers {
   void note_finished(std::size_t i) {
     finished_[i] = 1;
     if (progress_.report)
-      progress_.report(static_cast<std::size_t>(std::ranges::count(finished_, 1)), finished_.size(),
+      progress_.report(static_cast<std::size_t>(ranges::count(finished_, 1)), finished_.size(),
                        label_of(study_, study_.runs[i]));
   }
 
@@ -262,7 +262,7 @@ void write_study_folder(const io::StudyFile& file, const StudyOptions& options, 
   std::vector<fs::path> outputs{"sweep.csv", "sweep.h5"};
   for (const io::StudyFigure& figure : file.figures) outputs.push_back(figure.file);
   const bool all_there =
-      std::ranges::all_of(outputs, [&](const fs::path& name) { return fs::exists(options.folder / name); });
+      ranges::all_of(outputs, [&](const fs::path& name) { return fs::exists(options.folder / name); });
   if (all_there && fs::exists(marker) && io::profiles::read_text(marker, "study", {}) == written) return;
   remove_leftovers(options.folder);
   io::write_sweep_csv(options.folder / "sweep.csv", study);

@@ -11,6 +11,7 @@
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -24,8 +25,7 @@ namespace {
 
 bool is_of_a_wheel(const std::string& name) {
   if (name.starts_with("energy.")) return true;
-  if (std::ranges::any_of(kPointKinds,
-                          [&](std::string_view kind) { return name.starts_with(std::string(kind) + '.'); }))
+  if (ranges::any_of(kPointKinds, [&](std::string_view kind) { return name.starts_with(std::string(kind) + '.'); }))
     return true;
   if (name.ends_with(".sumY_N")) return true;
   const auto dot = name.find('.');
@@ -79,7 +79,7 @@ void write_simulation_folder(const std::filesystem::path& folder, const io::Simu
     chart.title = result.title;
     chart.x = {"t_s", "t [s]"};
     const auto has = [&](const char* name) {
-      return std::ranges::find(result.columns, name, &io::HistoryColumn::name) != result.columns.end();
+      return ranges::find(result.columns, name, &io::HistoryColumn::name) != result.columns.end();
     };
     if (has("Q_N")) chart.y.push_back({"Q_N", "Q [kN]", kKilo, {result.values[io::column_index(result, "Q_N")]}});
     if (has("Ty_N")) chart.y.push_back({"Ty_N", "T_y [kN]", kKilo});

@@ -10,6 +10,7 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/files/text.hpp"
 
@@ -123,7 +124,7 @@ std::vector<std::string> slurm_jobs(const fs::path& folder) {
   if (!fs::exists(folder / kJobsFile)) return jobs;
   std::istringstream text(io::profiles::read_text(folder / kJobsFile, "jobs", {}));
   for (std::string job; text >> job;)
-    if (std::ranges::all_of(job, [](char c) { return c >= '0' && c <= '9'; })) jobs.push_back(job);
+    if (ranges::all_of(job, [](char c) { return c >= '0' && c <= '9'; })) jobs.push_back(job);
   return jobs;
 }
 

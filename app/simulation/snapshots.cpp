@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/snapshots.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/wheelrail_result.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -25,7 +25,7 @@ Grid2 depth_window(const wheelrail::PairSolution& s) {
   constexpr double kStep = 1e-3;           // [m]
   constexpr int kAhead = 60, kAside = 35;  // steps
   const auto most_loaded =
-      std::ranges::max_element(s.patches, {}, [](const wheelrail::PatchSolution& p) { return p.contact.force_n; });
+      ranges::max_element(s.patches, {}, [](const wheelrail::PatchSolution& p) { return p.contact.force_n; });
   const double y = most_loaded != s.patches.end() ? most_loaded->frame.X_TC.origin.y() : s.placement.X_TR.origin.y();
   return {-kAhead * kStep, y - kAside * kStep, kStep, kStep, 2 * kAhead + 1, 2 * kAside + 1};
 }
@@ -59,7 +59,7 @@ void Snapshots::take_passed(const vehicle::Simulation& simulation, const vehicle
     for (std::size_t k = 0; k < file_.fields.pitch.size(); ++k)
       if (passed(was.wheelset.pitch, is.wheelset.pitch, file_.fields.pitch[k])) angles.push_back(k);
     const bool at_position =
-        std::ranges::any_of(file_.fields.position, [&](double x) { return was.wheelset.x < x && x <= is.wheelset.x; });
+        ranges::any_of(file_.fields.position, [&](double x) { return was.wheelset.x < x && x <= is.wheelset.x; });
     if (!angles.empty() || at_position)
       kept_.push_back({i, std::move(angles), at_position, built_.full[i]->accepted()});
   }

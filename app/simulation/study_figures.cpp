@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/study_figures.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -13,6 +12,7 @@
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/io/simulations/table_reader.hpp"
@@ -88,8 +88,7 @@ class Figures {
   bool is_drawn(const io::StudyFigure& figure, const io::SimulationRun& run) const {
     const auto& values = file_.runs.at(static_cast<std::size_t>(run.number - 1)).values;
     for (std::size_t v = 0; v < figure.only.size(); ++v)
-      if (!figure.only[v].empty() && std::ranges::find(figure.only[v], values.at(v)) == figure.only[v].end())
-        return false;
+      if (!figure.only[v].empty() && ranges::find(figure.only[v], values.at(v)) == figure.only[v].end()) return false;
     return true;
   }
 
@@ -122,7 +121,7 @@ class Figures {
     }
     if (runs.empty()) return;
     const bool multiples =
-        std::ranges::any_of(runs, [&](const pictures::HistoryRun& r) { return r.panel != runs.front().panel; });
+        ranges::any_of(runs, [&](const pictures::HistoryRun& r) { return r.panel != runs.front().panel; });
     write_file(folder_ / figure.file,
                multiples ? pictures::history_multiples_svg(runs, chart) : pictures::history_svg(runs, chart));
     write_file(csv_of(folder_ / figure.file), pictures::history_chart_csv(runs, chart));
@@ -184,7 +183,7 @@ class NamesOfStudy {
 
   void require(const std::string& what, const std::string& name, std::vector<std::string> RunNames::*list,
                const SourcePosition& where) {
-    while (std::ranges::find(names_.*list, name) == (names_.*list).end() && add_next()) {
+    while (ranges::find(names_.*list, name) == (names_.*list).end() && add_next()) {
     }
     io::check_name(what, name, names_.*list, where);
   }
@@ -192,14 +191,14 @@ class NamesOfStudy {
  private:
   bool add_next() {
     const auto is_asked = [](const io::StudyRun& run) {
-      return std::ranges::count_if(run.values, [](std::size_t value) { return value != 0; }) == 1;
+      return ranges::count_if(run.values, [](std::size_t value) { return value != 0; }) == 1;
     };
     while (++next_ < file_.runs.size())
       if (const io::StudyRun& run = file_.runs[next_]; is_asked(run)) {
         const RunNames more = names_of(file_, run);
         for (auto list : {&RunNames::columns, &RunNames::summary})
           for (const std::string& name : more.*list)
-            if (std::ranges::find(names_.*list, name) == (names_.*list).end()) (names_.*list).push_back(name);
+            if (ranges::find(names_.*list, name) == (names_.*list).end()) (names_.*list).push_back(name);
         return true;
       }
     return false;
@@ -227,7 +226,7 @@ void check_study_figures(const io::StudyFile& file) {
              "use kind = \"history\" or \"summary\" in a study");
     if (figure.kind == io::StudyFigure::Kind::summary && figure.y.size() != 1)
       refuse(figure, "a summary shows one quantity", "make a figure for each");
-    if (figure.kind == io::StudyFigure::Kind::summary && std::ranges::find(keys, figure.x) == keys.end())
+    if (figure.kind == io::StudyFigure::Kind::summary && ranges::find(keys, figure.x) == keys.end())
       refuse(figure, fmt::format("x = '{}' is no varied key", figure.x),
              fmt::format("varied keys: {}", fmt::join(keys, ", ")));
     const std::string name = "figure " + figure.file.string();

@@ -13,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -83,7 +84,7 @@ vehicle::SwayHistory forces_of(const io::SimulationResult& result, std::size_t w
   vehicle::SwayHistory history = history_of(result, columns);
   for (std::size_t i = 0; i < wheelsets; ++i) {
     const std::string load = fmt::format("wheelset{}.load_N", i + 1);
-    const auto found = std::ranges::find(result.statics, load, &io::NamedValue::name);
+    const auto found = ranges::find(result.statics, load, &io::NamedValue::name);
     const double allowed = 0.5 * (10e3 + found->value / 3.0);
     for (double& value : history.sway[i]) value /= allowed;
   }
@@ -131,7 +132,7 @@ class Falls {
     remove_file(store);
     io::SimulationResult result = run_simulation(file, store_, options, progress_);
     write_simulation_folder(folder, result);
-    if (result.status == "complete") remove_file(options.checkpoint_file);
+    if (result.ended()) remove_file(options.checkpoint_file);
     return result;
   }
 

@@ -2,13 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/stability/stability_run.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::app {
@@ -97,7 +96,7 @@ std::string stability_verdict(const StabilityRun& run) {
     case vehicle::StabilityVerdict::unknown:
       break;
   }
-  const auto failed = std::ranges::find_if(r.at, [](const auto& at) { return at.report.status != Status::ok; });
+  const auto failed = ranges::find_if(r.at, [](const auto& at) { return at.report.status != Status::ok; });
   return fmt::format("not known: at {:g} m/s {}", failed->speed, failed->report.message);
 }
 

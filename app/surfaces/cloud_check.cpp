@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/surface_check.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::app {
@@ -34,7 +34,7 @@ CheckedProfile check_cloud(const std::filesystem::path& file) {
       facts.emplace_back(axes[axis], fmt::format("{:.7g} .. {:.7g} in the unit of the file", low[axis], high[axis]));
   }
   if (!scan.cloud.passes.empty()) {
-    const auto [first, last] = std::ranges::minmax_element(scan.cloud.passes);
+    const auto [first, last] = ranges::minmax_element(scan.cloud.passes);
     facts.emplace_back("passes", fmt::format("{} .. {}", *first, *last));
   }
   if (scan.not_finite > 0)

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
@@ -78,7 +79,7 @@ OffsetMap read_offset_table(const io::OffsetsInput& table, NaturalSurface& surfa
   how.asked_by = table.where;
   OffsetMap map = io::read_deviation_map(table.file, how);
   const std::vector<int> beside = nodes_beside(map, surface);
-  const auto bad = std::ranges::find_if(beside, [](int iy) { return iy >= 0; });
+  const auto bad = ranges::find_if(beside, [](int iy) { return iy >= 0; });
   if (bad != beside.end()) {
     const int iu = static_cast<int>(bad - beside.begin());
     const double u = map.grid.x(iu);

@@ -21,6 +21,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/model/shape/body_name.hpp"
@@ -121,7 +122,7 @@ void add_nearest(const Profile& profile, io::ProfileJudgement& to) {
   }
   if (all.empty()) return;
   const auto badness = [](const auto& row) { return row.first.badness(); };
-  const Nearness best = std::ranges::min_element(all, {}, badness)->first;
+  const Nearness best = ranges::min_element(all, {}, badness)->first;
   std::string names;
   std::size_t count = 0;
   for (const auto& [one, name] : all)
@@ -150,7 +151,7 @@ std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::L
   constexpr double kNoTop = 0.09;         // of a head with its sides, which may be worn or cut
   const Profile& profile = sourced.profile;
   const measured::WheelMarks& marks = sourced.source.understood.wheel;
-  const auto [top, bottom] = std::ranges::minmax(profile.z);
+  const auto [top, bottom] = ranges::minmax(profile.z);
   // of a top alone only a large roll is told from a shift
   const bool shows = bottom - top > kDeep || (lean != nullptr && std::fabs(lean->roll) > kLarge &&
                                               lean->residual < kAlike && lean->upright > kFarOff);
@@ -172,7 +173,7 @@ std::optional<Roll> roll_of(const io::SourcedProfile& sourced, const measured::L
            head && std::fabs(head->slope) > (bottom - top < kDeep ? kOtherTreads : kNoTop + head->spread))
     seen.push_back({head->slope, true, "by the slope of its top"});
   if (seen.empty()) return std::nullopt;
-  const auto sure = std::ranges::find(seen, true, &Roll::sure);
+  const auto sure = ranges::find(seen, true, &Roll::sure);
   return sure != seen.end() ? *sure : seen.front();
 }
 
@@ -199,7 +200,7 @@ void judge_against_nominal(const io::SourcedProfile& sourced, const io::Expected
   constexpr double kWorn = 1e-3, kAsNew = 0.3e-3, kShifted = 0.7e-3;
   const measured::WheelMarks& marks = sourced.source.understood.wheel;
   // one with its flange on the wrong side is told apart from all of them
-  if (std::ranges::find(to.remarks, "flange_side", &io::ProfileRemark::name) != to.remarks.end()) return;
+  if (ranges::find(to.remarks, "flange_side", &io::ProfileRemark::name) != to.remarks.end()) return;
   const Profile& profile = sourced.profile;
   std::vector<measured::NominalOutline> outlines;
   for (const Standard& standard : standards(profile.body))
@@ -209,7 +210,7 @@ void judge_against_nominal(const io::SourcedProfile& sourced, const io::Expected
     judge_roll(*roll, profile.body, expected, to);
   if (!lean || lean->residual > kFits) return;
   if (profile.body == Body::wheel && !marks.back_y && lean->flange <= kFits && std::fabs(lean->shift_y) > kShifted &&
-      std::ranges::find(to.remarks, "tape_line", &io::ProfileRemark::name) == to.remarks.end())
+      ranges::find(to.remarks, "tape_line", &io::ProfileRemark::name) == to.remarks.end())
     to.remarks.push_back(
         {"tape_line", fmt::format("y = 0 lies {:.2f} mm from the tape line of {}, which the section fits, and the back "
                                   "of the flange is not in the section: measure it too, or shift y",
@@ -271,7 +272,7 @@ ProfilesOfRun checked_uses(const io::CaseFile& file, Nearest nearest) {
   ProfilesOfRun out;
   for (const io::Case& c : file.cases)
     for (ProfileUse& use : uses_of(c)) {
-      if (std::ranges::any_of(out, [&](const auto& known) { return same_use(known.first, use); })) continue;
+      if (ranges::any_of(out, [&](const auto& known) { return same_use(known.first, use); })) continue;
       CheckedProfile one = checked(io::read_sourced_profile(use.file.file, use.body, use.file.options, use.where),
                                    use.file.file, use.expected, nearest);
       out.emplace_back(std::move(use), std::move(one));
@@ -434,7 +435,7 @@ namespace {
 /// Whether contact comes near a part of a section; nobody knows without contact.
 bool may_touch(const io::CaseResult& result, Side side, Body body, const std::pair<double, double>& place) {
   constexpr double kNear = 3e-3;  // [m] as far as a bridge changes the curve beside it
-  return result.patches.empty() || std::ranges::any_of(result.patches, [&](const io::PatchResult& patch) {
+  return result.patches.empty() || ranges::any_of(result.patches, [&](const io::PatchResult& patch) {
            const Grid2& grid = patch.fields.grid;
            const double y = (side == Side::left ? -1.0 : 1.0) * (body == Body::wheel ? patch.y_wheel : patch.y_rail),
                         half = std::max(std::fabs(grid.y(0) - patch.reference_s),

@@ -14,6 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
@@ -82,7 +83,7 @@ std::vector<double> even(double low, double high, double step) {
 }
 
 std::vector<double> rail_stations(bool constant, const std::vector<double>& contacts, double most, double many) {
-  const auto [first, last] = std::ranges::minmax(contacts);
+  const auto [first, last] = ranges::minmax(contacts);
   const double low = first - kBeyond, high = last + kBeyond;
   if (constant) return even(low, high, std::max(kPrismatic, (high - low) / most));
   if ((high - low) / kDenseAlong < many) return even(low, high, kDenseAlong);

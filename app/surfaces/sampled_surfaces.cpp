@@ -13,6 +13,7 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::app {
@@ -32,7 +33,7 @@ std::vector<Use> distinct(std::span<io::CaseResult> cases, std::span<const UsedB
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const UsedBody& body = used[i].*which;
     if (!cases[i].bodies || body.surface == nullptr) continue;
-    auto known = std::ranges::find_if(out, [&](const Use& u) {
+    auto known = ranges::find_if(out, [&](const Use& u) {
       return u.body->surface == body.surface && u.body->radius == body.radius && u.left == used[i].left;
     });
     if (known == out.end()) known = out.insert(out.end(), Use{&body, used[i].left, {}});
@@ -140,7 +141,7 @@ bool made_for_one_place(const std::string& backend) { return !backend.empty() &&
 
 bool made_for_one_place(const io::SurfaceSource& source) {
   return made_for_one_place(source.backend) ||
-         std::ranges::any_of(source.parts, [](const io::SurfaceSource& p) { return made_for_one_place(p.backend); });
+         ranges::any_of(source.parts, [](const io::SurfaceSource& p) { return made_for_one_place(p.backend); });
 }
 
 }  // namespace
@@ -175,7 +176,7 @@ SampledRegions RegionsOfCases::regions() const {
 
 bool is_sampled(const io::SurfaceSource& source) {
   return (!source.backend.empty() && backend_of(source.backend).resample) ||
-         std::ranges::any_of(source.parts, [](const io::SurfaceSource& part) { return is_sampled(part); });
+         ranges::any_of(source.parts, [](const io::SurfaceSource& part) { return is_sampled(part); });
 }
 
 SampledRegions sampled_regions(const io::CaseFile& file) {

@@ -17,6 +17,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -51,7 +52,7 @@ void say_kind(const io::SurfaceSource& source, const NaturalSurface& natural, Fa
   } else if (const auto* slices = std::get_if<SliceSet>(&spec.shape);
              slices != nullptr && io::is_slices_file(given.file)) {
     const bool wheel = spec.body == Body::wheel;
-    const auto points = std::ranges::minmax(slices->profiles, {}, [](const Profile& p) { return p.y.size(); });
+    const auto points = ranges::minmax(slices->profiles, {}, [](const Profile& p) { return p.y.size(); });
     kind = fmt::format("{} slices of {} to {} points, {}", slices->u.size(), points.min.y.size(), points.max.y.size(),
                        wheel ? range_text(slices->u.front(), slices->u.back(), "degrees", 180.0 / kPi)
                              : "x = " + range_text(slices->u.front(), slices->u.back(), "mm", kMilli));
@@ -223,7 +224,7 @@ void check_source(const io::SurfaceSource& source, Body body, double radius, std
   const auto same = [&](const CheckedProfile& other) {
     return other.name == found.name && other.judgement.facts == found.judgement.facts;
   };
-  if (std::ranges::none_of(out, same)) out.push_back(std::move(found));
+  if (ranges::none_of(out, same)) out.push_back(std::move(found));
 }
 
 }  // namespace

@@ -21,8 +21,7 @@ namespace {
 /// The line as a curve of its one moving parameter.
 class Tracer {
  public:
-  Tracer(const Surface& surface, Body body, bool section, double fixed)
-      : surface_(surface), body_(body), section_(section), fixed_(fixed) {}
+  Tracer(const Surface& surface, bool section, double fixed) : surface_(surface), section_(section), fixed_(fixed) {}
 
   SurfaceJet at(double t) const {
     const Vec2 uv = section_ ? Vec2(fixed_, t) : Vec2(t, fixed_);
@@ -78,7 +77,6 @@ class Tracer {
   }
 
   const Surface& surface_;
-  Body body_;
   bool section_;
   double fixed_;
 };
@@ -122,7 +120,7 @@ TracedLine trace_line(const Surface& surface, Body body, const TraceRequest& r) 
     to = r.range->second;
     fixed = v_at(surface, body, from, r.at);
   }
-  const Tracer tracer(surface, body, r.section, fixed);
+  const Tracer tracer(surface, r.section, fixed);
   TracedLine line{body, std::string(surface.backend()), has_exact_derivatives(surface), {}};
   double t = from, s = 0.0;
   line.points.push_back(tracer.point(t, s));

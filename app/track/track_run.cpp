@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/track/track_run.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/vehicle/track/lateral_track.hpp"
 #include "treadmark/solvers/vehicle/track/rail_on_seats.hpp"
 #include "treadmark/solvers/vehicle/track/track_receptance.hpp"
@@ -211,7 +211,7 @@ TrackResult run_track(const TrackRequest& request, const io::AnyTrack& any) {
     const TrackModel& lumped = std::get<TrackModel>(any);
     result.name = lumped.name;
     const auto rail_y = [&](const std::string& name) {
-      return std::ranges::find(lumped.bodies, name, &BodySpec::name)->position.y();
+      return ranges::find(lumped.bodies, name, &BodySpec::name)->position.y();
     };
     distance = std::abs(rail_y(lumped.right_rail) - rail_y(lumped.left_rail));
     run_lumped(lumped, result);

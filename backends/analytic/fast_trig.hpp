@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+
+#include "treadmark/core/platform/bit_cast.hpp"
 
 namespace treadmark::analytic {
 
@@ -20,7 +21,7 @@ inline void fast_sin_cos(double x, double& sine, double& cosine) {
   constexpr double kHalfPi1 = 1.57079632673412561417, kHalfPi2 = 6.07710050630396597660e-11,
                    kHalfPi3 = 2.02226624879595063154e-21;
   const double shifted = x * kTwoOverPi + kRound, n = shifted - kRound;
-  const auto quadrant = std::bit_cast<std::uint64_t>(shifted);
+  const auto quadrant = bit_cast<std::uint64_t>(shifted);
   const double r = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3, w = r * r;
   const double s =
       r + r * w *
@@ -36,10 +37,10 @@ inline void fast_sin_cos(double x, double& sine, double& cosine) {
                             w * (1.0 / 40320.0 + w * (-1.0 / 3628800.0 +
                                                       w * (1.0 / 479001600.0 + w * (-1.0 / 87178291200.0 +
                                                                                     w * (1.0 / 20922789888000.0))))))));
-  const auto s_bits = std::bit_cast<std::uint64_t>(s), c_bits = std::bit_cast<std::uint64_t>(c);
+  const auto s_bits = bit_cast<std::uint64_t>(s), c_bits = bit_cast<std::uint64_t>(c);
   const std::uint64_t swap = (s_bits ^ c_bits) & (0 - (quadrant & 1));
-  sine = std::bit_cast<double>((s_bits ^ swap) ^ ((quadrant & 2) << 62));
-  cosine = std::bit_cast<double>((c_bits ^ swap) ^ (((quadrant + 1) & 2) << 62));
+  sine = bit_cast<double>((s_bits ^ swap) ^ ((quadrant & 2) << 62));
+  cosine = bit_cast<double>((c_bits ^ swap) ^ (((quadrant + 1) & 2) << 62));
 }
 
 /// The same for n angles, which must not overlap the results. Any angles will do.

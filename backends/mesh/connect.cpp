@@ -203,7 +203,7 @@ std::vector<std::uint32_t> not_alone(const MergeCells& cells, std::size_t count)
   const auto point = [&](std::size_t k) { return static_cast<std::uint32_t>(places[k]); };
   const auto same_cell = [&](std::size_t k, std::size_t l) { return places[k] >> 32 == places[l] >> 32; };
   std::vector<char> found(count, 0);
-  const auto mark = [&](std::uint32_t i) { std::atomic_ref(found[i]).store(1, std::memory_order_relaxed); };
+  const auto mark = [&](std::uint32_t i) { __atomic_store_n(&found[i], char{1}, __ATOMIC_RELAXED); };
   parallel_blocks(places.size(), kTask, [&](std::size_t from, std::size_t to) {
     CheckPoint check;
     for (std::size_t first = from; first < to; ++first) {

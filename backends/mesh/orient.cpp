@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::mesh {
 
@@ -61,7 +61,7 @@ double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uin
       for (const std::uint32_t n : mesh.neighbours[part[i]])
         shares[from / kOriented].closed = shares[from / kOriented].closed && n != kNone;
   });
-  const bool closed = std::ranges::all_of(shares, &Share::closed);
+  const bool closed = ranges::all_of(shares, &Share::closed);
   const Vec3 base = mesh.vertices[mesh.triangles[part.front()][0]];
   parallel_blocks(part.size(), kOriented, [&](std::size_t from, std::size_t to) {
     Share own;

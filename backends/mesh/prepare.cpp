@@ -13,6 +13,7 @@
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::mesh {
 
@@ -42,7 +43,7 @@ std::size_t first_of(std::size_t count, const Bad& bad) {
         return;
       }
   });
-  return found.empty() ? count : *std::ranges::min_element(found);
+  return found.empty() ? count : *ranges::min_element(found);
 }
 
 void check_input(const TriangleMesh& mesh) {
@@ -55,12 +56,12 @@ void check_input(const TriangleMesh& mesh) {
     refuse(mesh, fmt::format("has a coordinate that is not finite at vertex {} (counted from 0)", i),
            "remove or repair the vertex");
   const auto is_outside = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
-  if (const std::size_t t = first_of(mesh.triangles.size(),
-                                     [&](std::size_t i) { return std::ranges::any_of(mesh.triangles[i], is_outside); });
+  if (const std::size_t t =
+          first_of(mesh.triangles.size(), [&](std::size_t i) { return ranges::any_of(mesh.triangles[i], is_outside); });
       t < mesh.triangles.size())
     refuse(mesh,
            fmt::format("names vertex {} in triangle {} (counted from 0), but has {} vertices only",
-                       *std::ranges::find_if(mesh.triangles[t], is_outside), t, mesh.vertices.size()),
+                       *ranges::find_if(mesh.triangles[t], is_outside), t, mesh.vertices.size()),
            "is the file complete?");
 }
 
@@ -125,7 +126,7 @@ bool without_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 /// Removes the triangles that are marked, and tells how many.
 std::size_t drop(std::vector<Corners>& triangles, const std::vector<char>& marked) {
   const std::size_t before = triangles.size();
-  if (std::ranges::find(marked, 1) == marked.end()) return 0;
+  if (ranges::find(marked, 1) == marked.end()) return 0;
   std::size_t kept = 0;
   for (std::size_t t = 0; t < before; ++t)
     if (!marked[t]) triangles[kept++] = triangles[t];

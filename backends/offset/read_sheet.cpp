@@ -18,6 +18,7 @@
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 // OpenVDB's own reader trusts the sizes in a file. This one reads trees of single and half precision numbers as
 // OpenVDB's format versions from 222 on have them, takes nothing before it is there, and unpacks no more than the
@@ -247,7 +248,7 @@ class SheetReader {
             refuse("the transform of the offsets must not rotate or shear");
         }
     } else {
-      const auto* known = std::ranges::find(kTransforms, name, &StoredTransform::name);
+      const auto* known = ranges::find(kTransforms, name, &StoredTransform::name);
       if (known == std::end(kTransforms)) refuse("the transform of the offsets must be linear");
       if (known->translates) read_three(shift);
       if (known->scales) {

@@ -14,6 +14,7 @@
 #include "treadmark/backends/spline/cubic_pieces.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -52,7 +53,7 @@ std::optional<Vec2> crossing_of(const std::vector<Vec3>& section) {
   const auto rises = [](const Vec3& a, const Vec3& b) { return a.y() < b.y(); };
   const auto falls = [](const Vec3& a, const Vec3& b) { return a.y() > b.y(); };
   // one whose y only rises or falls has no crossing
-  if (std::ranges::is_sorted(section, rises) || std::ranges::is_sorted(section, falls)) return std::nullopt;
+  if (ranges::is_sorted(section, rises) || ranges::is_sorted(section, falls)) return std::nullopt;
   constexpr double kSameX = 1e-3;     // [m]
   constexpr double kStraight = 1e-9;  // [rad] more than rounding turns
   const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {

@@ -22,6 +22,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/bench/instructions/import_paths.hpp"
 #include "treadmark/bench/solvers/solver_cases.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
@@ -221,7 +222,7 @@ MeasuredPath rolling() {
 }
 
 /// Not left out of this build.
-bool has_backend(std::string_view backend) { return std::ranges::count(backend_names(), backend) != 0; }
+bool has_backend(std::string_view backend) { return ranges::count(backend_names(), backend) != 0; }
 
 struct Entry {
   std::string name;

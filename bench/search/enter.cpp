@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/bench/search/enter.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -10,6 +9,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::bench {
 namespace {
@@ -96,7 +96,7 @@ bool enter_search(const char* name, detection::SearchMethod method, Scene scene)
   };
   for (const Backend& b :
        {Backend{"analytic", 0.0}, Backend{"spline", 0.5e-3}, Backend{"mesh", 0.5e-3}, Backend{"offset", 0.5e-3}}) {
-    if (std::ranges::count(backend_names(), b.name) == 0) continue;  // left out of this build
+    if (ranges::count(backend_names(), b.name) == 0) continue;  // left out of this build
     // the others do not know that they have one profile
     const bool one_profile = std::string_view(b.name) == "analytic" || std::string_view(b.name) == "spline";
     if (method == detection::SearchMethod::locus && !one_profile) continue;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/contact_program/natural_curve.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
@@ -68,8 +69,8 @@ std::vector<double> nodes_between(const Surface& surface, const std::vector<doub
   for (std::size_t i = 0; i + 1 < found.size(); ++i) {
     const SurfacePoint &a = found[i], &b = found[i + 1];
     if (a.status == LocateStatus::outside || b.status == LocateStatus::outside) continue;
-    const auto begin = std::ranges::lower_bound(data_v, std::min(a.v, b.v)),
-               end = std::ranges::lower_bound(data_v, std::max(a.v, b.v));
+    const auto begin = ranges::lower_bound(data_v, std::min(a.v, b.v)),
+               end = ranges::lower_bound(data_v, std::max(a.v, b.v));
     if (end - begin > kHidden) continue;
     const auto first_y = static_cast<std::ptrdiff_t>(y.size());
     for (auto v = begin; v != end; ++v)
@@ -106,8 +107,8 @@ std::vector<double> mesh_lines(const Surface& wheel, double angle, const Lateral
               last = std::min(lattice.steps, lattice.below(y.high + margin) + 2);
     std::vector<double> found =
         nodes_between(wheel, data_v, {Vec3::Zero(), rotation_y(angle)}, 0.0, lattice, first, last);
-    const auto low = std::ranges::lower_bound(found, y.low) - found.begin(),
-               high = found.end() - std::ranges::upper_bound(found, y.high);
+    const auto low = ranges::lower_bound(found, y.low) - found.begin(),
+               high = found.end() - ranges::upper_bound(found, y.high);
     const bool whole = first == 0 && last == lattice.steps;
     if (!whole && !((first == 0 || low >= beside) && (last == lattice.steps || high >= beside))) continue;
     if (found.size() >= kFewest) return found;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_program/wheel_locus.hpp"
 #include "treadmark/detection/interpenetration.hpp"
 #include "treadmark/detection/pruned_gap.hpp"
@@ -162,8 +163,8 @@ ContactLocus::Found ReferenceLocus::at(double wheel_dz, double near_miss_gap, Pe
     found.patches.push_back(patch(first, i, deepest, wheel_dz, weight, reference_at_deepest));
   }
   const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };
-  std::ranges::stable_sort(found.patches, deeper);
-  std::ranges::stable_sort(found.near_misses, deeper);
+  ranges::stable_sort(found.patches, deeper);
+  ranges::stable_sort(found.near_misses, deeper);
   constexpr std::size_t kMaxNearMisses = 2;
   if (found.near_misses.size() > kMaxNearMisses) found.near_misses.resize(kMaxNearMisses);
   found.closest = found.least_gap = least_ - wheel_dz;
@@ -186,14 +187,14 @@ bool LocusCheck::is_wrong(double wheel_dz, const std::vector<ContactPatch>& foun
       return y > p.extent.box.y_min - g.dy && y < p.extent.box.y_max + g.dy;
     };
     const double x = g.x(r.ix_deepest), y = g.y(r.iy_deepest), z = gap.field().rail_z(r.ix_deepest, r.iy_deepest);
-    const bool seen = std::ranges::any_of(found, [&](const ContactPatch& p) {
+    const bool seen = ranges::any_of(found, [&](const ContactPatch& p) {
       return covers_row(p, y) && x > p.extent.box.x_min - g.dx && x < p.extent.box.x_max + g.dx &&
              p.least_gap < r.least_gap;
     });
     // Without guard rows.
     int low = seen ? r.iy_max : r.iy_deepest, high = seen ? r.iy_min : r.iy_deepest;
     for (int iy = r.iy_min + 1; iy < r.iy_max; ++iy) {
-      if (seen && std::ranges::any_of(found, [&](const ContactPatch& p) { return covers_row(p, g.y(iy)); })) continue;
+      if (seen && ranges::any_of(found, [&](const ContactPatch& p) { return covers_row(p, g.y(iy)); })) continue;
       low = std::min(low, iy), high = std::max(high, iy);
     }
     if (low > high) continue;

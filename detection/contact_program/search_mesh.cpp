@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
 
@@ -57,7 +58,7 @@ FacetWheel::FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets
 double FacetWheel::corner_near(double y) const {
   const std::vector<double>& lines = facets_.lines;
   const double at = y - X_TW_.origin.y();
-  const auto above = std::ranges::lower_bound(lines, at);
+  const auto above = ranges::lower_bound(lines, at);
   if (above == lines.begin()) return 0.0;
   if (above == lines.end()) return across_ - 1.0;
   const auto j = static_cast<std::size_t>(above - lines.begin()) - 1;

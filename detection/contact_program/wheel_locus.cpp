@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/contact_program/natural_curve.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
@@ -135,7 +136,7 @@ void keep_increasing(Line& line) {
   if (n < 2) return;
   double mean = 0.0;
   for (const Vec3& p : line.points) mean += p.y() / static_cast<double>(n);
-  const auto nearest = std::ranges::min_element(line.points, {}, [&](const Vec3& p) { return std::abs(p.y() - mean); });
+  const auto nearest = ranges::min_element(line.points, {}, [&](const Vec3& p) { return std::abs(p.y() - mean); });
   const auto middle = static_cast<std::size_t>(nearest - line.points.begin());
   std::vector<char> keep(n, 0);
   keep[middle] = 1;

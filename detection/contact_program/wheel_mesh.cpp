@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/detection/contact_program/search_mesh.hpp"
@@ -42,7 +43,7 @@ Reach reach_of(const Pose& X_TU, const Pose& X_TC, const Elements& e) {
   const Grid2& g = e.grid;
   Reach r{kInfinity, -kInfinity, kInfinity, -kInfinity, kInfinity};
   const Vec3 lateral = X_TC.rotation.col(1), normal = X_TC.rotation.col(2);
-  const auto [s_min, s_max] = std::ranges::minmax(e.rows_s);
+  const auto [s_min, s_max] = ranges::minmax(e.rows_s);
   for (const double x : {g.x0 - 0.5 * g.dx, g.x(g.nx - 1) + 0.5 * g.dx})
     for (const double s : {s_min - 0.5 * g.dy, s_max + 0.5 * g.dy}) {
       const Vec3 p = X_TU.apply_inverse(X_TC.origin + s * lateral + Vec3(x, 0.0, 0.0));
@@ -89,7 +90,7 @@ std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& 
     }
   };
   walk(-1);
-  std::ranges::reverse(nodes);
+  ranges::reverse(nodes);
   walk(1);
   const double spare = 2.0 * step;
   std::erase_if(nodes, [&](double node) { return node < r.y_min - spare || node > r.y_max + spare; });
@@ -127,8 +128,8 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   if (rows % 2 == 0) ++rows;
 
   const std::vector<double> all = mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), {r.y_min, r.y_max}, kMargin);
-  auto first = static_cast<std::size_t>(std::ranges::lower_bound(all, r.y_min) - all.begin());
-  auto last = static_cast<std::size_t>(std::ranges::upper_bound(all, r.y_max) - all.begin());
+  auto first = static_cast<std::size_t>(ranges::lower_bound(all, r.y_min) - all.begin());
+  auto last = static_cast<std::size_t>(ranges::upper_bound(all, r.y_max) - all.begin());
   first -= std::min<std::size_t>(first, kMargin);
   last = std::min<std::size_t>(all.size(), last + kMargin);
   const std::span<const double> y = std::span(all).subspan(first, last - first);
@@ -214,7 +215,7 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
   const Pose X_TU = bodies.X_TW * Pose{Vec3::Zero(), rotation_y(lowest_angle(bodies.X_TW))};
   const Elements elements{g, rows_s, rail_n};
   const Mesh mesh = round ? round_mesh(bodies, X_TU, X_TC, elements) : slices_mesh(bodies, X_TU, X_TC, elements);
-  std::ranges::fill(wheel_n, kNaN);
+  ranges::fill(wheel_n, kNaN);
   if (mesh.rows < 2 || mesh.columns < 2) return;
   const auto corner = [&](int k, int j) -> const Vec3& { return mesh.at(k, j); };
   const int middle = mesh.rows / 2;
@@ -267,7 +268,7 @@ UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, 
       rail[i] = across * (rail[i] - wheel[i]);
     }
   }
-  std::ranges::fill(wheel, 0.0);
+  ranges::fill(wheel, 0.0);
   return undeformed_distance(std::move(rail), wheel);
 }
 

@@ -2,10 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/interfaces/c/numbers.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <unordered_map>
+
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::c {
 namespace {
@@ -29,8 +30,7 @@ bool is_motion(std::string_view name) {
                                            "vy", "vz", "vroll", "vyaw", "vpitch"};
   constexpr std::string_view kWheelset = "wheelset.";
   if (name.starts_with("track.irregularity_") || name.starts_with("wheelset.deviation_")) return true;
-  return name.starts_with(kWheelset) &&
-         std::ranges::find(kMotions, name.substr(kWheelset.size())) != std::end(kMotions);
+  return name.starts_with(kWheelset) && ranges::find(kMotions, name.substr(kWheelset.size())) != std::end(kMotions);
 }
 
 template <class Result>
@@ -65,7 +65,7 @@ std::span<const CaseNumber> case_numbers() {
       row.si = unit.si;
       row.motion = is_motion(row.name);
       // a key in degrees beside one in radians is the same number in SI
-      if (std::ranges::find(rows, row.name, &CaseNumber::name) == rows.end()) rows.push_back(std::move(row));
+      if (ranges::find(rows, row.name, &CaseNumber::name) == rows.end()) rows.push_back(std::move(row));
     }
     return rows;
   }();

@@ -39,6 +39,10 @@ std::span<const ResultNumber<io::CaseResult>> result_numbers();
 template <>
 std::span<const ResultNumber<io::PatchResult>> result_numbers();
 
+/// What tables of forces are asked and what they answer, in the order of the arrays of tm_table_evaluate.
+std::span<const NamedNumber> motion_numbers();
+std::span<const NamedNumber> force_numbers();
+
 /// Index of the number of this name; -1: there is none.
 int case_number_named(std::string_view name);
 

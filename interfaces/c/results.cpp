@@ -9,6 +9,7 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
@@ -136,7 +137,7 @@ tm_status tm_patch_field(tm_solution* s, size_t patch, const char* name, const d
   if (values != nullptr) *values = nullptr;
   return guarded([&] {
     require(name != nullptr && values != nullptr, "name and values must not be null");
-    const auto* column = std::ranges::find(io::kFieldColumns, std::string_view(name), &io::FieldColumn::name);
+    const auto* column = ranges::find(io::kFieldColumns, std::string_view(name), &io::FieldColumn::name);
     require(column != std::end(io::kFieldColumns), "no field has this name (tm_list names them)");
     const std::vector<double>& field = patch_of(s, patch).fields.*(column->values);
     *values = field.empty() ? nullptr : field.data();
@@ -162,6 +163,12 @@ tm_status tm_list(tm_table table, size_t i, const char** name, const char** unit
         break;
       case TM_PATCH_FIELDS:
         row = row_at(fields(), i);
+        break;
+      case TM_MOTION_NUMBERS:
+        row = row_at(motion_numbers(), i);
+        break;
+      case TM_FORCE_NUMBERS:
+        row = row_at(force_numbers(), i);
         break;
       default:
         require(false, "there is no such table");

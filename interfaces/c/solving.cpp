@@ -11,6 +11,7 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
 #include "treadmark/interfaces/c/many.hpp"
@@ -95,8 +96,8 @@ const std::vector<double>& samples_of(const tm_pair& p) {
 
 bool are_same(const std::vector<double>& a, const std::vector<double>& b) {
   constexpr double kSame = 1e-9;  // [m]
-  return std::ranges::equal(
-      a, b, [](double x, double y) { return std::abs(x - y) < kSame || (std::isnan(x) && std::isnan(y)); });
+  return ranges::equal(a, b,
+                       [](double x, double y) { return std::abs(x - y) < kSame || (std::isnan(x) && std::isnan(y)); });
 }
 
 }  // namespace

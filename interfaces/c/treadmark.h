@@ -62,6 +62,7 @@ typedef struct tm_pair tm_pair;         /* both, and what the last solution left
 typedef struct tm_patch tm_patch;       /* a patch of given geometry, and what the last solution left */
 typedef struct tm_solution tm_solution; /* results */
 typedef struct tm_state tm_state;       /* on what following solutions depend */
+typedef struct tm_contact_table tm_contact_table; /* forces of a wheel on a rail, tabulated */
 
 /* ---- The library ---- */
 
@@ -174,6 +175,28 @@ TM_API tm_status tm_state_to_bytes(const tm_state *s, void *buffer, size_t *size
 TM_API tm_status tm_state_from_bytes(const void *bytes, size_t size, tm_state **out);
 TM_API void tm_state_free(tm_state *s);
 
+/* ---- Tables of forces ---- */
+
+/* Of a round wheel on a prismatic rail, with an error measured against the exact theory (docs/tables.md): what `treadmark table` makes.
+ * The case says track, wheelset, material and friction, and the load; settings: "key=value" with the names of that verb's options
+ * ("lateral_range_mm=8", "yaw_mrad=20"). Takes minutes; tells tm_set_progress's function. */
+TM_API tm_status tm_table_create(const tm_pair *p, const tm_case *c, const char *const *settings, size_t n, tm_contact_table **out);
+/* Files .h5 and .json hold all of a table, .csv its nodes, which cannot be read again. */
+TM_API tm_status tm_table_read(const char *file, tm_contact_table **out);
+TM_API tm_status tm_table_write(const tm_contact_table *t, const char *file);
+/* Shares the numbers: one copy for each thread costs nothing. */
+TM_API tm_status tm_table_copy(const tm_contact_table *from, tm_contact_table **out);
+/* motion: the first n_motion of the numbers of TM_MOTION_NUMBERS, the others 0; forces: room for the first n_forces of those of
+ * TM_FORCE_NUMBERS. TM_OK; TM_NO_CONTACT: the wheel is in the air, forces are 0; TM_FAILED: outside of what the table covers;
+ * TM_NOT_CONVERGED: no height gives the load. The last two give NaN, and tm_table_message() says why. Takes a few microseconds. */
+TM_API tm_status tm_table_evaluate(tm_contact_table *t, const double *motion, size_t n_motion, double *forces, size_t n_forces);
+/* Of the last tm_table_evaluate; "". Lent until the next one. */
+TM_API const char *tm_table_message(const tm_contact_table *t);
+/* How far a number is from the exact theory at the points of the comparison, at most and root of the mean square: "z" [m], the others
+ * without unit (docs/tables.md): "normal_force", "fx", "fy", "spin_moment", "t_gamma". */
+TM_API tm_status tm_table_error(const tm_contact_table *t, const char *number, double *worst, double *rms);
+TM_API void tm_table_free(tm_contact_table *t);
+
 /* ---- One patch of given geometry ---- */
 
 TM_API tm_status tm_patch_create(tm_patch **out);
@@ -200,8 +223,9 @@ TM_API tm_status tm_patch_grid(tm_solution *s, size_t patch, int *nx, int *ny, d
 TM_API tm_status tm_patch_field(tm_solution *s, size_t patch, const char *name, const double **values);
 TM_API void tm_solution_free(tm_solution *s);
 
-/* Name, unit and meaning of the i-th number of cases, results or fields; TM_BAD_ARGUMENT behind the last one. Lent for ever. */
-typedef enum tm_table { TM_CASE_NUMBERS = 0, TM_SOLUTION_NUMBERS = 1, TM_PATCH_NUMBERS = 2, TM_PATCH_FIELDS = 3 } tm_table;
+/* Name, unit and meaning of the i-th number of cases, results, fields or tables of forces; TM_BAD_ARGUMENT behind the last one. Lent for ever. */
+typedef enum tm_table { TM_CASE_NUMBERS = 0, TM_SOLUTION_NUMBERS = 1, TM_PATCH_NUMBERS = 2, TM_PATCH_FIELDS = 3,
+               TM_MOTION_NUMBERS = 4, TM_FORCE_NUMBERS = 5 } tm_table;
 TM_API tm_status tm_list(tm_table table, size_t i, const char **name, const char **unit, const char **meaning);
 
 /* ---- Whole files, geometry, measures ---- */

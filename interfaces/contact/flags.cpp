@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 
@@ -45,7 +46,7 @@ constexpr FlagRow kFlagRows[] = {{Outside::clamp, CNTC_ic_config, 0, 5, 1},
 static_assert(std::size(kFlagRows) == 24);
 
 std::size_t row_of(int code) {
-  return static_cast<std::size_t>(std::ranges::find(kFlagRows, code, &FlagRow::code) - std::begin(kFlagRows));
+  return static_cast<std::size_t>(ranges::find(kFlagRows, code, &FlagRow::code) - std::begin(kFlagRows));
 }
 
 void set_units(Problem& p, int code) {

@@ -8,6 +8,7 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/log.hpp"
 #include "treadmark/interfaces/contact/sensitivities.hpp"
@@ -31,7 +32,7 @@ Grid2 grid_of(const Active& a) {
   return {b.x0, b.y0, b.dx, b.dy, b.mx, b.my};
 }
 
-int count(const io::PatchFields& f, int state) { return static_cast<int>(std::ranges::count(f.state, state)); }
+int count(const io::PatchFields& f, int state) { return static_cast<int>(ranges::count(f.state, state)); }
 
 /// Where the wheel's profile comes nearest to a point in its axes: arc length [m].
 double wheel_arc_length(const Problem& p, double y, double z) {
@@ -360,7 +361,7 @@ void cntc_getpotcontact(int* ire, int* icp, int* lenarr, double* values) {
     const treadmark::Grid2 g = grid_of(a);
     const double l = a.problem.units.length;
     const auto out = room(values, lenarr, "values");
-    std::ranges::fill(out, 0.0);
+    treadmark::ranges::fill(out, 0.0);
     fill(out, std::array{static_cast<double>(g.nx), static_cast<double>(g.ny), g.x0 / l, g.y0 / l, g.dx / l, g.dy / l});
   });
 }
@@ -399,7 +400,7 @@ void cntc_getglobalforces(int* ire, int* icp, int* lenarr, double* values) {
     const auto* r = patch_result(p, a.patch);
     const auto& loads = a.patch < 0 ? p.result->loads : r != nullptr ? r->loads : std::optional<treadmark::io::Loads>();
     const auto out = room(values, lenarr, "values");
-    std::ranges::fill(out, 0.0);
+    treadmark::ranges::fill(out, 0.0);
     if (loads) fill(out, global_forces(*loads, p.units));
   });
 }

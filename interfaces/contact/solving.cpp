@@ -11,6 +11,7 @@
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/interfaces/contact/calls.hpp"
 #include "treadmark/interfaces/contact/input_file.hpp"
@@ -243,7 +244,7 @@ std::vector<int> indices(std::span<const double> values) {
   std::vector<int> out;
   for (const double value : values)
     if (value >= 1.0 && value <= 1e6) out.push_back(to_whole<int>(std::round(value)) - 1);
-  std::ranges::sort(out);
+  ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   if (out.empty() || static_cast<double>(out.size()) > kMostPlaces)
     throw Refusal{CNTC_err_input, "a block needs 1 to 9999 element numbers a direction"};
@@ -312,7 +313,7 @@ std::array<int, 3> block_size(const Problem& p, int patch, int number) {
   if (!block.at_elements) return {size(block.x), size(block.y), size(block.z)};
   const Grid2 grid = r != nullptr ? r->fields.grid : Grid2{0.0, 0.0, 1.0, 1.0, p.given.basic.mx, p.given.basic.my};
   const auto there = [](const std::vector<int>& list, int count) {
-    return list.empty() ? count : static_cast<int>(std::ranges::count_if(list, [&](int i) { return i < count; }));
+    return list.empty() ? count : static_cast<int>(ranges::count_if(list, [&](int i) { return i < count; }));
   };
   return {there(block.columns, grid.nx), there(block.rows, grid.ny), size(block.z)};
 }

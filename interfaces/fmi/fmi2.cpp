@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/fmi/instance.hpp"
 #include "treadmark/interfaces/fmi/third_party/headers/fmi2Functions.h"
 
@@ -33,7 +33,7 @@ int digit(char c) {
 std::string path_of(std::string_view uri) {
   constexpr std::string_view kScheme = "file:";  // in any letters
   const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  if (uri.size() >= kScheme.size() && std::ranges::equal(uri.substr(0, kScheme.size()), kScheme, same)) {
+  if (uri.size() >= kScheme.size() && ranges::equal(uri.substr(0, kScheme.size()), kScheme, same)) {
     uri.remove_prefix(5);
     if (uri.starts_with("//")) {
       uri.remove_prefix(2);

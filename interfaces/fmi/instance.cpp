@@ -14,6 +14,7 @@
 
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::fmi {
 namespace {
@@ -77,7 +78,7 @@ void Instance::set_logging(bool on, std::span<const char* const> categories) {
   for (const char* name : categories) {
     require(name != nullptr, "a category is null");
     const auto found =
-        std::ranges::find_if(kCategories, [&](const Category& c) { return std::string_view(c.name) == name; });
+        ranges::find_if(kCategories, [&](const Category& c) { return std::string_view(c.name) == name; });
     require(found != std::end(kCategories), "there is no such category");
     all = all || found->name == kAllCategory;
   }
@@ -167,7 +168,7 @@ void Instance::derivative(std::span<const std::uint32_t> outputs, std::span<cons
       throw BadCall{variable.name + " is no input"};
   for (const double value : seed) require(std::isfinite(value), "the seed is not finite");
   if (mode_ == kInitialization) compute_start();
-  std::ranges::copy(model_->derivative(outputs, inputs, seed), out);
+  ranges::copy(model_->derivative(outputs, inputs, seed), out);
 }
 
 Outcome Instance::step(double from, double length) {

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <pybind11/numpy.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "treadmark/app/surfaces/trace_line.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parametric.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/c/many.hpp"
 #include "treadmark/interfaces/c/surfaces.hpp"
 #include "treadmark/interfaces/python/python.hpp"
@@ -256,7 +256,7 @@ py::tuple solve_many(const tm_pair& pair, const tm_case& common,
           if (!message.empty()) texts.emplace_back(row, message);
         },
         report);
-    std::ranges::sort(texts);
+    ranges::sort(texts);
     return texts;
   });
   return py::make_tuple(numbers, codes, said);

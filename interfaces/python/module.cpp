@@ -76,8 +76,14 @@ py::dict tables() {
   }
   for (const io::FieldColumn& field : io::kFieldColumns)
     fields.append(py::make_tuple(std::string(field.name), std::string(field.unit), std::string(field.meaning)));
+  const auto named = [](std::span<const c::NamedNumber> all) {
+    py::list rows;
+    for (const c::NamedNumber& number : all) rows.append(py::make_tuple(number.name, number.unit, number.meaning));
+    return rows;
+  };
   using namespace py::literals;
-  return py::dict("case_numbers"_a = numbers, "case_keys"_a = keys, "case"_a = number_table<io::CaseResult>(),
+  return py::dict("motion"_a = named(c::motion_numbers()), "forces"_a = named(c::force_numbers()),
+                  "case_numbers"_a = numbers, "case_keys"_a = keys, "case"_a = number_table<io::CaseResult>(),
                   "patch"_a = number_table<io::PatchResult>(), "fields"_a = fields);
 }
 
@@ -142,6 +148,7 @@ PYBIND11_MODULE(_treadmark, module) {
   add_requests(module);
   add_backends(module);
   add_simulations(module);
+  add_tables(module);
   add_scans(module);
   add_pages(module);
 }

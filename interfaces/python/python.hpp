@@ -63,6 +63,7 @@ struct Free {
   void operator()(tm_state* s) const { tm_state_free(s); }
   void operator()(tm_patch* p) const { tm_patch_free(p); }
   void operator()(tm_solution* s) const { tm_solution_free(s); }
+  void operator()(tm_contact_table* t) const { tm_table_free(t); }
 };
 template <class Handle>
 using Owned = std::unique_ptr<Handle, Free>;
@@ -216,6 +217,7 @@ void add_verbs(py::module_& module);
 void add_requests(py::module_& module);
 void add_backends(py::module_& module);
 void add_simulations(py::module_& module);
+void add_tables(py::module_& module);
 void add_scans(py::module_& module);
 void add_pages(py::module_& module);
 

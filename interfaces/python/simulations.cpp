@@ -23,6 +23,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
@@ -251,7 +252,7 @@ FoundStability stability(const std::filesystem::path& file, const Strings& overr
 
 /// Place of a word in a list of words. Errors: Error(configuration).
 std::size_t place_of(const std::string& word, std::span<const std::string_view> words) {
-  const auto found = std::ranges::find(words, word);
+  const auto found = ranges::find(words, word);
   if (found == words.end())
     throw Error(ErrorKind::configuration, fmt::format("'{}' is none of: {}", word, fmt::join(words, ", ")));
   return static_cast<std::size_t>(found - words.begin());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <utility>
@@ -17,6 +16,7 @@
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
 #include "treadmark/interfaces/python/python.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
@@ -43,7 +43,7 @@ struct Held {
 Varied varied_of(const io::CaseFile& file, const io::RunResult& result) {
   std::vector<const io::Case*> cases;
   for (const io::CaseResult& one : result.cases)
-    if (const auto found = std::ranges::find(file.cases, one.number, &io::Case::number); found != file.cases.end())
+    if (const auto found = ranges::find(file.cases, one.number, &io::Case::number); found != file.cases.end())
       cases.push_back(&*found);
   Varied varied;
   if (cases.empty() || cases.size() != result.cases.size()) return varied;
@@ -56,7 +56,7 @@ Varied varied_of(const io::CaseFile& file, const io::RunResult& result) {
     }
     // NaN: the case has no such part. It equals nothing, not even itself.
     const auto differ = [](const auto& a, const auto& b) { return a != b && (a == a || b == b); };
-    if (std::ranges::adjacent_find(row.second, differ) != row.second.end()) varied.push_back(std::move(row));
+    if (ranges::adjacent_find(row.second, differ) != row.second.end()) varied.push_back(std::move(row));
   };
   for (const c::CaseNumber& number : c::case_numbers())
     if (number.key->get)

@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -19,6 +18,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/modules.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 extern char** environ;
 
@@ -123,7 +123,7 @@ auto talk_to(std::unique_ptr<Channel>& channel, const std::string& file, Talk ta
 }
 
 bool is_finite(const Point& p) {
-  return std::ranges::all_of(p, [](double x) { return std::isfinite(x); });
+  return ranges::all_of(p, [](double x) { return std::isfinite(x); });
 }
 
 void require(bool sense) {
@@ -132,7 +132,7 @@ void require(bool sense) {
 
 std::vector<Point> take_points(Channel& c) {
   auto points = c.take_list<std::vector<Point>>();
-  require(std::ranges::all_of(points, is_finite));
+  require(ranges::all_of(points, is_finite));
   return points;
 }
 

@@ -18,6 +18,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/cad_process.hpp"
 #include "treadmark/io/cad/step_text.hpp"
@@ -346,8 +347,8 @@ Profile profile_of(Body body, std::vector<double> y, std::vector<double> h, doub
   p.name = name;
   if (body == Body::wheel) {
     for (double& r : h) r -= radius;
-    std::ranges::reverse(y);
-    std::ranges::reverse(h);
+    ranges::reverse(y);
+    ranges::reverse(h);
   }
   p.y = std::move(y);
   p.z = std::move(h);
@@ -399,7 +400,7 @@ SliceSet slices_of(const RunningSurface& surface, Body body, double radius, cons
   // evenly, and where faces lie that a wide step might pass by
   std::vector<double> stations = changing;
   for (int i = 1; i <= n; ++i) stations.push_back(from + (to - from) * i / n);
-  std::ranges::sort(stations);
+  ranges::sort(stations);
   for (const double u : stations) {
     const bool last = u >= to;
     if (scale * (u - before.u) < kFine || (!last && scale * (to - u) < kFine)) continue;
@@ -471,7 +472,7 @@ TriangleMesh triangles_of(const cad::CadShape& shape, const RunningSurface& surf
   };
   for (int face = 0; face < shape.faces(); ++face) {
     check_cancelled();
-    bool reached = std::ranges::any_of(shape.points_on(face), in_reach);
+    bool reached = ranges::any_of(shape.points_on(face), in_reach);
     if (!reached)
       for (const cad::CadEdgePoint& edge : shape.edges_of(face)) reached = reached || in_reach(edge.p);
     if (reached) faces.push_back(face);

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cad/step_text.hpp"
 
-#include <charconv>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -11,6 +10,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::cad {
@@ -63,7 +63,7 @@ bool is_number(std::string_view word) {
   if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
   double value = 0.0;
   return !word.empty() && is_digit(word.front()) &&
-         std::from_chars(word.data(), word.data() + word.size(), value).ptr == word.data() + word.size();
+         from_chars(word.data(), word.data() + word.size(), value).ptr == word.data() + word.size();
 }
 
 }  // namespace

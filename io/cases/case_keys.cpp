@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/key_builder.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
 #include "treadmark/io/tables/number.hpp"
@@ -113,7 +114,7 @@ void keep_rolling(std::vector<CaseKey>& keys) {
   constexpr std::string_view kFrom[] = {"wheelset.velocity_", "wheelset.nominal_radius_mm", "wheelset.rolling",
                                         "roller."};
   for (CaseKey& key : keys)
-    if (std::ranges::any_of(kFrom, [&](std::string_view name) { return key.info.path.starts_with(name); }))
+    if (ranges::any_of(kFrom, [&](std::string_view name) { return key.info.path.starts_with(name); }))
       key.set = [set = std::move(key.set)](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
         set(c, v, folder);
         auto& w = content_of<WheelRailCase>(c);

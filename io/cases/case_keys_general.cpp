@@ -104,7 +104,7 @@ void add_solver(KeyList& list) {
 /// A [patch] has such keys of its own.
 void add_wheel_rail_models(KeyList& list) {
   list.choice<W>("solver.normal_model", words_of<W>(kNormalTheories),
-                 "pressure of a wheel on a rail: solved, or one of two fast approximations",
+                 "pressure of a wheel on a rail: solved, or one of two approximations; kpec is the faster one",
                  [](W& c) -> NormalModel& { return c.normal_model; });
   add_simplified_theory<W>(list, "solver.");
 }

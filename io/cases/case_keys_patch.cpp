@@ -114,7 +114,7 @@ void add_rolling(KeyList& list) {
                  [](B& c) -> double& { return c.spin_offset_factor; });
   list.choice<B>(
       "patch.normal_model", words_of<B>(kNormalTheories),
-      "pressure: solved; the Hertzian ellipsoid, a paraboloid or two half ellipsoids ([patch.hertz] only); or a fast "
+      "pressure: solved; the Hertzian ellipsoid, a paraboloid or two half ellipsoids ([patch.hertz] only); or an "
       "approximation (KPEC, ANALYN) at a given approach",
       [](B& c) -> NormalModel& { return c.normal_model; });
   add_simplified_theory<B>(list, "patch.");

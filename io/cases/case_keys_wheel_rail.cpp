@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/cases/key_builder.hpp"
 #include "treadmark/model/magnitudes.hpp"
 
@@ -83,7 +83,7 @@ void add_track(KeyList& list) {
   inclined.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     const std::string& text = v.text();
     double run = 0.0;
-    std::from_chars(text.data() + 2, text.data() + text.size(), run);
+    from_chars(text.data() + 2, text.data() + text.size(), run);
     if (!(run >= 1.0))
       throw Error(ErrorKind::configuration, "track.cant must lie between 1:1 and flat", v.where,
                   "for example \"1:40\"");

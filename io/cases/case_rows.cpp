@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <exception>
 #include <fstream>
@@ -17,6 +16,8 @@
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -36,8 +37,8 @@ bool is_shared(std::string_view path) {
                                         "case.time_step_s",
                                         "case.history",
                                         "case.sequence"};
-  return std::ranges::any_of(kSections, [&](std::string_view section) { return path.starts_with(section); }) ||
-         std::ranges::find(kKeys, path) != std::end(kKeys);
+  return ranges::any_of(kSections, [&](std::string_view section) { return path.starts_with(section); }) ||
+         ranges::find(kKeys, path) != std::end(kKeys);
 }
 
 constexpr std::size_t kLongestShown = 40;
@@ -72,7 +73,7 @@ std::uint64_t with_row(std::uint64_t sum, std::string_view line) {
 }
 
 std::vector<std::string> cells_of(std::string_view line, const SourcePosition& where) {
-  if (std::ranges::count(line, '"') % 2 != 0)
+  if (ranges::count(line, '"') % 2 != 0)
     throw Error(ErrorKind::configuration, "a quote is not closed", where, "quotes stand in pairs, within one line");
   return csv_cells(line);
 }
@@ -82,7 +83,7 @@ CaseValue cell_value(const KeyInfo& key, const std::string& cell, const SourcePo
   const bool plus = cell.starts_with('+') && !cell.starts_with("+-");
   const char *const first = cell.data() + (plus ? 1 : 0), *const last = cell.data() + cell.size();
   const auto parsed = [&](auto value) -> CaseValue {
-    const auto [end, trouble] = std::from_chars(first, last, value);
+    const auto [end, trouble] = from_chars(first, last, value);
     if (trouble == std::errc() && end == last) return {where, value};
     if (!key.choices.empty()) return {where, cell};
     const TextFault fault = number_fault(cell);
@@ -94,7 +95,7 @@ CaseValue cell_value(const KeyInfo& key, const std::string& cell, const SourcePo
   };
   switch (key.type) {
     case KeyType::number:
-      if (std::ranges::find(key.choices, cell) != key.choices.end()) return {where, cell};
+      if (ranges::find(key.choices, cell) != key.choices.end()) return {where, cell};
       return parsed(double{});
     case KeyType::integer:
       return parsed(std::int64_t{});
@@ -152,7 +153,7 @@ void CaseRows::index() {
 
 /// By a change of the key itself, or of another alternative of its group.
 bool CaseRows::is_overridden(const CaseKey& key) const {
-  return std::ranges::any_of(changes_, [&](const CaseOverride& change) {
+  return ranges::any_of(changes_, [&](const CaseOverride& change) {
     const CaseKey* other = case_key(change.path);
     return other != nullptr && (other == &key || (!key.info.group.empty() && other->info.group == key.info.group &&
                                                   other->info.alternative != key.info.alternative));
@@ -177,7 +178,7 @@ void CaseRows::take_heads(std::string_view line, int number) {
       throw Error(ErrorKind::configuration, fmt::format("{} cannot differ from row to row", head), at(number),
                   "rows of cases_file are contacts of one pair, each by itself: give it in the case file, or use "
                   "[[cases]]");
-    if (std::ranges::find(columns_, key, &Column::key) != columns_.end())
+    if (ranges::find(columns_, key, &Column::key) != columns_.end())
       throw Error(ErrorKind::configuration, fmt::format("two columns have the name {}", head), at(number));
     check_exclusive(key->info, at(number), chosen);
     Column& column = columns_.emplace_back(Column{key, i, {}});
@@ -192,7 +193,7 @@ void CaseRows::take_heads(std::string_view line, int number) {
   std::vector<GivenKey> given;
   for (const std::string& head : heads_) given.push_back({head, &where});
   check_exclusive_sections(given);
-  std::ranges::sort(columns_, {}, &Column::key);  // keys stand in the order in which they are applied
+  ranges::sort(columns_, {}, &Column::key);  // keys stand in the order in which they are applied
 }
 
 std::vector<CaseRow> CaseRows::block(std::size_t k) const {

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cases/file_kind.hpp"
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
@@ -19,7 +19,7 @@ CaseTable top_of(const std::filesystem::path& file) {
 }
 
 const CaseEntry* entry_of(const CaseTable& table, std::string_view key) {
-  const auto found = std::ranges::find(table, key, &CaseEntry::key);
+  const auto found = ranges::find(table, key, &CaseEntry::key);
   return found == table.end() ? nullptr : &*found;
 }
 
@@ -37,7 +37,7 @@ FileKind kind_of(const CaseTable& top) {
   if (track != nullptr && track->value.is_table() && entry_of(track->value.table(), "name") != nullptr)
     return FileKind::track;
   constexpr std::string_view kOfImports[] = {"scan", "placement", "clean", "fit", "damage", "map"};
-  return std::ranges::any_of(kOfImports, has) ? FileKind::import : FileKind::other;
+  return ranges::any_of(kOfImports, has) ? FileKind::import : FileKind::other;
 }
 
 }  // namespace treadmark::io

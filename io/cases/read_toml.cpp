@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/case_rows.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
@@ -97,7 +97,7 @@ void add_words(const CaseTable& table, const std::string& prefix, std::span<cons
     const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
     if (entry.value.is_table())
       add_words(entry.value.table(), path, changes, words);
-    else if (std::ranges::find(changes, path, &CaseOverride::path) == changes.end())
+    else if (ranges::find(changes, path, &CaseOverride::path) == changes.end())
       words.insert(path + '=' + as_words(entry.value));
   }
 }
@@ -268,7 +268,7 @@ ListedCases listed_cases_of(const CaseTable& document, const std::filesystem::pa
 
   const auto note_motion = [&] {
     const auto still = [](const Case& c) { return !doubt_about_motion(c).empty(); };
-    if (const auto first = std::ranges::find_if(result.cases, still); first != result.cases.end())
+    if (const auto first = ranges::find_if(result.cases, still); first != result.cases.end())
       result.notes.push_back(fmt::format("case {}: {}", first->number, doubt_about_motion(*first)));
   };
   if (table != nullptr) {
@@ -432,7 +432,7 @@ using Given = std::function<bool(std::string_view)>;
 void move(SixMotion& to, const SixMotion& from, const SixMotion& rate, const KeyNames (&keys)[6], double dt,
           const Given& given) {
   for (std::size_t i = 0; i < std::size(kAxes); ++i)
-    if (std::ranges::none_of(keys[i], given)) to.*kAxes[i] = from.*kAxes[i] + rate.*kAxes[i] * dt;
+    if (ranges::none_of(keys[i], given)) to.*kAxes[i] = from.*kAxes[i] + rate.*kAxes[i] * dt;
 }
 
 }  // namespace
@@ -455,7 +455,7 @@ void move_on(Case& next, const Case& previous, const std::function<bool(std::str
   move(to->state.position, from->state.position, rates, kWheelset, dt, given);
   move(to->state.wheel_offset, from->state.wheel_offset, to->state.wheel_velocity, kDeviation, dt, given);
   for (const TrackMotion& m : kTrack)
-    if (std::ranges::none_of(m.keys, given)) to->track.*m.position = from->track.*m.position + to->track.*m.rate * dt;
+    if (ranges::none_of(m.keys, given)) to->track.*m.position = from->track.*m.position + to->track.*m.rate * dt;
 }
 
 }  // namespace treadmark::io

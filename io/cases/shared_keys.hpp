@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/key_builder.hpp"
 
 namespace treadmark::io {
@@ -106,7 +106,7 @@ std::string written_element(const std::vector<ElementKey<Element>>& keys, const 
     const std::string value = key.written ? key.written(e) : "";
     if (value.empty() || (!key.info.required && key.written(fresh) == value)) continue;
     const std::string text = key.info.path + " = " + value;
-    const auto other = std::ranges::find_if(all, [&](const Said& s) {
+    const auto other = ranges::find_if(all, [&](const Said& s) {
       return !key.info.group.empty() && s.key->group == key.info.group && s.key->alternative != key.info.alternative;
     });
     if (other == all.end())

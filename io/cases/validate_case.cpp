@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
@@ -206,7 +207,7 @@ void settle_elements(std::vector<Case>& cases) {
   std::map<int, std::vector<Case*>> sequences;
   for (Case& c : cases) sequences[c.sequence].push_back(&c);
   const auto share_raster = [](const std::vector<Case*>& instants) {
-    const bool raster = std::ranges::any_of(instants, [](const Case* c) {
+    const bool raster = ranges::any_of(instants, [](const Case* c) {
       const auto* w = std::get_if<WheelRailCase>(&c->content);
       return w != nullptr && (w->regime == Regime::transient || w->regime == Regime::shift || w->damping);
     });

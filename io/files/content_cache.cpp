@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/files/content_cache.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::io {
@@ -110,8 +110,8 @@ void ContentCache::remove_oldest() const {
     all += one.size;
     entries.push_back(one);
   }
-  std::ranges::sort(
-      entries, [](const Entry& a, const Entry& b) { return std::pair(a.used, a.file) < std::pair(b.used, b.file); });
+  ranges::sort(entries,
+               [](const Entry& a, const Entry& b) { return std::pair(a.used, a.file) < std::pair(b.used, b.file); });
   for (const Entry& entry : entries) {
     if (all <= most_) return;
     if (fs::remove(entry.file, error)) all -= entry.size;

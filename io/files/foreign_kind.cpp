@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/files/foreign_kind.hpp"
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/extension.hpp"
 
 namespace treadmark::io {
@@ -85,7 +85,7 @@ constexpr ForeignKind kForeign[] = {
 
 void refuse_foreign_file(const std::filesystem::path& file, const SourcePosition& asked_by) {
   const std::string extension = extension_of(file);
-  const auto* kind = std::ranges::find(kForeign, extension, &ForeignKind::extension);
+  const auto* kind = ranges::find(kForeign, extension, &ForeignKind::extension);
   if (kind == std::end(kForeign)) return;
   throw Error(ErrorKind::configuration,
               fmt::format("'{}' is {}, which is not read as a wheel or rail", file.filename().string(), kind->name),

@@ -3,8 +3,9 @@
 #include "treadmark/io/files/line_scanner.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
+
+#include "treadmark/core/platform/from_chars.hpp"
 
 namespace treadmark::io::profiles {
 namespace {
@@ -21,7 +22,7 @@ Parsed parse(std::string_view word) {
   char copy[64];
   const char* const last = word.data() + word.size();
   double value = 0.0;
-  std::from_chars_result result = std::from_chars(word.data(), last, value);
+  std::from_chars_result result = from_chars(word.data(), last, value);
 
   // Fortran writes 1d-5: try again with an e where the mantissa ended.
   if (result.ptr != last && (*result.ptr == 'd' || *result.ptr == 'D') && result.ptr != word.data() &&
@@ -29,7 +30,7 @@ Parsed parse(std::string_view word) {
     const auto mantissa = static_cast<std::size_t>(result.ptr - word.data());
     std::copy(word.begin(), word.end(), copy);
     copy[mantissa] = 'e';
-    result = std::from_chars(copy, copy + word.size(), value);
+    result = from_chars(copy, copy + word.size(), value);
     if (result.ptr != copy + word.size()) return {};
   } else if (result.ptr != last) {
     return {};
@@ -123,7 +124,7 @@ int to_integer(const TextLine& line, const Word& word) {
   std::string_view text = word.text;
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || value > 1'000'000'000 || value < -1'000'000'000)
     line.fail("a whole number is expected, this is " + printable(word.text), word.column);
   return value;

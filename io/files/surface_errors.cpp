@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/text.hpp"
 
@@ -38,7 +39,7 @@ bool is_one_of(std::string_view word, std::string_view words) {
 }  // namespace
 
 std::shared_ptr<const SurfaceErrors> read_surface_errors(const std::filesystem::path& file) {
-  const auto style = std::ranges::find(kCommentStyles, extension_of(file), &CommentStyle::extension);
+  const auto style = ranges::find(kCommentStyles, extension_of(file), &CommentStyle::extension);
   if (style == std::end(kCommentStyles)) return nullptr;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) stream.open(profiles::portable_path(file.string()), std::ios::binary);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
@@ -16,6 +15,8 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/output_claim.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io::profiles {
@@ -185,7 +186,7 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 std::size_t characters_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
+  return static_cast<std::size_t>(ranges::count_if(text, begins_character));
 }
 
 std::string_view cut_to_bytes(std::string_view text, std::size_t most) {
@@ -199,7 +200,7 @@ double rounded(double value, Digits digits) {
   char text[32];
   const auto written = std::to_chars(text, std::end(text), value, std::chars_format::general, static_cast<int>(digits));
   double rounded = value;
-  std::from_chars(text, written.ptr, rounded);
+  from_chars(text, written.ptr, rounded);
   return rounded + 0.0;
 }
 
@@ -235,7 +236,7 @@ bool is_formula(const std::string& text) {
   const char* const first = text.data() + (text.front() == '+' ? 1 : 0);
   const char* const end = text.data() + text.size();
   double number = 0.0;
-  const auto [stop, failed] = std::from_chars(first, end, number);
+  const auto [stop, failed] = from_chars(first, end, number);
   return failed != std::errc() || stop != end;
 }
 

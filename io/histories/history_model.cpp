@@ -4,11 +4,14 @@
 #include "treadmark/io/histories/history_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <iterator>
 #include <set>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/tables/csv_of.hpp"
 
@@ -45,8 +48,9 @@ void check_simulation(const SimulationResult& result) {
   std::set<int> numbers;
   for (const CaseResult& one : result.snapshots.cases)
     if (!numbers.insert(one.number).second) refuse(fmt::format("two snapshots have the number {}", one.number));
-  if (result.status != "complete" && result.status != "interrupted" && result.status != "failed")
-    refuse(fmt::format("\"{}\" is no status of a simulation: complete, interrupted or failed", result.status));
+  constexpr const char* kStatus[] = {"complete", "derailed", "interrupted", "failed"};
+  if (ranges::find(kStatus, result.status) == std::end(kStatus))
+    refuse(fmt::format("\"{}\" is no status of a simulation: {}", result.status, fmt::join(kStatus, ", ")));
 }
 
 std::size_t column_index(const SimulationResult& result, const std::string& name) {

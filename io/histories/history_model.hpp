@@ -56,7 +56,7 @@ struct SnapshotScene {
 /// A simulation, complete or not. It holds no wall-clock times, so that the results of an interrupted and resumed
 /// simulation equal those of an undisturbed one.
 struct SimulationResult : Origin {
-  std::string status = "complete";  ///< "complete", "interrupted" or "failed"
+  std::string status = "complete";  ///< "complete", "derailed", "interrupted" or "failed"
   std::string message;
   std::vector<HistoryColumn> columns;
   std::vector<double> values;  ///< row by row: an instant a row, a value a column
@@ -69,6 +69,8 @@ struct SimulationResult : Origin {
   std::vector<std::pair<std::string, std::string>> swept;  ///< (key, value) of the study that the simulation belongs to
   std::vector<std::byte> checkpoint;                       ///< from which it can go on; may be empty
 
+  /// Whether there is no going on.
+  bool ended() const { return status == "complete" || status == "derailed"; }
   /// Number of instants.
   std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
 };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
@@ -129,7 +129,7 @@ SchemaRows placed_rows() {
                  {"u_mm", "number", true, false, "along a rail; one of u_deg and u_mm is there"},
                  {"y_mm", "number", true, true, "across, of the profile"},
                  {"s_mm", "number", true, true, "along the section, as in the maps; null where only y is known"}};
-  std::ranges::move(schema_rows<Part>(), std::back_inserter(out));
+  ranges::move(schema_rows<Part>(), std::back_inserter(out));
   return out;
 }
 
@@ -324,7 +324,7 @@ Json seconds(const ImportReport& report) {
 std::vector<ImportReport::Removed> removed_by_reason(const ImportReport& report) {
   std::vector<ImportReport::Removed> out;
   for (const ImportReport::Removed& one : report.removed) {
-    const auto known = std::ranges::find(out, one.reason, &ImportReport::Removed::reason);
+    const auto known = ranges::find(out, one.reason, &ImportReport::Removed::reason);
     if (known == out.end()) {
       out.push_back(one);
       continue;

@@ -9,6 +9,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/tables/number.hpp"
@@ -138,7 +139,7 @@ std::vector<std::string> JsonTree::texts() const {
 }
 
 std::size_t JsonTree::one_of(const std::vector<std::string_view>& names) const {
-  const auto found = std::ranges::find(names, text());
+  const auto found = ranges::find(names, text());
   if (found == names.end()) refuse(fmt::format("is \"{}\" where {} is expected", text(), fmt::join(names, " or ")));
   return static_cast<std::size_t>(found - names.begin());
 }

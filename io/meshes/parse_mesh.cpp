@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/meshes/parse_mesh.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/points/parse_obj.hpp"
 #include "treadmark/io/points/parse_off.hpp"
 #include "treadmark/io/points/parse_ply.hpp"
@@ -81,7 +81,7 @@ class MeshSink {
   void add_obj_corner(const LineBlocks& lines, const Field& field) {
     const std::string_view text = field.text.substr(0, field.text.find('/'));
     std::int64_t index = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), index);
     if (error != std::errc{} || end != text.data() + text.size() || text.empty())
       lines.fail("a vertex number is expected, this is " + profiles::printable(field.text), field.column);
     const auto count = static_cast<std::int64_t>(mesh_.vertices.size());

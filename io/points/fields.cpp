@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/platform/from_chars.hpp"
+
 namespace treadmark::io::points {
 
 namespace {
@@ -91,10 +93,10 @@ bool parse_number_slowly(std::string_view word, bool decimal_comma, double& valu
   char* const end = copy + word.size();
   if (decimal_comma && std::count(copy, end, ',') == 1) std::replace(copy, end, ',', '.');
 
-  std::from_chars_result result = std::from_chars(copy, end, value);
+  std::from_chars_result result = from_chars(copy, end, value);
   if (result.ptr != end && result.ptr != copy && (*result.ptr == 'd' || *result.ptr == 'D')) {
     *const_cast<char*>(result.ptr) = 'e';  // Fortran writes 1d-5
-    result = std::from_chars(copy, end, value);
+    result = from_chars(copy, end, value);
   }
   if (result.ptr == end && result.ec == std::errc::result_out_of_range) {
     // too small is as good as zero, too large is no number to go on with

@@ -2,13 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
@@ -73,7 +73,7 @@ bool parse_number_slowly(std::string_view word, bool decimal_comma, double& valu
 
 inline bool parse_number(std::string_view word, bool decimal_comma, double& value) {
   const char* const end = word.data() + word.size();
-  const std::from_chars_result result = std::from_chars(word.data(), end, value);
+  const std::from_chars_result result = from_chars(word.data(), end, value);
   if (result.ptr == end && result.ec == std::errc{}) return true;
   return parse_number_slowly(word, decimal_comma, value);
 }

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/sink.hpp"
 
@@ -148,7 +148,7 @@ PlyType type_of(const LineScanner& scanner, const Word& word) {
 
 std::uint64_t count_of(const LineScanner& scanner, const Word& word) {
   std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(word.text.data(), word.text.data() + word.text.size(), value);
+  const auto [end, error] = from_chars(word.text.data(), word.text.data() + word.text.size(), value);
   if (error != std::errc{} || end != word.text.data() + word.text.size() || value > kMostElements)
     scanner.fail("a number of elements up to 1e9 is expected, this is " + printable(word.text), word.column);
   return value;

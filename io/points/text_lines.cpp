@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/fields.hpp"
 
@@ -71,7 +72,7 @@ std::string plain_signs(std::string_view line) {
   std::string plain;
   bool changed = false;
   for (std::size_t k = 0; k < line.size();) {
-    const auto sign = std::ranges::find_if(kSigns, [&](const auto& s) { return line.substr(k).starts_with(s.first); });
+    const auto sign = ranges::find_if(kSigns, [&](const auto& s) { return line.substr(k).starts_with(s.first); });
     plain += sign == kSigns.end() ? line[k] : sign->second;
     changed = changed || sign != kSigns.end();
     k += sign == kSigns.end() ? 1 : sign->first.size();
@@ -95,8 +96,8 @@ bool is_void_word(std::string_view word) {
                                                    "miss", "#value!", "#wert!", "nodata", "invalid"};
   if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
   const std::string plain = profiles::lower(word);
-  if (std::ranges::find(kVoid, plain) != kVoid.end()) return true;
-  if (std::ranges::all_of(plain, [](char c) { return c == '-' || c == '*' || c == '?' || c == '.'; })) return true;
+  if (ranges::find(kVoid, plain) != kVoid.end()) return true;
+  if (ranges::all_of(plain, [](char c) { return c == '-' || c == '*' || c == '?' || c == '.'; })) return true;
   double value = 0.0;
   return parse_number(word, true, value) && !std::isfinite(value);
 }

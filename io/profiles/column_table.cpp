@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/points/text_lines.hpp"
 #include "treadmark/io/points/unit_words.hpp"
 
@@ -148,7 +149,7 @@ void ColumnTable::drop_count(std::vector<std::string>& notes) {
   constexpr double kMostColumns = 20.0;
   if (rows_.size() < kFewest) return;
   std::string first = rows_.front().text;
-  std::ranges::replace_if(
+  ranges::replace_if(
       first, [](char c) { return c == ',' || c == ';' || c == '\t'; }, ' ');
   const std::vector<points::Field> fields = points::fields_of(first, ' ');
   double count = 0.0, columns = 0.0;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io::profiles {
@@ -37,9 +38,9 @@ class VoidMarks {
  public:
   explicit VoidMarks(std::vector<double> values) {
     std::vector<double> others;
-    std::ranges::copy_if(values, std::back_inserter(others), [](double v) { return !is_mark(std::fabs(v)); });
+    ranges::copy_if(values, std::back_inserter(others), [](double v) { return !is_mark(std::fabs(v)); });
     if (!others.empty()) values = std::move(others);
-    std::ranges::sort(values);
+    ranges::sort(values);
     const auto at = [&](double share) {
       return values[to_whole<std::size_t>(share * static_cast<double>(values.size() - 1))];
     };
@@ -58,10 +59,10 @@ class VoidMarks {
   }
   static bool is_nines(double size) {
     const std::string digits = fmt::format("{:.10g}", size);
-    const auto nines = std::ranges::count(digits, '9');
+    const auto nines = ranges::count(digits, '9');
     // thousands of an instrument that counts in quarters
     return size == 999.25 ||
-           (nines >= 3 && nines + std::ranges::count(digits, '.') == static_cast<std::ptrdiff_t>(digits.size()));
+           (nines >= 3 && nines + ranges::count(digits, '.') == static_cast<std::ptrdiff_t>(digits.size()));
   }
   static bool is_power(double size) {
     constexpr double kLeast = 16384.0, kMost = 4294967296.0;

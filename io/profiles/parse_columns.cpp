@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/points/text_lines.hpp"
 #include "treadmark/io/points/unit_words.hpp"
 #include "treadmark/io/profiles/column_table.hpp"
@@ -26,14 +26,14 @@ void check_title(const LineScanner& scanner, std::string_view line) {
   const Word word{line.substr(start, line.find_first_of(" \t\v\f,;", start) - start), static_cast<int>(start + 1)};
   // figures without letters are a point whose numbers nobody can read
   const auto is_figure = [](const points::Field& f) {
-    const bool digits = std::ranges::any_of(f.text, [](char c) { return c >= '0' && c <= '9'; });
+    const bool digits = ranges::any_of(f.text, [](char c) { return c >= '0' && c <= '9'; });
     return digits && f.text.find_first_of(":/") == std::string_view::npos &&
-           std::ranges::none_of(f.text, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }) &&
-           std::ranges::count(f.text, '-') < 2;
+           ranges::none_of(f.text, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }) &&
+           ranges::count(f.text, '-') < 2;
   };
   for (const char separator : {';', '\t', ',', ' '}) {
     const std::vector<points::Field> fields = points::fields_of(line, separator);
-    if (fields.size() >= 2 && std::ranges::all_of(fields, is_figure))
+    if (fields.size() >= 2 && ranges::all_of(fields, is_figure))
       scanner.fail("this looks like a point, but " + printable(fields.front().text) + " is no number",
                    fields.front().column, "write numbers with '-' and '.', without brackets, units or blanks within");
   }
@@ -78,7 +78,7 @@ bool is_row_of_voids(const std::string& line) {
     if (separator != ' ' && line.find(separator) == std::string::npos) continue;
     const std::vector<points::Field> fields = points::fields_of(line, separator);
     if (fields.size() < 2) return false;
-    return std::ranges::all_of(fields, [](const points::Field& f) {
+    return ranges::all_of(fields, [](const points::Field& f) {
       double value = 0.0;
       return points::is_void_word(f.text) || points::parse_number(f.text, true, value);
     });

@@ -12,6 +12,7 @@
 #include "treadmark/analysis/measured/noise.hpp"
 #include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
@@ -90,7 +91,7 @@ void filter(RawPoints& points, double near_distance, const ProfileOptions& optio
 }
 
 double extent_of(const std::vector<double>& values) {
-  const auto [least, most] = std::ranges::minmax(values);
+  const auto [least, most] = ranges::minmax(values);
   return most - least;
 }
 

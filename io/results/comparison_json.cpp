@@ -3,12 +3,12 @@
 
 #include "treadmark/io/results/comparison_json.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
@@ -89,7 +89,7 @@ ComparedRow row_in(const JsonTree& node) {
 
 void add_row(const JsonTree& node, std::vector<ComparisonCandidate>& candidates) {
   const ComparedRow row = row_in(node);
-  const auto owner = std::ranges::find_if(candidates, [&](const ComparisonCandidate& c) {
+  const auto owner = ranges::find_if(candidates, [&](const ComparisonCandidate& c) {
     return row.backend == c.name && row.resolution == c.resolution && row.wheel_backend == c.wheel.backend &&
            row.rail_backend == c.rail.backend;
   });
@@ -134,7 +134,7 @@ void add_fields(const std::filesystem::path& file, Comparison& comparison) {
   };
   for (ComparisonCandidate& candidate : comparison.candidates) {
     if (candidate.rows.empty()) continue;
-    const auto found = std::ranges::find_if(stored, [&](const ComparisonCandidate& c) { return same(c, candidate); });
+    const auto found = ranges::find_if(stored, [&](const ComparisonCandidate& c) { return same(c, candidate); });
     if (found == stored.end()) refuse_without(candidate_label(candidate));
     candidate.results = std::move(found->results);
     candidate.surfaces = std::move(found->surfaces);
@@ -147,7 +147,7 @@ void add_fields(const std::filesystem::path& file, Comparison& comparison) {
 
 Comparison read_comparison(const std::filesystem::path& folder) {
   Comparison out = comparison_in(read_json_file(folder / "compare.json"));
-  const bool any_row = std::ranges::any_of(out.candidates, [](const auto& c) { return !c.rows.empty(); });
+  const bool any_row = ranges::any_of(out.candidates, [](const auto& c) { return !c.rows.empty(); });
   std::error_code code;
   if (any_row && std::filesystem::is_regular_file(folder / "fields.h5", code)) add_fields(folder / "fields.h5", out);
   return out;

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::io {
 
@@ -64,7 +65,7 @@ CandidateDigest digest(const ComparisonCandidate& candidate) {
 
 JudgedPressure judged_pressure(const Comparison& comparison) {
   const bool limited = cases_without_limit(comparison).empty() ||
-                       std::ranges::any_of(comparison.candidates, [&](const ComparisonCandidate& c) {
+                       ranges::any_of(comparison.candidates, [&](const ComparisonCandidate& c) {
                          return &c != comparison.candidates.data() && std::isfinite(digest(c).pmax_error);
                        });
   return limited ? JudgedPressure{"pmax", "largest pressure", &CandidateDigest::pmax_error}
@@ -76,7 +77,7 @@ std::vector<int> cases_without_limit(const Comparison& comparison) {
   for (const ComparisonCandidate& candidate : comparison.candidates)
     for (const ComparisonRow& row : candidate.rows)
       if (row.comparable && std::isnan(row.pmax_error)) out.push_back(row.case_number);
-  std::ranges::sort(out);
+  ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }

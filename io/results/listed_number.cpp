@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <limits>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -70,7 +70,7 @@ int taken_patch(std::string_view& name) {
   if (!name.starts_with(kOnePatch)) return 0;
   int patch = 0;
   const char *const first = name.data() + kOnePatch.size(), *const last = name.data() + name.size();
-  const auto [end, trouble] = std::from_chars(first, last, patch);
+  const auto [end, trouble] = from_chars(first, last, patch);
   if (trouble != std::errc() || patch < 1 || end == last || *end != '.') return 0;
   name = {end + 1, last};
   return patch;
@@ -81,7 +81,7 @@ const PatchResult* patch_of(const CaseResult& result, int patch) {
     return static_cast<std::size_t>(patch) <= result.patches.size()
                ? &result.patches[static_cast<std::size_t>(patch) - 1]
                : nullptr;
-  const auto most = std::ranges::max_element(result.patches, {}, &PatchResult::fn);
+  const auto most = ranges::max_element(result.patches, {}, &PatchResult::fn);
   return most == result.patches.end() ? nullptr : &*most;
 }
 

@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/tables/hdf5_origin.hpp"
@@ -51,7 +52,7 @@ SampledSurface read_surface(const Hdf5GroupReader& group, const std::string& nam
 std::uint64_t patch_id(const Hdf5GroupReader& group, const std::string& text) {
   std::uint64_t value = 0;
   const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, value);
+  const auto [stop, failure] = from_chars(text.data(), end, value);
   if (failure != std::errc() || stop != end)
     refuse_result(group, fmt::format("has \"{}\" as the number of a patch", text));
   return value;
@@ -195,7 +196,7 @@ void read_fields(const Hdf5GroupReader& group, PatchResult& p) {
 void count_elements(const Hdf5GroupReader& group, PatchResult& p) {
   if (group.has_attribute("elements_in_contact")) return;
   constexpr std::uint8_t kAdhesion = 1, kSlip = 2;
-  const auto count = [&](auto is) { return static_cast<int>(std::ranges::count_if(p.fields.state, is)); };
+  const auto count = [&](auto is) { return static_cast<int>(ranges::count_if(p.fields.state, is)); };
   p.ncon = count([](std::uint8_t state) { return state > 0; });
   p.nadh = count([](std::uint8_t state) { return state == kAdhesion; });
   p.nslip = count([](std::uint8_t state) { return state == kSlip; });
@@ -204,7 +205,7 @@ void count_elements(const Hdf5GroupReader& group, PatchResult& p) {
 SubsurfaceBlock read_subsurface(const Hdf5GroupReader& group) {
   const std::vector<std::size_t> size = group.shape("x");
   if (size.size() != 3 ||
-      std::ranges::any_of(size, [](std::size_t n) { return n == 0 || static_cast<double>(n) > kMostElements; }) ||
+      ranges::any_of(size, [](std::size_t n) { return n == 0 || static_cast<double>(n) > kMostElements; }) ||
       static_cast<double>(size[0]) * static_cast<double>(size[1]) * static_cast<double>(size[2]) > kMostElements)
     refuse_result(group, "has a block below the surface that is no box of points");
   SubsurfaceBlock block{static_cast<int>(size[2]), static_cast<int>(size[1]), static_cast<int>(size[0]), {}};

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
@@ -85,10 +86,12 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
                             Block::creepage, Block::energy, Block::relative, Block::heat, Block::count})
     for (const Quantity<PatchResult>& row : quantities<PatchResult>()) {
       if (row.block != block || row.label.text.empty() || !has_block(patches.front(), block)) continue;
+      const auto known = [&](const PatchResult& p) { return row.has(p) && std::isfinite(row.access.get(p)); };
+      if (ranges::none_of(patches, known)) continue;
       const Unit& unit = row.unit_in(shift);
       table.row(shift && !row.label.in_shift.empty() ? row.label.in_shift : row.label.text,
                 unit.shown.empty() ? "" : fmt::format("[{}]", unit.shown), patches, [&](const PatchResult& p) {
-                  return row.has(p) ? in_digits(unit.to_shown(row.access.get(p)), row.label.digits) : "";
+                  return known(p) ? in_digits(unit.to_shown(row.access.get(p)), row.label.digits) : "";
                 });
     }
   table.row("  adhesion / slip", "", patches,
@@ -102,7 +105,7 @@ std::string summary(const CaseResult& result) {
   std::string heading = fmt::format("case {}: {}", result.number, status_word(result));
   if (!result.message.empty()) heading += " (" + result.message + ")";
   if (result.patches.size() > 1) heading += fmt::format(", {} patches", result.patches.size());
-  const auto doubts = std::ranges::count_if(result.remarks, &Remark::grave);
+  const auto doubts = ranges::count_if(result.remarks, &Remark::grave);
   if (doubts > 0) heading += fmt::format(", {} warning{}", doubts, doubts > 1 ? "s" : "");
   table.line(heading + fmt::format(", {:.3f} s", result.seconds));
   if (result.has_wheelset) add_wheelset(table, result);
@@ -113,7 +116,7 @@ std::string summary(const CaseResult& result) {
 
 std::string summary_list(std::span<const CaseResult> cases) {
   using enum Label::Digits;
-  const bool posed = std::ranges::any_of(cases, &CaseResult::has_wheelset);
+  const bool posed = ranges::any_of(cases, &CaseResult::has_wheelset);
   std::size_t status = 6;
   for (const CaseResult& c : cases) status = std::max(status, status_word(c).size());
   // Rows of 80 characters where no status is longer than "no_contact".

@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/results/write_json.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
@@ -45,7 +45,7 @@ bool in_shift(const CaseResult&) { return false; }
 template <class T>
 void add_quantities(Json& out, const T& item, std::initializer_list<Block> blocks) {
   for (const Quantity<T>& row : quantities<T>()) {
-    if (row.key.empty() || std::ranges::find(blocks, row.block) == blocks.end()) continue;
+    if (row.key.empty() || ranges::find(blocks, row.block) == blocks.end()) continue;
     if (!has_block(item, row.block) || !row.has(item)) continue;
     Json& target = row.object.empty() ? out : out[std::string(row.object)];
     const double value = row.access.get(item);

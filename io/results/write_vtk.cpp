@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
@@ -166,7 +166,7 @@ std::string surface_to_vtp(const SampledSurface& surface, const Pose& X_TB) {
       const int next = (iu + 1) % surface.nu;
       const std::int32_t quad[] = {number[surface.index(iu, iv)], number[surface.index(next, iv)],
                                    number[surface.index(next, iv + 1)], number[surface.index(iu, iv + 1)]};
-      if (std::ranges::all_of(quad, [](std::int32_t k) { return k >= 0; }))
+      if (ranges::all_of(quad, [](std::int32_t k) { return k >= 0; }))
         corners.insert(corners.end(), std::begin(quad), std::end(quad));
     }
   return vtk_polygons(4, corners, static_cast<std::size_t>(count),
@@ -206,7 +206,7 @@ std::vector<std::filesystem::path> write_vtk_bodies(const std::filesystem::path&
       const int index = surface_index(run.sampled, name);
       if (index < 0) continue;
       std::vector<Stand>& known = stands[name];
-      const auto same = std::ranges::find_if(
+      const auto same = ranges::find_if(
           known, [&](const Stand& s) { return s.pose.origin == pose.origin && s.pose.rotation == pose.rotation; });
       const double time = time_of(run, k, times);
       if (same != known.end()) {

@@ -7,11 +7,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/points/fields.hpp"
 
 namespace treadmark::io::scans {
@@ -57,7 +57,7 @@ struct E57Xml::State {
   Number whole(std::string_view word, Number otherwise) {
     if (word.empty()) return otherwise;
     Number value = 0;
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, code] = from_chars(word.data(), word.data() + word.size(), value);
     if (code != std::errc{} || end != word.data() + word.size())
       fail("a whole number is expected, this is " + profiles::printable(word));
     return value;

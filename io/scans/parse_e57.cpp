@@ -4,9 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "treadmark/core/platform/bit_cast.hpp"
 #include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/e57_layout.hpp"
@@ -183,8 +183,8 @@ class E57Points {
     const E57Field& field = *stream.field;
     const std::uint64_t raw = stream.take();
     if (field.kind == E57Field::Kind::single)
-      return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
-    if (field.kind == E57Field::Kind::real) return std::bit_cast<double>(raw);
+      return static_cast<double>(bit_cast<float>(static_cast<std::uint32_t>(raw)));
+    if (field.kind == E57Field::Kind::real) return bit_cast<double>(raw);
     if (raw > static_cast<std::uint64_t>(field.most) - static_cast<std::uint64_t>(field.least))
       fail("a value of " + profiles::printable(field.name) + " lies beyond its maximum", "is the file damaged?");
     const auto value = static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(field.least) + raw));

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/scans/parse_points.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/points/parse_obj.hpp"
 #include "treadmark/io/points/parse_off.hpp"
 #include "treadmark/io/points/parse_ply.hpp"
@@ -65,7 +66,7 @@ class ObjCloudSink : public CloudSink {
     if (first == std::string_view::npos || first == last) return;  // no normal is named
     const auto number = [](std::string_view text, std::size_t count) {
       long long value = 0;
-      std::from_chars(text.data(), text.data() + text.size(), value);
+      from_chars(text.data(), text.data() + text.size(), value);
       return value < 0 ? static_cast<long long>(count) + 1 + value : value;
     };
     own_normals_ =

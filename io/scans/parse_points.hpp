@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <vector>
 
+#include "treadmark/core/platform/bit_cast.hpp"
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::io::scans {
@@ -32,14 +32,14 @@ class VertexSet {
 
   static bool same(const Vec3& a, const Vec3& b) {
     for (int k = 0; k < 3; ++k)
-      if (std::bit_cast<std::uint64_t>(a[k]) != std::bit_cast<std::uint64_t>(b[k])) return false;
+      if (bit_cast<std::uint64_t>(a[k]) != bit_cast<std::uint64_t>(b[k])) return false;
     return true;
   }
 
   std::size_t home(const Vec3& point) const {
     std::uint64_t h = 0x9e3779b97f4a7c15;
     for (int k = 0; k < 3; ++k) {
-      h = (h ^ std::bit_cast<std::uint64_t>(point[k])) * 0xff51afd7ed558ccd;
+      h = (h ^ bit_cast<std::uint64_t>(point[k])) * 0xff51afd7ed558ccd;
       h ^= h >> 32;
     }
     return static_cast<std::size_t>(h) & (slots_.size() - 1);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/settings/key_rows.hpp"
 
 namespace treadmark::io {
@@ -30,7 +31,7 @@ template <class Request>
 void set_given(Request& request, const KeyTable<Request>& keys, const GivenSettings& given) {
   for (const CaseOverride& one : given.settings) {
     const auto key =
-        std::ranges::find_if(keys.rows, [&](const SettingKey<Request>& row) { return row.info.path == one.path; });
+        ranges::find_if(keys.rows, [&](const SettingKey<Request>& row) { return row.info.path == one.path; });
     if (key == keys.rows.end()) refuse_unknown_setting(one, keys.infos);
     key->set(request, checked_value(key->info, one), {});
   }

@@ -6,13 +6,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <vector>
 
 #include "treadmark/core/missing_file.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/settings/magnitudes.hpp"
 #include "treadmark/io/settings/toml_faults.hpp"
 
@@ -69,7 +70,7 @@ KeyInfo key_info(std::string path, KeyType type, std::string doc, const KeyLimit
 ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const SourcePosition& where) {
   const std::size_t dot = rest.find('.');
   ElementPath place;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + std::min(dot, rest.size()), place.index);
+  const auto [end, error] = from_chars(rest.data(), rest.data() + std::min(dot, rest.size()), place.index);
   if (dot == std::string_view::npos || error != std::errc{} || end != rest.data() + dot)
     throw Error(ErrorKind::configuration, fmt::format("{} is a list", list.path), where,
                 fmt::format("write {}.0.{}=value", list.path, list.elements.front().path));
@@ -295,7 +296,7 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
     case KeyType::text:
       if (!text) wrong();
       if (value.text().empty()) refuse_value(fmt::format("{} must not be empty", key.path), value.where);
-      if (key.type == KeyType::path && std::ranges::any_of(value.text(), [](char c) { return c >= 0 && c < ' '; }))
+      if (key.type == KeyType::path && ranges::any_of(value.text(), [](char c) { return c >= 0 && c < ' '; }))
         refuse_value(fmt::format("{} holds a character that no name of a file has", key.path), value.where,
                      "a backslash in double quotes begins one: write / in its place, or single quotes round the name");
       if (value.text().size() > kLongestText) refuse_value(fmt::format("{} is too long", key.path), value.where);

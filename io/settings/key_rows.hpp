@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <concepts>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/io/settings/key_list.hpp"
 
@@ -166,13 +166,12 @@ class KeyRows : private SettingKeys<Root> {
         return std::span(std::invoke(place, root).data(), 3);
     };
     const Row row = value(key_info(std::move(name), KeyType::triple, std::move(doc), limits), place, marks, missing);
-    row.read_by([numbers, unit](Root& root, const CaseValue& v) {
-      std::ranges::copy(numbers_of(v, unit), numbers(root).begin());
-    });
+    row.read_by(
+        [numbers, unit](Root& root, const CaseValue& v) { ranges::copy(numbers_of(v, unit), numbers(root).begin()); });
     row.key.numbers = numbers;
     row.key.written = [numbers, unit](const Root& root, Folder) {
       const std::span<double> values = numbers(const_cast<Root&>(root));
-      const bool none = std::ranges::all_of(values, [](double x) { return x == 0.0; });
+      const bool none = ranges::all_of(values, [](double x) { return x == 0.0; });
       return none ? std::string() : exact_list({values.begin(), values.end()}, unit);
     };
     return row;

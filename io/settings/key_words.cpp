@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "treadmark/core/number_text.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -29,14 +30,14 @@ constexpr UnitWord kUnitWords[] = {
     {"Hz", "Hz"},        {"percent", "%"},  {"db", "dB"},   {"per", ""}};
 
 const UnitWord* unit_word(std::string_view text) {
-  const auto* found = std::ranges::find(kUnitWords, text, &UnitWord::key);
+  const auto* found = ranges::find(kUnitWords, text, &UnitWord::key);
   return found == std::end(kUnitWords) ? nullptr : found;
 }
 
 std::string with_blanks(std::string_view text) {
   std::string out(text);
-  std::ranges::replace(out, '_', ' ');
-  std::ranges::replace(out, '.', ' ');
+  ranges::replace(out, '_', ' ');
+  ranges::replace(out, '.', ' ');
   return out;
 }
 
@@ -61,7 +62,7 @@ void flatten(const CaseValue& value, const std::string& path, std::vector<std::p
     for (const CaseEntry& entry : value.table()) flatten(entry.value, below + entry.key, out);
   } else if (value.is_list()) {
     const auto& list = value.list();
-    const bool plain = std::ranges::none_of(list, [](const auto& one) { return one.is_table() || one.is_list(); });
+    const bool plain = ranges::none_of(list, [](const auto& one) { return one.is_table() || one.is_list(); });
     std::string text;
     for (std::size_t k = 0; k < list.size(); ++k)
       if (plain)
@@ -85,7 +86,7 @@ std::string words_of(const std::vector<std::string>& values, std::string unit) {
     for (std::size_t i = 0; i < shown; ++i) out += (i > 0 ? ", " : "") + bare(values[i]);
     return values.size() > shown ? fmt::format("{} … ({} values)", out, values.size()) : out;
   }
-  const auto [low, high] = std::ranges::minmax(numbers);
+  const auto [low, high] = ranges::minmax(numbers);
   const double kilo = unit == "N" && std::max(-low, high) >= 1e3 ? 1e-3 : 1.0;
   if (kilo < 1.0) unit = "kN";
   for (double& number : numbers) number *= kilo;
@@ -127,16 +128,16 @@ void InputList::add(const KeyInfo& key, const std::string& path, const std::vect
       flatten(list.table().front().value, path, said);
     }
     for (const auto& [place, text] : said) {
-      auto leaf = std::ranges::find(leaves, place, &Input::path);
+      auto leaf = ranges::find(leaves, place, &Input::path);
       if (leaf == leaves.end()) leaf = leaves.insert(leaf, {place, key.group, key.alternative, {}});
-      if (!text.empty() && std::ranges::find(leaf->values, text) == leaf->values.end()) leaf->values.push_back(text);
+      if (!text.empty() && ranges::find(leaf->values, text) == leaf->values.end()) leaf->values.push_back(text);
     }
   }
   if (leaves.size() > kMostLeaves) leaves = {{path, key.group, key.alternative, values}};
   for (Input& leaf : leaves) {
     for (const std::string& value : leaf.values) leaf.length += value.size();
     if (leaf.values.empty()) continue;
-    const auto other = std::ranges::find_if(inputs_, [&](const Input& one) {
+    const auto other = ranges::find_if(inputs_, [&](const Input& one) {
       return !leaf.group.empty() && one.group == leaf.group && one.alternative != leaf.alternative;
     });
     if (other == inputs_.end())

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -12,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/settings/toml_nesting.hpp"
 
@@ -75,8 +76,7 @@ constexpr LookAlike kLookAlikes[] = {{"\u2212", "a minus sign (U+2212)", '-'},
                                      {"\uff1d", "a wide equals sign (U+FF1D)", '='}};
 
 const LookAlike* look_alike_at(std::string_view text) {
-  const auto* found =
-      std::ranges::find_if(kLookAlikes, [&](const LookAlike& one) { return text.starts_with(one.bytes); });
+  const auto* found = ranges::find_if(kLookAlikes, [&](const LookAlike& one) { return text.starts_with(one.bytes); });
   return found == std::end(kLookAlikes) ? nullptr : found;
 }
 
@@ -165,13 +165,13 @@ std::string regular(std::string digits, const std::string& exponent) {
 /// The number without what is wrong within it, which message says; empty message: nothing is.
 std::string mended(const WrittenNumber& n, std::string& message, std::string& other) {
   const std::string& d = n.digits;
-  const auto count = [&](char c) { return std::ranges::count(d, c); };
+  const auto count = [&](char c) { return ranges::count(d, c); };
   std::string digits = d;
   if (count(',') > 0 && count('.') > 0) {
     const bool decimal_comma = d.rfind(',') > d.rfind('.');
     message = decimal_comma ? "decimals are separated by a point" : "thousands are not separated";
     digits = without(d, decimal_comma ? "._' " : ",_' ");
-    std::ranges::replace(digits, ',', '.');
+    ranges::replace(digits, ',', '.');
   } else if (count(',') > 1 || (count(',') == 1 && groups_of_three(d, ',') && d[0] != '0')) {
     message = "thousands are not separated, and decimals are separated by a point";
     digits = without(d, ",_' ");
@@ -180,7 +180,7 @@ std::string mended(const WrittenNumber& n, std::string& message, std::string& ot
   } else if (count(',') == 1) {
     message = "decimals are separated by a point";
     digits = without(d, "_' ");
-    std::ranges::replace(digits, ',', '.');
+    ranges::replace(digits, ',', '.');
   } else if (count('.') > 1) {
     if (!groups_of_three(d, '.')) {
       message = "it has more than one point";
@@ -214,7 +214,7 @@ std::string mended(const WrittenNumber& n, std::string& message, std::string& ot
 
 double value_of(const std::string& number) {
   double value = 0.0;
-  std::from_chars(number.data() + (number.starts_with('+') ? 1 : 0), number.data() + number.size(), value);
+  from_chars(number.data() + (number.starts_with('+') ? 1 : 0), number.data() + number.size(), value);
   return value;
 }
 
@@ -222,11 +222,11 @@ double value_of(const std::string& number) {
 bool is_unit(std::string_view text) {
   constexpr std::size_t kLongestUnit = 12;
   if (text.empty() || text.size() > kLongestUnit) return false;
-  return std::ranges::all_of(text,
-                             [](char c) {
-                               return is_letter(c) || static_cast<unsigned char>(c) >= 0x80 ||
-                                      std::string_view("%/*^23 \"'").find(c) != std::string_view::npos;
-                             }) &&
+  return ranges::all_of(text,
+                        [](char c) {
+                          return is_letter(c) || static_cast<unsigned char>(c) >= 0x80 ||
+                                 std::string_view("%/*^23 \"'").find(c) != std::string_view::npos;
+                        }) &&
          !is_digit(text[0]) && text[0] != '/' && text[0] != '*';
 }
 
@@ -325,7 +325,7 @@ std::vector<OpenBracket> open_brackets(std::string_view text) {
       at = std::min(text.find('\n', at), text.size());
     else
       ++at;
-    line += static_cast<int>(std::ranges::count(text.substr(from, at - from), '\n'));
+    line += static_cast<int>(ranges::count(text.substr(from, at - from), '\n'));
     if (c == '=') in_value = true;
     if (c == '\n' && open.empty()) in_value = false;
     if (in_value && (c == '[' || c == '{')) open.push_back({c, line});
@@ -505,7 +505,7 @@ TextFault key_fault(std::string_view line) {
     const std::string_view key = line.substr(0, blank), value = blank == std::string_view::npos
                                                                     ? std::string_view()
                                                                     : without_blanks(line.substr(blank));
-    const bool simple = std::ranges::all_of(key, [](char c) { return is_bare(c) || c == '.'; });
+    const bool simple = ranges::all_of(key, [](char c) { return is_bare(c) || c == '.'; });
     if (simple && !value.empty() && value.find(' ') == std::string_view::npos)
       return {"'=' is missing", fmt::format("write {} = {}", key, shown(value))};
     return {fmt::format("'{}' is neither key = value nor the [header] of a table", shown(line)),
@@ -513,10 +513,10 @@ TextFault key_fault(std::string_view line) {
   }
   const std::string_view key = without_blanks(line.substr(0, equals));
   if (key.empty()) return {"the name of the key is missing before '='", "write key = value"};
-  if (std::ranges::any_of(key, [](char c) { return c == ' ' || c == '\t'; }) &&
-      std::ranges::all_of(key, [](char c) { return is_bare(c) || c == '.' || c == ' ' || c == '\t'; })) {
+  if (ranges::any_of(key, [](char c) { return c == ' ' || c == '\t'; }) &&
+      ranges::all_of(key, [](char c) { return is_bare(c) || c == '.' || c == ' ' || c == '\t'; })) {
     std::string joined(key);
-    std::ranges::replace(joined, ' ', '_');
+    ranges::replace(joined, ' ', '_');
     return {fmt::format("the name of a key has no blanks, '{}' has", shown(key)),
             fmt::format("did you mean {}?", joined)};
   }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -17,7 +18,7 @@ namespace {
 SourcePosition place_in(std::string_view text, std::size_t at, const std::string& name) {
   const std::string_view before = text.substr(0, at);
   const std::string_view line = before.substr(before.rfind('\n') + 1);  // npos + 1 = 0
-  return {name, 1 + static_cast<int>(std::ranges::count(before, '\n')), 1 + static_cast<int>(characters_of(line))};
+  return {name, 1 + static_cast<int>(ranges::count(before, '\n')), 1 + static_cast<int>(characters_of(line))};
 }
 
 /// What the characters of a TOML text outside strings and comments mean for depth.

@@ -3,11 +3,11 @@
 #include "treadmark/io/simulations/change_value.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/simulations/table_reader.hpp"
 
 namespace treadmark::io {
@@ -46,7 +46,7 @@ const std::string* name_of(const CaseValue& element) {
 /// Number of the element that is meant.
 std::size_t element_of(const std::vector<CaseValue>& list, std::string_view which, const CaseOverride& change) {
   std::size_t index = 0;
-  const auto [end, error] = std::from_chars(which.data(), which.data() + which.size(), index);
+  const auto [end, error] = from_chars(which.data(), which.data() + which.size(), index);
   if (error == std::errc{} && end == which.data() + which.size()) {
     if (index < list.size()) return index;
     throw Error(ErrorKind::configuration,

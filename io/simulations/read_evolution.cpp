@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/simulations/read_evolution.hpp"
 
-#include <algorithm>
 #include <numeric>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/evolve_keys.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 
@@ -44,7 +44,7 @@ template <class Law, class Rows>
 Law read_law(const TableOf<Law>& table, const Rows& rows) {
   Law law = table.read();
   check_source(table, law);
-  need_keys(table, "law", *std::ranges::find_if(rows, [&](const auto& row) { return row.theory == law.theory; }));
+  need_keys(table, "law", *ranges::find_if(rows, [&](const auto& row) { return row.theory == law.theory; }));
   return checked(table, std::move(law));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/table_of.hpp"
 #include "treadmark/io/simulations/track_keys.hpp"
@@ -118,7 +119,7 @@ FlexibleTrack read_flexible_track(const TableReader& document) {
   track.sideways = read_sideways(rail);
   read_seats(part_of(document, "seats", seats_keys()), track);
   for (const CaseValue* one : document.tables("varied")) vary_seats(TableOf(*one, "varied", varied_seat_keys()), track);
-  if (std::ranges::none_of(track.seats, [](const RailSeat& seat) { return seat.bed_stiffness > 0.0; }))
+  if (ranges::none_of(track.seats, [](const RailSeat& seat) { return seat.bed_stiffness > 0.0; }))
     document.fail("all sleepers hang: nothing holds the track");
   for (const CaseValue* one : document.tables("joints"))
     track.joints.push_back(read_joint(TableOf(*one, "joints", joint_keys()), track));

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/fields.hpp"
@@ -299,11 +300,11 @@ class RecordingReader {
   void join_kilometres() {
     if (!metres_) return;
     constexpr double kKilometre = 1e3, kLongestKilometre = 2e3;
-    const bool whole = std::ranges::all_of(rows_.distance, [](double d) {
+    const bool whole = ranges::all_of(rows_.distance, [](double d) {
       return std::isnan(d) || std::abs(d / kKilometre - std::round(d / kKilometre)) < 1e-9;
     });
     const bool behind =
-        std::ranges::all_of(behind_, [](double d) { return std::isnan(d) || (d >= 0.0 && d <= kLongestKilometre); });
+        ranges::all_of(behind_, [](double d) { return std::isnan(d) || (d >= 0.0 && d <= kLongestKilometre); });
     if (whole && behind) {
       for (std::size_t i = 0; i < behind_.size(); ++i) rows_.distance[i] += behind_[i];
     } else {
@@ -320,7 +321,7 @@ class RecordingReader {
       const double whole = median(gauge);
       double nominal = 0.0;
       if (whole > kLargestIrregularity) {
-        std::ranges::replace(gauge, 0.0, kNaN);  // no track has a gauge of 0
+        ranges::replace(gauge, 0.0, kNaN);  // no track has a gauge of 0
         nominal = nominal_gauge(signals_[s].meaning, whole);
       }
       constexpr double kFarthest = 0.1;  // from a nominal gauge
@@ -344,7 +345,7 @@ class RecordingReader {
     static constexpr double kInUse[] = {0.600, 0.610, 0.750, 0.760, 0.762, 0.891, 0.914, 0.950, 1.000,
                                         1.067, 1.372, 1.435, 1.520, 1.524, 1.600, 1.668, 1.676};
     const double named = column.nominal * (column.nominal > 2.0 ? kMillimetre : 1.0),
-                 nearest = *std::ranges::min_element(kInUse, {}, [&](double g) { return std::abs(g - whole); });
+                 nearest = *ranges::min_element(kInUse, {}, [&](double g) { return std::abs(g - whole); });
     const bool of_track = settings_.track_gauge > 0.0 && std::abs(settings_.track_gauge - whole) <= kNear;
     double nominal = nearest;
     std::string_view by = "the nearest gauge in use; irregularities.nominal_gauge_mm sets another";

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <set>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/check_held.hpp"
@@ -23,7 +24,7 @@ void change_model(CaseTable& document, std::span<const CaseOverride> changes, co
                   const TableKeys& tables) {
   for (const CaseOverride& change : changes) {
     const std::string_view head = std::string_view(change.path).substr(0, change.path.find('.'));
-    const bool in_other = head != main_table && std::ranges::find(tables, head, &KeyInfo::path) != tables.end();
+    const bool in_other = head != main_table && ranges::find(tables, head, &KeyInfo::path) != tables.end();
     change_value(document, in_other ? change.path : main_table + '.' + change.path, change);
   }
 }
@@ -109,12 +110,12 @@ std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std:
                   "add \"z\" to what is free: the load of its wheels follows from its vertical motion");
     if (const CaseValue* name = part.checked_if(part.key(&WheelsetSpec::axle))) {
       check_name(part.path_of(&WheelsetSpec::axle) + ": the axle", name->text(), axle_names, name->where);
-      wheelset.axle = *std::ranges::find(axles, name->text(), &FlexibleAxle::name);
+      wheelset.axle = *ranges::find(axles, name->text(), &FlexibleAxle::name);
     }
     wheelsets.push_back(std::move(wheelset));
   }
   for (const FlexibleAxle& axle : axles)
-    if (std::ranges::none_of(wheelsets, [&](const WheelsetSpec& w) { return w.axle && w.axle->name == axle.name; }))
+    if (ranges::none_of(wheelsets, [&](const WheelsetSpec& w) { return w.axle && w.axle->name == axle.name; }))
       throw Error(ErrorKind::configuration, fmt::format("no wheelset has the axle '{}'", axle.name), axle.where,
                   "name it as axle of one of [[wheelsets]]");
   if (wheelsets.empty())

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io {
@@ -107,7 +108,7 @@ class Continuity {
 };
 
 bool same_values(const RecordedRows& rows, std::size_t a, std::size_t b) {
-  return std::ranges::all_of(rows.signals, [&](const std::vector<double>& s) { return s[a] == s[b]; });
+  return ranges::all_of(rows.signals, [&](const std::vector<double>& s) { return s[a] == s[b]; });
 }
 
 /// Rows from `from` on that record again what rows before it did; 0: they do not.
@@ -157,7 +158,7 @@ void count_over_jumps(RecordedRows& rows, double step, std::vector<std::string>&
   const std::vector<double> stated = rows.distance, by = differences(stated);
   std::vector<bool> regular(by.size());
   for (std::size_t i = 0; i < by.size(); ++i) regular[i] = by[i] >= kShort * step && by[i] <= kLong * step;
-  if (std::ranges::find(regular, false) == regular.end()) return;
+  if (ranges::find(regular, false) == regular.end()) return;
   const Continuity continuity(rows, regular);
   std::vector<bool> kept(stated.size(), true);
   Jumps jumps;
@@ -219,7 +220,7 @@ double even_step(const std::vector<double>& d, double quantum, double& first) {
 double written_to(const std::vector<double>& d) {
   constexpr double kDigits = 1e-6;
   for (double quantum = 1.0; quantum > 1e-4; quantum *= 0.1)
-    if (std::ranges::all_of(d, [&](double x) { return std::abs(x / quantum - std::round(x / quantum)) < kDigits; }))
+    if (ranges::all_of(d, [&](double x) { return std::abs(x / quantum - std::round(x / quantum)) < kDigits; }))
       return quantum;
   return 0.0;
 }
@@ -235,13 +236,13 @@ void put_in_order(RecordedRows& rows, double sampling, std::vector<std::string>&
   std::vector<double>& d = rows.distance;
   if (d.size() < 2) return;
   std::vector<double> by = differences(d);
-  const auto falling = std::ranges::count_if(by, [](double x) { return x < 0.0; }),
-             rising = std::ranges::count_if(by, [](double x) { return x > 0.0; });
+  const auto falling = ranges::count_if(by, [](double x) { return x < 0.0; }),
+             rising = ranges::count_if(by, [](double x) { return x > 0.0; });
   constexpr std::ptrdiff_t kMore = 10;
   if (falling > 1 && (falling > kMore * rising || (falling > rising && d.back() < d.front()))) {
-    std::ranges::reverse(d);
-    std::ranges::reverse(rows.lines);
-    for (std::vector<double>& signal : rows.signals) std::ranges::reverse(signal);
+    ranges::reverse(d);
+    ranges::reverse(rows.lines);
+    for (std::vector<double>& signal : rows.signals) ranges::reverse(signal);
     by = differences(d);
     notes.push_back(fmt::format(
         "{}: the distances fall: the order of the rows is reversed; left, right and signs are taken as seen along "
@@ -255,15 +256,15 @@ void put_in_order(RecordedRows& rows, double sampling, std::vector<std::string>&
   constexpr std::size_t kFew = 20;  // rows in which nothing is even but by chance
   constexpr double kAlmostAll = 0.8, kNear = 0.1, kMany = 0.2;
   const double share = 1.0 / static_cast<double>(by.size()),
-               equal = share * static_cast<double>(std::ranges::count(by, 0.0)), step = median_of(by),
-               regular = share * static_cast<double>(std::ranges::count_if(
+               equal = share * static_cast<double>(ranges::count(by, 0.0)), step = median_of(by),
+               regular = share * static_cast<double>(ranges::count_if(
                                      by, [&](double x) { return std::abs(x - step) <= kNear * std::abs(step); }));
   const bool enough = d.size() >= kFew;
   if (enough && step > 0.0 && regular >= kAlmostAll) return count_over_jumps(rows, step, notes);
-  if (enough && std::ranges::all_of(by, [](double x) { return x >= 0.0; })) {
+  if (enough && ranges::all_of(by, [](double x) { return x >= 0.0; })) {
     std::vector<double> steps = by;
     std::erase(steps, 0.0);
-    const double quantum = steps.empty() ? 0.0 : equal >= kMany ? *std::ranges::min_element(steps) : written_to(d);
+    const double quantum = steps.empty() ? 0.0 : equal >= kMany ? *ranges::min_element(steps) : written_to(d);
     double first = 0.0;
     if (const double even = quantum > 0.0 ? even_step(d, quantum, first) : 0.0; even > 0.0) {
       for (std::size_t i = 0; i < d.size(); ++i) d[i] = first + even * static_cast<double>(i);
@@ -281,7 +282,7 @@ void put_in_order(RecordedRows& rows, double sampling, std::vector<std::string>&
 void fill_empty_cells(RecordedRows& rows, std::span<const std::string> names, std::vector<std::string>& notes) {
   const std::size_t n = rows.distance.size();
   const auto empty = [&](std::size_t i) {
-    return std::ranges::any_of(rows.signals, [i](const std::vector<double>& s) { return std::isnan(s[i]); });
+    return ranges::any_of(rows.signals, [i](const std::vector<double>& s) { return std::isnan(s[i]); });
   };
   std::size_t from = 0, to = n;
   while (from < to && empty(from)) ++from;

@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::recording {
@@ -45,7 +45,7 @@ class Functions {
     if (cross.empty()) cross = signal(Recorded::cant, 0);
     constexpr double kCanted = 0.03;  // more is the cant of a curve
     if (!cross.empty())
-      if (const double most = std::abs(*std::ranges::max_element(cross, {}, [](double v) { return std::abs(v); }));
+      if (const double most = std::abs(*ranges::max_element(cross, {}, [](double v) { return std::abs(v); }));
           most > kCanted)
         notes_.push_back(
             fmt::format("{}: the cross level reaches {:.4g} mm: it seems to hold the cant of curves, which "
@@ -73,7 +73,7 @@ class Functions {
       if (count++ == 0)
         sum = rows_.signals[s];
       else
-        std::ranges::transform(sum, rows_.signals[s], sum.begin(), std::plus<>());
+        ranges::transform(sum, rows_.signals[s], sum.begin(), std::plus<>());
       bands += (bands.empty() ? "" : " + ") + profiles::printable(signals_[s].name);
     }
     if (count > 1)

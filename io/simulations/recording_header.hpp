@@ -2,12 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/simulations/recording_names.hpp"
 #include "treadmark/io/simulations/recording_text.hpp"
@@ -31,7 +31,7 @@ struct Header {
   std::vector<Cell> unknown;
   std::vector<std::string> unknown_names;
   bool has(Recorded what) const {
-    return std::ranges::any_of(columns, [what](const Column& c) { return c.meaning.what == what; });
+    return ranges::any_of(columns, [what](const Column& c) { return c.meaning.what == what; });
   }
   bool has_function() const {
     return has(Recorded::level) || has(Recorded::cross_level) || has(Recorded::cant) || has(Recorded::alignment) ||

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/points/fields.hpp"
@@ -134,7 +135,7 @@ std::string_view plain_letter(std::uint32_t c) {
       {0x10D, "c"}, {0x10F, "d"}, {0x119, "e"}, {0x11B, "e"}, {0x13A, "l"}, {0x13E, "l"}, {0x142, "l"}, {0x144, "n"},
       {0x148, "n"}, {0x151, "o"}, {0x155, "r"}, {0x159, "r"}, {0x15B, "s"}, {0x161, "s"}, {0x165, "t"}, {0x16F, "u"},
       {0x171, "u"}, {0x17A, "z"}, {0x17C, "z"}, {0x17E, "z"}};
-  const auto* const row = std::ranges::lower_bound(kRows, c, {}, &Row::code);
+  const auto* const row = ranges::lower_bound(kRows, c, {}, &Row::code);
   return row != std::end(kRows) && row->code == c ? row->text : std::string_view();
 }
 
@@ -432,7 +433,7 @@ std::optional<RecordedColumn> recorded_column(std::string_view name) {
     ++at;
   }
   std::optional<RecordedColumn> column = meaning.column(parts.unit);
-  const bool letters = std::ranges::all_of(pieces, [](const std::string& piece) { return piece.size() == 1; });
+  const bool letters = ranges::all_of(pieces, [](const std::string& piece) { return piece.size() == 1; });
   if (column && column->what == Recorded::distance && column->unit == 0.0 && letters) return std::nullopt;  // "s [s]"
   return column;
 }

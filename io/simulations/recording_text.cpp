@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/points/fields.hpp"
@@ -80,7 +81,7 @@ bool is_mark(std::string_view text) {
   static constexpr std::string_view kMarks[] = {
       "",  "n/a", "na",  "n.a.", "#n/a", "nan",     "null", "none", "nil",    "-",       "--",      "---",
       "*", "**",  "***", "?",    "void", "invalid", "k.a.", "n.v.", "nodata", "no data", "#value!", "missing"};
-  return std::ranges::find(kMarks, profiles::lower(text)) != std::end(kMarks);
+  return ranges::find(kMarks, profiles::lower(text)) != std::end(kMarks);
 }
 
 bool is_mark(std::string_view text, double value) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
@@ -194,8 +195,8 @@ ContactPart with_rail(ContactPart part, const SimulationTable& simulation) {
   using F = SimulationFile;
   const auto given_table = [&](auto rail) { return simulation.table(simulation.key(rail)) != nullptr; };
   const bool left = given_table(&F::left_rail), right = given_table(&F::right_rail);
-  const auto common = std::ranges::find(part.tables, "rail", &CaseEntry::key);
-  const auto change = std::ranges::find_if(
+  const auto common = ranges::find(part.tables, "rail", &CaseEntry::key);
+  const auto change = ranges::find_if(
       part.overrides, [](const std::string& one) { return one.starts_with("rail.") && !is_of_all_rails(one); });
   const bool given = common != part.tables.end(), changed = change != part.overrides.end();
   if (left && right) {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
@@ -14,13 +15,13 @@ namespace {
 PointInput read_point(const TableOf<PointInput>& table, const VehicleModel& vehicle) {
   PointInput point = table.read();
   const auto letter = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  if (point.name.empty() || !std::ranges::all_of(point.name, letter))
+  if (point.name.empty() || !ranges::all_of(point.name, letter))
     table.refuse(&PointInput::name, fmt::format("'{}' cannot be the name of a point", point.name),
                  "use letters, digits, _ and -");
   std::vector<std::string> bodies;
   for (const BodySpec& body : vehicle.bodies) bodies.push_back(body.name);
   check_name("body", point.body, bodies, table.need(&PointInput::body).where);
-  point.arm -= std::ranges::find(vehicle.bodies, point.body, &BodySpec::name)->position;
+  point.arm -= ranges::find(vehicle.bodies, point.body, &BodySpec::name)->position;
   return point;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -17,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
@@ -130,7 +130,7 @@ class Reader {
     while (!word.empty() && is_space(word.front())) word.remove_prefix(1);
     while (!word.empty() && is_space(word.back())) word.remove_suffix(1);
     int value = 0;
-    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), value);
+    const auto [end, code] = from_chars(word.data(), word.data() + word.size(), value);
     if (word.empty() || code != std::errc{} || end != word.data() + word.size()) return std::nullopt;
     return value;
   }

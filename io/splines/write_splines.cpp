@@ -10,6 +10,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
 
 namespace treadmark::io {
@@ -125,7 +126,7 @@ void write_patches(Text out, std::size_t patches, std::span<const SplineInterfac
                    leads_to[1], same_way[0], same_way[1]);
   }
   if (!interfaces.empty()) fmt::format_to(out, "</interfaces>\n");
-  if (std::ranges::find(meets, false) != meets.end()) {
+  if (ranges::find(meets, false) != meets.end()) {
     fmt::format_to(out, "<boundary>");
     for (std::size_t k = 0; k < meets.size(); ++k)
       if (!meets[k]) fmt::format_to(out, "{} {}\n", k / 4, k % 4 + 1);

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/tables/number.hpp"
 
@@ -63,7 +63,7 @@ template <class Row>
 void add_lists(Json& out, const std::vector<Row>& rows, Digits digits = Digits::twelve) {
   for (const Column<Row>& column : columns<Row>()) {
     const auto known = [&](const Row& row) { return column.known(row); };
-    if (column.key.empty() || (column.access.has != nullptr && std::ranges::none_of(rows, known))) continue;
+    if (column.key.empty() || (column.access.has != nullptr && ranges::none_of(rows, known))) continue;
     Json& list = member_of(out, column.key) = Json::array();
     for (const Row& row : rows) list.push_back(value_of(row, column, digits));
   }

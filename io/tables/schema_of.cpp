@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/tables/number.hpp"
 
 namespace treadmark::io {
@@ -36,7 +37,7 @@ void add_rows(Json& properties, const SchemaRows& rows) {
     bool always = row.always;
     std::size_t begin = 0;
     for (std::size_t dot; (dot = path.find('.', begin)) != path.npos; begin = dot + 1) {
-      const bool there = std::ranges::any_of(
+      const bool there = ranges::any_of(
           rows, [&](const SchemaRow& one) { return one.always && one.key.starts_with(path.substr(0, dot + 1)); });
       object = &(*object)[name_in_template(path.substr(begin, dot - begin), there)]["properties"];
       always = always || !there;

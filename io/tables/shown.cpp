@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -69,7 +70,7 @@ std::string table_text(const std::vector<std::vector<std::string>>& lines, const
   std::vector<std::string> block = keys;
   for (std::size_t column = blocks.front(); column < lines.front().size(); ++column) {
     std::vector<std::string> wider = with(block, column);
-    if (column > blocks.front() && (std::ranges::count(blocks, column) > 0 || characters_of(wider.front()) > kWidest)) {
+    if (column > blocks.front() && (ranges::count(blocks, column) > 0 || characters_of(wider.front()) > kWidest)) {
       written(block);
       text += '\n';
       wider = with(keys, column);

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/tables/shown.hpp"
 #include "treadmark/model/rows.hpp"
 
@@ -61,7 +61,7 @@ template <class Row>
 std::string table_of(const std::vector<Row>& rows) {
   std::vector<std::string> lines(rows.size() + 1);
   for (const Column<Row>& column : columns<Row>()) {
-    if (std::ranges::none_of(rows, [&](const Row& row) { return said(row, column); })) continue;
+    if (ranges::none_of(rows, [&](const Row& row) { return said(row, column); })) continue;
     const std::string head = with_unit(std::string(column.label), 0.0, column.unit.name);
     std::vector<std::string> cells{head};
     for (const Row& row : rows) cells.push_back(bare_text(row, column));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/elliptic_integrals.hpp"
 #include "treadmark/core/roots.hpp"
 
 namespace treadmark {
@@ -35,7 +36,7 @@ HertzEllipse ellipse_of(const EllipseShape& shape, double c, bool first_is_small
 EllipseIntegrals ellipse_integrals(double g) {
   const double k_squared = (1.0 - g) * (1.0 + g);
   const double k = std::sqrt(k_squared);
-  const double first = std::comp_ellint_1(k), second = std::comp_ellint_2(k);
+  const double first = comp_ellint_1(k), second = comp_ellint_2(k);
   // The quotient loses its digits for nearly circular contacts; series of the integral of cos^2/sqrt(1 - k^2 sin^2).
   const double combined = k_squared < 1e-4 ? kPi / 4.0 * (1.0 + k_squared / 8.0 + 3.0 * k_squared * k_squared / 64.0)
                                            : (second - g * g * first) / k_squared;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 namespace {
@@ -173,7 +174,7 @@ std::string words_of(std::span<const FatigueMeasure> measures) {
 std::vector<FatigueMeasure> measures_of(std::string_view words) {
   std::vector<FatigueMeasure> measures;
   for_each_word(words, [&](std::string_view word) {
-    const auto row = std::ranges::find(fatigue_measures(), word, &FatigueMeasureRow::word);
+    const auto row = ranges::find(fatigue_measures(), word, &FatigueMeasureRow::word);
     if (row == fatigue_measures().end())
       throw Error(ErrorKind::input_data, fmt::format("'{}' is no measure of fatigue", word));
     measures.push_back(row->measure);
@@ -193,7 +194,7 @@ double FatigueState::ever(CellSheet StressRecord::*sheet) const {
   return most;
 }
 
-bool FatigueSettings::has(FatigueMeasure measure) const { return std::ranges::count(measures, measure) > 0; }
+bool FatigueSettings::has(FatigueMeasure measure) const { return ranges::count(measures, measure) > 0; }
 
 void check(const FatigueSettings& settings) {
   for (const FatigueMeasure measure : settings.measures) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 namespace {
@@ -26,7 +27,7 @@ bool needs(const WearTheoryRow& row, std::string_view key) {
 }
 
 const std::vector<double>& list_of(const WearLaw& law, std::string_view key) {
-  const auto& value = std::ranges::find(kWearNumbers, key, &WearNumber::key)->value;
+  const auto& value = ranges::find(kWearNumbers, key, &WearNumber::key)->value;
   return law.*std::get<std::vector<double> WearLaw::*>(value);
 }
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -13,6 +12,8 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark {
@@ -38,7 +39,7 @@ class Numbers {
       while (at < end && (*at == ' ' || *at == '\t' || *at == '\r')) ++at;
       if (at == end) return;
       double value = 0.0;
-      const auto [next, error] = std::from_chars(at, end, value);
+      const auto [next, error] = from_chars(at, end, value);
       if (error != std::errc{} || !std::isfinite(value) ||
           (next < end && *next != ' ' && *next != '\t' && *next != '\r'))
         refuse_lines("a number is expected");
@@ -84,7 +85,7 @@ std::vector<std::size_t> nearest_draws(const SurfaceErrors& errors, double u, st
   const auto distance = [&](std::size_t k) {
     return std::fabs(period > 0.0 ? std::remainder(errors.u[k] - u, period) : errors.u[k] - u);
   };
-  std::ranges::stable_sort(out, {}, distance);
+  ranges::stable_sort(out, {}, distance);
   out.resize(std::min(most, out.size()));
   return out;
 }
@@ -110,9 +111,9 @@ SurfaceErrors changed(SurfaceErrors errors, double factor, bool mirror_y, bool m
   for (std::vector<double>& draw : errors.draws)
     for (double& error : draw) error *= factor;
   if (!mirror_y) return errors;
-  std::ranges::reverse(errors.y);
-  std::ranges::reverse(errors.z);
-  for (std::vector<double>& draw : errors.draws) std::ranges::reverse(draw);
+  ranges::reverse(errors.y);
+  ranges::reverse(errors.z);
+  for (std::vector<double>& draw : errors.draws) ranges::reverse(draw);
   return errors;
 }
 

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 namespace {
@@ -17,7 +19,7 @@ namespace {
 }
 
 bool all_finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  return ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
 void check_oscillator(const std::string& what, double mass, double stiffness, double damping,
@@ -84,7 +86,7 @@ void check_axle(const FlexibleAxle& axle) {
     refuse_axle(what + " neither bends nor twists", axle.where, "give it modes, or leave it out");
   if (!axle.bending.empty()) {
     if (axle.places.size() < 2 || !all_finite(axle.places) ||
-        std::ranges::adjacent_find(axle.places, std::ranges::greater_equal{}) != axle.places.end())
+        ranges::adjacent_find(axle.places, std::greater_equal<>{}) != axle.places.end())
       refuse_axle(what + ": bending needs at least two places along the axle, increasing", axle.where);
     const double wheel = 0.5 * axle.wheel_distance;
     if (axle.places.front() > -wheel || axle.places.back() < wheel)

@@ -14,6 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parallel_blocks.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/scans/cgal/plane_points.hpp"
 
 namespace treadmark::scans {
@@ -132,7 +133,7 @@ std::vector<std::vector<Triangle>> triangles_of_parts(const PlanePoints& points,
       if ((!flat[k] && collect(delaunay, points, strip, part, longest, found[k])) || margin >= widest) break;
     }
   });
-  if (std::ranges::all_of(flat, [](char f) { return f != 0; })) found.clear();
+  if (ranges::all_of(flat, [](char f) { return f != 0; })) found.clear();
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::scans {
@@ -175,7 +176,7 @@ class CoverageSearch {
         const std::size_t start = row * columns_ + column;
         if (seen_[start] != 0 || covered(start)) continue;
         const std::vector<std::size_t> members = connected(start);
-        const std::size_t widest = *std::ranges::max_element(members, {}, [&](std::size_t k) { return width_[k]; });
+        const std::size_t widest = *ranges::max_element(members, {}, [&](std::size_t k) { return width_[k]; });
         Hole hole;
         hole.a = points_.cell_a * (static_cast<double>(widest / columns_) + 0.5);
         hole.s = points_.cell_s * (static_cast<double>(widest % columns_) + 0.5);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
@@ -90,7 +91,7 @@ SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, s
     constexpr double kNearEnd = 2e-3, kApart = 1e-3;
     for (double from = kNearEnd; from < 0.5 * farthest; from *= 2.0)
       for (const double a : {from, band.length() - from})
-        if (std::ranges::none_of(stations, [&](double other) { return std::fabs(other - a) < kApart; }))
+        if (ranges::none_of(stations, [&](double other) { return std::fabs(other - a) < kApart; }))
           stations.push_back(a);
   }
   SliceSet out;

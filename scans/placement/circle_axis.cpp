@@ -14,6 +14,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/voxels.hpp"
 
@@ -260,7 +261,7 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
   std::stable_sort(trials.begin(), trials.end(), [](const Circles& x, const Circles& y) { return x.score < y.score; });
   std::vector<Circles> starts;
   for (const Circles& trial : trials)
-    if (trial.score < 1e299 && starts.size() < kStarts && std::ranges::none_of(starts, [&](const Circles& other) {
+    if (trial.score < 1e299 && starts.size() < kStarts && ranges::none_of(starts, [&](const Circles& other) {
           return trial.direction.cross(other.direction).norm() < kApart;
         }))
       starts.push_back(trial);
@@ -268,7 +269,7 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
     starts[k] = climbed(some, starts[k], kFirstStep);
     starts[k] = climbed(more, circles_across(more, starts[k].direction), 0.25 * kFirstStep);
   });
-  const auto best = std::ranges::min_element(starts, {}, &Circles::score);
+  const auto best = ranges::min_element(starts, {}, &Circles::score);
   if (best == starts.end() || !(best->scatter < kMostScatter)) return std::nullopt;
   RoughAxis out;
   out.axis = {elements.centre + elements.radius * best->centre, best->direction};

@@ -16,6 +16,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 #include "treadmark/scans/placement/circle_axis.hpp"
@@ -164,7 +165,7 @@ measured::SectionPoints with_back(const Section& section, std::span<const Vec2> 
   constexpr std::size_t kStrips = 100, kFewest = 3;
   std::vector<Vec2> nodes;
   for (double s = 0.0; s < section.length(); s += kNodes) nodes.push_back(section.at(s).position);
-  const auto tip = std::ranges::max_element(nodes, {}, [](const Vec2& p) { return p.y(); });
+  const auto tip = ranges::max_element(nodes, {}, [](const Vec2& p) { return p.y(); });
   std::array<std::vector<double>, kStrips> strips;
   for (const Vec2& p : points)
     if (const double below = tip->y() - p.y(); p.x() < tip->x() && below >= 0.0 && below < kStrip * kStrips)

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::kalker {
@@ -36,7 +37,7 @@ bool all_finite(const std::vector<double>& field) {
   for (; i + kLanes <= field.size(); i += kLanes)
     for (std::size_t k = 0; k < kLanes; ++k) sum[k] += 0.0 * field[i + k];
   for (; i < field.size(); ++i) sum[0] += 0.0 * field[i];
-  return std::ranges::all_of(sum, [](double part) { return part == 0.0; });
+  return ranges::all_of(sum, [](double part) { return part == 0.0; });
 }
 
 bool finite_fields(const ContactSolution& s) {
@@ -100,8 +101,8 @@ Depths depths(std::span<const double> gap, const ContactSolution& s) {
   // Several minima, which do not wait for each other.
   constexpr std::size_t kLanes = 8;
   double rigid[kLanes], outside[kLanes];
-  std::ranges::fill(rigid, kInfinity);
-  std::ranges::fill(outside, kInfinity);
+  ranges::fill(rigid, kInfinity);
+  ranges::fill(outside, kInfinity);
   const auto look = [&](std::size_t i, std::size_t k) {
     const double h = gap[i], left = s.pressure[i] > 0.0 ? kInfinity : h + s.displacement_n[i];
     rigid[k] = h < rigid[k] ? h : rigid[k];
@@ -111,7 +112,7 @@ Depths depths(std::span<const double> gap, const ContactSolution& s) {
   for (; i + kLanes <= gap.size(); i += kLanes)
     for (std::size_t k = 0; k < kLanes; ++k) look(i + k, k);
   for (; i < gap.size(); ++i) look(i, 0);
-  return {s.approach - *std::ranges::min_element(rigid), s.approach - *std::ranges::min_element(outside)};
+  return {s.approach - *ranges::min_element(rigid), s.approach - *ranges::min_element(outside)};
 }
 
 std::optional<Violation> broken(Invariant invariant, double amount, std::string text) {

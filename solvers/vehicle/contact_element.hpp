@@ -29,7 +29,7 @@ struct PairMotion {
 };
 
 /// How a patch's force follows motion, in contact axes: d(force on the rail) = K d(wheel - rail displacement) + C
-/// d(velocity), both diagonal. Serves the convergence of implicit steps only.
+/// d(velocity), both diagonal. Serves the convergence of implicit steps; the sum of the normal forces is the contact's.
 struct PatchTangent {
   Pose X_TC;                                ///< contact axes at the contact point, track axes
   double stiffness_n = 0.0;                 ///< [N/m]
@@ -41,10 +41,13 @@ struct PatchTangent {
 struct ContactReaction {
   Status status = Status::ok;  ///< no_contact is not a failure
   std::string message;
+  bool derailed = false;                    ///< no solution because wheel and rail have parted
   wheelrail::Wrench on_rail;                ///< track axes; moment about the rail marker [N], [N m]
   wheelrail::Wrench on_wheelset;            ///< track axes; moment about the wheelset's centre [N], [N m]
   double lateral_creep_force = 0.0;         ///< T_y: sum of F_s over the patches, on the rail [N]
   double longitudinal_creep_force = 0.0;    ///< T_x: sum of F_x [N]
+  double spin_moment = 0.0;                 ///< of creep, about n, on the rail [N m]; 0 where the element does not know
+  double wheelset_z = 0.0;                  ///< where a load was given: the height found [m]
   double normal_force = 0.0;                ///< sum of F_n [N]
   double least_gap = 0.0;                   ///< < 0: greatest penetration [m]
   double give = 0.0;                        ///< how far a rail at rest would still sink under the wheel's load [m]

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 #include "treadmark/solvers/vehicle/wheel_loop.hpp"
 #include "treadmark/solvers/wheelrail/root_search.hpp"
@@ -71,7 +72,7 @@ class Balance {
   Balance(const VehicleOnTrack& vehicle) : vehicle_(vehicle), system_(vehicle.system), line_(vehicle.line_state(0.0)) {
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (w.coordinate[4] >= 0) rolling_.push_back(w.coordinate[4]);
-    scale_ = *std::ranges::max_element(system_.wheelset_load);
+    scale_ = *ranges::max_element(system_.wheelset_load);
     if (!(scale_ > 0.0)) throw Error(ErrorKind::configuration, "the wheelsets carry no load");
   }
 
@@ -198,7 +199,7 @@ class Balance {
     std::vector<Eigen::Index> sprung;
     for (Eigen::Index i = 0; i < system_.mass.size(); ++i) {
       const int body = system_.coordinates[static_cast<std::size_t>(i)].body;
-      if (std::ranges::find(system_.wheelsets, body, &Multibody::Wheelset::body) == system_.wheelsets.end())
+      if (ranges::find(system_.wheelsets, body, &Multibody::Wheelset::body) == system_.wheelsets.end())
         sprung.push_back(i);
     }
     if (sprung.empty()) return;
@@ -349,6 +350,10 @@ void run_in(const VehicleOnTrack& vehicle, const Balance& balance, const Equilib
     Simulation simulation(staying(vehicle), balance.start(), run);
     for (int piece = 1; piece <= kPieces && found.residual > settings.acceptable; ++piece) {
       while (!simulation.finished() && simulation.state().time * vehicle.speed < piece * kLength) simulation.advance();
+      if (!simulation.derailed().empty()) {
+        why = simulation.derailed();
+        return;
+      }
       Equilibrium now;
       now.state = balance.standing(simulation.state());
       now.iterations = found.iterations;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/vehicle/wheel_loop.hpp"
 
 namespace treadmark::vehicle {
@@ -39,15 +40,14 @@ ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& se
   beta_ = 0.25 * (1.0 - alpha_) * (1.0 - alpha_);
   gamma_ = 0.5 - alpha_;
   for (int c = 0; c < vehicle.system.size(); ++c)
-    if (std::ranges::any_of(vehicle.maps, [c](const auto& map) { return !map.col(c).isZero(0.0); }))
-      touched_.push_back(c);
+    if (ranges::any_of(vehicle.maps, [c](const auto& map) { return !map.col(c).isZero(0.0); })) touched_.push_back(c);
   for (const auto& map : vehicle.maps) {
     const auto& touched = maps_.emplace_back(map(Eigen::all, touched_));
     std::vector<int>& own = own_.emplace_back();
     for (int c = 0; c < touched.cols(); ++c)
       if (!touched.col(c).isZero(0.0)) own.push_back(c);
   }
-  force_scale_ = 0.5 * *std::ranges::max_element(vehicle.system.wheelset_load);
+  force_scale_ = 0.5 * *ranges::max_element(vehicle.system.wheelset_load);
 }
 
 ImplicitStep::~ImplicitStep() = default;
@@ -125,6 +125,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
       const ContactReaction& reaction = step.reactions[i];
       if (is_unsolved(reaction)) {
         step.why_not = fmt::format("{}: {}", vehicle_.wheels[i].name, reaction.message);
+        step.derailed = reaction.derailed;
         return step;
       }
       forces.push_back(generalised_force(reaction, m));

@@ -27,6 +27,7 @@ struct StepSettings {
 struct Step {
   bool converged = false;
   std::string why_not;
+  bool derailed = false;  ///< that is why not
   Motion end;
   std::vector<ContactReaction> reactions;  ///< as evaluated last
   double position_error = 0.0;             ///< estimate of what the step added, by Coordinate::arm [m]

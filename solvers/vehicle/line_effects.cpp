@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::vehicle {
 
@@ -65,7 +66,7 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
     if (axle < 0) fail(fmt::format("wheelset {} cannot be driven, it is not free in pitch", torque.wheelset + 1));
     int reaction = -1;
     if (torque.reaction != kGround) {
-      const auto body = std::ranges::find(bodies_, torque.reaction, &Multibody::Body::name);
+      const auto body = ranges::find(bodies_, torque.reaction, &Multibody::Body::name);
       if (body == bodies_.end()) fail(fmt::format("there is no body '{}' to hold a motor", torque.reaction));
       reaction = body->coordinate[4];
     }

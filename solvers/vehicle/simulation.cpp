@@ -240,7 +240,13 @@ void Simulation::take_step() {
     ++counts_.rejected;
     const double factor =
         step.converged ? std::min(0.8, step_factor(step.position_error, settings_.position_tolerance)) : 0.3;
-    if (!(h * factor >= settings_.min_step && h * factor > 0.0))  // no number either
+    const bool shortest = !(h * factor >= settings_.min_step && h * factor > 0.0);  // no number either
+    constexpr double kNear = 1e-5;                                                  // [s]
+    if (step.derailed && (shortest || h <= kNear)) {
+      derailed_ = step.why_not;
+      return;
+    }
+    if (shortest)
       throw Error(ErrorKind::numerical,
                   fmt::format("the step became shorter than {:.3g} s at t = {:.9g} s: {}", settings_.min_step,
                               motion_.state.time,
@@ -304,6 +310,7 @@ void Simulation::restore(ByteReader& in) {
       in.get(*value);
   in.get(counts_.steps), in.get(counts_.rejected), in.get(counts_.evaluations);
   line_ = vehicle_->line_state(motion_.state.time);
+  derailed_.clear();
   for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->restore(in);
 }
 

@@ -56,8 +56,10 @@ class Simulation {
   /// cannot be solved at the start.
   Simulation(VehicleOnTrack vehicle, const SystemState& start, const SimulationSettings& settings);
 
-  /// Whether the duration is over.
-  bool finished() const { return motion_.state.time >= settings_.duration * (1.0 - 1e-12); }
+  /// Whether the duration is over, or the vehicle derailed.
+  bool finished() const { return !derailed_.empty() || motion_.state.time >= settings_.duration * (1.0 - 1e-12); }
+  /// Which wheel has parted from its rail and where, just behind the last step; empty: none.
+  const std::string& derailed() const { return derailed_; }
   /// One step. Errors: Error(numerical) where the step becomes too short, with the reason; the simulation stays at the
   /// last good state. Cancelled (core/cancellation.hpp) leaves everything as it was before the step.
   void advance();
@@ -106,6 +108,7 @@ class Simulation {
   EnergyBalance energy_, energy_at_start_;
   std::optional<LineState> line_;  ///< after the last step
   Counts counts_;
+  std::string derailed_;
 };
 
 }  // namespace treadmark::vehicle

@@ -2,16 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/vehicle/wheel_loop.hpp"
 
-#include <algorithm>
 #include <exception>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::vehicle {
 
 void for_each_wheel(const VehicleOnTrack& vehicle, const std::function<void(std::size_t)>& body) {
   const std::size_t count = vehicle.wheels.size();
-  const auto costly = std::ranges::count_if(vehicle.wheels, [](const WheelOnRail& w) { return w.element->costly(); });
+  const auto costly = ranges::count_if(vehicle.wheels, [](const WheelOnRail& w) { return w.element->costly(); });
   if (costly < 2) {
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
@@ -34,7 +34,7 @@ std::vector<ContactReaction> evaluate_wheels(const VehicleOnTrack& vehicle, cons
   for (int i = 0; i < kMost; ++i) {
     for_each_wheel(
         vehicle, [&](std::size_t w) { reactions[w] = vehicle.wheels[w].element->evaluate(vehicle.motion(w, state)); });
-    if (std::ranges::any_of(reactions, is_unsolved)) return reactions;
+    if (ranges::any_of(reactions, is_unsolved)) return reactions;
     bool settled = true;
     for (std::size_t w = 0; w < reactions.size(); ++w)
       settled = vehicle.wheels[w].element->settle(reactions[w]) && settled;

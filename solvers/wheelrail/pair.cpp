@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/solvers/wheelrail/damping.hpp"
 #include "treadmark/solvers/wheelrail/force_iteration.hpp"
@@ -19,6 +20,7 @@
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 #include "treadmark/solvers/wheelrail/plausibility.hpp"
 #include "treadmark/solvers/wheelrail/present_part.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -60,7 +62,7 @@ void move_down(PairSolution& s, double dz) {
     patch.region.deepest_T.z() += dz;
     const auto lower = [dz](detection::PatchExtent& e) { e.z_at_y_min += dz, e.z_at_y_max += dz; };
     lower(patch.region.extent);
-    std::ranges::for_each(patch.region.parts, lower);
+    ranges::for_each(patch.region.parts, lower);
   }
 }
 
@@ -133,6 +135,7 @@ PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
 Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)), state_(std::make_shared<State>()) {
   require_facing(geometry_.rail, Facing::up, "rail");
   require_facing(geometry_.wheel, Facing::down, "wheel");
+  rail_memory_ = std::make_unique<RailMemory>(*geometry_.rail);
   bodies_.rail = geometry_.rail.get(), bodies_.wheel = geometry_.wheel.get();
   bodies_.wheel_profile = detection::whole_profile(*geometry_.wheel);
 }
@@ -189,7 +192,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   if (geometry_.wheel->constant_profile() && !bodies_.wheel_lines &&
       p.discretisation.search == Discretisation::SearchGrid::reference_locus)
     bodies_.wheel_lines = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
-  PairStep step(geometry_, p, next->previous, solvers_, solution.times, bodies_);
+  PairStep step(geometry_, p, next->previous, solvers_, solution.times, bodies_, *rail_memory_);
   const double known = next->previous.stiffness;
   Balance balance =
       find_balance(step, p, known > 0.0 ? known : stiffest(p.material), next->previous.end_slope, known > 0.0);

@@ -84,6 +84,7 @@ struct PairSolution {
 };
 
 struct Instant;
+class RailMemory;
 
 /// Contact of one wheel and one rail (Kalker 1990; Vollebregt's grid-based contact search).
 /// Geometry is set once; solve() is called for one state after the other. Without history (Problem::history == start)
@@ -126,7 +127,8 @@ class Pair {
   Instant choose_previous(const Problem& problem) const;
 
   Geometry geometry_;
-  detection::BodyPair bodies_;                  ///< without places; wheel_lines from the first search that wants them
+  detection::BodyPair bodies_;  ///< without places; wheel_lines from the first search that wants them
+  std::unique_ptr<RailMemory> rail_memory_;
   std::vector<kalker::ContactSolver> solvers_;  ///< by number of the patch; keep coefficients
   kalker::ContactSolver coarse_solver_;         ///< to estimate what refining would change
   std::shared_ptr<const State> state_;

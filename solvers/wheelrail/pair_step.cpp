@@ -28,12 +28,14 @@ constexpr double kDeepestOfRadius = 0.02;
 }  // namespace
 
 PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous,
-                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies)
+                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies,
+                   RailMemory& rail_memory)
     : geometry_(geometry),
       problem_(problem),
       previous_(previous),
       solvers_(solvers),
       times_(times),
+      rail_memory_(rail_memory),
       bodies_(std::move(bodies)),
       tangential_share_(previous.shares),
       elements_(geometry, problem) {}
@@ -50,11 +52,11 @@ bool PairStep::place(double rail_dy) {
   moved.track.dy += rail_dy;
   if (moved.vertical_force) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
-  start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
+  start_ = placement_ = treadmark::wheelrail::place(geometry_, moved, &rail_memory_);
   bodies_.X_TR = start_.X_TS, bodies_.X_TW = start_.X_TA;
   bodies_.distance_mesh = distance_mesh(problem_);
   const Stopwatch watch(times_.search_s);
-  const detection::SearchSettings settings = search_settings(geometry_, moved, start_);
+  const detection::SearchSettings settings = search_settings(geometry_, moved, start_, &rail_memory_);
   const std::string& detector = problem_.discretisation.detector;
   if (detector.empty())
     search_ = std::make_unique<detection::ContactSearch>(bodies_, settings);

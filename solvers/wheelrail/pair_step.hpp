@@ -19,13 +19,16 @@
 
 namespace treadmark::wheelrail {
 
+class RailMemory;
+
 /// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail,
 /// patches with their normal problems per height of the wheel over the rail, tangential problems per pitch rate. A
 /// right-hand problem. The references must outlive this.
 class PairStep {
  public:
   PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous,
-           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies);
+           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies,
+           RailMemory& rail_memory);
 
   /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other; at a given height evaluate()
   /// finds that out, its least_gap() is no number then.
@@ -120,6 +123,7 @@ class PairStep {
   const Instant& previous_;
   std::vector<kalker::ContactSolver>& solvers_;
   PhaseTimes& times_;
+  RailMemory& rail_memory_;
 
   Placement start_, placement_;  ///< at z = start_z_, and as it is
   double start_z_ = 0.0, z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_program/wheel_mesh.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 
@@ -79,7 +80,7 @@ void PairStep::take_over(const std::vector<Patch>& patches, Patch& patch) const 
   for (const PatchMemory* m : patch.before) {
     std::vector<Rectangle> others;
     for (const Patch& other : patches)
-      if (&other != &patch && std::ranges::find(other.before, m) != other.before.end()) others.push_back(other.box);
+      if (&other != &patch && ranges::find(other.before, m) != other.before.end()) others.push_back(other.box);
     parts.push_back(own_share(on_raster(m->history, shift, problem_.discretisation.dx, problem_.discretisation.ds),
                               patch.box, others));
   }

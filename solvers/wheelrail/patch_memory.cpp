@@ -7,6 +7,7 @@
 #include <compare>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::wheelrail {
@@ -82,7 +83,7 @@ kalker::ContactHistory own_share(kalker::ContactHistory history, const Rectangle
     for (int ix = 0; ix < g.nx; ++ix) {
       const double x = g.x(ix), y = g.y(iy);
       const Farness own(box, x, y);
-      if (std::ranges::none_of(others, [&](const Rectangle& other) { return Farness(other, x, y) < own; })) continue;
+      if (ranges::none_of(others, [&](const Rectangle& other) { return Farness(other, x, y) < own; })) continue;
       for (auto* field :
            {&history.pressure, &history.traction_x, &history.traction_y, &history.layer_x, &history.layer_y})
         if (!field->empty()) (*field)[g.index(ix, iy)] = 0.0;

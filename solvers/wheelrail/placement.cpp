@@ -12,8 +12,10 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/rail_head.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -134,7 +136,7 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, dou
   // Frame with the rail's origin and the track's orientation; the rail is rolled by -cant in it.
   const Pose X_RT{Vec3::Zero(), rotation_x(cant)};
   const Section section = lateral_section(rail, X_RT, x, box_range(rail, X_RT), kScanStep);
-  if (std::ranges::all_of(section.z, [](double z) { return std::isnan(z); })) refuse_without_surface(rail, x);
+  if (ranges::all_of(section.z, [](double z) { return std::isnan(z); })) refuse_without_surface(rail, x);
   const std::optional<RailHead> head =
       head_of_rail(section.y, section.z, track.gauge_height, track.gauge_at_innermost,
                    [&](std::size_t top) { return top_height(rail, X_RT, x, section, top); });
@@ -157,16 +159,18 @@ GaugePoint gauge_point(const Surface& rail, double cant, const Track& track, dou
   return point;
 }
 
-Placement place(const Geometry& geometry, const Problem& p) {
+Placement place(const Geometry& geometry, const Problem& p, RailMemory* memory) {
+  RailMemory own(*geometry.rail);
+  RailMemory& rail = memory ? *memory : own;
   Placement placed;
   const Track& t = p.track;
   const double cant = p.roller ? 0.0 : t.cant;
   placed.X_TR.rotation = rotation_x(-cant + t.roll);
   if (t.gauge_based) {
     // A rail without a section at x = 0 is held where the wheelset is.
-    const Box3 box = geometry.rail->bounds();
+    const Box3& box = rail.box();
     const bool at_zero = p.roller || (box.min.x() <= 0.0 && box.max.x() >= 0.0);
-    const GaugePoint gauge = gauge_point(*geometry.rail, cant, t, at_zero ? 0.0 : p.state.position.x);
+    const GaugePoint gauge = rail.gauge(cant, t, at_zero ? 0.0 : p.state.position.x);
     placed.gauge_seen = gauge.seen;
     // A roller's height is that of its nominal circle.
     placed.X_TR.origin = {0.0, 0.5 * t.gauge_width - gauge.y + t.dy, (p.roller ? 0.0 : -gauge.z_top) + t.dz};

@@ -6,6 +6,8 @@
 
 namespace treadmark::wheelrail {
 
+class RailMemory;
+
 /// Frames of a right-hand pair (left-hand problems are mirrored first): track T, rail R, rail surface S (R moved back
 /// by the wheelset's position along the track, so that a variable rail passes below it), wheelset Ws, wheel profile W,
 /// wheel surface A (origin on the axle, pitched).
@@ -16,8 +18,9 @@ struct Placement {
 
 /// Places rail and wheelset by gauge, cant, flange-back distance and state. The gauge is taken at x = 0 of the rail,
 /// and at the wheelset's place where the rail has no section there.
-/// Errors: Error(configuration) if the gauge point cannot be found (profile too low, or gauge height too large).
-Placement place(const Geometry& geometry, const Problem& right_hand_problem);
+/// memory: of this rail, where many instants follow each other; the placement is the same without. Errors:
+/// Error(configuration) if the gauge point cannot be found (profile too low, or gauge height too large).
+Placement place(const Geometry& geometry, const Problem& right_hand_problem, RailMemory* memory = nullptr);
 
 /// Where a rail is held by the gauge: lateral position of the gauge point, height of the rail top.
 struct GaugePoint {

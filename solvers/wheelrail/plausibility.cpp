@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
 #include "treadmark/solvers/wheelrail/usual_values.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
@@ -145,7 +146,7 @@ void judge_place(const Geometry& geometry, const Problem& p, PairSolution& solut
   // a crossing lifts the wheel, and so does a flange that climbs; a roller has its own height
   constexpr double kSteep = 20.0 * kPi / 180.0;
   const bool climbs =
-      std::ranges::any_of(solution.patches, [&](const PatchSolution& s) { return std::fabs(s.angle_wheel) > kSteep; });
+      ranges::any_of(solution.patches, [&](const PatchSolution& s) { return std::fabs(s.angle_wheel) > kSteep; });
   if (p.track.gauge_based && !p.roller && geometry.prismatic_rail) {
     // of the wheel, which stands aside of the middle of a wheelset that rolls
     const double aside =

@@ -4,19 +4,20 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 
 namespace treadmark::wheelrail {
 
 std::string missing_part(const Surface& wheel, double lowest) {
+  if (wheel.constant_profile()) return {};
   constexpr int kTurn = 360, kAcross = 17;
   constexpr double kDegree = std::numbers::pi / 180.0;
   const Box3 box = wheel.bounds();
@@ -27,7 +28,7 @@ std::string missing_part(const Surface& wheel, double lowest) {
     HeightsOut out;
     out.z = r;
     section_heights(wheel, Body::wheel, theta, y, out);
-    return std::ranges::any_of(r, [](double value) { return !std::isnan(value); });
+    return ranges::any_of(r, [](double value) { return !std::isnan(value); });
   };
   if (present(wrap_angle(lowest))) return {};
   std::array<bool, kTurn> there{};

@@ -9,6 +9,7 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/element_choice.hpp"
+#include "treadmark/solvers/wheelrail/rail_memory.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -40,12 +41,14 @@ Grid2 coarse_grid(const Problem& p, const Placement& placed, const LateralRange&
 
 }  // namespace
 
-detection::SearchSettings search_settings(const Geometry& geometry, const Problem& p, const Placement& placed) {
+detection::SearchSettings search_settings(const Geometry& geometry, const Problem& p, const Placement& placed,
+                                          RailMemory* memory) {
   const Discretisation& d = p.discretisation;
   if (!(d.dx > 0.0) || !(d.ds > 0.0)) throw Error(ErrorKind::configuration, "element sizes dx, ds must be positive");
   if (!(p.wheelset.nominal_radius > 0.0))
     throw Error(ErrorKind::configuration, "the nominal wheel radius must be positive");
-  const LateralRange rail = visible_range(*geometry.rail, placed.X_TS.inverse(), placed.X_TA.origin.x());
+  RailMemory own(*geometry.rail);
+  const LateralRange rail = (memory ? *memory : own).visible(placed.X_TS, placed.X_TA.origin.x());
 
   detection::SearchSettings s;
   s.method = d.search_method;

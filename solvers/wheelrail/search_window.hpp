@@ -16,7 +16,8 @@ inline int odd(int n) { return n % 2 == 0 ? n + 1 : n; }
 
 /// First search grid and patch rules of a right-hand pair: across the whole rail head, and as far before and behind the
 /// wheel centre as the wheel can touch the rail.
+/// memory: as of place().
 detection::SearchSettings search_settings(const Geometry& geometry, const Problem& right_hand_problem,
-                                          const Placement& placement);
+                                          const Placement& placement, RailMemory* memory = nullptr);
 
 }  // namespace treadmark::wheelrail

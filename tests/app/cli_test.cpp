@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -12,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/shape/defects.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/running_program.hpp"
@@ -54,7 +54,7 @@ TEST(CommandLine, VersionForProgramsNamesEveryLibraryThatIsLoaded) {
   const std::regex name(R"(\(NEEDED\).*\[(.*)\])");
   int found = 0;
   for (std::sregex_iterator it(needed.out.begin(), needed.out.end(), name), end; it != end; ++it, ++found)
-    EXPECT_TRUE(std::ranges::any_of(known, [&](const std::string& one) { return (*it)[1].str().starts_with(one); }))
+    EXPECT_TRUE(ranges::any_of(known, [&](const std::string& one) { return (*it)[1].str().starts_with(one); }))
         << (*it)[1] << " is loaded, and cmake/TreadmarkDependencies.cmake does not say so";
   EXPECT_GT(found, 3);
 }
@@ -93,14 +93,13 @@ TEST(CommandLine, BillOfMaterialsHoldsWhatTheVersionForProgramsTells) {
   EXPECT_EQ(packages.size(), version.at("libraries").size() + 1);
   EXPECT_EQ(relations.size(), packages.size());
   for (const auto& library : version.at("libraries")) {
-    const auto found =
-        std::ranges::find_if(packages, [&](const auto& p) { return p.second["name"] == library["name"]; });
+    const auto found = ranges::find_if(packages, [&](const auto& p) { return p.second["name"] == library["name"]; });
     ASSERT_NE(found, packages.end()) << library;
     EXPECT_EQ(found->second.at("versionInfo"), library.at("version"));
     EXPECT_EQ(found->second.at("licenseDeclared"), library.at("licence"));
     EXPECT_EQ(relations.at(found->first), linked.at(library.at("linked")));
   }
-  EXPECT_EQ(std::ranges::count(version.at("libraries"), "script", [](const auto& l) { return l["linked"]; }) > 0,
+  EXPECT_EQ(ranges::count(version.at("libraries"), "script", [](const auto& l) { return l["linked"]; }) > 0,
             has_part("report_scripts"));
 }
 
@@ -137,10 +136,10 @@ TEST(CommandLine, ListsAndSchema) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
   EXPECT_EQ(run_program({"list", "verbs"}).out,
-            "run\ncheck\ngeometry\ncompare\ndiff\nbench\nmeasure\n" + verb("import", "scans") + verb("scan", "scans") +
-                "convert\ntrace\n" + verb("simulate", "vehicle") + verb("assess", "vehicle") +
-                verb("stability", "vehicle") + verb("track", "vehicle") + verb("fmu", "fmu") +
-                verb("evolve", "vehicle") + verb("sweep", "vehicle") + verb("report", "report") +
+            "run\ncheck\ngeometry\n" + verb("table", "vehicle") + "compare\ndiff\nbench\nmeasure\n" +
+                verb("import", "scans") + verb("scan", "scans") + "convert\ntrace\n" + verb("simulate", "vehicle") +
+                verb("assess", "vehicle") + verb("stability", "vehicle") + verb("track", "vehicle") +
+                verb("fmu", "fmu") + verb("evolve", "vehicle") + verb("sweep", "vehicle") + verb("report", "report") +
                 verb("plot", "report") + "new\nlist\nschema\ncompletion\nman\n");
 }
 

@@ -9,6 +9,7 @@
 
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
@@ -43,7 +44,7 @@ double share_of_nose(const io::CaseResult& result) {
 
 std::vector<io::PatchResult> from_left(const io::CaseResult& result) {
   std::vector<io::PatchResult> patches = result.patches;
-  std::ranges::sort(patches, {}, &io::PatchResult::y_tr);
+  ranges::sort(patches, {}, &io::PatchResult::y_tr);
   return patches;
 }
 
@@ -95,7 +96,7 @@ TEST(CrossingPassage, TheLoadMovesToTheNoseSmoothly) {
       all.push_back(share_of_nose(run.cases[i]) - share_of_nose(run.cases[i - 1]));
       EXPECT_GE(all.back(), 0.0) << run.cases[i].s;
     }
-    return *std::ranges::max_element(all);
+    return *ranges::max_element(all);
   };
   const double coarse = changes(0.5e-3), middle = changes(0.25e-3), fine = changes(0.125e-3);
   EXPECT_LE(coarse, 0.18);

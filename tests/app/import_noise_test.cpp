@@ -23,6 +23,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/surface_errors.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
@@ -178,7 +179,7 @@ TEST(NoiseOfScans, IsWhatWavesMakeOfResults) {
         EXPECT_EQ(patch.noise->fn, 0.0) << where;
       else
         expect(patch.noise->fn, squares[k].fn, kOfNumber * value.fn, "fn");
-      const bool told = std::ranges::any_of(result.remarks, [](const Remark& remark) {
+      const bool told = ranges::any_of(result.remarks, [](const Remark& remark) {
         return remark.kind == RemarkKind::noisy_profile && remark.text.find("the wheel, a scan") != std::string::npos;
       });
       EXPECT_EQ(told, patch.noise->pmax > 0.025 * patch.pmax) << where;
@@ -273,7 +274,7 @@ TEST_F(ImportedNoise, TreadsWithoutTheirFlangeAreDoubted) {
     io::ImportSettings settings;
     settings.fit.errors = false;
     const io::ImportReport report = import("truth.toml", Body::wheel, 60000, 20e-6, "found.slcw", settings);
-    const bool doubted = std::ranges::any_of(report.warnings, [](const std::string& warning) {
+    const bool doubted = ranges::any_of(report.warnings, [](const std::string& warning) {
       return warning.starts_with("no_flange: ") && warning.find("not scanned") != std::string::npos;
     });
     EXPECT_EQ(doubted, last > -55e-3) << ::testing::PrintToString(report.warnings);
@@ -359,7 +360,7 @@ void ImportedNoise::compare(const std::vector<Trial>& trials, int least) const {
           constexpr double kSmall = 0.3, kNear = 3e-3;  // of the wheel's force; [m]
           if (meant.fn < kSmall * 80e3) continue;
           const std::vector<io::PatchResult>& patches = found.cases[k].patches;
-          const auto patch = std::ranges::min_element(
+          const auto patch = ranges::min_element(
               patches, {}, [&](const io::PatchResult& p) { return std::fabs(p.y_tr - meant.y_tr); });
           if (patch == patches.end() || std::fabs(patch->y_tr - meant.y_tr) > kNear) {
             EXPECT_TRUE(any_grave(found.cases[k].remarks))
@@ -368,7 +369,7 @@ void ImportedNoise::compare(const std::vector<Trial>& trials, int least) const {
           }
           ASSERT_TRUE(patch->noise) << trial.name << ' ' << noise;
           const double off = patch->pmax - meant.pmax, sigma = patch->noise->pmax;
-          const bool doubted = std::ranges::any_of(found.cases[k].remarks, [&](const Remark& remark) {
+          const bool doubted = ranges::any_of(found.cases[k].remarks, [&](const Remark& remark) {
             return remark.kind == RemarkKind::noisy_profile && remark.patch == 1 + (patch - patches.begin());
           });
           constexpr double kSame = 0.01, kFar = 0.05;

@@ -4,7 +4,6 @@
 // the search says that its locus passed over contact.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -56,7 +56,7 @@ io::RunResult run(const std::filesystem::path& wheel, const Along& rail, int sea
 }
 
 bool says_incomplete(const io::CaseResult& c) {
-  return std::ranges::any_of(c.remarks, [](const Remark& r) {
+  return ranges::any_of(c.remarks, [](const Remark& r) {
     return r.kind == RemarkKind::locus_incomplete || r.kind == RemarkKind::contact_overlooked;
   });
 }

@@ -3,11 +3,11 @@
 // The contact locus against the grid on the Manchester benchmark (Shackleton and Iwnicki 2008), both wheels.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
@@ -41,8 +41,8 @@ TEST_P(ManchesterLocus, EqualsTheGrid) {
       EXPECT_LT((a.frame.X_TC.origin - b.frame.X_TC.origin).norm(), 5e-5) << where;
       EXPECT_NEAR(a.frame.angle, b.frame.angle, 5e-4) << where;
       EXPECT_NEAR(a.contact.force_n, b.contact.force_n, 2e-3 * b.contact.force_n) << where;
-      EXPECT_NEAR(*std::ranges::max_element(a.contact.pressure), *std::ranges::max_element(b.contact.pressure),
-                  5e-3 * *std::ranges::max_element(b.contact.pressure))
+      EXPECT_NEAR(*ranges::max_element(a.contact.pressure), *ranges::max_element(b.contact.pressure),
+                  5e-3 * *ranges::max_element(b.contact.pressure))
           << where;
     }
     ++cases;

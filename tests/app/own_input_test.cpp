@@ -62,6 +62,7 @@ TEST(OwnInput, IsNoOutputOfAnyVerb) {
       {"evolve", {{"@"}, "vehicle"}},
       {"stability", {{"@"}, "vehicle"}},
       {"track", {{"@"}, "vehicle"}},
+      {"table", {{"@"}, "vehicle"}},
       {"fmu", {{"@"}, "fmu"}},
       {"report", {{"@"}, "report"}},
       {"plot", {{"@"}, "report"}},

@@ -12,6 +12,7 @@
 
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/support/parts.hpp"
@@ -70,7 +71,7 @@ std::optional<double> between(const io::SampledSurface& s, int iu, double y, con
 }
 
 int nearest_station(const io::SampledSurface& s, double u) {
-  const auto at = std::ranges::min_element(s.u, {}, [&](double one) { return std::fabs(one - u); });
+  const auto at = ranges::min_element(s.u, {}, [&](double one) { return std::fabs(one - u); });
   return static_cast<int>(at - s.u.begin());
 }
 

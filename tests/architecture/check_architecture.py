@@ -6,7 +6,8 @@
 usage: check_architecture.py ROOT
 
 Checked: how much stands at the root, who may include whom, one source file per heavy third-party header, surfaces asked
-through their contract only, licence lines, no package hosts, no other programs started, no rounded number cast to an integer that may not hold it.
+through their contract only, licence lines, no package hosts, no other programs started, no rounded number cast to an integer that may not hold it,
+nothing of the standard library that LLVM's of Debian 12 lacks but through core/platform.
 """
 import pathlib
 import re
@@ -92,6 +93,14 @@ BOUNDED_BESIDE = ("core/to_whole.hpp", "backends/analytic/wheels/wheel_lanes_ker
 # Whoever loads the libraries may have set a locale that writes and reads 1,5.
 BY_LOCALE = re.compile(r"(?<!\w)(strto(?:d|f|ld)|atof|sto(?:d|f|ld)|[vs]n?printf|sscanf)\s*\(")
 MAY_FOLLOW_LOCALE = ("tests", "bench", "examples")
+
+# What LLVM's standard library of Debian 12, or that of its compiler for browsers, lacks: first what core/platform has instead, then
+# what a line of older C++ does as well.
+PLATFORM = "core/platform/"
+MISSING = re.compile(r"\bstd::(?:ranges::|from_chars\(|bit_cast\b|comp_ellint_\d)|\brenameat2\(|"
+                     r"\bstd::(?:views::|format\(|jthread\b|stop_\w+|atomic_ref\b|source_location\b|make_\w+_for_overwrite\b|execution\b|osyncstream\b|"
+                     r"ellint_\d|cyl_\w+|sph_\w+|expint\b|riemann_zeta\b)")
+MAY_NEED = "tests/faults/shim/"
 
 # Put together here, so that this file does not contain them.
 HOSTS = [".".join(parts) for parts in (
@@ -219,6 +228,8 @@ def check(root):
                 violations.append(f"{relative}: {found.group(1)} follows the locale: use finite_number (core/number_text.hpp) or fmt")
             if layer(relative) not in MAY_CAST and relative not in BOUNDED_BESIDE:
                 violations += [f"{relative}: {cast}: use to_whole (core/to_whole.hpp)" for cast in unchecked_casts(text)]
+            if not relative.startswith((PLATFORM, MAY_NEED)):
+                violations += [f"{relative}: {name}: not in every standard library, see {PLATFORM}" for name in sorted(set(MISSING.findall(text)))]
         if relative.endswith(LICENSED) and "SPDX-License-Identifier: Apache-2.0" not in text[:400]:
             violations.append(f"{relative}: no SPDX-License-Identifier line at its top")
         violations += [f"{relative}: mentions the package host {host}" for host in HOSTS if host in text.lower()]

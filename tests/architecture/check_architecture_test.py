@@ -77,6 +77,14 @@ class Planted(unittest.TestCase):
             self.assertEqual(self.violations({"tests/a.cpp": f"void f() {{ {call}; }}\n"}), [])
         self.assertEqual(self.violations({"io/a.cpp": "void f() { built.system(1); subsystem(2); a->system(3); }\n"}), [])
 
+    def test_nothing_that_a_standard_library_lacks(self):
+        for text in ("std::ranges::sort(v);", "std::from_chars(a, b, x);", "std::bit_cast<double>(n)", "std::comp_ellint_1(k)",
+                     "::renameat2(a, b, c, d, e);", "std::jthread t;", "std::stop_token s", "std::make_unique_for_overwrite<int[]>(3)",
+                     "std::format(\"{}\", 1)", "v | std::views::reverse", "std::atomic_ref(x)"):
+            self.expect("detection/a.cpp", text + "\n", "core/platform")
+            self.assertEqual(self.violations({"core/platform/a.hpp": text + "\n"}), [])
+        self.assertEqual(self.violations({"detection/a.cpp": "ranges::sort(v); from_chars(a, b, x); std::from_chars_result r; fmt::format(s);\n"}), [])
+
     def test_no_unchecked_casts(self):
         for cast in ("static_cast<int>(std::floor(x))", "static_cast<std::size_t>(std::max(1.0, std::round(a / b)))",
                      "static_cast<std::int32_t>(std::ceil(f(x) - 1e-9))", "static_cast<int>((x - x0) / step)",

@@ -8,10 +8,9 @@ treadmark_public_headers(public_headers "${CMAKE_CURRENT_LIST_DIR}/../../docs/pu
 list(APPEND public_headers ${TREADMARK_OLD_HEADERS})
 list(JOIN public_headers "," public_headers)
 file(REMOVE_RECURSE "${WORK}")
-set(sanitize "")
 set(sanitize_c "")
 if(SANITIZE)
-  set(sanitize "-DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE}")
+  string(APPEND FLAGS " -fsanitize=${SANITIZE}")
   set(sanitize_c "-DCMAKE_C_FLAGS=-fsanitize=${SANITIZE}")
 endif()
 
@@ -25,7 +24,7 @@ endfunction()
 
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
 run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
-  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DPUBLIC_HEADERS=${public_headers}" ${sanitize})
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DPUBLIC_HEADERS=${public_headers}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/consumer")
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "treadmark/core/byte_archive.hpp"
+#include "treadmark/core/platform/bit_cast.hpp"
 
 namespace treadmark {
 namespace {
@@ -21,7 +21,7 @@ enum class Colour : std::uint8_t { red, green, blue };
 
 const std::vector<double> kNumbers{0.1, -0.0, std::numeric_limits<double>::denorm_min(),
                                    std::numeric_limits<double>::infinity(),
-                                   std::bit_cast<double>(std::uint64_t{0x7ff8000000000abc})};
+                                   bit_cast<double>(std::uint64_t{0x7ff8000000000abc})};
 
 ByteWriter one_of_each() {
   ByteWriter out;
@@ -48,7 +48,7 @@ void read_one_of_each(ByteReader& in) {
   in.get(numbers);
   ASSERT_EQ(numbers.size(), kNumbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(numbers[i]), std::bit_cast<std::uint64_t>(kNumbers[i])) << i;
+    EXPECT_EQ(bit_cast<std::uint64_t>(numbers[i]), bit_cast<std::uint64_t>(kNumbers[i])) << i;
   std::vector<Colour> colours;
   in.get(colours);
   EXPECT_EQ(colours, (std::vector{Colour::green, Colour::red}));

@@ -9,6 +9,7 @@
 #include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/spline/make.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_program/natural_curve.hpp"
 #include "treadmark/detection/contact_program/rail_sections.hpp"
 #include "treadmark/detection/contact_program/search_mesh.hpp"
@@ -171,14 +172,14 @@ TEST(ReferenceMesh, LinesOverAPartAreThoseOfTheWhole) {
   for (const LateralInterval& y : {LateralInterval{first + third, last - third}, LateralInterval{first, first + 1e-3},
                                    LateralInterval{last - 1e-3, last}, LateralInterval{first + third, first + third}}) {
     const std::vector<double> part = mesh_lines(*wheel, 0.1, y, kBeside);
-    const auto from = std::ranges::find(all, part.front());
+    const auto from = ranges::find(all, part.front());
     ASSERT_NE(from, all.end());
     ASSERT_LE(static_cast<std::ptrdiff_t>(part.size()), all.end() - from);
-    EXPECT_TRUE(std::ranges::equal(part, std::ranges::subrange(from, from + static_cast<std::ptrdiff_t>(part.size()))));
-    const auto below = std::ranges::count_if(part, [&](double at) { return at < y.low; }),
-               above = std::ranges::count_if(part, [&](double at) { return at > y.high; }),
-               all_below = std::ranges::count_if(all, [&](double at) { return at < y.low; }),
-               all_above = std::ranges::count_if(all, [&](double at) { return at > y.high; });
+    EXPECT_TRUE(ranges::equal(part, std::vector(from, from + static_cast<std::ptrdiff_t>(part.size()))));
+    const auto below = ranges::count_if(part, [&](double at) { return at < y.low; }),
+               above = ranges::count_if(part, [&](double at) { return at > y.high; }),
+               all_below = ranges::count_if(all, [&](double at) { return at < y.low; }),
+               all_above = ranges::count_if(all, [&](double at) { return at > y.high; });
     EXPECT_GE(below, std::min<std::ptrdiff_t>(kBeside, all_below));
     EXPECT_GE(above, std::min<std::ptrdiff_t>(kBeside, all_above));
   }

@@ -8,6 +8,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/spline/make.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/contact_program/wheel_locus.hpp"
 
 namespace treadmark::detection {
@@ -97,7 +98,7 @@ TEST(WheelLocus, AFoldKeepsTheSideOfTheMiddle) {
         ASSERT_GT(side * (corner - top), 0.7e-3);  // it hangs over
         std::vector<double> y;
         for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) y.push_back(corner + share * (top - corner));
-        if (side > 0.0) std::ranges::reverse(y);
+        if (side > 0.0) ranges::reverse(y);
         const std::vector<Vec2> at = WheelLocus(bodies, kRadius).over(y);
         for (std::size_t k = 0; k < y.size(); ++k)
           EXPECT_NEAR(at[k].y(), (y[k] - origin) / c * s, kSwing) << side << ' ' << origin << ' ' << y[k];

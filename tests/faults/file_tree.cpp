@@ -2,12 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/tests/faults/file_tree.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <string_view>
+
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -27,7 +28,7 @@ bool is_last(const std::string& path) {
   const std::string name = path.substr(path.rfind('/') + 1);
   constexpr std::string_view kLast[] = {"result.json", "compare.json",    "bench.json",    "simulation.h5",
                                         "track.json",  "assessment.json", "stability.json"};
-  return path.size() > name.size() && std::ranges::find(kLast, name) != std::end(kLast);
+  return path.size() > name.size() && ranges::find(kLast, name) != std::end(kLast);
 }
 
 /// The first of the files of its folder in `whole` that `now` does not hold.

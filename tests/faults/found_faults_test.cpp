@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <ostream>
 #include <regex>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/faults/output_rows.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
@@ -117,7 +117,7 @@ TEST_P(FoundFaults, AreGone) {
 
 INSTANTIATE_TEST_SUITE_P(Scripts, FoundFaults, ::testing::ValuesIn(kFound), [](const auto& which) {
   std::string name = which.param.name;
-  std::ranges::replace(name, '-', '_');
+  ranges::replace(name, '-', '_');
   return name;
 });
 

@@ -5,8 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
+
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark {
 namespace {
@@ -90,7 +91,7 @@ TEST(Theories, ListSaysWhereATheoryMayBeUsed) {
   EXPECT_THAT(list, HasSubstr("FASTSIM with three flexibilities; rolling only\n"));
   EXPECT_THAT(list, HasSubstr("elliptic pressure; [patch] only; Hertzian geometry\n"));
   EXPECT_THAT(list, HasSubstr("KPEC; a [patch] needs a given approach\n"));
-  EXPECT_EQ(std::ranges::count(list, '\n'), 4 + 6 + 5 + 4 + 4);
+  EXPECT_EQ(ranges::count(list, '\n'), 4 + 6 + 5 + 4 + 4);
 }
 
 TEST(Theories, OtherDigitsAskForTheFirstRow) {

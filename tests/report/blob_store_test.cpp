@@ -6,12 +6,13 @@
 #include <zlib.h>
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
+
+#include "treadmark/core/platform/bit_cast.hpp"
 
 namespace treadmark::report {
 namespace {
@@ -50,7 +51,7 @@ std::vector<double> read_back(const Packed& packed, const std::vector<std::strin
     for (std::size_t k = 0; k < width; ++k)
       code |= static_cast<std::uint32_t>(bytes.at(packed.offset + k * packed.count + i)) << (8U * k);
     if (packed.precision == Precision::single)
-      out.push_back(std::bit_cast<float>(code));
+      out.push_back(bit_cast<float>(code));
     else if (packed.none && code == (width == 1 ? 255U : 65535U))
       out.push_back(NAN);
     else

@@ -9,6 +9,7 @@
 
 #include "treadmark/app/cases/pages/run_page.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/write_page.hpp"
 #include "treadmark/tests/report/page_reader.hpp"
 
@@ -30,7 +31,7 @@ TEST(SpreadRows, KeepsEndsExtremesAndWantedRowsAndNoMoreThanAllowed) {
   const auto slope = [](std::size_t row) { return row == 31 ? -1e6 : static_cast<double>(row); };
   const std::vector<std::size_t> rows = spread_rows(10'000, 300, {wave, slope}, {5, 4567});
   EXPECT_EQ(rows.size(), 300u);
-  EXPECT_TRUE(std::ranges::is_sorted(rows, std::less_equal<>()));
+  EXPECT_TRUE(ranges::is_sorted(rows, std::less_equal<>()));
   for (const std::size_t row : {0u, 5u, 31u, 4567u, 7777u, 9999u}) EXPECT_THAT(rows, Contains(row));
   // No gap is wide.
   for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_LT(rows[i] - rows[i - 1], 150u);
@@ -43,7 +44,7 @@ TEST(SpreadRows, AllOfFewAndHalfOfTheRoomForManyWantedOnes) {
   for (std::size_t row = 0; row < 5000; ++row) wanted.push_back(row);
   const std::vector<std::size_t> rows = spread_rows(10'000, 100, {}, wanted);
   EXPECT_EQ(rows.size(), 100u);
-  EXPECT_GE(std::ranges::count_if(rows, [](std::size_t row) { return row >= 5000; }), 20);
+  EXPECT_GE(ranges::count_if(rows, [](std::size_t row) { return row >= 5000; }), 20);
   const auto nothing = [](std::size_t) { return kNaN; };
   EXPECT_EQ(spread_rows(1000, 40, {nothing, nothing}).size(), 40u);
 }

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "treadmark/app/simulation/pages/history_panels.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/report/page_reader.hpp"
 
 namespace treadmark::app::pages {
@@ -108,10 +108,10 @@ TEST(HistoryPanels, ThinningKeepsPeaks) {
   const auto rows = thinned_rows(*result, {"Q_N", "Ty_N"}, 400);
   EXPECT_LE(rows.size(), 400u);
   EXPECT_GT(rows.size(), 100u);
-  EXPECT_TRUE(std::ranges::is_sorted(rows));
+  EXPECT_TRUE(ranges::is_sorted(rows));
   EXPECT_EQ(rows.front(), 0u);
   EXPECT_EQ(rows.back(), 49'999u);
-  EXPECT_TRUE(std::ranges::binary_search(rows, std::size_t{31'234}));
+  EXPECT_TRUE(ranges::binary_search(rows, std::size_t{31'234}));
   EXPECT_EQ(thinned_rows(*result, {"Q_N"}, 60'000).size(), 50'000u);
   EXPECT_EQ(thinned_rows(*result, {"nothing"}, 100).size(), 100u);
 }

@@ -5,11 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <tuple>
 #include <vector>
+
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::app::pages {
 
@@ -74,8 +75,7 @@ TEST(SubsurfaceFigures, MapsAreLinearBetweenThePointsOfTheWorstPlane) {
     const Figure& shown = std::get<Figure>(section->blocks[figure]);
     const auto& map = std::get<MapView>(shown.view);
     ASSERT_EQ(map.by_step.size(), 2U);
-    EXPECT_TRUE(std::ranges::all_of(map.by_step[0], [](double v) { return std::isnan(v); }))
-        << "no points in this case";
+    EXPECT_TRUE(ranges::all_of(map.by_step[0], [](double v) { return std::isnan(v); })) << "no points in this case";
     EXPECT_NEAR(map.x0, -2.0, 1e-12);
     EXPECT_NEAR(map.x0 + map.dx * (map.nx - 1), 4.0, 1e-12);
     EXPECT_NEAR(map.y0, low, 1e-12);

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <sstream>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/representation/example_cases.hpp"
 #include "treadmark/tests/representation/kinds.hpp"
 
@@ -104,7 +104,7 @@ TEST_P(RepresentationTable, DocumentShowsWhatIsComputedAndOrdersHold) {
     lines.push_back(compute(GetParam(), spacing));
     const Line& line = lines.back();
     const auto same = [&](const Line& p) { return p.backend == line.backend && p.spacing_mm == spacing; };
-    const auto shown = std::ranges::find_if(printed, same);
+    const auto shown = ranges::find_if(printed, same);
     if (shown == printed.end()) {
       ADD_FAILURE() << "docs/convergence.md lacks\n" << markdown(line);
       continue;

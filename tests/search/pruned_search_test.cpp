@@ -11,6 +11,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/search/scenes.hpp"
 
 namespace treadmark::testing {
@@ -54,7 +55,7 @@ TEST_P(PrunedSearch, EqualsFullSearchInRandomConfigurations) {
     // From grazing to deep and back, as force iterations go.
     std::vector<double> depths{std::pow(10.0, std::uniform_real_distribution<double>(-5.0, -3.3)(random)), -2e-5, 1e-9,
                                std::uniform_real_distribution<double>(2e-5, 3e-4)(random)};
-    std::ranges::shuffle(depths, random);
+    ranges::shuffle(depths, random);
     depths.resize(2);
     for (const double depth : depths) {
       const auto expected = full.at(least + depth), found = pruned.at(least + depth);
@@ -135,7 +136,7 @@ std::vector<std::string_view> same_shapes() {
 
 INSTANTIATE_TEST_SUITE_P(Backends, PrunedSearch, ::testing::ValuesIn(same_shapes()), [](const auto& backend) {
   std::string name(backend.param);
-  std::ranges::replace(name, '-', '_');
+  ranges::replace(name, '-', '_');
   return name;
 });
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/assessment/pages/assessment_page.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/app/simulation/pages/history_panels.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 
 namespace treadmark::app::pages {
@@ -41,7 +41,7 @@ Table side_by_side(std::span<const AssessedRun> runs) {
   std::vector<std::string> sections;
   for (const AssessedRun& run : runs)
     for (const AssessmentSection& s : run.request.sections)
-      if (std::ranges::find(sections, s.name) == sections.end()) sections.push_back(s.name);
+      if (ranges::find(sections, s.name) == sections.end()) sections.push_back(s.name);
   for (const std::string& section : sections)
     for (const measures::QuantityInfo& info : measures::assessed_quantities()) {
       const auto [factor, unit] = shown_quantity(info);
@@ -86,7 +86,7 @@ Section spectra_section(std::span<const AssessedRun> runs) {
       for (const ChannelSpectrum& s : run.spectra) {
         const bool decibel = levels && has_level(s.unit);
         const std::string unit = decibel ? "dB re 1e-6 m/s²" : levels ? s.unit : fmt::format("({})²/Hz", s.unit);
-        auto panel = std::ranges::find(chart->panels, unit, &Panel::unit);
+        auto panel = ranges::find(chart->panels, unit, &Panel::unit);
         if (panel == chart->panels.end())
           panel = chart->panels.insert(panel, {levels ? "one-third octave" : "density", unit, !decibel});
         Series series{runs.size() > 1 ? run.name + ", " + s.channel : s.channel, {}};
@@ -153,7 +153,7 @@ Page assessment_page(std::span<const AssessedRun> runs, std::span<const std::str
       if (column == x) continue;
       const std::string name = io::channel_name(result.columns[column]);
       const ShownUnit unit = shown_unit(name);
-      auto panel = std::ranges::find(chart.panels, name, &Panel::label);
+      auto panel = ranges::find(chart.panels, name, &Panel::label);
       if (panel == chart.panels.end())
         panel = chart.panels.insert(panel, {name, unit.name.empty() ? result.columns[column].unit : unit.name});
       Series series{run.name, {}};

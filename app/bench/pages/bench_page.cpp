@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/bench/pages/bench_page.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/report/html_text.hpp"
 
@@ -28,7 +28,7 @@ struct Row {
   bool wheel = false;
 
   double number(std::string_view key) const {
-    const auto& column = *std::ranges::find(columns<BenchRow>(), key, &treadmark::Column<BenchRow>::key);
+    const auto& column = *ranges::find(columns<BenchRow>(), key, &treadmark::Column<BenchRow>::key);
     return io::rounded(column.in_file(*data), column.access.whole ? Digits::all : Digits::six);
   }
   const char* body() const { return wheel ? "wheel" : "rail"; }
@@ -84,7 +84,7 @@ Cards::Card least(const std::vector<Row>& rows, const char* label, const char* k
 }
 
 Cards cards_of(const BenchReport& bench, const std::vector<Row>& rows) {
-  const auto agree = std::ranges::count_if(rows, [](const Row& row) { return row.data->agrees; });
+  const auto agree = ranges::count_if(rows, [](const Row& row) { return row.data->agrees; });
   Cards cards;
   cards.cards = {{"Rows that agree", fmt::format("{} of {}", agree, rows.size()),
                   "with the surfaces as given and with single heights"},
@@ -117,7 +117,7 @@ Facts facts_of(const BenchReport& bench) {
 std::vector<std::string> names_of(const std::vector<Row>& rows) {
   std::vector<std::string> names;
   for (const Row& row : rows)
-    if (std::ranges::find(names, row.label) == names.end()) names.push_back(row.label);
+    if (ranges::find(names, row.label) == names.end()) names.push_back(row.label);
   return names;
 }
 
@@ -136,13 +136,12 @@ Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit
                   false,         std::vector<std::string>(names.size())};
     for (const Row& row : rows) {
       if (row.wheel != wheel) continue;
-      const auto place = static_cast<std::size_t>(std::ranges::find(names, row.label) - names.begin());
+      const auto place = static_cast<std::size_t>(ranges::find(names, row.label) - names.begin());
       const double value = factor * row.number(quantity.key);
       series.y[place] = value > 0.0 ? value : NAN;
       series.texts[place] = fmt::format("{}, {}: {} {}", row.label, quantity.name, shown({value, 3}), unit);
     }
-    if (std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); }))
-      panel.series.push_back(std::move(series));
+    if (ranges::any_of(series.y, [](double y) { return std::isfinite(y); })) panel.series.push_back(std::move(series));
   }
   return panel;
 }

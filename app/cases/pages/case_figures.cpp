@@ -10,6 +10,7 @@
 
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/report/html_text.hpp"
 
@@ -53,11 +54,11 @@ Axis make_axis(const io::RunResult& run, const char* label, const char* unit, Fu
 }
 
 bool varies(const Axis& axis) {
-  const auto [low, high] = std::ranges::minmax(axis.values);
+  const auto [low, high] = ranges::minmax(axis.values);
   return high - low > 1e-9 * std::max(std::fabs(low), std::fabs(high));
 }
 
-bool any_wheelset(const io::RunResult& run) { return std::ranges::any_of(run.cases, &Case::has_wheelset); }
+bool any_wheelset(const io::RunResult& run) { return ranges::any_of(run.cases, &Case::has_wheelset); }
 
 Panel force_panel(const io::RunResult& run) {
   const bool wheelset = any_wheelset(run);
@@ -236,8 +237,8 @@ std::vector<Block> body_figures(const std::string& name) {
 }
 
 bool has_fields(const io::RunResult& run) {
-  return std::ranges::any_of(run.cases, [](const Case& c) {
-    return std::ranges::any_of(c.patches, [](const io::PatchResult& p) { return !p.fields.pressure.empty(); });
+  return ranges::any_of(run.cases, [](const Case& c) {
+    return ranges::any_of(c.patches, [](const io::PatchResult& p) { return !p.fields.pressure.empty(); });
   });
 }
 

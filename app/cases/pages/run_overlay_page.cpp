@@ -19,6 +19,7 @@
 #include "treadmark/app/pages/overlay_parts.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/html_text.hpp"
 
 namespace treadmark::app::pages {
@@ -46,7 +47,7 @@ Matched match(const Runs& runs) {
 }
 
 bool in_all(const std::vector<const Case*>& row) {
-  return std::ranges::none_of(row, [](const Case* one) { return one == nullptr; });
+  return ranges::none_of(row, [](const Case* one) { return one == nullptr; });
 }
 
 // -------------------------------------------------------------------------------------------------- steps and curves
@@ -66,7 +67,7 @@ constexpr PoseRow kPose[] = {{&Case::pitch, "pitch angle", 180.0 / kPi, "°"},
 bool same(double a, double b) { return std::fabs(a - b) <= 1e-9 * std::max({1e-3, std::fabs(a), std::fabs(b)}); }
 
 bool same_pose(const Matched& matched, double Case::*member) {
-  return std::ranges::all_of(matched, [&](const auto& entry) {
+  return ranges::all_of(matched, [&](const auto& entry) {
     const Case* first = nullptr;
     for (const Case* one : entry.second) {
       if (one == nullptr) continue;
@@ -82,10 +83,10 @@ Run common_cases(const Matched& matched) {
   Run out;
   out.cases.reserve(matched.size());
   std::vector<PoseRow> agreed;
-  std::ranges::copy_if(kPose, std::back_inserter(agreed),
-                       [&](const PoseRow& pose) { return same_pose(matched, pose.member); });
+  ranges::copy_if(kPose, std::back_inserter(agreed),
+                  [&](const PoseRow& pose) { return same_pose(matched, pose.member); });
   for (const auto& [number, row] : matched) {
-    const Case& one = **std::ranges::find_if(row, [](const Case* c) { return c != nullptr; });
+    const Case& one = **ranges::find_if(row, [](const Case* c) { return c != nullptr; });
     Case common;
     common.number = number;
     common.has_wheelset = one.has_wheelset;
@@ -108,7 +109,7 @@ std::vector<Curve> curves_of(const Runs& runs, const Matched& matched) {
     for (const Panel& panel : case_chart(*runs[k].result).panels)
       for (const Series& series : panel.series) {
         const std::string label = panel.series.size() > 1 ? series.name : panel.label;
-        auto found = std::ranges::find(curves, label, &Curve::label);
+        auto found = ranges::find(curves, label, &Curve::label);
         if (found == curves.end()) {
           curves.push_back({label, panel.unit, {}});
           curves.back().values.assign(runs.size(), std::vector<double>(matched.size(), kNaN));
@@ -324,7 +325,7 @@ Table case_table_of(const std::vector<Curve>& curves, const std::vector<std::str
   for (const auto& [number, row] : matched) {
     std::vector<std::string> ends;
     for (const Case* one : row) ends.emplace_back(one == nullptr ? "none" : to_string(one->status));
-    const bool alike = std::ranges::all_of(ends, [&](const std::string& end) { return end == ends.front(); });
+    const bool alike = ranges::all_of(ends, [&](const std::string& end) { return end == ends.front(); });
     Table::Row line{
         {Number{static_cast<double>(number)}, alike ? ends.front() : fmt::format("{}", fmt::join(ends, " / "))},
         static_cast<int>(i)};
@@ -360,7 +361,7 @@ std::string grids_text(const Matched& matched) {
       if (row[0] == nullptr || row[k] == nullptr || row[0]->patches.empty() || row[k]->patches.empty()) continue;
       ++compared;
       const auto &a = row[0]->patches, &b = row[k]->patches;
-      if (a.size() == b.size() && std::ranges::equal(a, b, grids_agree)) ++agreeing;
+      if (a.size() == b.size() && ranges::equal(a, b, grids_agree)) ++agreeing;
     }
   if (agreeing == compared) return "Grids lie on each other: differences are those of the same elements.";
   return fmt::format(
@@ -374,7 +375,7 @@ constexpr double kLeastHeadline = 1e-4;
 
 Cards cards_of(const std::vector<Curve>& curves, const std::vector<std::string>& names, const Matched& matched) {
   Cards cards;
-  const auto both = std::ranges::count_if(matched, [](const auto& entry) { return in_all(entry.second); });
+  const auto both = ranges::count_if(matched, [](const auto& entry) { return in_all(entry.second); });
   cards.cards.push_back({"Cases in all", fmt::format("{} of {}", both, matched.size()), ""});
   for (const Curve& curve : curves) {
     const Worst worst = worst_of(curve);
@@ -406,7 +407,7 @@ void add_overlaid_contact(Page& page, Section& section, const std::vector<NamedR
   const Matched matched = match(runs);
   page.sets = sets_of(runs, matched, steps);
   page.surfaces = std::move(surfaces);
-  if (std::ranges::any_of(runs, [](const auto& one) { return has_fields(*one.result); })) {
+  if (ranges::any_of(runs, [](const auto& one) { return has_fields(*one.result); })) {
     ContactView view;
     for (std::size_t k = 0; k < runs.size(); ++k) view.sets.push_back(static_cast<int>(k));
     section.blocks.emplace_back(Figure{"patches-view", "Contact patches", std::move(view), grids_text(matched)});

@@ -13,6 +13,7 @@
 #include "treadmark/app/cases/pages/subsurface_figures.hpp"
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/html_text.hpp"
 
 namespace treadmark::app::pages {
@@ -133,7 +134,7 @@ Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string docum
   Page page{"run", title_of(run->title, run->input_file), ""};
   page.lead = fmt::format(
       "{} {}", counted(run->cases.size(), "case"),
-      std::ranges::any_of(run->cases, &io::CaseResult::has_wheelset) ? "of a wheel on a rail" : "of a contact patch");
+      ranges::any_of(run->cases, &io::CaseResult::has_wheelset) ? "of a wheel on a rail" : "of a contact patch");
   page.document = std::move(document);
   page.full_data = "fields.h5";
   page.sections.push_back(overview(*run));

@@ -11,6 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::app::pages {
@@ -68,10 +69,10 @@ Plane plane_of(const Block3& block, const StressedBody& body, const Direction& d
   };
   std::vector<int> columns(static_cast<std::size_t>(along ? block.nx : block.ny)), layers;
   std::iota(columns.begin(), columns.end(), 0);
-  std::ranges::sort(columns, {}, [&](int i) { return at(i, 0).point[direction.component]; });
+  ranges::sort(columns, {}, [&](int i) { return at(i, 0).point[direction.component]; });
   for (int iz = 0; iz < block.nz; ++iz)
     if (body.has(at(0, iz))) layers.push_back(iz);
-  std::ranges::sort(layers, {}, [&](int iz) { return -at(0, iz).point.z(); });
+  ranges::sort(layers, {}, [&](int iz) { return -at(0, iz).point.z(); });
   Plane plane;
   if (columns.size() < 2 || layers.size() < 2) return plane;
   plane.position.reserve(columns.size());
@@ -154,7 +155,7 @@ std::vector<std::pair<double, double>> by_depth(const io::CaseResult& result, co
       for (const Value& v : block.values)
         if (body.has(v)) out.emplace_back(kMilli * std::fabs(v.point.z()), kMega * v.von_mises);
   // Of equal depths the first is the largest.
-  std::ranges::sort(
+  ranges::sort(
       out, [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : a.second > b.second; });
   out.erase(std::unique(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
             out.end());
@@ -174,14 +175,14 @@ std::optional<Figure> depth_figure(const io::RunResult& run) {
       lines.push_back(by_depth(result, body));
       for (const auto& [depth, stress] : lines.back()) curves.x.push_back(depth);
     }
-    std::ranges::sort(curves.x);
+    ranges::sort(curves.x);
     curves.x.erase(std::unique(curves.x.begin(), curves.x.end()), curves.x.end());
     any = any || curves.x.size() > 1;
     std::vector<std::vector<double>>& y = curves.y.emplace_back();
     for (const auto& line : lines) {
       std::vector<double>& values = y.emplace_back(curves.x.size(), NAN);
       for (const auto& [depth, stress] : line)
-        values[static_cast<std::size_t>(std::ranges::lower_bound(curves.x, depth) - curves.x.begin())] = stress;
+        values[static_cast<std::size_t>(ranges::lower_bound(curves.x, depth) - curves.x.begin())] = stress;
     }
     view.by_step.push_back(std::move(curves));
   }
@@ -200,7 +201,7 @@ std::optional<Section> subsurface_section(const io::RunResult& run) {
       std::vector<Plane> planes;
       planes.reserve(run.cases.size());
       for (const io::CaseResult& result : run.cases) planes.push_back(worst_plane(result, body, direction));
-      if (std::ranges::all_of(planes, &Plane::empty)) continue;
+      if (ranges::all_of(planes, &Plane::empty)) continue;
       for (const Stress& stress : kStresses) {
         MapView map = empty_map(planes, direction, stress);
         map.by_step.reserve(planes.size());

@@ -9,6 +9,7 @@
 
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/report/html_text.hpp"
@@ -46,15 +47,15 @@ std::vector<std::vector<const Candidate*>> by_backend(const ComparedCandidates& 
   for (const Candidate& c : all.candidates) {
     if (c.as_given()) continue;
     const auto known =
-        std::ranges::find_if(groups, [&](const auto& group) { return group.front()->data->name == c.data->name; });
+        ranges::find_if(groups, [&](const auto& group) { return group.front()->data->name == c.data->name; });
     if (known == groups.end())
       groups.push_back({&c});
     else
       known->push_back(&c);
   }
   for (auto& group : groups)
-    std::ranges::stable_sort(
-        group, [](const Candidate* a, const Candidate* b) { return a->resolution_mm > b->resolution_mm; });
+    ranges::stable_sort(group,
+                        [](const Candidate* a, const Candidate* b) { return a->resolution_mm > b->resolution_mm; });
   return groups;
 }
 
@@ -95,7 +96,7 @@ Axis resolution_axis() { return {"resolution", "mm", true}; }
 
 /// A number of the files, in the unit of its name; NaN where it does not exist.
 double number_in(const io::ComparedRow& row, std::string_view key) {
-  const auto& column = *std::ranges::find(columns<io::ComparedRow>(), key, &treadmark::Column<io::ComparedRow>::key);
+  const auto& column = *ranges::find(columns<io::ComparedRow>(), key, &treadmark::Column<io::ComparedRow>::key);
   return column.known(row) ? in_file(column.in_file(row)) : Candidate::kNone;
 }
 
@@ -140,7 +141,7 @@ ComparedCandidates compared(const io::Comparison& comparison) {
   ComparedCandidates out{io::judged_pressure(comparison), {}, {}};
   for (const io::ComparisonCandidate& candidate : comparison.candidates)
     for (const io::ComparisonRow& row : candidate.rows) out.cases.push_back(row.case_number);
-  std::ranges::sort(out.cases);
+  ranges::sort(out.cases);
   out.cases.erase(std::unique(out.cases.begin(), out.cases.end()), out.cases.end());
   for (const io::ComparisonCandidate& candidate : comparison.candidates)
     out.candidates.push_back(compared_candidate(candidate, out.cases, out.pressure));
@@ -193,7 +194,7 @@ std::vector<const Candidate*> drawn_over_cases(const ComparedCandidates& all) {
   if (solved.size() <= kFew) return solved;
   std::vector<const Candidate*> out;
   for (const Candidate* c : solved) {
-    const bool finest = std::ranges::none_of(solved, [&](const Candidate* other) {
+    const bool finest = ranges::none_of(solved, [&](const Candidate* other) {
       return other->data->name == c->data->name && other->resolution_mm < c->resolution_mm;
     });
     if (c == all.truth() || c->as_given() || finest) out.push_back(c);
@@ -258,7 +259,7 @@ Table candidate_table(const ComparedCandidates& all) {
                  data.wheel.backend,
                  data.rail.backend,
                  Number{static_cast<double>(data.rows.size())},
-                 Number{static_cast<double>(std::ranges::count(data.rows, Status::ok, &io::ComparisonRow::status))}};
+                 Number{static_cast<double>(ranges::count(data.rows, Status::ok, &io::ComparisonRow::status))}};
     for (const double value :
          {c.pmax_error_percent, c.mean_pressure_error_percent, c.area_error_percent, c.force_error_percent,
           c.position_error_mm, c.height_max_um, c.height_rms_um, c.slope_max_mrad, c.curvature_max_per_m,

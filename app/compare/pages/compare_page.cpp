@@ -10,6 +10,7 @@
 #include "treadmark/app/cases/pages/case_figures.hpp"
 #include "treadmark/app/compare/pages/compare_figures.hpp"
 #include "treadmark/app/pages/page_parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/report/html_text.hpp"
@@ -96,7 +97,7 @@ Cards cards_of(const io::Comparison& comparison, const ComparedCandidates& all) 
   const std::vector<const Candidate*> judged = judged_candidates(all);
   if (!judged.empty()) {
     const auto [best, worst] =
-        std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->judged_error_percent; });
+        ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->judged_error_percent; });
     const auto error = [](const Candidate* c) { return fmt::format("{} %", shown({c->judged_error_percent, 3})); };
     const std::string of = all.pressure.error == &io::CandidateDigest::pmax_error ? "pressure" : all.pressure.words;
     cards.cards.push_back({"Least error of " + of, error(*best), (*best)->label});
@@ -207,7 +208,7 @@ Page page_of(const std::shared_ptr<const io::Comparison>& data, std::string docu
   }
   if (all.cases.size() > 1) {
     const std::vector<const Candidate*> drawn = drawn_over_cases(all);
-    const auto solved = std::ranges::count_if(all.candidates, &Candidate::solved);
+    const auto solved = ranges::count_if(all.candidates, &Candidate::solved);
     contact.blocks.emplace_back(
         Figure{"cases-chart", "Results over the cases", case_errors_chart(all),
                static_cast<std::size_t>(solved) > drawn.size()

@@ -10,6 +10,7 @@
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
@@ -62,7 +63,7 @@ struct SectionLine {
 
 double largest_in_row(const CellSheet& sheet, int j) {
   const auto row = sheet.rows().find(j);
-  return row == sheet.rows().end() ? 0.0 : *std::ranges::max_element(row->second);
+  return row == sheet.rows().end() ? 0.0 : *ranges::max_element(row->second);
 }
 
 template <class Use>
@@ -198,7 +199,7 @@ std::pair<int, int> changed_columns(const io::EvolvedBody& last) {
       double& most = depth[static_cast<std::size_t>(i - low)];
       most = std::max(most, std::fabs(row[static_cast<std::size_t>(c.wrapped(i))]));
     }
-  const double enough = kShare * *std::ranges::max_element(depth);
+  const double enough = kShare * *ranges::max_element(depth);
   int first = high, end = low;
   for (int i = low; i <= high; ++i)
     if (depth[static_cast<std::size_t>(i - low)] > enough) first = std::min(first, i), end = std::max(end, i);
@@ -271,7 +272,7 @@ Table generation_table(const io::EvolutionResult& result) {
 /// The contacts of the case that has the largest pressure at first, of the generations that kept them.
 void add_contacts(Page& page, const io::EvolutionResult& result, const fs::path& folder) {
   const auto& cases = result.generations.front().cases;
-  const auto hardest = std::ranges::max_element(cases, {}, &io::EvolvedCase::pmax) - cases.begin();
+  const auto hardest = ranges::max_element(cases, {}, &io::EvolvedCase::pmax) - cases.begin();
   FrameSet set{fmt::format("position {}", cases[static_cast<std::size_t>(hardest)].label)};
   std::vector<int> frames(result.generations.size(), -1);
   for (const io::Generation& g : result.generations) {

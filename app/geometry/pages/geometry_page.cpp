@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/row_blocks.hpp"
 
 namespace treadmark::app {
@@ -63,7 +64,7 @@ ChartView side_view(const geometry::WheelsetOnTrack& wheelset, const std::vector
     std::vector<double> across;  // outwards from the middle of the track [mm]
     for (double y = -kInside; y <= kOutside; y += kStep) across.push_back(kMilli * side.rail_y + y);
     across.push_back(kMilli * touch.track_y);
-    std::ranges::sort(across);
+    ranges::sort(across);
     for (const double y : across) {
       // the wheel where it is: shifted, rolled, and lowered by its gap; the roll is small, so heights are turned at y
       const double own = kMillimetre * y - sign * p->y - side.wheel_y;
@@ -74,8 +75,8 @@ ChartView side_view(const geometry::WheelsetOnTrack& wheelset, const std::vector
       curves.y[0][2].push_back(y == kMilli * touch.track_y ? -kMilli * touch.track_z : kNaN);
     }
     if (!right) {
-      std::ranges::reverse(curves.x);
-      for (std::vector<double>& y : curves.y[0]) std::ranges::reverse(y);
+      ranges::reverse(curves.x);
+      for (std::vector<double>& y : curves.y[0]) ranges::reverse(y);
     }
     view.by_step.push_back(std::move(curves));
   }
@@ -161,7 +162,7 @@ report::Page geometry_page(const GeometryResult& result) {
   report::Axis shift{"lateral displacement to the right", "mm"};
   for (const Position* p : steps) shift.values.push_back(kMilli * p->y);
   timeline.start = static_cast<std::size_t>(
-      std::ranges::min_element(steps, {}, [](const Position* p) { return std::fabs(p->y); }) - steps.begin());
+      ranges::min_element(steps, {}, [](const Position* p) { return std::fabs(p->y); }) - steps.begin());
   timeline.axes.push_back(std::move(shift));
   page.timeline = std::move(timeline);
 

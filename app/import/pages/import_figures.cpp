@@ -10,6 +10,7 @@
 
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/pictures/imports/import_map.hpp"
@@ -142,7 +143,7 @@ std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what,
       }
       view.values.push_back(what.factor * value);
     }
-  if (std::ranges::none_of(view.values, [](double value) { return std::isfinite(value); })) return {};
+  if (ranges::none_of(view.values, [](double value) { return std::isfinite(value); })) return {};
   view.marks = std::move(marks);
   const auto add_note = [&](const std::string& words) { what.note += (what.note.empty() ? "" : " ") + words; };
   if (nx < map.rows || ny < map.columns)
@@ -216,14 +217,14 @@ CloudView::Quantity quantity_of(const char* label, const std::vector<float>& met
     if (std::isfinite(value)) sizes.push_back(std::fabs(value));
   CloudView::Quantity out{label, "µm", 1e3};
   if (sizes.empty()) return out;
-  std::ranges::sort(sizes);
+  ranges::sort(sizes);
   const double usual = sizes[to_whole<std::size_t>(share * static_cast<double>(sizes.size() - 1))],
                largest = sizes.back();
   const double span = usual > 0.0 && largest > far * usual ? usual : largest;
   if (span >= kSmall) out.unit = "mm", out.per_mm = 1.0;
   const double factor = kMilli * out.per_mm;
   out.span = span > 0.0 ? factor * span : 1.0;
-  const auto beyond = static_cast<std::size_t>(sizes.end() - std::ranges::upper_bound(sizes, static_cast<float>(span)));
+  const auto beyond = static_cast<std::size_t>(sizes.end() - ranges::upper_bound(sizes, static_cast<float>(span)));
   if (beyond > 0)
     note += fmt::format(" {} points of more than {} {} {} have the colour of that.", beyond, shown({out.span, 3}),
                         out.unit, label);
@@ -250,7 +251,7 @@ std::vector<Block> cloud_figure(const io::ImportReport& report) {
   view.z = scaled(cloud.z, kMilli);
   view.tilt = scaled(cloud.tilt, 1.0);
   const auto removed =
-      static_cast<std::size_t>(std::ranges::count_if(cloud.residual, [](float r) { return std::isnan(r); }));
+      static_cast<std::size_t>(ranges::count_if(cloud.residual, [](float r) { return std::isnan(r); }));
   const std::size_t used = cloud.x.size() - removed;
   std::string note =
       fmt::format("{} of the {} points used and {} of the {} removed ones, chosen evenly and the same each time.", used,

@@ -9,6 +9,7 @@
 #include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/settings/key_words.hpp"
 #include "treadmark/model/shape/body_name.hpp"
@@ -42,7 +43,7 @@ void add_gauge(Panel& panel, const char* name, const measures::Measure& measure,
 
 void add_gauges(Panel& panel, const WheelNumbers& n, const MeasuredFile& file) {
   const measures::WheelGauge gauge;
-  const Vec2 tip = *std::ranges::max_element(file.section, {}, [](const Vec2& p) { return p.y(); });
+  const Vec2 tip = *ranges::max_element(file.section, {}, [](const Vec2& p) { return p.y(); });
   const double face = n.flange_thickness.value - gauge.tape_line, upper = n.flange_height.value - gauge.below_tip;
   add_gauge(panel, "Sh", n.flange_height, {tip.x(), 0.0}, {tip.x(), n.flange_height.value});
   add_gauge(panel, "Sd", n.flange_thickness, {-gauge.tape_line, gauge.face_depth}, {face, gauge.face_depth});
@@ -95,7 +96,7 @@ ChartView missing_view(const MeasuredFile& file, Body body) {
     }
     return best;
   };
-  const auto [low, high] = std::ranges::minmax_element(file.section, {}, [](const Vec2& p) { return p.x(); });
+  const auto [low, high] = ranges::minmax_element(file.section, {}, [](const Vec2& p) { return p.x(); });
   Series missing{"", {}};
   for (double y = low->x() + kStep; y < high->x(); y += kStep) {
     const double away = outermost(file.nominal, y) - outermost(file.section, y);
@@ -170,7 +171,7 @@ ChartView stations_view(const std::vector<MeasuredStation<Numbers>>& stations, A
   for (const auto& row : number_rows(Numbers{})) {
     Series series{"", {}};
     for (const auto& station : stations) series.y.push_back(row.in_file(station.numbers));
-    if (std::ranges::any_of(series.y, [](double v) { return v == v; }))
+    if (ranges::any_of(series.y, [](double v) { return v == v; }))
       view.panels.push_back({std::string(row.label), io::words_of_key(row.key).unit, false, {std::move(series)}});
   }
   view.x = std::move(x);
@@ -193,7 +194,7 @@ report::Table shown_numbers(const MeasuredFile& file, const Numbers& numbers) {
   };
   for (const auto& row : number_rows(numbers)) {
     const bool known = row.known(numbers);
-    const auto limit = std::ranges::find(file.limits, row.key, [](const LimitResult& l) { return l.limit.key; });
+    const auto limit = ranges::find(file.limits, row.key, [](const LimitResult& l) { return l.limit.key; });
     std::string range, status = known ? "" : row.access.reason(numbers);
     if (limit != file.limits.end()) {
       range = range_of(limit->limit);
@@ -210,7 +211,7 @@ report::Table shown_numbers(const MeasuredFile& file, const Numbers& numbers) {
 template <class Numbers>
 std::string broken_limit(const LimitResult& limit, const Numbers& numbers) {
   const auto rows = number_rows(numbers);
-  const auto row = std::ranges::find(rows, limit.limit.key, [](const auto& one) { return one.key; });
+  const auto row = ranges::find(rows, limit.limit.key, [](const auto& one) { return one.key; });
   const std::string name(row == rows.end() ? std::string_view(limit.limit.key) : row->label);
   return fmt::format("{} = {:.4g} {}, allowed {}", name, limit.value, io::words_of_key(limit.limit.key).unit,
                      range_of(limit.limit));

@@ -2,11 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/pages/history_panels.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <numbers>
 #include <string_view>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/shown_steps.hpp"
 
 namespace treadmark::app::pages {
@@ -16,7 +16,7 @@ using namespace report;
 namespace {
 
 std::optional<std::size_t> find(const io::SimulationResult& result, const std::string& column) {
-  const auto at = std::ranges::find(result.columns, column, &io::HistoryColumn::name);
+  const auto at = ranges::find(result.columns, column, &io::HistoryColumn::name);
   if (at == result.columns.end()) return {};
   return static_cast<std::size_t>(at - result.columns.begin());
 }
@@ -36,8 +36,7 @@ const UnitEnding kUnitEndings[] = {
     {"_m", {1e3, "mm"}}};
 
 const UnitEnding* unit_ending(const std::string& column) {
-  const auto found =
-      std::ranges::find_if(kUnitEndings, [&](const UnitEnding& u) { return column.ends_with(u.ending); });
+  const auto found = ranges::find_if(kUnitEndings, [&](const UnitEnding& u) { return column.ends_with(u.ending); });
   return found == std::end(kUnitEndings) ? nullptr : &*found;
 }
 

@@ -18,6 +18,7 @@
 #include "treadmark/app/simulation/pages/simulation_page.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/row_blocks.hpp"
 
@@ -39,7 +40,7 @@ constexpr std::pair<const char*, const char*> kShownColumns[] = {
     {"gap_m", "least distance"},         {"rail_z_m", "vertical displacement of the rail"}};
 
 const io::HistoryColumn* column_of(const Simulation& simulation, const std::string& name) {
-  const auto at = std::ranges::find(simulation.columns, name, &io::HistoryColumn::name);
+  const auto at = ranges::find(simulation.columns, name, &io::HistoryColumn::name);
   return at == simulation.columns.end() ? nullptr : &*at;
 }
 
@@ -127,7 +128,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
   for (const auto& [name, simulation] : all)
     for (const io::HistoryColumn& column : simulation.columns)
       if (column.name != "t_s" && column.name != "x_m" &&
-          std::ranges::none_of(columns, [&](const auto* known) { return known->name == column.name; }))
+          ranges::none_of(columns, [&](const auto* known) { return known->name == column.name; }))
         columns.push_back(&column);
   for (const io::HistoryColumn* column : columns) {
     const ShownUnit unit = shown_unit(column->name);
@@ -140,7 +141,7 @@ Table column_table(const Simulations& all, const std::vector<std::string>& names
                              ? measures_of(values_of(simulation, *time), values_of(simulation, *here))
                              : Measures{});
     }
-    const bool drawn = std::ranges::any_of(kShownColumns, [&](const auto& one) { return column->name == one.first; });
+    const bool drawn = ranges::any_of(kShownColumns, [&](const auto& one) { return column->name == one.first; });
     for (const MeasureRow& measure : kMeasures) {
       if (!drawn && !measure.of_all) continue;
       std::vector<double> values;
@@ -164,13 +165,13 @@ Table named_table(const char* id, const char* caption, const Simulations& all, c
   std::vector<const io::NamedValue*> rows;
   for (const auto& [name, simulation] : all)
     for (const io::NamedValue& one : list(simulation))
-      if (std::ranges::none_of(rows, [&](const auto* known) { return known->name == one.name; })) rows.push_back(&one);
+      if (ranges::none_of(rows, [&](const auto* known) { return known->name == one.name; })) rows.push_back(&one);
   for (const io::NamedValue* one : rows) {
     const ShownUnit unit = shown_unit(one->name);
     std::vector<double> values;
     for (const auto& [name, simulation] : all) {
       const auto& here = list(simulation);
-      const auto found = std::ranges::find(here, one->name, &io::NamedValue::name);
+      const auto found = ranges::find(here, one->name, &io::NamedValue::name);
       values.push_back(found == here.end() ? kNaN : unit.factor * found->value);
     }
     Table::Row row{{shown_name(one->name), one->description,
@@ -187,7 +188,7 @@ Table event_table(const Simulations& all) {
   Table table{"events", "Loss of contact.", {{"simulation"}}};
   for (const auto& [name, simulation] : all) {
     Table own = report::table_of("", "", simulation.events, 6);
-    if (table.columns.size() == 1) std::ranges::copy(own.columns, std::back_inserter(table.columns));
+    if (table.columns.size() == 1) ranges::copy(own.columns, std::back_inserter(table.columns));
     for (Table::Row& row : own.rows) {
       row.cells.insert(row.cells.begin(), name);
       table.rows.push_back(std::move(row));
@@ -203,7 +204,7 @@ void add_missing_columns(const Simulations& all, Section& overview) {
     std::vector<std::string> lacking;
     for (const auto& [other, has] : all)
       for (const io::HistoryColumn& column : has.columns)
-        if (column_of(simulation, column.name) == nullptr && std::ranges::find(lacking, column.name) == lacking.end())
+        if (column_of(simulation, column.name) == nullptr && ranges::find(lacking, column.name) == lacking.end())
           lacking.push_back(column.name);
     if (!lacking.empty())
       overview.blocks.emplace_back(
@@ -243,7 +244,7 @@ Cards cards_of(const Simulations& all) {
                            {"Loss of contact", "contact_lost"}};
   Cards cards;
   const auto value_in = [](const Simulation& simulation, const char* name) {
-    const auto at = std::ranges::find(simulation.summary, name, &io::NamedValue::name);
+    const auto at = ranges::find(simulation.summary, name, &io::NamedValue::name);
     return at == simulation.summary.end() ? kNaN : shown_unit(name).factor * at->value;
   };
   for (const Row& row : kRows)
@@ -302,7 +303,7 @@ std::optional<Section> snapshots_of(Simulations& all, const std::vector<std::str
     take_surfaces(simulation.snapshots, fmt::format("r{}_", runs.size() + 1), surfaces);
     runs.push_back({name, std::make_shared<const io::RunResult>(std::move(simulation.snapshots))});
   }
-  if (std::ranges::none_of(runs, [](const NamedRun& run) { return has_fields(*run.result); })) return {};
+  if (ranges::none_of(runs, [](const NamedRun& run) { return has_fields(*run.result); })) return {};
   Section section{"contact", "Contact at the snapshots"};
   add_overlaid_contact(page, section, runs, timeline.names, std::move(surfaces));
   section.blocks.emplace_back(std::move(table));
@@ -329,11 +330,10 @@ Page simulation_overlay_page(Simulations&& all) {
   for (const auto& [name, one] : all) add_simulation_banners(one, overview, name);
   add_missing_columns(all, overview);
   add_version_note(origins, overview);
-  const bool equal = std::ranges::all_of(all, [&](const auto& one) {
-    return std::ranges::equal(one.result.columns, first.columns, {}, &io::HistoryColumn::name,
-                              &io::HistoryColumn::name) &&
-           std::ranges::equal(one.result.values, first.values,
-                              [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+  const bool equal = ranges::all_of(all, [&](const auto& one) {
+    return ranges::equal(one.result.columns, first.columns, {}, &io::HistoryColumn::name, &io::HistoryColumn::name) &&
+           ranges::equal(one.result.values, first.values,
+                         [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
   });
   if (equal)
     overview.blocks.emplace_back(

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/pages/simulation_page.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -12,6 +11,7 @@
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/app/simulation/pages/history_panels.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/row_blocks.hpp"
 
@@ -27,7 +27,7 @@ using Result = io::SimulationResult;
 using Rows = std::vector<std::size_t>;
 
 double summary_of(const Result& result, const std::string& name) {
-  const auto at = std::ranges::find(result.summary, name, &io::NamedValue::name);
+  const auto at = ranges::find(result.summary, name, &io::NamedValue::name);
   return at == result.summary.end() ? NAN : at->value;
 }
 
@@ -97,8 +97,7 @@ std::size_t worst_row(const Result& result, const Rows& rows) {
   for (const char* column : {"pmax_Pa", "Q_N"})
     if (const auto values = column_at(result, column, rows))
       return static_cast<std::size_t>(
-          std::ranges::max_element(*values, {}, [](double v) { return std::isnan(v) ? -kInfinity : v; }) -
-          values->begin());
+          ranges::max_element(*values, {}, [](double v) { return std::isnan(v) ? -kInfinity : v; }) - values->begin());
   return 0;
 }
 
@@ -111,7 +110,7 @@ Section histories(const Result& result, const Rows& rows) {
   const std::string watched = watched_wheel(result);
   ChartView forces{true};
   add(forces, history_panel(result, "vertical force Q", {{"Q_N", "Q"}}, rows));
-  const bool has_q = std::ranges::find(result.columns, "Q_N", &io::HistoryColumn::name) != result.columns.end();
+  const bool has_q = ranges::find(result.columns, "Q_N", &io::HistoryColumn::name) != result.columns.end();
   if (has_q && !forces.panels.empty() && !result.values.empty())
     forces.panels.front().levels.push_back({forces.panels.front().series.front().y.front(), "at the start"});
   add(forces,
@@ -170,6 +169,7 @@ void add_simulation_banners(const Result& result, Section& overview, const std::
     add(Banner::Kind::failed, "Interrupted.",
         fmt::format("{}{}The history ends before the end of the track; the same command goes on.", result.message,
                     result.message.empty() ? "" : ". "));
+  if (result.status == "derailed") add(Banner::Kind::failed, "Derailed.", result.message);
   if (result.status == "failed") add(Banner::Kind::failed, "Failed.", result.message);
   if (!result.events.empty())
     add(Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below.");

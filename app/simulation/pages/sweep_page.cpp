@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -16,6 +15,8 @@
 #include "treadmark/app/simulation/pages/history_panels.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/number_text.hpp"
+#include "treadmark/core/platform/from_chars.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
@@ -45,7 +46,7 @@ std::optional<std::vector<double>> numbers_of(const io::StudyTable& table, const
     if (!number) return {};
     out.push_back(*number);
   }
-  if (out.empty() || std::ranges::min(out) == std::ranges::max(out)) return {};
+  if (out.empty() || ranges::min(out) == ranges::max(out)) return {};
   return out;
 }
 
@@ -83,7 +84,7 @@ ChartView over_key(const io::StudyResult& study, const io::StudyTable& table, co
   ChartView view;
   view.x = Axis{name_of_key(study, key), unit_of_key(key), false, {}};
   for (const std::string& quantity : kQuantities) {
-    const auto known = std::ranges::find(table.quantities, quantity, &io::NamedValue::name);
+    const auto known = ranges::find(table.quantities, quantity, &io::NamedValue::name);
     if (known == table.quantities.end()) continue;
     const ShownUnit unit = shown_unit(quantity);
     Panel panel{known->description, unit.name};
@@ -96,7 +97,7 @@ ChartView over_key(const io::StudyResult& study, const io::StudyTable& table, co
     }
     for (const std::string& name : order) {
       std::vector<std::size_t>& runs = lines[name];
-      std::ranges::stable_sort(runs, {}, [&](std::size_t i) { return x[i]; });
+      ranges::stable_sort(runs, {}, [&](std::size_t i) { return x[i]; });
       Series series{name, {}};
       series.marks = Series::Marks::both;
       for (const std::size_t i : runs) {
@@ -138,7 +139,7 @@ ChartView history_by_run(const io::StudyTable& table) {
 }
 
 bool has_history(const ChartView& view) {
-  return std::ranges::any_of(view.by_step, [](const ChartView::Curves& curves) { return curves.x.size() > 1; });
+  return ranges::any_of(view.by_step, [](const ChartView::Curves& curves) { return curves.x.size() > 1; });
 }
 
 Table run_table(const io::StudyTable& table) {
@@ -202,7 +203,7 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
       }
     }
     if (std::isnan(most)) continue;
-    const auto known = std::ranges::find(table.quantities, quantity, &io::NamedValue::name);
+    const auto known = ranges::find(table.quantities, quantity, &io::NamedValue::name);
     const ShownUnit unit = shown_unit(quantity);
     cards.cards.push_back({known->description, fmt::format("{} {}", shown({unit.factor * most}), unit.name), where});
   }
@@ -266,7 +267,7 @@ std::vector<int> runs_of(const fs::path& file) {
     if (!line.starts_with("run ")) continue;
     int number = 0;
     const char* end = line.data() + line.size();
-    const auto [at, error] = std::from_chars(line.data() + 4, end, number);
+    const auto [at, error] = from_chars(line.data() + 4, end, number);
     if (error != std::errc() || at != end || number < 1)
       throw Error(ErrorKind::input_data, fmt::format("\"{}\" names no run", line), {file.string()},
                   "give a folder that treadmark sweep wrote");
@@ -309,7 +310,7 @@ StudyOnDisk read_study_folder(const fs::path& folder) {
   std::vector<fs::path> pictures;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".svg") pictures.push_back(entry.path());
-  std::ranges::sort(pictures);
+  ranges::sort(pictures);
   for (const fs::path& picture : pictures)
     out.pictures.emplace_back(picture.filename().string(), io::profiles::read_text(picture, "study", {}));
   return out;

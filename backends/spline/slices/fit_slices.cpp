@@ -16,6 +16,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
@@ -132,7 +133,7 @@ struct Arrangement {
 
 bool same_section(const Profile& a, const Profile& b) {
   const auto same = [](double p, double q) { return std::abs(p - q) <= kSameSection; };
-  return std::ranges::equal(a.y, b.y, same) && std::ranges::equal(a.z, b.z, same);
+  return ranges::equal(a.y, b.y, same) && ranges::equal(a.z, b.z, same);
 }
 
 // Whether the last slice is the first one again, a turn later.

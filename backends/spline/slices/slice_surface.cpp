@@ -16,6 +16,7 @@
 #include "treadmark/backends/spline/slices/slice_section.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::spline {
@@ -96,10 +97,10 @@ struct CellReaches {
   // `last`.
   std::pair<std::size_t, std::size_t> over(double first, double last) const {
     const auto at = [](const std::vector<double>& v, auto it) { return static_cast<std::size_t>(it - v.begin()); };
-    if (rising) return {at(high, std::ranges::lower_bound(high, first)), at(low, std::ranges::upper_bound(low, last))};
+    if (rising) return {at(high, ranges::lower_bound(high, first)), at(low, ranges::upper_bound(low, last))};
     if (falling)
-      return {at(low, std::ranges::lower_bound(low, last, std::greater<>())),
-              at(high, std::ranges::upper_bound(high, first, std::greater<>()))};
+      return {at(low, ranges::lower_bound(low, last, std::greater<>())),
+              at(high, ranges::upper_bound(high, first, std::greater<>()))};
     return {0, cell.size()};
   }
 
@@ -114,9 +115,8 @@ struct CellReaches {
         low.push_back(std::min(a.s, b.s) - reach);
         high.push_back(std::max(a.s, b.s) + reach);
       }
-    rising = std::ranges::is_sorted(low) && std::ranges::is_sorted(high);
-    falling =
-        !rising && std::ranges::is_sorted(low, std::greater<>()) && std::ranges::is_sorted(high, std::greater<>());
+    rising = ranges::is_sorted(low) && ranges::is_sorted(high);
+    falling = !rising && ranges::is_sorted(low, std::greater<>()) && ranges::is_sorted(high, std::greater<>());
   }
 };
 
@@ -348,7 +348,7 @@ void SliceSurface<Geometry>::do_grid_bounds(const Pose& X_SP, const RectangleGri
   const Interval all_along{first_along.low, first_along.high + (n_along - 1) * step_along};
   std::vector<Interval> heights(static_cast<std::size_t>(n_along));
   for (int i = 0; i < n_across; ++i) {
-    std::ranges::fill(heights, Interval::none());
+    ranges::fill(heights, Interval::none());
     const WindowOn<Geometry> window(
         {across, along, X_SP.rotation.col(2), X_SP.origin, first_across + i * step_across, all_along});
     if (window.exists())

@@ -4,7 +4,7 @@
 
 All numbers are in SI units (m, N, Pa, rad, s); axes are x along the track, y to the right, z down; forces act on the rail. Whole files:
 ``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``assess``, ``stability``, ``sweep``, ``evolve``, ``track``. Profiles:
-``geometry``, ``measure``, ``profiles``. Single instants: ``Surface``, ``Pair``, ``Problem``.
+``geometry``, ``measure``, ``profiles``. Single instants: ``Surface``, ``Pair``, ``Problem``; tabulated: ``ForceTable``.
 The handbook is docs/python.md.
 """
 from __future__ import annotations
@@ -17,6 +17,7 @@ from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, Limi
                         measure, measure_files, measures_to_pandas, profiles)
 from ._solving import Pair, PatchSolver, Problem, Solution, State, hertz, settings
 from ._surfaces import Evaluated, Line, Located, Surface, backends, register_backend
+from ._tables import ForceTable, TableError
 from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, Mode, Position, ScanImport, Simulation,
                      Stability, Sweep, SweepRun, Track, Value, assess, bench, check, compare, evolve, import_scan, read_bench, read_comparison,
                      read_import, read_result, read_simulation, read_sweep, report, run, simulate, stability, sweep, track)

@@ -360,7 +360,7 @@ class Simulation(Held, Drawn):
     """A vehicle on its track in time. ``simulation["t_s"]`` is a column of its history, without a copy."""
 
     title: str
-    status: str  #: "complete", "interrupted" or "failed"
+    status: str  #: "complete", "derailed", "interrupted" or "failed"
     message: str
     version: str
     input_file: str

@@ -75,6 +75,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/cad_messages.hpp"
 
@@ -397,7 +398,7 @@ class FaceTriangles {
       std::unordered_map<std::uint64_t, int> middles;
       for (const auto& t : triangles_) {
         const std::array<double, 3> sides{length(t[0], t[1]), length(t[1], t[2]), length(t[2], t[0])};
-        const auto k = static_cast<std::size_t>(std::ranges::max_element(sides) - sides.begin());
+        const auto k = static_cast<std::size_t>(ranges::max_element(sides) - sides.begin());
         if (sides[k] <= longest * longest) continue;
         const int a = t[k], b = t[(k + 1) % 3];
         if (const auto [at, fresh] = middles.try_emplace(side_of(a, b), -1); fresh) at->second = halve(a, b);

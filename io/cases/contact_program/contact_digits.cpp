@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::io {
@@ -38,9 +39,7 @@ constexpr auto kControlDigits = [] {
        {run, 'A', "MATFIL"},        {run, 'O', "OUTPUT"},      {run, 'W', "FLOW"},        {run, 'R', "RETURN"}});
 }();
 
-auto find_control(std::string_view keyword) {
-  return std::ranges::find(kControlDigits, keyword, &ControlDigit::keyword);
-}
+auto find_control(std::string_view keyword) { return ranges::find(kControlDigits, keyword, &ControlDigit::keyword); }
 
 // Without those of theories, see model/contact/theories.hpp.
 constexpr DigitValue kDigits[] = {
@@ -207,7 +206,7 @@ std::span<const DigitValue> contact_digits() {
     add_theories(list, "INFLCF", kInfluenceKinds);
     add_theories(list, "MATER", kTangentialTheories);
     const auto order = [](const DigitValue& d) { return std::tuple(d.module, find_control(d.keyword), d.value); };
-    std::ranges::sort(list, {}, order);
+    ranges::sort(list, {}, order);
     list.insert(list.end(), std::begin(kRunDigits), std::end(kRunDigits));
     for (DigitValue& d : list) d.letter = find_control(d.keyword)->letter;
     return list;

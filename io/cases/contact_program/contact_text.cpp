@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io {
@@ -46,7 +46,7 @@ std::optional<double> to_real(std::string_view word) {
   if (first != last && *first == '+') ++first;
   if (first == last || !(is_digit(*first) || *first == '.' || *first == '-')) return std::nullopt;
   double value = 0.0;
-  const auto [end, error] = std::from_chars(first, last, value);
+  const auto [end, error] = from_chars(first, last, value);
   if (error != std::errc{} || end != last || !(std::abs(value) <= kGreatest)) return std::nullopt;
   return value;
 }
@@ -54,7 +54,7 @@ std::optional<double> to_real(std::string_view word) {
 std::optional<long> to_integer(std::string_view word) {
   if (!word.empty() && word.front() == '+') word.remove_prefix(1);
   long value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = from_chars(word.data(), word.data() + word.size(), value);
   if (error == std::errc{} && end == word.data() + word.size()) return value;
   const auto real = to_real(word);
   constexpr double kLargest = 1e15;  // up to which a real holds every integer

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/contact_program/contact_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
@@ -257,7 +257,7 @@ class InputWriter {
 
   std::string file_name(const std::filesystem::path& file) const {
     const std::string name = relative_to(file, folder_).generic_string();
-    const bool bad = std::ranges::any_of(name, [](unsigned char c) { return c == '\'' || std::iscntrl(c) != 0; });
+    const bool bad = ranges::any_of(name, [](unsigned char c) { return c == '\'' || std::iscntrl(c) != 0; });
     refuse_if(bad, fmt::format("the file name {}, for its quote or control character,", name), "rename the file");
     return fmt::format("'{}'", name);
   }
@@ -662,7 +662,7 @@ class InputWriter {
 
 std::string contact_input_text(const CaseFile& file, const std::filesystem::path& folder) {
   std::string title = file.title;
-  std::ranges::replace_if(
+  ranges::replace_if(
       title, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   std::string out = fmt::format("% {}\n", title);
   for (const Case& c : file.cases) out += contact_case_text(c, folder, std::to_string(c.sequence + 1));

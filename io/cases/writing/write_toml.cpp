@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
 #include <iterator>
 #include <map>
 #include <string_view>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 
@@ -40,7 +40,7 @@ std::vector<Said> said_of(const Case& c, const std::filesystem::path& folder) {
     if (!says(info, patch)) continue;
     std::string value = value_of(key, c, folder);
     if (value.empty() || value == value_of(key, fresh, folder)) continue;
-    const auto other = std::ranges::find_if(all, [&](const Said& s) {
+    const auto other = ranges::find_if(all, [&](const Said& s) {
       return !info.group.empty() && s.key->group == info.group && s.key->alternative != info.alternative;
     });
     if (other == all.end())
@@ -84,7 +84,7 @@ std::string case_file_text(const CaseFile& file, const std::filesystem::path& fo
       const auto found = b.find(bundle);
       return found == b.end() ? std::vector<Said>() : found->second;
     };
-    return std::ranges::all_of(bundles, [&](const Bundles& b) { return list(b) == list(bundles.front()); });
+    return ranges::all_of(bundles, [&](const Bundles& b) { return list(b) == list(bundles.front()); });
   };
 
   std::string out = fmt::format("title = {}\n", toml_text(file.title)), section;
@@ -134,11 +134,11 @@ Inputs inputs_of(std::span<const Case> cases, const std::filesystem::path& folde
   const Case fresh = case_without_keys(patch);
   for (const CaseKey& key : case_keys()) {
     if (!says(key.info, patch)) continue;
-    const bool always = std::ranges::find(kAlways, key.info.path) != std::end(kAlways);
+    const bool always = ranges::find(kAlways, key.info.path) != std::end(kAlways);
     // A number that its text says alone need not be written to be compared.
     const bool plain = key.get && key.info.group.empty() && key.info.choices.empty();
     const auto unusual = [&](const Case& c) { return c.content.index() == kind && key.get(c) != key.get(fresh); };
-    if (plain && !always && std::ranges::none_of(cases, unusual)) continue;
+    if (plain && !always && ranges::none_of(cases, unusual)) continue;
     std::vector<std::string> values;
     double last = kNaN;
     for (const Case& c : cases) {
@@ -149,7 +149,7 @@ Inputs inputs_of(std::span<const Case> cases, const std::filesystem::path& folde
       last = number;
     }
     const std::string usual = value_of(key, fresh, folder);
-    if (always || std::ranges::any_of(values, [&](const std::string& value) { return value != usual; }))
+    if (always || ranges::any_of(values, [&](const std::string& value) { return value != usual; }))
       inputs.add(key.info, key.info.path, values);
   }
   return inputs.words();

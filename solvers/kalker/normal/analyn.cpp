@@ -3,6 +3,7 @@
 #include "treadmark/solvers/kalker/normal/analyn.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 
@@ -88,7 +89,11 @@ std::vector<double> analyn_pressure(const Interpenetration& overlap, const Combi
     // Hertz' contact ends across where the gap above its least is B b^2: there the row's share of the depth is used up.
     const double share = 1.0 - (deepest.distance + depth) / (b_curvature * whole.semi_axis_y * whole.semi_axis_y);
     if (!(share > 0.0)) continue;
-    const HertzShape row = hertz_from_curvatures(a_curvature, b_curvature, {false, share * depth}, material);
+    // At this share of the depth the ellipse is as round; its sides go with the root of it.
+    HertzShape row = whole;
+    const double root = std::sqrt(share);
+    row.semi_axis_x *= root, row.semi_axis_y *= root;
+    row.force *= share * root, row.approach *= share;
     for (int ix = box.x0; ix < box.x1; ++ix)
       if (std::isfinite(overlap.distance(ix, iy)))
         pressure[grid.index(ix, iy)] = hertz_pressure(row, grid.x(ix) - deepest.x, 0.0);

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
@@ -94,8 +95,8 @@ void PatchOperator::apply(Transport transport, std::span<const double> p, std::s
 
 void PatchOperator::displacement_of_box(std::span<const double> p, std::span<double> ux, std::span<double> uy) {
   multiply(Transport::none, p);
-  std::ranges::copy(out_x_, ux.begin());
-  std::ranges::copy(out_y_, uy.begin());
+  ranges::copy(out_x_, ux.begin());
+  ranges::copy(out_y_, uy.begin());
 }
 
 void PatchOperator::inverse_displacement(std::span<const double> u, std::span<double> p) {

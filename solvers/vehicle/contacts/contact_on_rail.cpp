@@ -133,22 +133,19 @@ void ContactOnRail::agree(ContactReaction& r, const PairMotion& motion, const Lo
     r.elastic_energy += (patch.normal_force + 0.5 * normal) * deeper;
     patch.normal_force += normal;
   }
-  // The wheel meets the contact upon a rail that gives way.
-  const auto softening = [&](const Vec3& by) {
-    double sum = 1.0;
-    for (std::size_t i = 0; i < t.patches.size(); ++i)
-      sum += std::max(0.0, r.tangents[i].stiffness_n * by.dot(answer.compliance * t.patches[i].normal));
-    return sum;
-  };
   for (PatchTangent& patch : r.tangents) patch.damping_s *= t.share;
-  std::vector<double> soft;
-  for (const Tangents::Patch& p : t.patches) soft.push_back(softening(p.normal));
-  for (std::size_t i = 0; i < t.patches.size(); ++i) {
-    PatchTangent& patch = r.tangents[i];
-    const Vec3& aside = t.patches[i].aside;
-    patch.damping_s /= 1.0 + patch.damping_s * std::max(0.0, aside.dot(answer.rate_by_force * aside));
-    patch.stiffness_n /= soft[i];
-  }
+  // The wheel meets each contact upon a rail that gives way under all of them.
+  const auto soften = [&](double PatchTangent::*steepness, Vec3 Tangents::Patch::*direction, const Mat3& gives) {
+    std::vector<double> by;
+    for (const Tangents::Patch& p : t.patches) {
+      double& sum = by.emplace_back(1.0);
+      for (std::size_t i = 0; i < t.patches.size(); ++i)
+        sum += std::max(0.0, r.tangents[i].*steepness * (p.*direction).dot(gives * t.patches[i].*direction));
+    }
+    for (std::size_t i = 0; i < t.patches.size(); ++i) r.tangents[i].*steepness /= by[i];
+  };
+  soften(&PatchTangent::stiffness_n, &Tangents::Patch::normal, answer.compliance);
+  soften(&PatchTangent::damping_s, &Tangents::Patch::aside, answer.rate_by_force);
   r.bending = bending_under(answer, force);
   rail_->press(wheel_, force, t.together * t.stiffness, motion.wheelset.x);
   Vec3 normal_force = Vec3::Zero();

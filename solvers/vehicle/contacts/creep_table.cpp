@@ -13,9 +13,11 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/vehicle/contacts/cubic_weights.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -145,25 +147,8 @@ double ratio_at(const CreepTableOptions& o, int i) {
   return std::pow(o.greatest_ratio, 2.0 * i / o.ratio_intervals - 1.0);
 }
 
-/// Weights of four nodes and their derivatives by t, between the second and the third one (Catmull and Rom 1974).
-struct Weights {
-  std::array<double, 4> value, slope;
-};
-Weights weights_at(double t) {
-  const double s = t * t;
-  return {{0.5 * t * (2.0 * t - s - 1.0), 1.0 + 0.5 * s * (3.0 * t - 5.0), 0.5 * t * (1.0 + 4.0 * t - 3.0 * s),
-           0.5 * s * (t - 1.0)},
-          {2.0 * t - 1.5 * s - 0.5, 4.5 * s - 5.0 * t, 0.5 + 4.0 * t - 4.5 * s, 1.5 * s - t}};
-}
-
 /// Of the creepages from which slopes without creepage are found, in the ball.
 constexpr double kVanishing = 1e-3;
-
-/// Cell of a coordinate in units of nodes, and how far in it.
-std::pair<int, double> cell_of(double position, int first, int last) {
-  const int cell = std::clamp(to_whole<int>(std::floor(position)), first, last);
-  return {cell, position - cell};
-}
 
 }  // namespace
 
@@ -232,7 +217,7 @@ CreepTable::CreepTable(double poisson, const CreepTableOptions& options, std::ve
       slopes_.size() != static_cast<std::size_t>(9 * ratios))
     refuse_saved_state("a table of creep forces lacks values");
   for (const std::vector<double>* numbers : {&values_, &slopes_})
-    if (!std::ranges::all_of(*numbers, [](double v) { return std::isfinite(v); }))
+    if (!ranges::all_of(*numbers, [](double v) { return std::isfinite(v); }))
       refuse_saved_state("a table of creep forces holds what is no number");
   nodes_.resize(node(ratios + 1, -1, -n - 1, -1));
   std::size_t from = 0;

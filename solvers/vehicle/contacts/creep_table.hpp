@@ -41,6 +41,9 @@ class CreepTable {
   CreepTable(double poisson, const CreepTableOptions& options, std::vector<double> values, std::vector<double> slopes);
 
   double poisson() const { return poisson_; }
+  const CreepTableOptions& options() const { return options_; }
+  const std::vector<double>& values() const { return values_; }
+  const std::vector<double>& slopes() const { return slopes_; }
   /// ratio: a/b. |F| <= 1.
   NormalisedCreep at(double ratio, const std::array<double, 3>& creepage) const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
@@ -128,7 +129,7 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
   ContactReaction out;
   out.status = solution.status;
   out.message = solution.message;
-  out.doubts = static_cast<int>(std::ranges::count_if(solution.remarks, &Remark::grave));
+  out.doubts = static_cast<int>(ranges::count_if(solution.remarks, &Remark::grave));
   out.least_gap = solution.least_gap;
   out.on_rail = solution.load.track;
   double most_loaded = 0.0;

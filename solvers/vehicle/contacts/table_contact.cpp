@@ -2,13 +2,15 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/solvers/vehicle/contacts/creep_law.hpp"
 #include "treadmark/solvers/vehicle/contacts/elastic_contact.hpp"
 
@@ -39,6 +41,7 @@ ContactReaction mirrored(ContactReaction r) {
   r.on_rail = seen.track;
   r.on_wheelset = seen.wheelset;
   r.lateral_creep_force = -r.lateral_creep_force;
+  r.spin_moment = -r.spin_moment;
   r.contact_y = -r.contact_y;
   for (PatchTangent& t : r.tangents) {
     t.X_TC.origin.y() = -t.X_TC.origin.y();
@@ -63,7 +66,7 @@ RelativePlace relative_place(const wheelrail::Placement& nominal, const wheelrai
                              const PairMotion& m) {
   const Vec3 at_rest = nominal.X_TW.origin - nominal.X_TR.origin;
   const Vec3 moved = rotation_x(-m.rail.roll) * (now.X_TW.origin - now.X_TR.origin) - at_rest;
-  return {moved.y(), moved.z(), m.wheelset.roll - m.rail.roll};
+  return {moved.y(), moved.z(), m.wheelset.roll - m.rail.roll, m.wheelset.yaw};
 }
 
 /// Where the normal meets the axle: the pressure of a round wheel has no moment about it, also where yaw moves the
@@ -84,10 +87,24 @@ void put_below_the_axle(Pose& X_TC, const Pose& X_TWs, double curvature) {
 ContactReaction not_covered(const ContactTable& table, const RelativePlace& place) {
   ContactReaction r;
   r.status = Status::failed;
-  r.message = fmt::format(
-      "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
-      "reaches from {:.4g} to {:.4g} mm: the flange climbs, or the wheel leaves the rail",
-      1e3 * place.y, 1e3 * table.y_min(), 1e3 * table.y_max());
+  const auto turned = [&](const char* how, double angle, const TableAngles& angles) {
+    r.message = fmt::format("the wheel {} by {:.4g} mrad; the contact table reaches to {:.4g} mrad each way", how,
+                            1e3 * angle, 1e3 * angles.most);
+    return r;
+  };
+  if (!table.roll().covers(place.roll)) return turned("rolls against the rail", place.roll, table.roll());
+  if (!table.yaw().covers(place.yaw)) return turned("is yawed", place.yaw, table.yaw());
+  r.derailed = table.grows();
+  if (!r.derailed)
+    r.message = fmt::format(
+        "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
+        "reaches from {:.4g} to {:.4g} mm",
+        1e3 * place.y, 1e3 * table.y_min(), 1e3 * table.y_max());
+  else
+    r.message = fmt::format(
+        "the {}: the wheel stands {:.4g} mm {} of its central position over the rail and {:.4g} mm {}",
+        place.y > 0.0 ? "flange has climbed the rail" : "tread has left the rail", 1e3 * std::abs(place.y),
+        place.y > 0.0 ? "outside" : "inside", 1e3 * std::abs(place.z), place.z < 0.0 ? "above it" : "below it");
   return r;
 }
 
@@ -112,10 +129,45 @@ ContactReaction TableContact::evaluate(const PairMotion& motion) {
   return mirrored(evaluate_right_hand(mirrored(motion)));
 }
 
-ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
+ContactReaction TableContact::under_load(PairMotion motion, double load) {
+  require_finite(motion);
+  if (!(load > 0.0) || !std::isfinite(load))
+    throw Error(ErrorKind::configuration, "the vertical load of a wheel must be positive and finite");
+  const bool right = side_ == wheelrail::Side::right;
+  if (!right) motion = mirrored(motion);
+  // What the pressures carry, so that they and the friction carry the load: a secant.
+  constexpr int kMost = 40;
+  constexpr double kBalance = 1e-9;
+  ContactReaction r;
+  std::optional<LocalContact> local;
+  double carried = load, before = 0.0, excess_before = 0.0;
+  for (int i = 0; i < kMost; ++i) {
+    // On a rail that rolls the place changes aside with the height.
+    const RelativePlace place = relative_place(table_->nominal(), placed(*table_, motion), motion);
+    if (!local || !local->is_at(place)) local.emplace(*table_, place);
+    if (local->covered()) motion.wheelset.z += local->height_under_load(carried) - place.z;
+    r = evaluate_right_hand(motion, &*local);
+    if (r.status != Status::ok) break;
+    r.wheelset_z = motion.wheelset.z;
+    const double excess = r.on_rail.force.z() - load;
+    if (std::abs(excess) <= kBalance * load) return right ? r : mirrored(r);
+    const double slope = i == 0 ? 1.0 : (excess - excess_before) / (carried - before);
+    before = carried, excess_before = excess;
+    carried -= excess / (slope > 0.0 ? slope : 1.0);
+    carried = std::clamp(carried, 0.2 * before, 5.0 * before);
+  }
+  if (r.status == Status::ok) {
+    r.status = Status::not_converged;
+    r.message =
+        fmt::format("no height gives the vertical load of {:.6g} N: friction on the flange carries the wheel", load);
+  }
+  return right ? r : mirrored(r);
+}
+
+ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion, const LocalContact* local) {
   const wheelrail::Placement now = placed(*table_, motion);
   const RelativePlace place = relative_place(table_->nominal(), now, motion);
-  const ElasticContact elastic = elastic_contact(*table_, place);
+  const ElasticContact elastic = local && local->is_at(place) ? local->at(place.z) : elastic_contact(*table_, place);
   if (!elastic.in_table) return not_covered(*table_, place);
 
   ContactReaction r;
@@ -125,42 +177,57 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
     r.message = "wheel and rail do not touch";
     return r;
   }
-  const double angle = std::atan(elastic.slope) + motion.rail.roll;
-  Pose X_TC{now.X_TW.origin + rotation_x(motion.rail.roll) * Vec3(0.0, elastic.arm_y, elastic.arm_z),
-            rotation_x(angle)};
+  const Mat3 rolled = rotation_x(motion.rail.roll);
   // The arm ends on the undeformed wheel, the contact point lies on the rail.
-  X_TC.origin -= elastic.penetration * X_TC.rotation.col(2);
-  put_below_the_axle(X_TC, now.X_TWs, motion.curvature);
+  const auto pose = [&](double angle, double arm_y, double arm_z) {
+    Pose X_TC{now.X_TW.origin + rolled * Vec3(0.0, arm_y, arm_z), rotation_x(angle + motion.rail.roll)};
+    X_TC.origin -= elastic.penetration * X_TC.rotation.col(2);
+    put_below_the_axle(X_TC, now.X_TWs, motion.curvature);
+    return X_TC;
+  };
+  const Pose resultant = pose(std::atan(elastic.slope), elastic.arm_y, elastic.arm_z);
+  // Friction takes what the creepages put in: forces act where these are those of both bodies.
+  const auto act = [&](const Pose& X_TC, const Vec3& force, const Vec3& moment) {
+    const Vec3 on_wheel = X_TC.apply({0.0, 0.0, elastic.penetration});
+    r.on_rail += {force, (X_TC.origin - now.X_TR.origin).cross(force) + moment};
+    r.on_wheelset += {-force, -((on_wheel - now.X_TWs.origin).cross(force) + moment)};
+  };
+  act(resultant, elastic.normal_force * resultant.rotation.col(2), Vec3::Zero());
+  r.tangents.push_back({resultant, elastic.stiffness, 0.0, 0.0, elastic.normal_force});
 
   problem_.state.position = motion.wheelset;
   problem_.state.velocity = motion.wheelset_velocity;
   problem_.track.vy = motion.rail.vy, problem_.track.vz = motion.rail.vz, problem_.track.vroll = motion.rail.vroll;
-  const wheelrail::ContactKinematics creepage = wheelrail::contact_kinematics(problem_, now, X_TC, elastic.penetration);
-  const FrictionLaw law = friction_at(problem_.friction_inclination, problem_.friction_laws, angle, problem_.friction);
-  const CreepContact patch{elastic.a, elastic.b, law.static_friction() * elastic.normal_force};
-  const CreepForce creep =
-      creep_ ? creep_force(*creep_, patch, material_, creepage) : creep_force(patch, material_, creepage);
-
-  const Vec3 force = X_TC.rotation * Vec3(creep.force.x(), creep.force.y(), elastic.normal_force);
-  const Vec3 moment = creep.moment * X_TC.rotation.col(2);
-  const auto about = [&](const Vec3& point, const Vec3& at) {
-    return wheelrail::Wrench{force, (at - point).cross(force) + moment};
-  };
-  // Friction takes what the creepages put in: forces act where these are those of both bodies.
-  r.on_rail = about(now.X_TR.origin, X_TC.origin);
-  const wheelrail::Wrench at_centre = about(now.X_TWs.origin, X_TC.apply({0.0, 0.0, elastic.penetration}));
-  r.on_wheelset = {-at_centre.force, -at_centre.moment};
-  r.longitudinal_creep_force = creep.force.x();
-  r.lateral_creep_force = creep.force.y();
+  double patches = 0.0;
+  for (std::size_t i = 0; i < elastic.count; ++i) {
+    const ElasticPart& part = elastic.parts[i];
+    const double weight = part.weight;
+    const Pose X_TC = pose(part.angle, part.arm_y, part.arm_z);
+    const wheelrail::ContactKinematics creepage =
+        wheelrail::contact_kinematics(problem_, now, X_TC, elastic.penetration);
+    const FrictionLaw law = friction_at(problem_.friction_inclination, problem_.friction_laws,
+                                        part.angle + motion.rail.roll, problem_.friction);
+    const CreepContact patch{part.a, part.b, law.static_friction() * part.normal_force};
+    const CreepForce creep =
+        creep_ ? creep_force(*creep_, patch, material_, creepage) : creep_force(patch, material_, creepage);
+    const Vec2 friction = weight * creep.force, damping = weight * creep.damping;
+    const double moment = weight * creep.moment;
+    act(X_TC, X_TC.rotation * Vec3(friction.x(), friction.y(), 0.0), moment * X_TC.rotation.col(2));
+    r.longitudinal_creep_force += friction.x();
+    r.lateral_creep_force += friction.y();
+    r.spin_moment += moment;
+    r.frictional_power += weight * creep.power;
+    patches += weight;
+    r.tangents.push_back({X_TC, 0.0, damping.x(), damping.y(), 0.0});
+    if (!part.strongest) continue;
+    r.contact_x += weight * X_TC.origin.x();
+    r.contact_y += weight * X_TC.origin.y();
+  }
+  r.patches = to_whole<int>(std::round(patches));
+  r.area = elastic.area;
+  r.max_pressure = elastic.max_pressure;
   r.normal_force = elastic.normal_force;
-  r.area = std::numbers::pi * elastic.a * elastic.b;
-  r.max_pressure = 1.5 * elastic.normal_force / r.area;
-  r.contact_x = X_TC.origin.x();
-  r.contact_y = X_TC.origin.y();
-  r.patches = 1;
   r.elastic_energy = elastic.energy;
-  r.frictional_power = creep.power;
-  r.tangents.push_back({X_TC, elastic.stiffness, creep.damping.x(), creep.damping.y(), elastic.normal_force});
   return r;
 }
 

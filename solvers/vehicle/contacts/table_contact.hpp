@@ -11,12 +11,15 @@
 
 namespace treadmark::vehicle {
 
+class LocalContact;
+
 /// Fast force element of a round wheel on a prismatic straight rail: a nonlinear Hertzian spring from a table
 /// (ElasticContact), creepages of the rigid bodies' exact velocities, creep forces of the linear theory with saturation
 /// (creep_law) or of the exact theory (creep_table). The coefficient of friction is the law's static one. Yaw counts in
-/// the creepages and in where the force acts along the rail, not in the heights: a yawed flange that touches ahead of
-/// or behind the axle is taken to touch no sooner. A place that the table does not cover (flange climbing) gives
-/// Status::failed. It has no memory: accept() does nothing, and there is nothing to save.
+/// the creepages and in where the force acts along the rail, and in the heights of tables that have yaws; with others a
+/// yawed flange that touches ahead of or behind the axle is taken to touch no sooner. What the table does not cover
+/// gives Status::failed; where one that grows ends, the wheel stands on the tip of its flange or its tread has left the
+/// rail: derailed. It has no memory: accept() does nothing, and there is nothing to save.
 class TableContact : public ContactElement {
  public:
   /// creep: where creep forces are taken from; null: the linear theory. Errors: Error(configuration) without a table of
@@ -25,12 +28,16 @@ class TableContact : public ContactElement {
                std::shared_ptr<const CreepTable> creep = nullptr);
 
   ContactReaction evaluate(const PairMotion& motion) override;
+  /// The same with the wheelset at the height at which the rail takes this vertical load > 0 [N], which wheelset_z of
+  /// the reaction then is; motion.wheelset.z does not count. Status::not_converged where friction leaves none.
+  ContactReaction under_load(PairMotion motion, double load);
   void accept() override {}
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
 
  private:
-  ContactReaction evaluate_right_hand(const PairMotion& motion);
+  /// local: the table there, where it is known.
+  ContactReaction evaluate_right_hand(const PairMotion& motion, const LocalContact* local = nullptr);
 
   std::shared_ptr<const ContactTable> table_;
   std::shared_ptr<const CreepTable> creep_;

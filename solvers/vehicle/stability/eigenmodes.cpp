@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
 
 namespace treadmark::vehicle {
@@ -81,10 +82,10 @@ std::vector<Eigenmode> all_eigenmodes(const VehicleOnTrack& vehicle, const Syste
     const Vector energy = vehicle.system.mass.cwiseProduct(mode.shape.cwiseAbs2());
     if (energy.sum() > 0.0)
       for (Index i = 0; i < energy.size(); ++i) mode.shares.emplace_back(static_cast<int>(i), energy[i] / energy.sum());
-    std::ranges::stable_sort(mode.shares, [](const auto& a, const auto& b) { return a.second > b.second; });
+    ranges::stable_sort(mode.shares, [](const auto& a, const auto& b) { return a.second > b.second; });
     modes.push_back(std::move(mode));
   }
-  std::ranges::stable_sort(modes, {}, &Eigenmode::frequency);
+  ranges::stable_sort(modes, {}, &Eigenmode::frequency);
   return modes;
 }
 

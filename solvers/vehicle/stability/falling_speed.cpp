@@ -9,6 +9,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/line.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -90,7 +91,7 @@ std::vector<SwayAt> running_sway(const SwayHistory& history, double window) {
 }
 
 LastAbove last_above(const std::vector<SwayAt>& sway, double limit) {
-  const auto last = std::ranges::find_if(sway.rbegin(), sway.rend(), [&](const SwayAt& at) { return at.rms > limit; });
+  const auto last = ranges::find_if(sway.rbegin(), sway.rend(), [&](const SwayAt& at) { return at.rms > limit; });
   LastAbove out;
   out.never_above = last == sway.rend();
   out.at_end = last == sway.rbegin();

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
 
 namespace treadmark::vehicle {
@@ -44,7 +45,7 @@ void follow(const ModesAtSpeed& before, ModesAtSpeed& now, int& next) {
       const double distance = apart + 1.0 - likeness(a, b);
       if (distance < kNear) pairs.emplace_back(distance, i, j);
     }
-  std::ranges::sort(pairs);
+  ranges::sort(pairs);
   now.branch.assign(now.modes.size(), -1);
   std::vector<bool> taken(before.modes.size(), false);
   for (const auto& [distance, i, j] : pairs) {
@@ -104,7 +105,7 @@ StabilityResult stability(const VehicleAtSpeed& vehicle, const StabilitySettings
     result.at.push_back(modes_at_speed(vehicle, speed, settings.neutral));
     follow(result.at.size() > 1 ? result.at[result.at.size() - 2] : none, result.at.back(), next);
   }
-  const auto changes = std::ranges::find_if(
+  const auto changes = ranges::find_if(
       result.at, [](const ModesAtSpeed& m) { return m.report.status != Status::ok || m.fastest_growth; });
   if (changes == result.at.end()) {
     result.verdict = StabilityVerdict::stable;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::vehicle {
@@ -46,7 +47,7 @@ MovingRail::MovingRail(const FlexibleTrack& track, const SpeedProfile& speed, co
   track_.bay_elements = std::min(track.bay_elements, kMostBayElements);
   constexpr double kFarthest = 1e6;  // [m]
   const auto goes_on = [](double v) { return v > 0.0 && std::isfinite(v); };
-  if (speed.speed.empty() || speed.time.size() != speed.speed.size() || !std::ranges::all_of(speed.speed, goes_on))
+  if (speed.speed.empty() || speed.time.size() != speed.speed.size() || !ranges::all_of(speed.speed, goes_on))
     throw Error(ErrorKind::configuration, "the speed along a rail must be positive");
   if (start.empty()) throw Error(ErrorKind::configuration, "nothing moves along a rail");
   for (const double one : start) {
@@ -64,7 +65,7 @@ MovingRail::MovingRail(const FlexibleTrack& track, const SpeedProfile& speed, co
   const std::vector<RailSeat>& seats = track.seats;
   const double bay = (seats.back().x - seats.front().x) / static_cast<double>(seats.size() - 1);
   std::vector<double> ordered = start_;
-  std::ranges::sort(ordered);
+  ranges::sort(ordered);
   const double reach = ordered.back() - ordered.front();
   if (!(length > 0.0 && length + reach <= kMost * bay))
     throw Error(ErrorKind::configuration, "the part of a rail that is looked at has a length of at most 10000 bays");
@@ -218,7 +219,7 @@ void MovingRail::accept(const Forces& forces, const std::vector<double>& ahead) 
   }
   time_ = trial_time_;
   trial_time_ = -1.0;
-  const double hindmost = std::ranges::min(run_, {}, &Run::place).place;
+  const double hindmost = ranges::min(run_, {}, &Run::place).place;
   while (hindmost >= next_place_) {
     for (RailInTime& plane : planes_) plane.move_on(track_.bay_elements);
     look_from(first_seat_ + 1);

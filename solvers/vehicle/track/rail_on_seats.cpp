@@ -10,6 +10,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -176,7 +177,7 @@ int RailOnSeats::coordinate(std::size_t element, int i) const {
 }
 
 std::size_t RailOnSeats::element_at(double x) const {
-  const auto after = std::ranges::upper_bound(nodes_, x, {}, &Node::x);
+  const auto after = ranges::upper_bound(nodes_, x, {}, &Node::x);
   return std::min(static_cast<std::size_t>(after - nodes_.begin()), nodes_.size() - 1) - 1;
 }
 

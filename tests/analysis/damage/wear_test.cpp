@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::damage {
@@ -95,7 +95,7 @@ TEST(WearLawCheck, RefusesEveryLawWithoutItsNumbers) {
     EXPECT_THAT(testing::error_of([&] { check(law); }), HasSubstr("the law needs")) << row.word;
     std::istringstream keys{std::string(row.keys)};
     for (std::string key; keys >> key;)
-      EXPECT_EQ(std::ranges::count(kWearNumbers, key, &WearNumber::key), 1) << row.word << ' ' << key;
+      EXPECT_EQ(ranges::count(kWearNumbers, key, &WearNumber::key), 1) << row.word << ' ' << key;
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "treadmark/analysis/geometry/analysis.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/analysis/geometry/made_sections.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 
@@ -226,9 +227,9 @@ TEST(Section, KnowsTheOtherBody) {
   EXPECT_EQ(wrong_body(*round_rail(50e-3, 36e-3)), "");
   std::vector<double> z = flanged_wheel()->z(), slope = flanged_wheel()->slope();
   EXPECT_THAT(wrong_body(Section(Body::rail, -66e-3, kSectionStep, z, slope)), HasSubstr("as wheels are"));
-  std::ranges::reverse(z);
+  ranges::reverse(z);
   for (double& value : slope) value = -value;
-  std::ranges::reverse(slope);
+  ranges::reverse(slope);
   EXPECT_THAT(wrong_body(Section(Body::wheel, -60e-3, kSectionStep, z, slope)), HasSubstr("its flange lies at y > 0"));
   z = round_rail(50e-3, 36e-3)->z();
   for (double& value : z) value = kRadius - value;

@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -23,7 +24,7 @@ TEST(Bands, LimitsAreThoseOfTheStandard) {
   std::size_t limited = 0;
   for (const double nominal : third_octaves()) {
     const auto at =
-        std::ranges::find_if(kLimits, [&](const auto& row) { return std::fabs(row.first - nominal) < 1e-3 * nominal; });
+        ranges::find_if(kLimits, [&](const auto& row) { return std::fabs(row.first - nominal) < 1e-3 * nominal; });
     if (at == kLimits.end()) {
       EXPECT_TRUE(std::isnan(iso_3095_limit(nominal))) << nominal;
       continue;

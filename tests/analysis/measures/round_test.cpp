@@ -12,6 +12,7 @@
 #include "treadmark/analysis/measures/roughness.hpp"
 #include "treadmark/analysis/measures/round.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -158,7 +159,7 @@ TEST(Roughness, SinesAreLevelsOfTheirBands) {
 }
 
 const WaveBand& wave_up_to(const RoughnessMeasures& m, double longest) {
-  return *std::ranges::find_if(m.waves, [&](const WaveBand& w) { return std::fabs(w.longest - longest) < 1e-9; });
+  return *ranges::find_if(m.waves, [&](const WaveBand& w) { return std::fabs(w.longest - longest) < 1e-9; });
 }
 
 /// A sine within a band keeps its size; a band is silent where the record is shorter than the filter and one wave more,
@@ -215,7 +216,7 @@ TEST(Roughness, SpreadIsThatOfTheSegments) {
       heights_of(7.9999, 1e-3, [](double x) { return (x < 4.0 ? 10e-6 : 20e-6) * std::sin(kTau * x / 0.1); }), 1e-3,
       gauge);
   ASSERT_EQ(m.segments, 3);
-  const auto band = std::ranges::find_if(m.bands, [](const auto& b) { return std::fabs(b.wavelength - 0.1) < 1e-9; });
+  const auto band = ranges::find_if(m.bands, [](const auto& b) { return std::fabs(b.wavelength - 0.1) < 1e-9; });
   EXPECT_NEAR(band->level, 20.0 * std::log10(10.0 / std::numbers::sqrt2) + 10.0 * std::log10(2.5), 0.05);
   const double low = 10.0 * std::log10(0.4), high = 10.0 * std::log10(1.6);
   EXPECT_NEAR(band->spread, std::sqrt(0.5 * (low * low + high * high)), 0.05);

@@ -13,6 +13,7 @@
 
 #include "treadmark/analysis/measures/signal.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -47,7 +48,7 @@ Wave constant(double value) {
 
 const Assessed& find(const std::vector<Assessed>& all, const std::string& section, const std::string& place,
                      const std::string& quantity) {
-  const auto at = std::ranges::find_if(
+  const auto at = ranges::find_if(
       all, [&](const Assessed& a) { return a.section == section && a.place == place && a.quantity == quantity; });
   if (at == all.end()) throw Error(ErrorKind::configuration, "no " + quantity + " of " + place + " in " + section);
   return *at;

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -14,6 +13,7 @@
 
 #include "treadmark/analysis/measures/spectrum.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -107,7 +107,7 @@ TEST(Filters, HaveNoDelayAndKeepConstants) {
   std::vector<double> pulse(2001, 5.0);
   pulse[1000] = 6.0;
   const std::vector<double> out = low_passed(pulse, 1e-3, 20.0);
-  EXPECT_EQ(std::ranges::max_element(out) - out.begin(), 1000);
+  EXPECT_EQ(ranges::max_element(out) - out.begin(), 1000);
   for (std::size_t i = 1; i < 1000; ++i) EXPECT_NEAR(out[1000 - i], out[1000 + i], 1e-9);
   EXPECT_NEAR(out.front(), 5.0, 1e-12);
   EXPECT_NEAR(high_passed(std::vector<double>(500, 5.0), 1e-3, 0.4).back(), 0.0, 1e-9);
@@ -137,7 +137,7 @@ TEST(Weightings, HaveTheValuesOfTheStandardsTables) {
 
 TEST(Percentiles, AreThoseOfSortedSamples) {
   std::vector<double> ramp = sampled(1001, 1.0, [](double i) { return i; });
-  std::ranges::shuffle(ramp, std::mt19937(7));
+  ranges::shuffle(ramp, std::mt19937(7));
   EXPECT_DOUBLE_EQ(percentile(ramp, 0.5), 500.0);
   EXPECT_NEAR(percentile(ramp, 0.9985), 998.5, 1e-9);
   EXPECT_DOUBLE_EQ(percentile(ramp, 0.0), 0.0);

@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/tests/support/refusal.hpp"
@@ -49,7 +49,7 @@ std::shared_ptr<io::SimulationResult> sample_run(double step = 2e-4) {
 }
 
 const measures::Assessed& find(const AssessedRun& run, const std::string& place, const std::string& quantity) {
-  const auto at = std::ranges::find_if(
+  const auto at = ranges::find_if(
       run.quantities, [&](const measures::Assessed& a) { return a.place == place && a.quantity == quantity; });
   if (at == run.quantities.end()) throw Error(ErrorKind::configuration, "no " + quantity + " of " + place);
   return *at;
@@ -98,7 +98,7 @@ TEST(AssessResult, LevelsOfAxleBoxesAreInTheirBand) {
   EXPECT_EQ(run.spectra[0].channel, "ws1_right.Q_N");
   const ChannelSpectrum& box = run.spectra[1];
   EXPECT_NEAR(box.density.highest, 1.0 / (8.0 * 2e-4), 1.0);
-  const auto band = std::ranges::find(box.bands, 100.0, &measures::FrequencyBand::nominal);
+  const auto band = ranges::find(box.bands, 100.0, &measures::FrequencyBand::nominal);
   ASSERT_NE(band, box.bands.end());
   EXPECT_NEAR(acceleration_level(band->rms), 20.0 * std::log10(3.0 / std::numbers::sqrt2 / 1e-6), 0.1);
   EXPECT_LT(acceleration_level((band - 2)->rms), 80.0);
@@ -164,7 +164,7 @@ TEST(AssessmentOutputs, HoldTheSameNumbersAndAreReadBack) {
   const auto json = nlohmann::json::parse(io::read_text(folder.path() / "assessment.json"));
   ASSERT_EQ(json.at("runs").size(), 2u);
   const std::string csv = io::read_text(folder.path() / "assessment.csv");
-  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')),
+  EXPECT_EQ(static_cast<std::size_t>(ranges::count(csv, '\n')),
             1 + runs[0].quantities.size() + runs[1].quantities.size());
   EXPECT_THAT(csv, HasSubstr("one,\"first, half\",4,40,straight,ws1_right,Q,N,ok,"));
   EXPECT_EQ(json.at("runs")[0].at("assessed").size(), runs[0].quantities.size());

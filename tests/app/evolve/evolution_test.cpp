@@ -18,6 +18,7 @@
 #include "treadmark/app/evolve/passed_patches.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
@@ -129,7 +130,7 @@ TEST_F(Evolution, FullSlipBelowAnEllipseWearsByTheClosedForm) {
   const double along = 0.5 * std::numbers::pi * ellipse.largest_pressure() * ellipse.semi_axis_x;
   const double expected = 1e-4 / 3e9 * slip_speed * along * seconds / (2.0 * std::numbers::pi * radius);
   const std::vector<double> found = depths(wheel);
-  const auto deepest = std::ranges::max_element(found) - found.begin();
+  const auto deepest = ranges::max_element(found) - found.begin();
   EXPECT_NEAR(found[static_cast<std::size_t>(deepest)], expected, 0.01 * expected);
   double middle = 0.0, all = 0.0;  // of the contact: the centre of what is removed
   for (int j = 0; j < wheel.cells.ny; ++j) {
@@ -438,7 +439,7 @@ TEST_F(Evolution, WritesSurfacesForParaView) {
   constexpr std::size_t kParts = 72;
   const std::size_t rows = depth.size() / kParts;
   ASSERT_EQ(points.size(), 3 * (kParts + 1) * (rows + 1));
-  EXPECT_NEAR(*std::ranges::max_element(depth), wheel.max_depth, 1e-6 * wheel.max_depth);
+  EXPECT_NEAR(*ranges::max_element(depth), wheel.max_depth, 1e-6 * wheel.max_depth);
   const auto radius = [&](std::size_t k, std::size_t i) {
     const double* p = points.data() + 3 * (k * (kParts + 1) + i);
     return std::hypot(p[0], p[2]);
@@ -455,7 +456,7 @@ TEST_F(Evolution, WritesSurfacesForParaView) {
   const auto pressure = vtk_values<float>(root, "pressure_Pa");
   double largest = 0.0;
   for (const auto& [j, row] : wheel.record.pressure.rows()) largest = std::max(largest, row.front());
-  EXPECT_NEAR(*std::ranges::max_element(pressure), largest, 1e-6 * largest);
+  EXPECT_NEAR(*ranges::max_element(pressure), largest, 1e-6 * largest);
 }
 
 TEST_F(Evolution, LeftAndRightEvolveAlike) {
@@ -468,8 +469,8 @@ TEST_F(Evolution, LeftAndRightEvolveAlike) {
   ASSERT_EQ(one.status + other.status, "completecomplete") << one.message << other.message;
   EXPECT_GT(one.generations.back().bodies.front().flow.max_raised, 1e-8);
   const auto a = depths(one.generations.back().bodies.front()), b = depths(other.generations.back().bodies.front());
-  ASSERT_GT(*std::ranges::max_element(a), 0.0);
-  for (std::size_t j = 0; j < a.size(); ++j) EXPECT_NEAR(a[j], b[j], 1e-9 * *std::ranges::max_element(a));
+  ASSERT_GT(*ranges::max_element(a), 0.0);
+  for (std::size_t j = 0; j < a.size(); ++j) EXPECT_NEAR(a[j], b[j], 1e-9 * *ranges::max_element(a));
 }
 
 /// The rail's own cells: volume and work of both bodies follow from the same contacts.
@@ -544,7 +545,7 @@ TEST_F(Evolution, SplinesOfEveryGenerationEvolveAlike) {
   ASSERT_EQ(offsets.status + splines.status, "completecomplete");
   const auto a = depths(offsets.generations.back().bodies.front()),
              b = depths(splines.generations.back().bodies.front());
-  const double deepest = *std::ranges::max_element(a);
+  const double deepest = *ranges::max_element(a);
   for (std::size_t j = 0; j < a.size(); ++j) EXPECT_NEAR(a[j], b[j], 0.01 * deepest);
   const double p = offsets.generations.back().cases.front().pmax, q = splines.generations.back().cases.front().pmax;
   EXPECT_NE(p, q);

@@ -11,6 +11,7 @@
 #include "treadmark/analysis/damage/record.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
@@ -127,7 +128,7 @@ TEST_F(SimulatedEvolution, FirstGenerationIsTheSimulation) {
   for (const io::Generation& g : result.generations) {
     // what the generation says of its simulation is what that says
     const io::SimulationResult one = io::read_simulation(path("out") + "/" + io::simulation_file(g.number, 0, 1));
-    const auto largest = std::ranges::find(one.summary, "q_max_N", &io::NamedValue::name);
+    const auto largest = ranges::find(one.summary, "q_max_N", &io::NamedValue::name);
     ASSERT_NE(largest, one.summary.end());
     EXPECT_EQ(largest->value, number(g, "q_max_N"));
     EXPECT_LT(std::fabs(io::volume_balance(g.bodies.front())), 1e-9);

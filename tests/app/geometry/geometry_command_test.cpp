@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
@@ -114,7 +114,7 @@ TEST(GeometryCommand, ANumberIsTheSameEverywhere) {
   const ResultList list = run_pairs({request});
   EXPECT_EQ(list.settings, "amplitudes_mm = [2, 3]") << "what is other than usual";
   const auto listed = [&](const char* name) {
-    const auto at = std::ranges::find(list.numbers, name, &ListColumn::name);
+    const auto at = ranges::find(list.numbers, name, &ListColumn::name);
     return list.rows[0].numbers.at(static_cast<std::size_t>(at - list.numbers.begin()));
   };
   EXPECT_NEAR(listed("clearance_mm"), g["track"]["clearance_mm"].get<double>(), 1e-9);

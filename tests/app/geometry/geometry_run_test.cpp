@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -14,6 +13,7 @@
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/parts.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
@@ -85,7 +85,7 @@ std::vector<ReferenceRow> reference_rows(const std::filesystem::path& file) {
       continue;
     }
     const auto value = [&](const std::string& name) {
-      const auto at = std::ranges::find(names, name);
+      const auto at = ranges::find(names, name);
       EXPECT_NE(at, names.end()) << name;
       return std::stod(cells.at(static_cast<std::size_t>(at - names.begin())));
     };

@@ -38,6 +38,7 @@ TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
       {"vehicle", "treadmark evolve", {"evolve", nowhere, "-o", "/nowhere/out"}},
       {"vehicle", "treadmark stability", {"stability", nowhere, "--to", "50"}},
       {"vehicle", "treadmark track", {"track", nowhere, "--fit", "2"}},
+      {"vehicle", "treadmark table", {"table", nowhere, "-o", "/nowhere/t.h5"}},
       {"vehicle", "the schema of study files", {"schema", "study"}},
       {"scans", "treadmark import", {"import", "/nowhere/x.ply", "--unit", "mm"}},
       {"scans", "treadmark scan", {"scan", nowhere, "-o", "/nowhere/x.ply"}},

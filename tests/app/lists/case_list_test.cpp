@@ -18,6 +18,7 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/tests/app/program.hpp"
@@ -74,8 +75,8 @@ struct Row {
   std::vector<double> numbers;
   bool operator==(const Row& other) const {
     return number == other.number && status == other.status && message == other.message &&
-           std::ranges::equal(numbers, other.numbers,
-                              [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
+           ranges::equal(numbers, other.numbers,
+                         [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); });
   }
 };
 
@@ -116,7 +117,7 @@ TEST(CaseList, HasTheNumbersOfRunsOfFewCases) {
   }
   EXPECT_NE(lists[0][17].status, Status::ok);
   EXPECT_FALSE(lists[0][17].message.empty());
-  EXPECT_EQ(std::ranges::count(lists[0], Status::ok, &Row::status), 129);
+  EXPECT_EQ(ranges::count(lists[0], Status::ok, &Row::status), 129);
 }
 
 TEST(CaseList, GoesOnWhereItWasInterrupted) {
@@ -175,7 +176,7 @@ TEST(CaseList, LosesNoCaseOfAPartThatIsNotThrough) {
   std::size_t found = 0, times_within = 0;
   for (std::chrono::milliseconds pause = 20ms;; pause += 20ms) {
     std::atomic<bool> stop{false};
-    const std::jthread timer([&] {
+    const auto timer = std::async(std::launch::async, [&] {
       std::this_thread::sleep_for(pause);
       stop = true;
     });
@@ -271,7 +272,7 @@ TEST(CaseList, IsWrittenAsTables) {
       csv.starts_with("case,status,wheelset.y_mm,wheelset.yaw_deg,wheelset.vertical_force_N,wheelset.z_mm,npatch,"
                       "pmax_MPa,patch_2.fn_N,remarks,message\n"))
       << csv.substr(0, 200);
-  EXPECT_EQ(std::ranges::count(csv, '\n'), 71);
+  EXPECT_EQ(ranges::count(csv, '\n'), 71);
   EXPECT_THAT(csv, HasSubstr("\n4," + bad + ",900,0,80000,"));
   const io::Hdf5Reader store(out / "cases.h5");
   const std::vector<double> pmax = store.root().numbers("pmax", {70}), y = store.root().numbers("wheelset.y", {70}),

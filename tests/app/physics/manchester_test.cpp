@@ -9,6 +9,7 @@
 
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/solvers/vehicle/stability/eigenmodes.hpp"
 #include "treadmark/tests/solvers/vehicle/axle_beam.hpp"
@@ -95,7 +96,7 @@ void check_energy_of_a_free_run(std::vector<std::string> overrides, double toler
   vehicle::SystemState start = vehicle::find_equilibrium(built.vehicle).state;
   for (const Kick& kick : kicks) {
     const auto& coordinates = built.vehicle.system.coordinates;
-    const auto found = std::ranges::find(coordinates, kick.coordinate, &vehicle::Coordinate::name);
+    const auto found = ranges::find(coordinates, kick.coordinate, &vehicle::Coordinate::name);
     ASSERT_NE(found, coordinates.end()) << kick.coordinate;
     start.q[found - coordinates.begin()] += kick.displacement;
     start.v[found - coordinates.begin()] += kick.rate;

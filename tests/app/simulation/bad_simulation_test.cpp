@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
 
@@ -36,7 +37,7 @@ class BadSimulation : public ::testing::Test {
     EXPECT_EQ(r.status, 2) << r.err << r.out;
     EXPECT_EQ(r.out, "");
     for (const std::string& word : words) EXPECT_THAT(r.err, ContainsRegex(word));
-    EXPECT_EQ(std::ranges::count(r.err, '\n'), 1) << "one message: " << r.err;
+    EXPECT_EQ(ranges::count(r.err, '\n'), 1) << "one message: " << r.err;
   }
   SampleSimulation input;
 };

@@ -22,9 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 
 ContactTables::Table any_table() {
-  const std::vector<vehicle::ContactTableColumn> columns{{-1e-3, {{1e-4, 1.0, 0.0, 0.0, 0.4, 1e-4, 1.0}}},
-                                                         {1e-3, {{1e-4, 1.0, 0.0, 0.0, 0.4, 1e-4, 1.0}}}};
-  return std::make_shared<const vehicle::ContactTable>(columns, std::vector<double>{1e5}, 0, wheelrail::Problem{},
+  const vehicle::ContactUnderLoad contact{1e-4, 1.0, 0.0, 0.0, 0.4, {{1.0, 0.0, 0.0, 0.4, 1e-4, 0.0}}};
+  const vehicle::ContactTableColumns columns{{-1e-3, {contact}}, {1e-3, {contact}}};
+  return std::make_shared<const vehicle::ContactTable>(std::vector<vehicle::ContactTableColumns>{columns},
+                                                       vehicle::ContactTable::Loads{{1e5}}, wheelrail::Problem{},
                                                        wheelrail::Placement{});
 }
 

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -27,6 +26,7 @@
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/core/byte_archive.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/content_cache.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -182,7 +182,7 @@ TEST_F(FlippedBits, OfTablesThatAreKeptAreAsIfThereWereNone) {
   flip_in_file(cache.file_of(key), no_place, [&] {
     const auto found = cache.find(key);
     if (!found) return Answer::refused;
-    return std::ranges::equal(*found, content) ? Answer::same : Answer::other;
+    return ranges::equal(*found, content) ? Answer::same : Answer::other;
   });
 }
 

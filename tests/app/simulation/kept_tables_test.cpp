@@ -14,6 +14,7 @@
 #include <iterator>
 #include <thread>
 
+#include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/solvers/wheelrail/problem_bytes.hpp"
 #include "treadmark/tests/app/program.hpp"
@@ -72,6 +73,27 @@ TEST(KeptTables, CreepTablesAreMadeOnce) {
     app::kept_creep_table(&cache, 0.28, other);
   }
   EXPECT_EQ(entries(cache.folder()).size(), 7u);
+}
+
+TEST(KeptTables, WhatATableGrowsByIsKept) {
+  const SampleInput input;
+  const io::ContentCache cache(input.folder() / "cache");
+  const wheelrail::Geometry bodies{analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
+                                   analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46), true, true};
+  const auto grown = [&](const io::ContentCache* kept) {
+    const auto table = app::kept_contact_table(kept, "these bodies", bodies, wheelrail::Problem(), 5e4);
+    const vehicle::TableStretch* const beside = table->at(-14e-3);
+    ByteWriter out;
+    vehicle::write_columns(beside->columns, out);
+    vehicle::write_columns(table->heavier(*beside)->columns, out);
+    return out.bytes();
+  };
+  const auto made = grown(nullptr);
+  EXPECT_EQ(grown(&cache), made);
+  const auto kept = entries(cache.folder());
+  EXPECT_EQ(kept.size(), 4u) << "round the middle and beside, without and with the heavier loads";
+  EXPECT_EQ(grown(&cache), made);
+  EXPECT_EQ(entries(cache.folder()), kept);
 }
 
 // An entry whose frame is whole but whose content is none (of a fault in some other program) does not count either.

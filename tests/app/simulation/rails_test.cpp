@@ -13,6 +13,7 @@
 
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/tests/app/program.hpp"
@@ -172,12 +173,12 @@ contact = "full"
   const auto at = [&](const std::string& name, std::size_t row) { return column(history, name).at(row); };
   const std::size_t rows = history.rows();
   const std::vector<double> z = column(history, "wheelset_z_m"), patches = column(history, "patches");
-  const double way = *std::ranges::max_element(z) - *std::ranges::min_element(z);
+  const double way = *ranges::max_element(z) - *ranges::min_element(z);
   EXPECT_GT(way, 1e-4);
-  EXPECT_EQ(*std::ranges::max_element(patches), 2.0) << "wing and nose carry together";
+  EXPECT_EQ(*ranges::max_element(patches), 2.0) << "wing and nose carry together";
   const std::vector<double> y = column(history, "y_cp_m");
-  EXPECT_LT(*std::ranges::min_element(y), 0.75);
-  EXPECT_GT(*std::ranges::max_element(y), 0.78);
+  EXPECT_LT(*ranges::min_element(y), 0.75);
+  EXPECT_GT(*ranges::max_element(y), 0.78);
 
   // At rest, and where the nose takes over.
   std::vector<std::size_t> chosen{0, rows / 4, rows / 2, rows - 1};
@@ -203,7 +204,7 @@ contact = "full"
     const std::size_t row = chosen[i];
     EXPECT_NEAR(c.z, at("wheelset_z_m", row), 0.01 * way);
     ASSERT_EQ(static_cast<double>(c.patches.size()), patches[row]);
-    const auto most = std::ranges::max_element(c.patches, {}, &io::PatchResult::fn);
+    const auto most = ranges::max_element(c.patches, {}, &io::PatchResult::fn);
     EXPECT_NEAR(most->pmax, at("pmax_Pa", row), 0.01 * most->pmax);
     EXPECT_NEAR(most->y_tr, at("y_cp_m", row), 1e-5);
   }
@@ -241,7 +242,7 @@ shape.standard = "60E1")" +
   const std::vector<double> x = column(history, "x_m");
   const auto deepest = [&](const std::string& name) {
     const std::vector<double> z = column(history, name);
-    return x.at(static_cast<std::size_t>(std::ranges::max_element(z) - z.begin()));
+    return x.at(static_cast<std::size_t>(ranges::max_element(z) - z.begin()));
   };
   EXPECT_NEAR(deepest("wheelset_z_m"), 0.03, 4e-3);
   EXPECT_NEAR(deepest("ws2_right.wheelset_z_m"), 0.03 + 0.04, 4e-3);
@@ -282,7 +283,7 @@ shape.standard = "60E1"
   EXPECT_GT(most, 5e3);
   EXPECT_NEAR(y.front(), 0.0, 1e-6);
   for (const char* name : {"energy_integration_error", "energy_contact_error"}) {
-    const auto error = std::ranges::find(history.summary, name, &io::NamedValue::name);
+    const auto error = ranges::find(history.summary, name, &io::NamedValue::name);
     ASSERT_NE(error, history.summary.end());
     EXPECT_LT(std::abs(error->value), 0.01) << name;
   }
@@ -318,7 +319,7 @@ TEST_F(RailsOfSimulations, FullContactWhereTheRailVaries) {
   const io::SimulationResult both = simulate();
   const auto largest = [&](const io::SimulationResult& r) {
     const std::vector<double> q = column(r, "Q_N");
-    return *std::ranges::max_element(q);
+    return *ranges::max_element(q);
   };
   EXPECT_GT(largest(full), 1.1 * column(full, "Q_N").front());
   EXPECT_NEAR(largest(both), largest(full), 0.01 * largest(full));

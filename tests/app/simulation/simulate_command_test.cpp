@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -12,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
@@ -37,7 +37,7 @@ struct Table {
   std::vector<std::string> names;
   std::vector<std::vector<double>> rows;
   std::vector<double> column(const std::string& name) const {
-    const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    const auto at = static_cast<std::size_t>(ranges::find(names, name) - names.begin());
     std::vector<double> values;
     for (const auto& row : rows) values.push_back(row.at(at));
     return values;
@@ -76,7 +76,7 @@ TEST_F(Simulate, JsonSumsUpTheHistory) {
   EXPECT_EQ(json["status"], "complete");
   const Table history = read_table(input.read("out/history.csv"));
   const auto q = history.column("Q_N"), x = history.column("x_m");
-  const auto highest = std::ranges::max_element(q);
+  const auto highest = ranges::max_element(q);
   EXPECT_EQ(json["summary"]["q_max_N"], *highest);
   EXPECT_EQ(json["summary"]["q_max_x_m"], x.at(static_cast<std::size_t>(highest - q.begin())));
   EXPECT_EQ(json["rows"], history.rows.size());
@@ -94,7 +94,7 @@ TEST_F(Simulate, TheSummaryCountsStepsThatAreNotWrittenDown) {
   const Table history = read_table(input.read("some/history.csv"));
   EXPECT_EQ(few_lines["rows"], history.rows.size());
   EXPECT_LT(5 * history.rows.size(), all_steps["rows"]);
-  EXPECT_LT(std::ranges::max(history.column("Q_N")), few_lines["summary"]["q_max_N"])
+  EXPECT_LT(ranges::max(history.column("Q_N")), few_lines["summary"]["q_max_N"])
       << "no peak is missing: the test says nothing";
 }
 
@@ -243,7 +243,7 @@ TEST_F(Simulate, ContactWheelAndRailAreWrittenForParaViewOverTime) {
   ASSERT_EQ(patches.size(), bodies.size());
   for (const auto& [time, files] : bodies) {
     EXPECT_TRUE(patches.contains(time));
-    EXPECT_TRUE(std::ranges::any_of(history, [&](double t) { return std::fabs(t - time) < 1e-9; })) << time;
+    EXPECT_TRUE(ranges::any_of(history, [&](double t) { return std::fabs(t - time) < 1e-9; })) << time;
     EXPECT_EQ(files.size(), 2 * wheels);  // a wheel and a rail each
   }
   // The wheel goes on, the rail passes below it: no two places are the same.

@@ -13,6 +13,7 @@
 #include <string>
 #include <thread>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
 
@@ -82,7 +83,7 @@ TEST_F(Sweep, WritesTableStoreAndFigures) {
   EXPECT_THAT(r.out, HasSubstr("40, 0.9"));
   const std::string table = input.read("out/sweep.csv");
   EXPECT_THAT(table, StartsWith("simulation.speed_m_s,wheel.flats.0.depth_mm,"));
-  EXPECT_EQ(std::ranges::count(table, '\n'), 5);
+  EXPECT_EQ(ranges::count(table, '\n'), 5);
   EXPECT_THAT(input.read("out/force-by-speed.svg"), HasSubstr("<svg"));
   const ProgramResult again = run("out", {"--resume"});
   EXPECT_EQ(again.status, 0);

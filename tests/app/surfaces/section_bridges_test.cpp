@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/surfaces/surface_check.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -74,8 +74,7 @@ TEST(SectionBridges, CheckSaysThemAndContactThereIsDoubted) {
   const io::RunResult run = run_cases(cases);
   ASSERT_EQ(run.cases.size(), 3u);
   const auto doubted = [&](std::size_t i) {
-    return std::ranges::any_of(run.cases[i].remarks,
-                               [](const Remark& r) { return r.kind == RemarkKind::between_sections; });
+    return ranges::any_of(run.cases[i].remarks, [](const Remark& r) { return r.kind == RemarkKind::between_sections; });
   };
   EXPECT_EQ(run.cases[0].status, Status::ok) << run.cases[0].message;
   EXPECT_FALSE(doubted(0));

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/solvers/vehicle/track/track_receptance.hpp"
 #include "treadmark/tests/app/program.hpp"
@@ -69,7 +69,7 @@ TEST(TrackRun, StiffnessAtRestIsNearThatOfABeamOnABed) {
   ASSERT_TRUE(r.bay);
   EXPECT_NEAR(r.bay->peak / r.bay->pinned_pinned, 1.0, 0.01);
   EXPECT_GT(r.bay->peak_ratio, 5.0);
-  EXPECT_NEAR(*std::ranges::max_element(r.bay->deflection) / r.curves[0].at_rest, 1.0, 1e-12);
+  EXPECT_NEAR(*ranges::max_element(r.bay->deflection) / r.curves[0].at_rest, 1.0, 1e-12);
 }
 
 /// Another program's fit to a continuous bed was off by 0.09; sleepers one by one add their resonance.

@@ -12,6 +12,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::assembly {
@@ -24,8 +25,7 @@ struct Fields {
   /// Also where both are missing.
   friend bool operator==(const Fields& a, const Fields& b) {
     const auto same = [](double p, double q) { return p == q || (std::isnan(p) && std::isnan(q)); };
-    return std::ranges::equal(a.z, b.z, same) && std::ranges::equal(a.dzdx, b.dzdx, same) &&
-           std::ranges::equal(a.dzdy, b.dzdy, same);
+    return ranges::equal(a.z, b.z, same) && ranges::equal(a.dzdx, b.dzdx, same) && ranges::equal(a.dzdy, b.dzdy, same);
   }
 };
 

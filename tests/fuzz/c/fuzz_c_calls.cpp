@@ -4,7 +4,6 @@
 // the objects and the numbers. What holds of every call is checked after it.
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <condition_variable>
 #include <cstdio>
@@ -18,6 +17,7 @@
 #include <vector>
 
 #include "treadmark.h"
+#include "treadmark/core/platform/bit_cast.hpp"
 #include "treadmark/tests/fuzz/fuzz_target.hpp"
 
 namespace {
@@ -132,7 +132,7 @@ class Calls {
     if (kind >= 232) {
       std::uint64_t bits = 0;
       for (int i = 0; i < 8; ++i) bits = bits << 8 | byte();
-      return std::bit_cast<double>(bits);
+      return treadmark::bit_cast<double>(bits);
     }
     constexpr double kSpecial[] = {0.0,
                                    -1.0,

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,6 +13,7 @@
 
 #include "treadmark.h"
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/tests/interfaces/c/owned.hpp"
@@ -43,7 +43,7 @@ TEST(CInterface, APairGivesTheNumbersOfTheProgram) {
   EXPECT_TRUE(field(s.get(), 0, "temperature_1").empty());
   EXPECT_TRUE(std::isnan(number(s.get(), 0, "max_temperature_1")));
   // what smaller elements would change is estimated by runs alone
-  const auto estimated = std::ranges::count(expected.remarks, RemarkKind::coarse_elements, &Remark::kind);
+  const auto estimated = ranges::count(expected.remarks, RemarkKind::coarse_elements, &Remark::kind);
   EXPECT_EQ(tm_solution_remarks(s.get()) + static_cast<std::size_t>(estimated), expected.remarks.size());
   EXPECT_STREQ(tm_solution_message(s.get()), "");
 }

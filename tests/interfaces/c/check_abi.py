@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-TABLES = ("case", "solution", "patch", "field")
+TABLES = ("case", "solution", "patch", "field", "motion", "force")
 
 
 def bare(parameter):

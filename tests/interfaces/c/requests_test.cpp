@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -15,6 +14,7 @@
 
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/app/measure/measure_files.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/interfaces/c/owned.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -88,7 +88,7 @@ TEST(CRequests, EverySettingOfGeometryCounts) {
   const std::vector<std::string> beside{"case", "wheel", "rail", "rail_origins_mm", "scale", "resolution_mm"};
   text_of_geometry({"somethingelse=1"}, TM_BAD_REQUEST);  // the message names all that there are
   const std::string message = tm_message();
-  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(message, ',')) + 1, changes.size() + beside.size()) << message;
+  EXPECT_EQ(static_cast<std::size_t>(ranges::count(message, ',')) + 1, changes.size() + beside.size()) << message;
   for (const std::string& key : beside) EXPECT_THAT(message, HasSubstr(key));
   EXPECT_NE(text_of_geometry({"wheel=S1002", "rail=60E1", "cant=1:40", "rail_origins_mm=1507", "amplitudes_mm=3"}),
             text_of_geometry({"wheel=S1002", "rail=60E1", "cant=1:40", "rail_origins_mm=1508", "amplitudes_mm=3"}));

@@ -26,6 +26,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cad/cad_process.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/tests/support/error_text.hpp"
@@ -430,13 +431,13 @@ class Mutations {
 /// What a reader may hand on.
 void expect_sound(const CadSurface& s, const std::string& which) {
   const auto finite = [](const std::vector<double>& list) {
-    return std::ranges::all_of(list, [](double x) { return std::isfinite(x); });
+    return ranges::all_of(list, [](double x) { return std::isfinite(x); });
   };
   if (const auto* profile = std::get_if<Profile>(&s.shape)) {
     EXPECT_TRUE(finite(profile->y) && finite(profile->z) && profile->y.size() == profile->z.size()) << which;
-    EXPECT_TRUE(std::ranges::is_sorted(profile->y)) << which;
+    EXPECT_TRUE(ranges::is_sorted(profile->y)) << which;
   } else if (const auto* slices = std::get_if<SliceSet>(&s.shape)) {
-    EXPECT_TRUE(finite(slices->u) && std::ranges::is_sorted(slices->u)) << which;
+    EXPECT_TRUE(finite(slices->u) && ranges::is_sorted(slices->u)) << which;
     for (const Profile& p : slices->profiles) EXPECT_TRUE(finite(p.y) && finite(p.z)) << which;
   } else if (const auto* spline = std::get_if<SplineSurface>(&s.shape)) {
     EXPECT_NO_THROW(check(*spline)) << which;

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -31,13 +31,12 @@ std::vector<fs::path> files_with(const fs::path& folder, const std::string& exte
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.path().extension() == extension) files.push_back(entry.path());
-  std::ranges::sort(files);
+  ranges::sort(files);
   return files;
 }
 
 bool of_one_kind(const CaseFile& f) {
-  return std::ranges::all_of(f.cases,
-                             [&](const Case& c) { return c.content.index() == f.cases.front().content.index(); });
+  return ranges::all_of(f.cases, [&](const Case& c) { return c.content.index() == f.cases.front().content.index(); });
 }
 
 void expect_both_round_trips(const CaseFile& file) {
@@ -69,7 +68,7 @@ TEST(WrittenCase, SaysInWordsWhatIsAskedFor) {
       "rolling.toml");
   const Inputs inputs = inputs_of(file.cases, file.path.parent_path());
   const auto value = [&](const char* name) {
-    const auto found = std::ranges::find(inputs, name, &Inputs::value_type::first);
+    const auto found = ranges::find(inputs, name, &Inputs::value_type::first);
     return found == inputs.end() ? std::string("nothing") : found->second;
   };
   EXPECT_EQ(value("wheelset: vertical force"), "100 kN");

@@ -5,12 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -44,7 +44,7 @@ class WriteSlices : public ::testing::Test {
   double z_of(const std::string& name, Body body = Body::wheel) const {
     ProfileOptions as_written;
     as_written.mirror_z = -1;
-    return std::ranges::min(read_slices(path(name), body, as_written).profiles.front().z);
+    return ranges::min(read_slices(path(name), body, as_written).profiles.front().z);
   }
   std::vector<fs::path> folders() const {
     std::vector<fs::path> all;

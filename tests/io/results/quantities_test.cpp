@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
@@ -49,8 +50,7 @@ void expect_in_schema(const json& of_all) {
     if (!object.empty()) objects.insert(object);
   }
   const auto is_row = [](const std::string& object, const std::string& key) {
-    return std::ranges::any_of(quantities<T>(),
-                               [&](const auto& row) { return row.object == object && row.key == key; });
+    return ranges::any_of(quantities<T>(), [&](const auto& row) { return row.object == object && row.key == key; });
   };
   for (const std::string& object : objects)
     for (const auto& [key, value] : of_all["properties"][object]["properties"].items())

@@ -47,6 +47,18 @@ TEST(Summary, ARoundedZeroHasNoSign) {
   EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("e-19")));
 }
 
+TEST(Summary, RowsWithoutANumberAreLeftOut) {
+  io::RunResult run = testing::sample_run();
+  std::vector<io::PatchResult>& patches = run.cases[0].patches;
+  for (io::PatchResult& patch : patches) patch.noise.reset();
+  EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("its error by noise")));
+  patches.at(1).noise.emplace();
+  patches[1].noise->pmax = 3e6;
+  EXPECT_THAT(io::summary(run.cases[0]), ContainsRegex("its error by noise +\\[MPa\\] +3\n"));
+  for (io::PatchResult& patch : patches) patch.xi = std::nan("");
+  EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("creepage xi")));
+}
+
 TEST(Summary, ManyCasesHaveALineEach) {
   const io::RunResult run = testing::sample_run();
   std::istringstream lines(io::summary_list(run.cases));

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/read_irregularities.hpp"
 #include "treadmark/io/simulations/recording_names.hpp"
@@ -91,8 +92,8 @@ TEST(Recording, FoundFilesAreTheSameTrack) {
   EXPECT_DOUBLE_EQ(plus.distance.back(), 44100.0);
   const std::pair<double, double> ranges[] = {{-2.0, 1.961}, {-0.8, 0.8}, {-1.0, 1.0}, {0.4, 1.6}};
   for (std::size_t f = 0; f < 4; ++f) {
-    EXPECT_NEAR(*std::ranges::min_element(plus.values[f]) * kMilli, ranges[f].first, 1e-3);
-    EXPECT_NEAR(*std::ranges::max_element(plus.values[f]) * kMilli, ranges[f].second, 1e-3);
+    EXPECT_NEAR(*ranges::min_element(plus.values[f]) * kMilli, ranges[f].first, 1e-3);
+    EXPECT_NEAR(*ranges::max_element(plus.values[f]) * kMilli, ranges[f].second, 1e-3);
   }
   constexpr double kDecimals = 1e-6;  // three of mm
   for (const char* name : {"track_gauge_abs.csv", "track_trc.csv", "track_six.csv", "track_km_dec.csv"}) {
@@ -131,7 +132,7 @@ TEST_P(RecordingNames, AreRead) {
     for (const double value : {level(x) - 0.5 * cross(x), level(x) + 0.5 * cross(x), lateral - 0.5 * apart,
                                lateral + 0.5 * apart, cross(x), 1435.0 + apart})
       row += fmt::format("{}{:.4f}", p.separator, value / p.unit);
-    if (p.comma) std::ranges::replace(row, '.', ',');
+    if (p.comma) ranges::replace(row, '.', ',');
     return row;
   }));
   EXPECT_LT(deviation(found.table, 44000.0), 2.0 * kWritten) << p.header;
@@ -199,7 +200,7 @@ TEST(Recording, Encodings) {
       "Kilometer;L\u00e4ngsh\u00f6he [mm];Querh\u00f6he [mm];Richtung [mm];Spurweite [mm]", [](int, double x) {
         std::string row = fmt::format("{:.5f};{:.4f};{:.4f};{:.4f};{:.4f}", x / 1000.0, level(x), cross(x), align(x),
                                       1435.0 + gauge(x));
-        std::ranges::replace(row, '.', ',');
+        ranges::replace(row, '.', ',');
         return row;
       });
   std::string little = "\xFF\xFE", big = "\xFE\xFF", latin, minus = text;

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/scans/fit/half_fits.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <optional>
@@ -12,6 +11,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/scans/fit/section_levels.hpp"
 #include "treadmark/tests/scans/support/simple_cloud.hpp"
 
@@ -125,7 +125,7 @@ TEST(HalfFits, PlacesRunAsProfilesAndStationsAsTheSurface) {
   const Told t = told(20e-6, 3, 600);
   ASSERT_EQ(t.errors.draws.size(), 32u);
   ASSERT_EQ(t.errors.u.size(), 32u);
-  EXPECT_TRUE(std::ranges::is_sorted(t.errors.y, std::greater<>()));
+  EXPECT_TRUE(ranges::is_sorted(t.errors.y, std::greater<>()));
   for (std::size_t i = 1; i < t.errors.y.size(); ++i)
     EXPECT_LT(std::hypot(t.errors.y[i] - t.errors.y[i - 1], t.errors.z[i] - t.errors.z[i - 1]), 0.51e-3);
   for (std::size_t k = 0; k < t.stations.size(); ++k) {
@@ -143,7 +143,7 @@ TEST(HalfFits, StationsAreCloserInDamage) {
   EXPECT_EQ(error_stations(band, {}).size(), 32u);
   const std::vector<double> stations = error_stations(band, damage);
   EXPECT_EQ(stations.size(), 32u + 4u * 8u) << "in the four largest";
-  const auto near = std::ranges::count_if(stations, [](double a) { return a < 0.05 || a > 3.0 - 0.03; });
+  const auto near = ranges::count_if(stations, [](double a) { return a < 0.05 || a > 3.0 - 0.03; });
   EXPECT_GE(near, 32);
   for (const double a : stations) EXPECT_TRUE(a >= 0.0 && a < 3.0) << a;
 }

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/model/magnitudes.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
@@ -69,7 +69,7 @@ struct Forgery {
 };
 
 std::size_t first_of(const ContactSolution& s, ElementState state) {
-  return static_cast<std::size_t>(std::ranges::find(s.state, state) - s.state.begin());
+  return static_cast<std::size_t>(ranges::find(s.state, state) - s.state.begin());
 }
 
 TEST(Invariants, EveryBrokenOneIsNamed) {

@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
@@ -152,7 +152,7 @@ TEST(Plausibility, TheoriesBeyondWhatTheyAreKnownFor) {
   using Model = TangentialModel;
   const auto doubted = [](double ratio, Model model, const Creepage& scaled) {
     const std::vector<RemarkKind> kinds = judged_by_theory(ratio, model, scaled);
-    return std::ranges::find(kinds, RemarkKind::beyond_theory) != kinds.end();
+    return ranges::find(kinds, RemarkKind::beyond_theory) != kinds.end();
   };
   const Creepage slipping{1.0, 1.0, 0.0}, turning{0.0, 1.0, 0.5}, spinning{0.5, -0.5, 1.0};
   for (const double ratio : {0.1, 0.5, 2.0, 10.0})
@@ -181,7 +181,7 @@ TEST(Plausibility, KpecOnLongPatches) {
     patch.problem.force_prescribed = false;
     patch.problem.approach = shape.approach;
     patch.problem.normal_model = NormalModel::kpec;
-    EXPECT_EQ(std::ranges::count(judged(patch.problem), RemarkKind::beyond_theory), ratio > 5.0 ? 1 : 0) << ratio;
+    EXPECT_EQ(ranges::count(judged(patch.problem), RemarkKind::beyond_theory), ratio > 5.0 ? 1 : 0) << ratio;
   }
 }
 

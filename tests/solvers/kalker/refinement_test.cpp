@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
@@ -139,7 +139,7 @@ TEST(Refinement, SeesPressureWithoutLimitAtEdgesAndKinks) {
       std::vector<Remark> remarks;
       judge_refinement(r, 1, remarks);
       // Elements as large as the zone where it grows do not tell.
-      EXPECT_EQ(std::ranges::any_of(remarks, [](const Remark& one) { return one.kind == RemarkKind::edge_pressure; }),
+      EXPECT_EQ(ranges::any_of(remarks, [](const Remark& one) { return one.kind == RemarkKind::edge_pressure; }),
                 !kink || across > 20);
     }
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/tests/solvers/kalker/owned_problem.hpp"
@@ -163,7 +164,7 @@ TEST(TheoryErrors, DocumentShowsWhatIsComputed) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) lines.push_back(line);
   for (const auto& [head, row] : computed()) {
-    const auto line = std::ranges::find_if(lines, [&](const std::string& text) { return text.starts_with(head); });
+    const auto line = ranges::find_if(lines, [&](const std::string& text) { return text.starts_with(head); });
     if (line == lines.end()) {
       ADD_FAILURE() << "docs/verification.md lacks\n" << markdown(head, row);
       continue;

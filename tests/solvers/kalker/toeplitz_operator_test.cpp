@@ -75,13 +75,12 @@ TEST(ToeplitzOperator, IsBitwiseReproducibleAcrossThreads) {
   const ToeplitzOperator op(40, 33, lopsided_kernel);
   const auto p = random_values(op.size(), 9);
   std::vector<std::vector<double>> results(4, std::vector<double>(op.size()));
-  {
-    std::vector<std::jthread> threads;
-    for (auto& u : results)
-      threads.emplace_back([&] {
-        for (int repeat = 0; repeat < 10; ++repeat) op.apply(p, u);
-      });
-  }
+  std::vector<std::thread> threads;
+  for (auto& u : results)
+    threads.emplace_back([&] {
+      for (int repeat = 0; repeat < 10; ++repeat) op.apply(p, u);
+    });
+  for (std::thread& thread : threads) thread.join();
   for (const auto& u : results) EXPECT_EQ(u, results.front());
 }
 

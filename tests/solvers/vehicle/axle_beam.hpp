@@ -11,6 +11,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/model/vehicle/flexible_axle.hpp"
 #include "treadmark/solvers/vehicle/track/beam_element.hpp"
 
@@ -44,7 +45,7 @@ class AxleBeam {
       const auto at = static_cast<std::size_t>(i);
       const double l = y_[at + 1] - y_[at], middle = 0.5 * (y_[at] + y_[at + 1]);
       const auto section =
-          std::ranges::find_if(sections, [&](const Section& s) { return s.from < middle && middle < s.to; });
+          ranges::find_if(sections, [&](const Section& s) { return s.from < middle && middle < s.to; });
       const double d2 = section->diameter * section->diameter, area = std::numbers::pi / 4.0 * d2, i2 = area * d2 / 16;
       const vehicle::BeamElement beam({kYoung * i2, shear_coefficient * kShear * area, density * area, density * i2, 0},
                                       l);
@@ -114,7 +115,7 @@ class AxleBeam {
   }
 
   Eigen::Index node(double y) const {
-    const auto nearest = std::ranges::min_element(y_, {}, [&](double at) { return std::abs(at - y); });
+    const auto nearest = ranges::min_element(y_, {}, [&](double at) { return std::abs(at - y); });
     return nearest - y_.begin();
   }
   double total_mass() const { return rigid(mass_, 0); }

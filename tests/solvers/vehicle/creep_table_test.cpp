@@ -279,8 +279,8 @@ TEST(CreepTable, ATreadContactIsThatSolvedInFull) {
   for (int i = 0; i < kCount; ++i) {
     PairMotion m;
     m.wheelset.y = -3e-3 + 2.5e-3 * even(random);
-    const double compression = table->levels().front().compression.at(m.wheelset.y).value;
-    m.wheelset.z = table->energy_height().at(m.wheelset.y).value + (1.2 + 0.6 * even(random)) * compression;
+    const double compression = table->central().levels.front().compression.at(m.wheelset.y).value;
+    m.wheelset.z = table->central().energy_height.at(m.wheelset.y).value + (1.2 + 0.6 * even(random)) * compression;
     m.wheelset.yaw = 2e-3 * even(random);
     m.wheelset_velocity.x = kSpeed;
     m.wheelset_velocity.pitch = -kSpeed / kRadius * (1.0 + 1.5e-3 * even(random));

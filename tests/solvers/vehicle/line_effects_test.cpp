@@ -11,6 +11,7 @@
 #include "small_vehicles.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 #include "treadmark/solvers/vehicle/curving.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
@@ -197,7 +198,7 @@ TEST(LineEffects, AWeightThatLeansMovesToTheOuterRail) {
   car.roll_flexibility = toppling / (springs - toppling);
   const Curving hand = curving(car, path->at(100.0), kSpeed, kGravity);
   const auto place = [&](const std::string& name) {
-    const auto found = std::ranges::find(v.system.coordinates, name, &Coordinate::name);
+    const auto found = ranges::find(v.system.coordinates, name, &Coordinate::name);
     return e.state.q[found - v.system.coordinates.begin()];
   };
   const double axles_roll = 0.5 * (place("front.roll") + place("rear.roll"));

@@ -7,6 +7,7 @@
 
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/random.hpp"
 
 namespace treadmark::vehicle {
@@ -122,7 +123,7 @@ double potential(const VehicleModel& v, const Multibody& s, const Vector& q) {
     sum -= b.mass * kGravity * (placed(b.name, b.position).origin.z() - b.position.z());
   for (const SpringSpec& spring : v.springs) {
     const auto end = [&](const std::string& name) {
-      const auto b = std::ranges::find(v.bodies, name, &BodySpec::name);
+      const auto b = ranges::find(v.bodies, name, &BodySpec::name);
       if (b == v.bodies.end()) return std::pair(spring.position, Vec3(Vec3::Zero()));
       const Placed p = placed(name, b->position);
       return std::pair(Vec3(p.origin + p.rotation * (spring.position - b->position)), p.angles);

@@ -13,6 +13,7 @@
 #include "beam_on_bed.hpp"
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/vehicle/contacts/contact_on_rail.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
@@ -116,7 +117,7 @@ TEST(RailSideways, PlacesNameAsManyCoordinatesAsTheyHaveRows) {
       }
     }
   }
-  for (const Eigen::Index rows : {4, 6, 9}) EXPECT_NE(std::ranges::find(sizes, rows), sizes.end()) << rows;
+  for (const Eigen::Index rows : {4, 6, 9}) EXPECT_NE(ranges::find(sizes, rows), sizes.end()) << rows;
 }
 
 /// Bending by Timoshenko's beam on a bed, torsion by a bar on an elastic bed.

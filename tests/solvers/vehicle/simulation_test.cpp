@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -244,6 +245,44 @@ TEST(Simulation, CancelledStepsLeaveItWhereItWas) {
   EXPECT_EQ(disturbed.state().v, whole.state().v);
   EXPECT_EQ(disturbed.counts().steps, whole.counts().steps);
   EXPECT_EQ(disturbed.counts().evaluations, whole.counts().evaluations);
+}
+
+/// A wheel that climbs its rail at a place.
+class Climbing : public HertzSpring {
+ public:
+  using HertzSpring::HertzSpring;
+  ContactReaction evaluate(const PairMotion& m) override {
+    ContactReaction r = HertzSpring::evaluate(m);
+    if (!(m.wheelset.x > kPlace)) return r;
+    r.status = Status::failed;
+    r.derailed = true;
+    r.message = "the flange has climbed the rail";
+    return r;
+  }
+  static constexpr double kPlace = 0.731;
+};
+
+TEST(Simulation, ADerailmentIsAResult) {
+  VehicleOnTrack v = test_vehicle();
+  const SystemState start = lifted(v, -0.01);
+  v.wheels.at(0).element = std::make_shared<Climbing>(kHertz, -0.75);
+  constexpr double kNear = 1e-5, kLong = 5e-4;  // [s], also where no step may be as short
+  for (const double shortest : {1e-6, kLong}) {
+    SimulationSettings settings = fixed_steps(0.1, 1e-3);
+    settings.min_step = shortest;
+    Simulation s(v, start, settings);
+    ByteWriter before;
+    s.save(before);
+    run(s);
+    EXPECT_NEAR(s.state().time, Climbing::kPlace / v.speed, std::max(kNear, 4.0 * shortest));
+    EXPECT_EQ(s.derailed(), v.wheels[0].name + ": the flange has climbed the rail");
+    const long steps = s.counts().steps;
+    EXPECT_NO_THROW(s.advance());
+    EXPECT_EQ(s.counts().steps, steps);
+    ByteReader in(before.bytes());
+    s.restore(in);
+    EXPECT_FALSE(s.finished()) << "before it derailed it goes on";
+  }
 }
 
 TEST(Simulation, BadSettingsAndStuckStepsAreErrors) {

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -13,6 +12,7 @@
 
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/solvers/vehicle/contacts/table_contact.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
@@ -38,18 +38,20 @@ struct Wheelset {
 /// Contact of a cone with an edge: the contact stays on the edge, and the cone slides up or down on it.
 std::shared_ptr<const ContactTable> cone_on_edge(const Wheelset& w) {
   const double load = 0.5 * w.weight();
-  std::vector<ContactTableColumn> columns;
-  for (const double y : {-8e-3, -4e-3, 0.0, 4e-3, 8e-3})
+  ContactTableColumns columns;
+  for (const double y : {-8e-3, -4e-3, 0.0, 4e-3, 8e-3}) {
+    const ContactPart all{1.0, std::atan(-w.conicity), -y, w.conicity * y, w.area, std::log(w.aspect)};
     columns.push_back(
-        {y,
-         {{w.approach - w.conicity * y, 0.4 * load * w.approach, -w.conicity, -y, w.conicity * y, w.area, w.aspect}}});
+        {y, {{w.approach - w.conicity * y, 0.4 * load * w.approach, -w.conicity, -y, w.conicity * y, {all}}}});
+  }
   wheelrail::Problem p;
   p.friction.kinetic = 1e4;  // no saturation
   p.wheelset.nominal_radius = w.radius;
   wheelrail::Placement nominal;
   nominal.X_TR.origin = nominal.X_TW.origin = Vec3(0.0, w.half_distance, 0.0);
   nominal.X_TWs.origin = Vec3(0.0, 0.0, -w.radius);
-  return std::make_shared<ContactTable>(columns, std::vector{load}, 0, p, nominal);
+  return std::make_shared<ContactTable>(std::vector<ContactTableColumns>{columns}, ContactTable::Loads{{load}}, p,
+                                        nominal);
 }
 
 VehicleAtSpeed on_edges(const Wheelset& w) {
@@ -133,7 +135,7 @@ struct ByHand {
   }
   std::complex<double> hunting() const {
     const auto all = roots();
-    return *std::ranges::max_element(all, {}, [](std::complex<double> z) { return z.imag() > 0.0 ? z.real() : -1e9; });
+    return *ranges::max_element(all, {}, [](std::complex<double> z) { return z.imag() > 0.0 ? z.real() : -1e9; });
   }
 };
 
@@ -372,7 +374,7 @@ TEST(Stability, AnOverdampedMassHasTheTwoRealEigenvaluesOfItsFormula) {
       [&](double speed) { return on_hertz_springs(wheel_on_mass(1813.0, m, k, c), {}, speed, 1e15); }, 20.0);
   const double half = 0.5 * c / m, root = std::sqrt(half * half - k / m);
   for (const double expected : {-half + root, -half - root})
-    EXPECT_TRUE(std::ranges::any_of(at.modes, [&](const Eigenmode& mode) {
+    EXPECT_TRUE(ranges::any_of(at.modes, [&](const Eigenmode& mode) {
       return mode.frequency == 0.0 && mode.damping_ratio == 1.0 &&
              std::abs(mode.value.real() - expected) < 1e-3 * std::abs(expected);
     })) << expected;
@@ -390,13 +392,13 @@ TEST(Stability, MotionsKeepTheirNumberFromSpeedToSpeed) {
   int number = -1;
   for (const ModesAtSpeed& at : r.at) {
     const std::complex<double> swaying = hunting(at).value;
-    const auto place = std::ranges::find(at.modes, swaying, &Eigenmode::value) - at.modes.begin();
+    const auto place = ranges::find(at.modes, swaying, &Eigenmode::value) - at.modes.begin();
     const int here = at.branch[static_cast<std::size_t>(place)];
     if (number < 0) number = here;
     EXPECT_EQ(here, number) << at.speed;
     std::vector<int> sorted = at.branch;
-    std::ranges::sort(sorted);
-    EXPECT_EQ(std::ranges::adjacent_find(sorted), sorted.end());
+    ranges::sort(sorted);
+    EXPECT_EQ(ranges::adjacent_find(sorted), sorted.end());
   }
 }
 

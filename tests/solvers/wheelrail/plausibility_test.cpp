@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/solvers/wheelrail/usual_values.hpp"
 #include "treadmark/tests/solvers/wheelrail/round_groove.hpp"
 #include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
@@ -137,7 +137,7 @@ class Torn final : public Surface {
       if (!out.dzdx.empty()) out.dzdx[i] = kNaN;
       if (!out.dzdy.empty()) out.dzdy[i] = kNaN;
     }
-    if (!out.z.empty()) std::ranges::copy(z, out.z.begin());
+    if (!out.z.empty()) ranges::copy(z, out.z.begin());
   }
   void do_locate(const Pose& X_SP, std::span<const Vec2> points, std::span<SurfacePoint> out) const override {
     whole_->locate(X_SP, points, out);

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/random.hpp"
 #include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
 
@@ -188,8 +189,7 @@ class Violations {
         const std::size_t i = g.index(ix, iy);
         const Vec3 place = X_TP.apply({g.x(ix), g.y(iy), std::isnan(rail[i]) ? 0.0 : rail[i]});
         part[i] = static_cast<std::size_t>(
-            std::ranges::min_element(parts, {}, [&](const auto& one) { return distance(one.box, place); }) -
-            parts.begin());
+            ranges::min_element(parts, {}, [&](const auto& one) { return distance(one.box, place); }) - parts.begin());
       }
     for (std::size_t k = 0; k < parts.size(); ++k) {
       std::vector<double> own = patch.contact.pressure;
@@ -216,7 +216,7 @@ class Violations {
   /// Where the rigid bodies lie in each other there is a patch. Depths are normal to the rail. Elements that stay
   /// aligned in time may lie on both sides of a shallow corner of 5 mm, which is said.
   void penetration_without_patch(const Geometry& g) {
-    const bool said = std::ranges::any_of(s_.remarks, [](const Remark& remark) {
+    const bool said = ranges::any_of(s_.remarks, [](const Remark& remark) {
       return remark.kind == RemarkKind::coarse_elements && remark.patch == 0;
     });
     constexpr double kCorner = 5e-3, kBeside = 0.5e-3;  // [m]
@@ -235,7 +235,7 @@ class Violations {
         const std::size_t i = grid.index(ix, iy);
         const double depth = (wheel[i] - rail[i]) / std::hypot(1.0, slope[i]), x = grid.x(ix), y = grid.y(iy);
         if (!(depth > deepest)) continue;
-        const bool has_patch = std::ranges::any_of(s_.patches, [&](const PatchSolution& patch) {
+        const bool has_patch = ranges::any_of(s_.patches, [&](const PatchSolution& patch) {
           const Rectangle& box = patch.region.extent.box;
           return x > box.x_min - kBeside && x < box.x_max + kBeside && y > box.y_min - kBeside &&
                  y < box.y_max + kBeside;

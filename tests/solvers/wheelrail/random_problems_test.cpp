@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/solvers/wheelrail/random_problems.hpp"
 #include "treadmark/tests/solvers/wheelrail/solution_bytes.hpp"
 
@@ -75,7 +76,7 @@ TEST(RandomProblems, NothingIsViolatedWithoutAStatus) {
     } else {
       ++solved;
       two += s.patches.size() > 1;
-      parted += std::ranges::any_of(s.patches, [](const PatchSolution& p) { return p.region.parts.size() > 1; });
+      parted += ranges::any_of(s.patches, [](const PatchSolution& p) { return p.region.parts.size() > 1; });
       EXPECT_THAT(Violations(r, g, s).found, IsEmpty());
     }
     const auto same_bits = [&](const PairSolution& other) { return SolutionBytes::of(other) == SolutionBytes::of(s); };
@@ -129,7 +130,7 @@ TEST(RandomProblems, WhatIsForgedIsFound) {
     return Violations(r, surfaces_of(r), bad).found;
   };
   const auto greatest = [&](kalker::ContactSolution& c) {
-    return static_cast<std::size_t>(std::ranges::max_element(c.pressure) - c.pressure.begin());
+    return static_cast<std::size_t>(ranges::max_element(c.pressure) - c.pressure.begin());
   };
   using ::testing::Contains;
   using ::testing::StartsWith;

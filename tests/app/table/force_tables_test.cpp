@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/table/force_tables.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/support/parts.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::ProgramResult;
+using testing::run_program;
+using testing::TemporaryFolder;
+
+const std::string kCase = R"(
+title = "a wheel to tabulate"
+rail.shape.standard = "60E1"
+wheel.shape.standard = "S1002"
+track.cant = "1:40"
+[wheelset]
+nominal_radius_mm = 460
+vertical_force_N = 80e3
+velocity_m_s = 20
+rolling = "nominal"
+[friction]
+coefficient = 0.25
+)";
+
+std::string case_file(const TemporaryFolder& folder) {
+  const auto file = folder.path() / "wheel.toml";
+  std::ofstream(file) << kCase;
+  return file.string();
+}
+
+/// As small as it can be.
+TableRequest small_request() {
+  TableRequest request = table_request({});
+  request.axes.lateral_range = 2e-3, request.axes.step = 1e-3, request.axes.element_size = 1e-3;
+  request.axes.relative_loads = {0.5, 1.5};
+  request.axes.roll = {4e-3, 2}, request.axes.yaw = {10e-3, 1};
+  request.creep = {2, 2, 2.0, 8, 6};
+  request.check.points = 5;
+  return request;
+}
+
+const MadeTable& small_table() {
+  static const MadeTable table = [] {
+    const TemporaryFolder folder;
+    return make_table(case_file(folder), small_request());
+  }();
+  return table;
+}
+
+vehicle::WheelMotion some_motion() {
+  vehicle::WheelMotion w;
+  w.motion.wheelset.y = 0.7e-3, w.motion.wheelset.yaw = 3e-3;
+  w.motion.wheelset_velocity.x = 20.0, w.motion.wheelset_velocity.pitch = -43.6;
+  w.vertical_load = 7e4;
+  return w;
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(ForceTables, ReadAgainTheyGiveTheSameBits) {
+  TREADMARK_NEEDS("hdf5");
+  const TemporaryFolder folder;
+  for (const char* name : {"table.h5", "table.json"}) {
+    const auto file = folder.path() / name;
+    write_table(file, small_table());
+    MadeTable again = read_table(file);
+    vehicle::ForceTable before = small_table().table;
+    const vehicle::WheelForces a = before.at(some_motion()), b = again.table.at(some_motion());
+    ASSERT_EQ(a.reaction.status, Status::ok) << a.reaction.message;
+    for (const auto& column : columns<vehicle::WheelForces>())
+      EXPECT_EQ(column.access.get(a), column.access.get(b)) << name << ' ' << column.stored;
+    ASSERT_TRUE(again.table.check().has_value());
+    const auto &kept = small_table().table.check()->errors, &read = again.table.check()->errors;
+    ASSERT_EQ(read.size(), kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      EXPECT_EQ(read[i].number, kept[i].number);
+      EXPECT_EQ(read[i].worst, kept[i].worst);
+      EXPECT_EQ(read[i].rms, kept[i].rms);
+    }
+    const std::string bytes = text_of(file);
+    write_table(file, again);
+    EXPECT_EQ(text_of(file), bytes) << name;
+  }
+}
+
+TEST(ForceTables, NodesAreATable) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "nodes.csv";
+  write_table(file, small_table());
+  const std::string text = text_of(file);
+  EXPECT_THAT(text, HasSubstr("roll_rad,yaw_rad,y_m,load_N,z_m,"));
+  // 3 rolls, 2 yaws, at least 5 places, 2 loads, and the heads
+  EXPECT_GE(ranges::count(text, '\n'), 1 + 3 * 2 * 5 * 2);
+  EXPECT_EQ(ranges::count(text, '\n'), static_cast<std::ptrdiff_t>(1 + small_table().nodes.size()));
+  EXPECT_THROW(read_table(file), Error);
+  EXPECT_THROW(write_table(folder.path() / "table.txt", small_table()), Error);
+}
+
+TEST(ForceTables, DamagedFilesAreRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "table.json";
+  write_table(file, small_table());
+  const nlohmann::ordered_json whole = nlohmann::ordered_json::parse(text_of(file));
+  const auto refused = [&](auto change) {
+    nlohmann::ordered_json damaged = whole;
+    change(damaged);
+    std::ofstream(file) << damaged.dump();
+    try {
+      read_table(file);
+      ADD_FAILURE() << "a damaged table was read";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::input_data) << error.what();
+    }
+  };
+  refused([](auto& j) { j["format"] = "something else"; });
+  refused([](auto& j) { j.erase("nodes"); });
+  refused([](auto& j) { j["nodes"]["z_m"].erase(0); });
+  refused([](auto& j) { j["nodes"]["area_m2"][3] = -1.0; });
+  refused([](auto& j) { j["nodes"]["z_m"][0] = nullptr; });
+  refused([](auto& j) { j["nodes"]["load_N"][1] = 1e3; });
+  refused([](auto& j) { j["nodes"]["roll_rad"][1] = 1e-3; });
+  refused([](auto& j) { j["head"]["roll_intervals"] = 4; });
+  refused([](auto& j) { j["head"]["roll_most_rad"] = 5e-3; });
+  refused([](auto& j) { j["head"]["wheel_z_m"] = nullptr; });
+  refused([](auto& j) { j["creep"]["poisson"] = -1.0; });
+  refused([](auto& j) { j["creep"]["values"].erase(0); });
+  refused([](auto& j) { j["case"] = "nonsense = 1"; });
+}
+
+TEST(ForceTables, WhatTablesAreNotForIsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "case.toml";
+  const auto refused = [&](const std::string& text, const TableRequest& request, const char* why) {
+    std::ofstream(file) << text;
+    try {
+      make_table(file, request);
+      ADD_FAILURE() << why;
+    } catch (const Error& error) {
+      EXPECT_THAT(std::string(error.what()), HasSubstr(why));
+    }
+  };
+  TableRequest request = small_request();
+  refused("wheel.flats = [{ depth_mm = 1.0 }]\n" + kCase, request, "round");
+  refused(std::string(kCase).replace(kCase.find("vertical_force_N = 80e3"), 23, "z_mm = 0.1"), request, "load_kN");
+  refused("[patch]\nmx = 4\nmy = 4\n", request, "");
+  EXPECT_THROW(table_request(io::given_settings(std::vector<std::string>{"roll_intervals=1"})), Error);
+  EXPECT_THROW(table_request(io::given_settings(std::vector<std::string>{"yaw_mrad=0"})), Error);
+  EXPECT_THROW(table_request(io::given_settings(std::vector<std::string>{"nonsense=0"})), Error);
+}
+
+TEST(ForceTables, TheProgramWritesThem) {
+  TREADMARK_NEEDS("hdf5");
+  const TemporaryFolder folder;
+  const std::string file = case_file(folder), table = (folder.path() / "t.h5").string(),
+                    json = (folder.path() / "t.json").string();
+  const ProgramResult made =
+      run_program({"table", file, "-o", table, "--lateral-range-mm", "2", "--step-mm", "1", "--element-mm", "1",
+                   "--roll-intervals", "0", "--yaw-intervals", "0", "--creep-forces", "linear", "--check-points", "4"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("errors against the exact theory"));
+  EXPECT_THAT(made.out, HasSubstr("normal_force"));
+  const ProgramResult told = run_program({"table", table, "-o", json, "--json", "-"});
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_EQ(nlohmann::json::parse(told.out)["check"]["compared"], 4);
+  EXPECT_EQ(read_table(json).head.creep_forces, "linear");
+  EXPECT_EQ(run_program({"table", table, "--step-mm", "1"}).status, 2);
+}
+
+}  // namespace
+}  // namespace treadmark::app
