@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/run_parts.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/cancellation.hpp"

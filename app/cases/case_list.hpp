@@ -11,7 +11,6 @@
 #include <string_view>
 #include <vector>
 
-#include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/cases/case_rows.hpp"
@@ -21,6 +20,8 @@
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::app {
+
+class CaseSequence;
 
 /// A file with more cases is run as a list: numbers of every case, and no fields of patches.
 inline constexpr std::size_t kLongList = 1000;
