@@ -136,11 +136,11 @@ TEST_F(AssessCommand, AccelerationsMakeTheVelocitiesThatStandBeside) {
 }
 
 TEST_F(AssessCommand, OnlyTheChannelsThatAreChosenAreWrittenDown) {
-  const ProgramResult made =
-      simulate("a", {"--set", R"(simulation.channels=["ws1_*.Q_N", "ws1_*.Y_N"])", "--set", "assessment.spectra=[]"});
+  const ProgramResult made = simulate("a", {"--set", R"(simulation.channels=["ws1_*.Q_N", "ws1_*.Y_N", "mass.z_m"])",
+                                            "--set", "assessment.spectra=[]"});
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string csv = input_.read("a/history.csv");
-  EXPECT_THAT(csv.substr(0, csv.find('\n')), "t_s,x_m,Q_N,Y_N,ws1_right.Q_N,ws1_right.Y_N");
+  EXPECT_THAT(csv.substr(0, csv.find('\n')), "t_s,x_m,Q_N,Y_N,ws1_right.Q_N,ws1_right.Y_N,mass.z_m");
   EXPECT_EQ(run_program({"assess", path("a")}).status, 0);
   const ProgramResult wrong = simulate("b", {"--set", R"(simulation.channels=["ws1_*.Q"])"});
   EXPECT_EQ(wrong.status, 2);
