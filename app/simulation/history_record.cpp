@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/assessment/assess_result.hpp"
 #include "treadmark/io/histories/channels.hpp"
 
 namespace treadmark::app {
@@ -100,7 +101,7 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
   add_running(watched);
   add_accelerations(file.history);
   keep_only(file.history);  // the last
-  if (file.assessment) io::fitting_columns(columns(), file.assessment->spectra, {file.path.string()});
+  check_assessable(file, columns());
 }
 
 std::vector<io::HistoryColumn> HistoryRecord::columns_of(const io::SimulationFile& file,

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "treadmark/core/parts.hpp"
@@ -149,6 +151,27 @@ TEST_F(AssessCommand, OnlyTheChannelsThatAreChosenAreWrittenDown) {
   const ProgramResult spectra = simulate("b", {"--set", R"(assessment.spectra=["axle_bx.*"])"});
   EXPECT_EQ(spectra.status, 2);
   EXPECT_THAT(spectra.err, HasSubstr("axle_bx.*"));
+}
+
+/// Below 15 N of T gamma there is no damage, and means of wear are the wear of the mean.
+TEST_F(AssessCommand, LawsAreAskedOfTheWheels) {
+  const ProgramResult made = simulate("a", {"--set", R"(assessment.laws=["british-rail", "burstow-r220"])"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("mm3/km"), HasSubstr("warning: the law burstow-r220 is unverified")));
+  std::map<std::string, double> found;
+  for (const auto& one : nlohmann::json::parse(input_.read("a/assessment.json"))["runs"][0]["assessed"])
+    if (one["place"] == "ws1_left" && one["status"] == "ok") found[one["quantity"]] = one["value"];
+  ASSERT_LT(found.at("Tgamma"), 15.0);
+  EXPECT_NEAR(found.at("british-rail"), 1e-12 * 0.25 * std::numbers::pi * found.at("Tgamma"), 1e-17);
+  EXPECT_GT(found.at("british-rail"), 0.0);
+  EXPECT_EQ(found.at("burstow-r220"), 0.0);
+  const auto refusal = [&](const char* law) { return run_program({"assess", path("a"), "--laws", law}).err; };
+  EXPECT_THAT(refusal("british-rial"), HasSubstr("law 'british-rial' is not known (did you mean 'british-rail'?)"));
+  EXPECT_THAT(refusal("jendel"), HasSubstr("use it in treadmark evolve"));
+  const ProgramResult before = simulate("b", {"--set", R"(assessment.laws=["sheffield-r8t"])"});
+  EXPECT_EQ(before.status, 2);
+  EXPECT_THAT(before.err, HasSubstr("no wheel has the channels that the law sheffield-r8t needs"));
+  EXPECT_FALSE(fs::exists(path("b")));
 }
 
 TEST_F(AssessCommand, RunsStandSideBySide) {
