@@ -484,6 +484,15 @@ const QuantityInfo& quantity_info(const std::string& key) {
   throw Error(ErrorKind::configuration, fmt::format("there is no assessed quantity {}", key));
 }
 
+double longest_record_step(const RunSignals& run) {
+  double corner = run.wheels.empty() ? 0.0 : kForceCorner;
+  for (const PointSignal& point : run.points)
+    for (const QuantityRow& row : kRows)
+      if (row.point == point.kind && row.subject == (point.lateral ? Subject::lateral : Subject::vertical))
+        corner = std::max(corner, corners(row.samples).second);
+  return 1.0 / (kStepsOfPeriod * corner);
+}
+
 std::vector<Assessed> assess_run(const RunSignals& run, std::span<const AssessmentSection> sections,
                                  VehicleKind vehicle) {
   return Assessor(run, sections, vehicle).take();

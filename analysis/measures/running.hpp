@@ -84,6 +84,10 @@ std::span<const QuantityInfo> assessed_quantities();
 /// Errors: Error(configuration) for keys that are none.
 const QuantityInfo& quantity_info(const std::string& key);
 
+/// The longest step of a record that is too coarse for none of the quantities of these signals, whatever their values
+/// [s].
+double longest_record_step(const RunSignals& run);
+
 /// Samples are taken at 1 kHz, sliding means every half metre. Errors: Error(input_data) for signals of different
 /// lengths, with fewer than two instants, or whose time does not increase.
 std::vector<Assessed> assess_run(const RunSignals& run, std::span<const AssessmentSection> sections,

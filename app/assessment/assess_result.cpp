@@ -220,14 +220,36 @@ measures::RunSignals signals_of(const io::SimulationResult& result, const std::v
   return run;
 }
 
-void check_assessable(const io::SimulationFile& file, const std::vector<io::HistoryColumn>& columns) {
+void check_assessable(const io::SimulationFile& file, const std::vector<io::HistoryColumn>& columns, double max_step,
+                      double max_travel) {
   if (!file.assessment) return;
   const AssessmentRequest& request = *file.assessment;
   io::fitting_columns(columns, request.spectra, {file.path.string()});
   check(request);
   io::SimulationResult empty;
   empty.columns = columns;
-  signals_of(empty, request.laws);
+  const double longest = measures::longest_record_step(signals_of(empty, request.laws));
+  const SpeedProfile& profile = file.settings.profile;
+  std::vector<AssessmentSection> sections = request.sections;
+  if (sections.empty()) sections.push_back({kWholeRun, request.from, file.settings.distance});
+  double slowest = HUGE_VAL;
+  for (const AssessmentSection& section : sections) {
+    const double begin = time_at(profile, section.from), end = time_at(profile, section.to);
+    slowest = std::min(slowest, travel_at(profile, end).speed);
+    for (const double t : profile.time)
+      slowest = std::min(slowest, travel_at(profile, std::clamp(t, begin, end)).speed);
+  }
+  // a line is written at the first step behind a multiple of `every`
+  const double most = std::max(0.0, slowest * longest - std::min(slowest * max_step, max_travel));
+  constexpr double kSlack = 1e-9, kTenth = 1e-4;  // of a millimetre [m]
+  if (file.settings.output_every <= most * (1.0 + kSlack)) return;
+  throw Error(ErrorKind::configuration,
+              fmt::format("simulation.output_every_mm is too coarse for [assessment]: at {:.4g} m/s its filters need a "
+                          "line every {:.3g} ms",
+                          slowest, 1e3 * longest),
+              {file.path.string()},
+              fmt::format("give at most {:.6g}, 0 for every step, shorter steps (max_step_us) or no [assessment]",
+                          0.1 * std::floor(most / kTenth * (1.0 + kSlack))));
 }
 
 void check(const AssessmentRequest& request) {

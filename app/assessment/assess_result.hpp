@@ -40,8 +40,10 @@ struct AssessedRun {
 /// without columns t_s and x_m; Error(configuration) for a law that no wheel has the columns for.
 measures::RunSignals signals_of(const io::SimulationResult& result, const std::vector<std::string>& laws = {});
 
-/// Refuses a file that asks for spectra and laws without the columns of its history. Errors: Error(configuration).
-void check_assessable(const io::SimulationFile& file, const std::vector<io::HistoryColumn>& columns);
+/// Refuses a file that asks for more than its history will hold: spectra and laws without their columns, lines too far
+/// apart for filters. max_step [s], max_travel [m]: of the integration, what comes first. Errors: Error(configuration).
+void check_assessable(const io::SimulationFile& file, const std::vector<io::HistoryColumn>& columns, double max_step,
+                      double max_travel);
 
 /// Errors: Error(configuration) for sections that do not lie within the run, where they are given, and channels that
 /// the history does not have; Error(input_data) for histories that cannot be assessed. An interrupted run is assessed

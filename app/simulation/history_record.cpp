@@ -101,7 +101,8 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
   add_running(watched);
   add_accelerations(file.history);
   keep_only(file.history);  // the last
-  check_assessable(file, columns());
+  const vehicle::SimulationSettings steps = integration_settings(file);
+  check_assessable(file, columns(), steps.max_step, steps.max_travel);
 }
 
 std::vector<io::HistoryColumn> HistoryRecord::columns_of(const io::SimulationFile& file,

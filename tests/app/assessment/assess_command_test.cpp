@@ -153,6 +153,20 @@ TEST_F(AssessCommand, OnlyTheChannelsThatAreChosenAreWrittenDown) {
   EXPECT_THAT(spectra.err, HasSubstr("axle_bx.*"));
 }
 
+/// At 20 m/s a line every 1.25 ms, for the weightings up to 100 Hz, is 25 mm, less a step of 200 us: 21 mm.
+TEST_F(AssessCommand, LinesTooFarApartAreRefusedBeforeTheRun) {
+  const ProgramResult refused = simulate("a", {"--set", "simulation.output_every_mm=100"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("simulation.output_every_mm is too coarse for [assessment]"),
+                                 HasSubstr("1.25 ms"), HasSubstr("give at most 21,")));
+  EXPECT_FALSE(fs::exists(path("a")));
+  const ProgramResult most = simulate("a", {"--set", "simulation.output_every_mm=21"});
+  EXPECT_EQ(most.status, 0) << most.err;
+  EXPECT_THAT(most.out, Not(HasSubstr("too_coarse")));
+  // forces alone: 20 Hz
+  EXPECT_EQ(simulate("b", {"--set", "simulation.output_every_mm=100", "--set", "simulation.points=[]"}).status, 0);
+}
+
 /// Below 15 N of T gamma there is no damage, and means of wear are the wear of the mean.
 TEST_F(AssessCommand, LawsAreAskedOfTheWheels) {
   const ProgramResult made = simulate("a", {"--set", R"(assessment.laws=["british-rail", "burstow-r220"])"});
