@@ -48,6 +48,7 @@ enum class RemarkKind : std::uint8_t {
   contact_overlooked,
   beyond_theory,
   edge_pressure,
+  unverified_law,
 };
 
 /// A kind of remark. The limits are stated where they are tested.
@@ -142,6 +143,8 @@ inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::edge_pressure, "edge_pressure", false,
      "the largest pressure grows without limit with smaller elements, as at an edge, a kink or the end of a surface; "
      "forces and mean pressures do not"},
+    {RemarkKind::unverified_law, "unverified_law", false,
+     "a named law of wear or fatigue whose numbers have not been compared with their source: treadmark list laws"},
 };
 
 /// One remark on one result.

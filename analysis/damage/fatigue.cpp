@@ -17,6 +17,10 @@ double shakedown_limit(double friction) {
   return friction < kSurface ? BrokenLine(frictions, limits).at(friction) : 1.0 / friction;
 }
 
+double passage_damage(const FatigueSettings& settings, double t_gamma) {
+  return BrokenLine(settings.t_gamma, settings.passage_damage).at(std::max(settings.t_gamma.front(), t_gamma));
+}
+
 ContactFatigue contact_fatigue(const FatigueSettings& settings, const PassedPatch& patch) {
   using M = FatigueMeasure;
   ContactFatigue out;
@@ -31,9 +35,7 @@ ContactFatigue contact_fatigue(const FatigueSettings& settings, const PassedPatc
   if (settings.has(M::fi_surf))
     out[M::fi_surf] = out.friction - 2.0 * patch.area() * settings.shear_yield / (3.0 * patch.normal_force);
   if (settings.has(M::shakedown)) out[M::shakedown] = out.pressure_ratio / shakedown_limit(out.friction);
-  if (settings.has(M::whole_life))
-    out[M::whole_life] =
-        BrokenLine(settings.t_gamma, settings.passage_damage).at(std::max(settings.t_gamma.front(), patch.t_gamma()));
+  if (settings.has(M::whole_life)) out[M::whole_life] = passage_damage(settings, patch.t_gamma());
   return out;
 }
 

@@ -33,8 +33,21 @@ double depth_rate(const WearLaw& law, const PassedPatch& patch, const PassedElem
              patch.velocity / law.density;
     case WearTheory::energy:
       return in_regime(law.volume_per_work, law.power_limits, patch.power / patch.area()) * element.dissipation;
+    case WearTheory::t_gamma_patch:
+      if (element.dissipation <= 0.0 || patch.power <= 0.0) return 0.0;
+      return BrokenLine(law.patch_t_gamma, law.volume_rate).at(std::max(law.patch_t_gamma.front(), patch.t_gamma())) *
+             patch.velocity * element.dissipation / patch.power;
   }
   return 0.0;
+}
+
+double volume_by_distance(const WearLaw& law, double t_gamma, double area, double speed) {
+  PassedPatch patch;
+  patch.velocity = speed, patch.power = t_gamma * speed;
+  patch.length = area, patch.width = 1.0;
+  patch.elements.resize(1);
+  patch.elements.front().dissipation = patch.power / area;
+  return depth_rate(law, patch, patch.elements.front()) * area / speed;
 }
 
 }  // namespace treadmark::damage

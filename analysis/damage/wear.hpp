@@ -11,4 +11,8 @@ namespace treadmark::damage {
 /// been checked. Thread-safe.
 double depth_rate(const WearLaw& law, const PassedPatch& patch, const PassedElement& element);
 
+/// Volume by distance rolled [m3/m] that a law, not Archard's, removes below a patch with this T gamma [N], area > 0
+/// [m2] and rolling speed > 0 [m/s], as if its friction were even. Thread-safe.
+double volume_by_distance(const WearLaw& law, double t_gamma, double area, double speed);
+
 }  // namespace treadmark::damage

@@ -11,6 +11,7 @@
 #include "treadmark/analysis/measures/signal.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/model/damage/named_laws.hpp"
 
 namespace treadmark::measures {
 namespace {
@@ -60,7 +61,7 @@ double no_freight_limit(const LimitInput& in) {
   return in.vehicle == VehicleKind::freight ? kUnknown : 1e-3 * thousandths;
 }
 
-enum class Subject { wheel, worn_wheel, wheelset, lateral, vertical };
+enum class Subject { wheel, worn_wheel, law, wheelset, lateral, vertical };
 enum class Value { high, magnitude, middle, mean, rms };
 enum class Samples {
   q,            // low-passed
@@ -87,7 +88,7 @@ struct QuantityRow {
 
 constexpr const char* kUic = "UIC 518, EN 14363 (not verified against their text)";
 
-/// The one place of quantities and limits.
+/// The one place of quantities and limits, but for those of named laws.
 const QuantityRow kRows[] = {
     {{"Q", "N", "vertical wheel force, low pass 20 Hz", "99.85 %",
       "min(90 kN + Q0, 200 kN; 190, 180, 170, 160 kN above 160, 200, 250, 300 km/h)", kUic},
@@ -192,6 +193,22 @@ const QuantityRow kRows[] = {
      PointKind::axle_box},
 };
 
+/// kRows, and a row for each law that a wheel's T gamma and area tell.
+std::span<const QuantityRow> quantity_rows() {
+  static const auto all = [] {
+    std::vector<QuantityRow> list(std::begin(kRows), std::end(kRows));
+    for (const NamedLaw& law : named_laws()) {
+      if (law.is(WearTheory::archard)) continue;
+      const bool wear = std::holds_alternative<WearLaw>(law.numbers);
+      const char* const meaning = wear ? "wear: volume by distance" : "fatigue: damage of a passage, 1: failure";
+      const QuantityInfo info{law.name, wear ? "m3/m" : "1", meaning, "mean", "", law.source};
+      list.push_back({info, Subject::law, Samples::wear, Value::mean, nullptr});
+    }
+    return list;
+  }();
+  return all;
+}
+
 /// Lowest and highest corner of a filter [Hz]; 0: none.
 std::pair<double, double> corners(Samples samples) {
   switch (samples) {
@@ -272,7 +289,8 @@ class Assessor {
     const auto is_long = [&](const std::vector<double>& v) { return v.size() == n; };
     bool good = is_long(run_.place);
     for (const WheelSignal& w : run_.wheels)
-      good = good && is_long(w.q) && is_long(w.y) && (w.wear.empty() || is_long(w.wear));
+      good = good && is_long(w.q) && is_long(w.y) && (w.wear.empty() || is_long(w.wear)) &&
+             ranges::all_of(w.laws, [&](const auto& law) { return is_long(law.second); });
     for (const PointSignal& p : run_.points) good = good && is_long(p.acceleration);
     if (!good) refuse("the signals of a run differ in length");
     for (std::size_t i = 1; i < n; ++i)
@@ -362,8 +380,10 @@ class Assessor {
       return std::any_of(q.begin() + static_cast<std::ptrdiff_t>(part.first),
                          q.begin() + static_cast<std::ptrdiff_t>(part.end), [&](double v) { return !(v > least); });
     };
-    for (const QuantityRow& row : kRows) {
+    for (const QuantityRow& row : quantity_rows()) {
       if (row.subject == Subject::worn_wheel && !wheel.wear.empty()) add(row, wheel.name, load, even(wheel.wear));
+      if (const auto law = wheel.laws.find(row.info.key); law != wheel.laws.end())
+        add(row, wheel.name, load, even(law->second));
       if (row.subject != Subject::wheel) continue;
       if (row.samples == Samples::q) add(row, wheel.name, load, q);
       if (row.samples == Samples::y_outward) add(row, wheel.name, load, y);
@@ -452,16 +472,25 @@ const char* reason_of(AssessedStatus status) {
 std::span<const QuantityInfo> assessed_quantities() {
   static const auto all = [] {
     std::vector<QuantityInfo> list;
-    for (const QuantityRow& row : kRows) list.push_back(row.info);
+    for (const QuantityRow& row : quantity_rows()) list.push_back(row.info);
     return list;
   }();
   return all;
 }
 
 const QuantityInfo& quantity_info(const std::string& key) {
-  for (const QuantityRow& row : kRows)
+  for (const QuantityRow& row : quantity_rows())
     if (key == row.info.key) return row.info;
   throw Error(ErrorKind::configuration, fmt::format("there is no assessed quantity {}", key));
+}
+
+double longest_record_step(const RunSignals& run) {
+  double corner = run.wheels.empty() ? 0.0 : kForceCorner;
+  for (const PointSignal& point : run.points)
+    for (const QuantityRow& row : kRows)
+      if (row.point == point.kind && row.subject == (point.lateral ? Subject::lateral : Subject::vertical))
+        corner = std::max(corner, corners(row.samples).second);
+  return 1.0 / (kStepsOfPeriod * corner);
 }
 
 std::vector<Assessed> assess_run(const RunSignals& run, std::span<const AssessmentSection> sections,

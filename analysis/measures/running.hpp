@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,6 +24,8 @@ struct WheelSignal {
   std::size_t wheelset = 0;  ///< index in RunSignals::wheelsets
   std::vector<double> q, y;  ///< vertical, lateral [N]
   std::vector<double> wear;  ///< wear number T gamma [N]; empty: not known
+  /// What laws make of it at every instant, by their names: volume by distance [m3/m], damage of a passage.
+  std::map<std::string, std::vector<double>> laws = {};
 };
 
 struct WheelsetSignal {
@@ -75,11 +78,15 @@ struct QuantityInfo {
   const char *key, *unit, *meaning;
   const char* value;   ///< which number is compared
   const char* limit;   ///< in words; empty: none
-  const char* source;  ///< of the limit; empty: none
+  const char* source;  ///< of the limit or law; empty: none
 };
 std::span<const QuantityInfo> assessed_quantities();
 /// Errors: Error(configuration) for keys that are none.
 const QuantityInfo& quantity_info(const std::string& key);
+
+/// The longest step of a record that is too coarse for none of the quantities of these signals, whatever their values
+/// [s].
+double longest_record_step(const RunSignals& run);
 
 /// Samples are taken at 1 kHz, sliding means every half metre. Errors: Error(input_data) for signals of different
 /// lengths, with fewer than two instants, or whose time does not increase.

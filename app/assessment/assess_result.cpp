@@ -10,12 +10,16 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/analysis/damage/fatigue.hpp"
+#include "treadmark/analysis/damage/wear.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/model/damage/named_laws.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -48,6 +52,22 @@ std::vector<std::string> parts_of(const std::string& channel) {
   if (first == std::string::npos) return {};
   if (first == last) return {channel.substr(0, first), channel.substr(first + 1)};
   return {channel.substr(0, first), channel.substr(first + 1, last - first - 1), channel.substr(last + 1)};
+}
+
+/// What a law makes of T gamma, and of the area of contact where it asks for it, at every instant.
+std::vector<double> by_law(const NamedLaw& law, const measures::RunSignals& run, const std::vector<double>& t_gamma,
+                           const std::vector<double>& area) {
+  std::vector<double> out(t_gamma.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, out.size() - 1);
+    const double speed = (run.place[after] - run.place[before]) / (run.time[after] - run.time[before]);
+    const double of_contact = area.empty() ? 1.0 : area[i];  // a law that does not ask for it does not depend on it
+    if (const auto* wear = std::get_if<WearLaw>(&law.numbers))
+      out[i] = speed > 0.0 && of_contact > 0.0 ? damage::volume_by_distance(*wear, t_gamma[i], of_contact, speed) : 0.0;
+    else
+      out[i] = damage::passage_damage(std::get<FatigueSettings>(law.numbers), t_gamma[i]);
+  }
+  return out;
 }
 
 double longest_step(const std::vector<double>& time, std::size_t first) {
@@ -101,6 +121,9 @@ void add_spectra(AssessedRun& run) {
 void add_doubts(AssessedRun& run) {
   if (run.result->status != "complete")
     run.doubts.push_back(fmt::format("the run is {}: it is assessed as far as it goes", run.result->status));
+  for (const std::string& name : run.request.laws)
+    if (const NamedLaw& law = *law_named(name); !law.verified)
+      run.doubts.push_back(fmt::format("the law {} is unverified: {}", name, law.source));
   std::map<measures::AssessedStatus, std::pair<std::size_t, std::string>> counts;
   for (const measures::Assessed& one : run.quantities)
     if (one.status != measures::AssessedStatus::ok) {
@@ -145,7 +168,7 @@ double acceleration_level(double rms) {
   return 20.0 * std::log10(rms / kReference);
 }
 
-measures::RunSignals signals_of(const io::SimulationResult& result) {
+measures::RunSignals signals_of(const io::SimulationResult& result, const std::vector<std::string>& laws) {
   for (const char* name : {"t_s", "x_m"})
     if (ranges::find(result.columns, name, &io::HistoryColumn::name) == result.columns.end())
       throw Error(ErrorKind::input_data, fmt::format("the history has no column {}", name), {},
@@ -156,6 +179,7 @@ measures::RunSignals signals_of(const io::SimulationResult& result) {
   run.place = values(io::column_index(result, "x_m"));
   std::map<std::string, std::map<std::string, std::size_t>> wheels;  // by name, by quantity: the column
   std::vector<std::string> order;
+  std::set<std::string> told;  // laws
   for (std::size_t i = 0; i < result.columns.size(); ++i) {
     const std::vector<std::string> parts = parts_of(io::channel_name(result.columns[i]));
     if (parts.size() == 2 && wheel_place(parts[0])) {
@@ -173,6 +197,13 @@ measures::RunSignals signals_of(const io::SimulationResult& result) {
     const WheelPlace place = *wheel_place(name);
     measures::WheelSignal wheel{name, place.left, place.wheelset, values(of.at("Q_N")), values(of.at("Y_N")), {}};
     if (of.contains("Tgamma_N")) wheel.wear = values(of.at("Tgamma_N"));
+    for (const std::string& one : laws) {
+      const NamedLaw& law = *law_named(one);
+      const bool by_area = law.is(WearTheory::t_gamma) || law.is(WearTheory::energy);
+      if (!of.contains("Tgamma_N") || (by_area && !of.contains("area_m2"))) continue;
+      const std::vector<double> area = by_area ? values(of.at("area_m2")) : std::vector<double>();
+      wheel.laws[*told.insert(one).first] = by_law(law, run, wheel.wear, area);
+    }
     run.wheels.push_back(std::move(wheel));
     while (run.wheelsets.size() <= place.wheelset) {
       const std::size_t number = run.wheelsets.size() + 1;
@@ -183,7 +214,43 @@ measures::RunSignals signals_of(const io::SimulationResult& result) {
       run.wheelsets.push_back(std::move(set));
     }
   }
+  for (const std::string& name : laws)
+    if (!told.contains(name))
+      throw Error(ErrorKind::configuration, fmt::format("no wheel has the channels that the law {} needs", name), {},
+                  "it needs Q_N, Y_N and Tgamma_N, laws by area also area_m2, which wheels with full contact have");
   return run;
+}
+
+void check_assessable(const io::SimulationFile& file, const std::vector<io::HistoryColumn>& columns, double max_step,
+                      double max_travel) {
+  if (!file.assessment) return;
+  const AssessmentRequest& request = *file.assessment;
+  io::fitting_columns(columns, request.spectra, {file.path.string()});
+  check(request);
+  io::SimulationResult empty;
+  empty.columns = columns;
+  const double longest = measures::longest_record_step(signals_of(empty, request.laws));
+  const SpeedProfile& profile = file.settings.profile;
+  std::vector<AssessmentSection> sections = request.sections;
+  if (sections.empty()) sections.push_back({kWholeRun, request.from, file.settings.distance});
+  double slowest = HUGE_VAL;
+  for (const AssessmentSection& section : sections) {
+    const double begin = time_at(profile, section.from), end = time_at(profile, section.to);
+    slowest = std::min(slowest, travel_at(profile, end).speed);
+    for (const double t : profile.time)
+      slowest = std::min(slowest, travel_at(profile, std::clamp(t, begin, end)).speed);
+  }
+  // a line is written at the first step behind a multiple of `every`
+  const double most = std::max(0.0, slowest * longest - std::min(slowest * max_step, max_travel));
+  constexpr double kSlack = 1e-9, kTenth = 1e-4;  // of a millimetre [m]
+  if (file.settings.output_every <= most * (1.0 + kSlack)) return;
+  throw Error(ErrorKind::configuration,
+              fmt::format("simulation.output_every_mm is too coarse for [assessment]: at {:.4g} m/s its filters need a "
+                          "line every {:.3g} ms",
+                          slowest, 1e3 * longest),
+              {file.path.string()},
+              fmt::format("give at most {:.6g}, 0 for every step, shorter steps (max_step_us) or no [assessment]",
+                          0.1 * std::floor(most / kTenth * (1.0 + kSlack))));
 }
 
 void check(const AssessmentRequest& request) {
@@ -197,13 +264,23 @@ void check(const AssessmentRequest& request) {
       throw Error(ErrorKind::configuration,
                   fmt::format("section {} from {:.6g} to {:.6g} m is none", section.name, section.from, section.to));
   }
+  for (const std::string& name : request.laws) {
+    const NamedLaw* law = law_named(name);
+    if (law == nullptr)
+      throw Error(ErrorKind::configuration, fmt::format("law '{}' is not known", name), {},
+                  advice_on_name(name, law_names<WearLaw, FatigueSettings>()));
+    if (law->is(WearTheory::archard))
+      throw Error(ErrorKind::configuration,
+                  fmt::format("law '{}' needs elements of contact: no history has them", name), {},
+                  "use it in treadmark evolve");
+  }
 }
 
 AssessedRun assess_result(std::string name, std::shared_ptr<const io::SimulationResult> result,
                           const AssessmentRequest& request) {
   check(request);
   AssessedRun run{std::move(name), std::move(result), request, {}, {}, {}};
-  const measures::RunSignals signals = signals_of(*run.result);
+  const measures::RunSignals signals = signals_of(*run.result, request.laws);
   if (signals.time.size() < 2)
     throw Error(ErrorKind::input_data, fmt::format("{}: the history has fewer than two instants", run.name));
   const double begin = signals.place.front(), end = signals.place.back();

@@ -11,6 +11,7 @@
 #include "treadmark/analysis/measures/running.hpp"
 #include "treadmark/analysis/measures/spectrum.hpp"
 #include "treadmark/io/histories/history_model.hpp"
+#include "treadmark/io/simulations/simulation_model.hpp"
 
 namespace treadmark::app {
 
@@ -35,8 +36,14 @@ struct AssessedRun {
   std::vector<std::string> doubts;
 };
 
-/// The signals of a history by the names of its columns. Errors: Error(input_data) without columns t_s and x_m.
-measures::RunSignals signals_of(const io::SimulationResult& result);
+/// The signals of a history by the names of its columns, with what these laws make of them. Errors: Error(input_data)
+/// without columns t_s and x_m; Error(configuration) for a law that no wheel has the columns for.
+measures::RunSignals signals_of(const io::SimulationResult& result, const std::vector<std::string>& laws = {});
+
+/// Refuses a file that asks for more than its history will hold: spectra and laws without their columns, lines too far
+/// apart for filters. max_step [s], max_travel [m]: of the integration, what comes first. Errors: Error(configuration).
+void check_assessable(const io::SimulationFile& file, const std::vector<io::HistoryColumn>& columns, double max_step,
+                      double max_travel);
 
 /// Errors: Error(configuration) for sections that do not lie within the run, where they are given, and channels that
 /// the history does not have; Error(input_data) for histories that cannot be assessed. An interrupted run is assessed
@@ -54,7 +61,7 @@ std::vector<AssessedRun> assess_files(const std::vector<std::string>& results, c
 std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,
                                       const std::optional<AssessmentRequest>& request);
 
-/// Sections have names of their own and an extent. Errors: Error(configuration).
+/// Sections have names of their own and an extent, laws ask for no elements of contact. Errors: Error(configuration).
 void check(const AssessmentRequest& request);
 
 }  // namespace treadmark::app

@@ -60,10 +60,11 @@ using io::Json;
 using measures::Assessed;
 using measures::AssessedStatus;
 
-/// Forces in kN.
+/// Forces in kN, wear in mm3/km.
 std::pair<double, std::string> shown_value(double value, const std::string& unit) {
   constexpr double kKiloNewton = 1e-3;
   if (unit == "N") return {value * kKiloNewton, "kN"};
+  if (unit == "m3/m") return {1e12 * value, "mm3/km"};
   return {value, unit == "1" ? "" : unit};
 }
 
@@ -91,7 +92,7 @@ std::string assessment_text(std::span<const AssessedRun> runs) {
         const Assessed* worst = worst_of(run, section.name, info.key);
         if (worst == nullptr) continue;
         const auto [value, unit] = shown_value(worst->value, info.unit);
-        text += fmt::format("    {:<10} {:>10.4g} {:<5} {:<16} {}\n", info.key, value, unit, worst->place,
+        text += fmt::format("    {:<14} {:>10.4g} {:<6} {:<16} {}\n", info.key, value, unit, worst->place,
                             std::isfinite(worst->limit)
                                 ? fmt::format("limit {:.4g}, {:.0f} %{}", shown_value(worst->limit, info.unit).first,
                                               100.0 * worst->share(), worst->share() > 1.0 ? ", exceeded" : "")
@@ -161,6 +162,7 @@ std::string assessment_json(std::span<const AssessedRun> runs) {
     one["vehicle"] = kVehicleKinds[static_cast<std::size_t>(run.request.vehicle)];
     one["from_m"] = io::number(run.request.from);
     one["channels"] = run.request.spectra;
+    one["laws"] = run.request.laws;
     one["sections"] = Json::array();
     for (const AssessmentSection& section : run.request.sections)
       one["sections"].push_back({{"name", section.name},
@@ -197,6 +199,7 @@ AssessmentRequest request_in(const std::filesystem::path& json) {
   request.vehicle = static_cast<VehicleKind>(run.at("vehicle").one_of({kVehicleKinds.begin(), kVehicleKinds.end()}));
   request.from = run.number("from_m");
   request.spectra = run.at("channels").texts();
+  if (run.has("laws")) request.laws = run.at("laws").texts();
   for (const io::JsonTree& one : run.at("sections").items())
     request.sections.push_back(
         {one.text("name"), one.number("from_m"), one.number("to_m"),

@@ -21,7 +21,7 @@ struct AssessOptions {
   std::vector<std::string> results;
   std::string vehicle = "passenger";
   double from = 0.0;
-  std::vector<std::string> sections, spectra, channels;
+  std::vector<std::string> sections, spectra, laws, channels;
   std::string csv_file, json_file, folder, report_file;  ///< empty = none; "-": standard output instead of the text
 };
 
@@ -61,6 +61,7 @@ int assess_command(const AssessOptions& options, const CommonOptions&) {
   request.vehicle = static_cast<VehicleKind>(kind - kVehicleKinds.begin());
   request.from = options.from;
   request.spectra = options.spectra;
+  request.laws = options.laws;
   for (const std::string& section : options.sections) request.sections.push_back(section_of(section));
   const std::vector<app::AssessedRun> runs = app::assess_files(options.results, request, options.channels);
   const std::vector<std::string> channels =
@@ -99,6 +100,8 @@ Command add_assess(CLI::App& verb) {
       ->allow_extra_args(false)
       ->type_name("SECTION");
   add_values(verb, "--spectra", options->spectra, "Channels whose spectra are wanted, as ws1_*.Q_N", "CHANNEL,...");
+  add_values(verb, "--laws", options->laws, "Named laws of wear and fatigue that are asked of the wheels (list laws)",
+             "LAW,...");
   add_values(verb, "--channels", options->channels, "Channels that are drawn over the distance", "CHANNEL,...");
   verb.add_option("--csv", options->csv_file, "Write the table here; - for standard output instead of the text")
       ->check(is_output())

@@ -35,6 +35,8 @@ int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
   write_json_file(options.json_file, json);
   write_report_file(options.report_file, [&] { return app::pages::read_report(options.output_folder); });
   print_results(options.json_file, json, [&] { return app::evolution_table(result); });
+  if (!common.quiet)
+    for (const Remark& remark : result.remarks) std::cerr << to_line(remark) << '\n';
   if (result.status != "complete") {
     std::cerr << result.status << ": " << result.message << '\n';
     return kFailed;

@@ -16,9 +16,11 @@
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/simulations/evolve_keys.hpp"
 #include "treadmark/model/contact/theories.hpp"
 #include "treadmark/model/damage/fatigue.hpp"
 #include "treadmark/model/damage/flow_law.hpp"
+#include "treadmark/model/damage/named_laws.hpp"
 #include "treadmark/model/damage/wear_law.hpp"
 #include "treadmark/model/remarks.hpp"
 #include "treadmark/model/shape/body_name.hpp"
@@ -66,7 +68,7 @@ struct ListedKind {
 constexpr ListedKind kListed[] = {{"backends", "representations of surfaces"},
                                   {"defects", "damage of wheels and rails that cases can ask for, with its keys"},
                                   {"detectors", "of contact between two surfaces"},
-                                  {"laws", "of wear, flow and fatigue, for evolve"},
+                                  {"laws", "of wear, flow and fatigue, and published numbers, for evolve and assess"},
                                   {"profiles", "of wheels and rails that are built in"},
                                   {"remarks", "warnings in results, with their level"},
                                   {"solvers", "theories of contact"},
@@ -105,6 +107,10 @@ int list_command(const std::string& what) {
     for (const WearTheoryRow& row : kWearTheories) print_row(row);
     for (const FlowTheoryRow& row : kFlowTheories) print_row(row);
     for (const FatigueMeasureRow& row : fatigue_measures()) print_row(row);
+    for (const NamedLaw& law : named_laws())
+      print(fmt::format("{:<15}  {}: {}\n{:<15}  source: {}\n{:<15}  for: {}\n{:<15}  verified: {}\n", law.name,
+                        law.kind(), io::numbers_of(law), "", law.source, "", law.validity, "",
+                        law.verified ? "yes" : "no"));
   } else {
     std::vector<std::string> names;
     for (const ListedKind& kind : kListed) names.emplace_back(kind.name);

@@ -63,6 +63,9 @@ std::string evolution_json(const io::EvolutionResult& result) {
     for (const io::EvolvedBody& b : result.generations.front().bodies)
       if (!b.flow.theory.empty())
         out["flow"].push_back({{"body", body_name(b.body)}, {"theory", b.flow.theory}, {"source", b.flow.source}});
+  out["remarks"] = Json::array();
+  for (const Remark& r : result.remarks)
+    out["remarks"].push_back({{"name", r.row().name}, {"text", r.text}, {"grave", r.grave()}});
   out["generations"] = Json::array();
   for (const io::Generation& g : result.generations) out["generations"].push_back(json_of(g));
   return io::dumped(out, 2) + '\n';

@@ -29,6 +29,7 @@
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
@@ -107,6 +108,12 @@ class EvolutionRun {
     result.inputs = io::inputs_of(file_.positions);
     result.title = file_.positions.title;
     result.settings = options_.settings;
+    for (const io::EvolvingBody& body : file_.bodies)
+      for (const auto& [unverified, source] :
+           {std::pair(body.law.unverified, body.law.source), {body.fatigue.unverified, body.fatigue.source}})
+        if (unverified)
+          result.remarks.push_back(
+              {RemarkKind::unverified_law, 0, fmt::format("law of the {}: {}", body_name(body.body), source)});
     return result;
   }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/assessment/assess_result.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 
@@ -103,7 +104,8 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
   add_running(watched);
   add_accelerations(file.history);
   keep_only(file.history);  // the last
-  if (file.assessment) io::fitting_columns(columns(), file.assessment->spectra, {file.path.string()});
+  const vehicle::SimulationSettings steps = integration_settings(file);
+  check_assessable(file, columns(), steps.max_step, steps.max_travel);
 }
 
 std::vector<io::HistoryColumn> HistoryRecord::columns_of(const io::SimulationFile& file,

@@ -33,6 +33,7 @@ io::SimulationResult head_of(const File& file, const SimulationOptions& options)
 io::SimulationResult result_head(const io::SimulationFile& file, const SimulationOptions& options) {
   io::SimulationResult result = head_of(file, options);
   result.inputs = io::inputs_of(file);
+  result.chosen = !file.history.channels.empty();
   return result;
 }
 io::SimulationResult result_head(const io::CaseFile& file, const SimulationOptions& options) {

@@ -39,7 +39,7 @@ io::SimulationResult wheel_columns(const io::SimulationResult& result) {
   io::SimulationResult part;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < result.columns.size(); ++i)
-    if (is_of_a_wheel(result.columns[i].name)) {
+    if (result.chosen || is_of_a_wheel(result.columns[i].name)) {
       kept.push_back(i);
       part.columns.push_back(result.columns[i]);
     }

@@ -12,14 +12,14 @@
 
 namespace treadmark::app {
 
-/// Columns and values of a history, and nothing else, without the motions of the bodies: what a table in text holds.
+/// Columns and values of a history, and nothing else: those asked for, or all without the motions of the bodies.
 io::SimulationResult wheel_columns(const io::SimulationResult& result);
 
 /// Panels of the snapshots of the watched wheel, with the contact at the start as that of a round wheel. They point
 /// into the result.
 std::vector<pictures::PatchesPanel> patches_panels(const io::SimulationResult& result);
 
-/// simulation.h5 (everything), history.csv (forces of the wheels), events.csv, modes.csv, history.svg, and with
+/// simulation.h5 (everything), history.csv (wheel_columns), events.csv, modes.csv, history.svg, and with
 /// snapshots fields as pressure.svg, those of the watched wheel with the depth of its defect as patches.svg and
 /// patches.csv. Files appear only when complete. Not to be called from two threads at once.
 void write_simulation_folder(const std::filesystem::path& folder, const io::SimulationResult& result);

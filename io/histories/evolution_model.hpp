@@ -9,6 +9,7 @@
 #include "treadmark/model/damage/fatigue.hpp"
 #include "treadmark/model/damage/surface_record.hpp"
 #include "treadmark/model/origin.hpp"
+#include "treadmark/model/remarks.hpp"
 #include "treadmark/model/rows.hpp"
 #include "treadmark/model/shape/profile.hpp"
 
@@ -82,6 +83,7 @@ struct Generation {
 
 struct EvolutionResult : Origin {
   std::string status = "complete", message;  ///< "interrupted", "failed"
+  std::vector<Remark> remarks;               ///< on the laws; stores have their sources, which say so too
   std::vector<Generation> generations;       ///< the last one with its records, others may have forgotten them
 };
 

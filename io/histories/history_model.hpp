@@ -59,6 +59,7 @@ struct SimulationResult : Origin {
   std::string status = "complete";  ///< "complete", "derailed", "interrupted" or "failed"
   std::string message;
   std::vector<HistoryColumn> columns;
+  bool chosen = false;         ///< the columns were asked for by their names; no store has it
   std::vector<double> values;  ///< row by row: an instant a row, a value a column
   std::vector<HistoryEvent> events;
   std::vector<NamedValue> summary, statics;

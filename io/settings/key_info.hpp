@@ -41,7 +41,7 @@ struct KeyInfo {
   std::string doc;
   std::string default_text;                        ///< as TOML; empty = none
   std::optional<double> above, at_least, at_most;  ///< limits in the unit of the key
-  std::vector<std::string> choices;                ///< choice: the words; number: those that may stand in its place
+  std::vector<std::string> choices;                ///< choice: the words; number, table: those in its place
   std::string pattern;                             ///< text: regular expression for the schema; empty = anything
   bool (*matches)(std::string_view) = nullptr;     ///< text: what pattern says, as code; set with it
   std::string like;                                ///< text: what pattern says, in words; set with it

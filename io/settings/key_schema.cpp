@@ -41,7 +41,13 @@ bool is_table(const KeyInfo& key) { return key.type == KeyType::table || key.typ
 
 Json value_schema(const KeyInfo& key) {
   if (key.type == KeyType::choice) return {{"enum", key.choices}};
-  if (key.type == KeyType::table) return properties_of(key.elements);
+  if (key.type == KeyType::table) {
+    Json table = properties_of(key.elements);
+    if (key.choices.empty()) return table;
+    table["type"] = Json::array({"object", "string"});
+    table["pattern"] = fmt::format("^({})$", fmt::join(key.choices, "|"));
+    return table;
+  }
   const TypeWords& words = words_of(key);
   Json schema{{"type", words.json}}, items;
   if (key.type == KeyType::text || key.type == KeyType::path) schema["minLength"] = 1;

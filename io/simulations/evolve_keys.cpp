@@ -56,10 +56,13 @@ const KeyTable<EvolvingBody>& evolving_body_keys() {
     list.number("dy_mm", kPositive, "step of the cells across", &B::dy);
     list.number("smoothing_mm", kNotNegative,
                 "standard deviation of the Gaussian kernel over what an update removes; 0: none", &B::smoothing);
-    list.table("law", KeyType::table, "how contact removes depth", wear_law_keys().infos, &B::law, kNeeded,
-               "a law of wear has no numbers of its own: see `treadmark list laws`");
-    list.table("fatigue", KeyType::table, "what contact does to the material below, without changing it",
-               fatigue_keys().infos, &B::fatigue);
+    list.table("law", KeyType::table, "how contact removes depth: numbers of your own, or the name of a law",
+               wear_law_keys().infos, &B::law, kNeeded, "name one of `treadmark list laws`, or give your numbers")
+        .key.info.choices = law_names<WearLaw>();
+    list.table("fatigue", KeyType::table,
+               "what contact does to the material below, without changing it: the same, or the name of a law",
+               fatigue_keys().infos, &B::fatigue)
+        .key.info.choices = law_names<FatigueSettings>();
     list.table("flow", KeyType::table, "how contact makes the material below flow", flow_law_keys().infos, &B::flow);
   });
   return keys;
@@ -139,6 +142,20 @@ const KeyTable<FlowLaw>& flow_law_keys() {
                 &L::hardening_rate, kNoDefault);
   });
   return keys;
+}
+
+std::string numbers_of(const NamedLaw& law) {
+  std::string text;
+  const auto add = [&](const auto& keys, const auto& numbers, const auto& none) {
+    for (const auto& key : keys.rows)
+      if (key.info.type == KeyType::number || key.info.type == KeyType::number_list)
+        if (const std::string line = written_line(key, numbers); line != written_line(key, none))
+          text += (text.empty() ? "" : "; ") + line;
+  };
+  if (const auto* wear = std::get_if<WearLaw>(&law.numbers)) add(wear_law_keys(), *wear, WearLaw{});
+  if (const auto* fatigue = std::get_if<FatigueSettings>(&law.numbers))
+    add(fatigue_keys(), *fatigue, FatigueSettings{});
+  return text;
 }
 
 }  // namespace treadmark::io

@@ -6,6 +6,7 @@
 
 #include "treadmark/io/settings/key_rows.hpp"
 #include "treadmark/io/simulations/evolution_model.hpp"
+#include "treadmark/model/damage/named_laws.hpp"
 
 namespace treadmark::io {
 
@@ -23,5 +24,8 @@ const KeyTable<EvolvingBody>& evolving_body_keys();
 const KeyTable<WearLaw>& wear_law_keys();
 const KeyTable<FatigueSettings>& fatigue_keys();
 const KeyTable<FlowLaw>& flow_law_keys();
+
+/// The numbers of a law as its table of an evolution file has them: "k = [0.001]; hardness_GPa = 3".
+std::string numbers_of(const NamedLaw& law);
 
 }  // namespace treadmark::io

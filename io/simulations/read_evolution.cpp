@@ -48,6 +48,16 @@ Law read_law(const TableOf<Law>& table, const Rows& rows) {
   return checked(table, std::move(law));
 }
 
+/// The numbers of the law that a key of a body names, or of its table.
+template <class Numbers, class Read>
+Numbers named_or(const TableOf<EvolvingBody>& body, Numbers EvolvingBody::*member, Read read) {
+  const CaseValue& value = body.need(member);
+  const auto* name = std::get_if<std::string>(&value.data);
+  if (name == nullptr) return read();
+  check_name("law", *name, law_names<Numbers>(), value.where);
+  return std::get<Numbers>(law_named(*name)->numbers);
+}
+
 /// A table within that of a body, which is there.
 template <class Settings>
 TableOf<Settings> inner(const TableOf<EvolvingBody>& body, Settings EvolvingBody::*member,
@@ -84,8 +94,9 @@ EvolvingBody read_body(const TableOf<EvolveInput>& evolve, EvolvingBody EvolveIn
   out.body = body;
   out.where = table.where();
   using B = EvolvingBody;
-  out.law = read_law(inner(table, &B::law, wear_law_keys()), kWearTheories);
-  if (table.find(&B::fatigue) != nullptr) out.fatigue = read_fatigue(inner(table, &B::fatigue, fatigue_keys()));
+  out.law = named_or(table, &B::law, [&] { return read_law(inner(table, &B::law, wear_law_keys()), kWearTheories); });
+  if (table.find(&B::fatigue) != nullptr)
+    out.fatigue = named_or(table, &B::fatigue, [&] { return read_fatigue(inner(table, &B::fatigue, fatigue_keys())); });
   if (table.find(&B::flow) != nullptr) out.flow = read_law(inner(table, &B::flow, flow_law_keys()), kFlowTheories);
   return out;
 }

@@ -224,6 +224,8 @@ const KeyTable<AssessmentRequest>& assessment_keys() {
                 "are behind the wind-up of irregularities",
                 &A::from, kNoDefault);
     list.words("spectra", "channels whose spectra are wanted, `*` for any letters", &A::spectra);
+    list.words("laws", "named laws of wear and fatigue that are asked of the wheels: see `treadmark list laws`",
+               &A::laws);
     list.table("sections", KeyType::table_list, "parts of the run; without them it is assessed as a whole",
                section_keys().infos, &A::sections);
   });

@@ -28,6 +28,7 @@ inline constexpr std::size_t kFatigueMeasureCount = 6;
 struct FatigueSettings {
   std::vector<FatigueMeasure> measures;  ///< none: nothing is known and nothing computed
   std::string source;                    ///< where the numbers come from
+  bool unverified = false;               ///< of a named law whose numbers have not been compared with their source
 
   double shear_yield = 0.0;            ///< k, in cyclic shear [Pa]
   std::vector<double> depths;          ///< below the surface, increasing [m]

@@ -12,15 +12,17 @@ namespace treadmark {
 
 /// What a depth removed by wear follows from.
 enum class WearTheory {
-  archard,  ///< pressure times sliding distance, over hardness
-  t_gamma,  ///< power of friction over rolling speed, by area
-  energy,   ///< work of friction
+  archard,        ///< pressure times sliding distance, over hardness
+  t_gamma,        ///< power of friction over rolling speed, by area
+  energy,         ///< work of friction
+  t_gamma_patch,  ///< power of friction of a patch over rolling speed
 };
 
 /// A law with its numbers, SI. Every theory uses those that its row in kWearTheories names.
 struct WearLaw {
   WearTheory theory = WearTheory::archard;
-  std::string source;  ///< where the numbers come from
+  std::string source;       ///< where the numbers come from
+  bool unverified = false;  ///< of a named law whose numbers have not been compared with their source
 
   double hardness = 0.0;            ///< [Pa]
   std::vector<double> k;            ///< Archard's coefficient in each regime of slip speed [-]
@@ -34,6 +36,9 @@ struct WearLaw {
 
   std::vector<double> volume_per_work;  ///< in each regime of power by area [m3/J]
   std::vector<double> power_limits;     ///< of a whole patch between the regimes, increasing [W/m2]
+
+  std::vector<double> patch_t_gamma;  ///< points of a broken line, increasing [N]; goes on straight behind the last
+  std::vector<double> volume_rate;    ///< at these points: volume by distance rolled [m3/m]
 };
 
 /// A number of a law, or a list of them: its key of evolution files, with its unit.
@@ -61,7 +66,15 @@ inline constexpr WearNumber kWearNumbers[] = {
     {&WearLaw::density, "density_kg_m3", "t_gamma: of the body that wears"},
     {&WearLaw::volume_per_work, "volume_per_work_mm3_J", "energy: coefficient, one for each regime of power by area",
      true, "power_density_W_mm2"},
-    {&WearLaw::power_limits, "power_density_W_mm2", "energy: powers by area between the regimes"}};
+    {&WearLaw::power_limits, "power_density_W_mm2", "energy: powers by area between the regimes"},
+    {&WearLaw::patch_t_gamma, "t_gamma_N",
+     "t_gamma_patch: points of a broken line, which goes on straight behind the last", true},
+    {&WearLaw::volume_rate,
+     "volume_mm3_km",
+     "t_gamma_patch: volume by distance rolled at these points",
+     true,
+     {},
+     "t_gamma_N"}};
 
 /// Whether a law is complete without a number, which is 0 or has a usual value then.
 inline bool may_lack(const WearNumber& number, double WearLaw::*value) {
@@ -85,7 +98,11 @@ inline constexpr WearTheoryRow kWearTheories[] = {
      "t_gamma_area_MPa wear_rate_ug_m_mm2 density_kg_m3"},
     {WearTheory::energy, "energy", "volume = coefficient times work of friction, by regimes of its power by area",
      "Krause and Poll 1986 (unverified: from secondary literature)",
-     "mild and severe wear of dry wheels and rails; the power is that of the whole patch", "volume_per_work_mm3_J"}};
+     "mild and severe wear of dry wheels and rails; the power is that of the whole patch", "volume_per_work_mm3_J"},
+    {WearTheory::t_gamma_patch, "t_gamma_patch",
+     "volume by distance from T gamma of the patch, a broken line, spread over it as its work of friction",
+     "Pearce and Sherratt 1991 (unverified: from memory)", "wheels of the traffic that the line was fitted to",
+     "t_gamma_N volume_mm3_km"}};
 
 /// Errors: Error(configuration) that names the key for numbers that are missing, negative or out of order.
 void check(const WearLaw& law);

@@ -39,6 +39,7 @@ struct AssessmentRequest {
   std::vector<AssessmentSection> sections;  ///< none: the whole run from `from` on
   double from = 0.0;                        ///< [m]
   std::vector<std::string> spectra;         ///< channels whose spectra are wanted, * for any letters
+  std::vector<std::string> laws;  ///< names of laws (model/damage/named_laws.hpp) that are asked of the wheels
 };
 
 }  // namespace treadmark

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "treadmark/core/parts.hpp"
@@ -136,11 +138,11 @@ TEST_F(AssessCommand, AccelerationsMakeTheVelocitiesThatStandBeside) {
 }
 
 TEST_F(AssessCommand, OnlyTheChannelsThatAreChosenAreWrittenDown) {
-  const ProgramResult made =
-      simulate("a", {"--set", R"(simulation.channels=["ws1_*.Q_N", "ws1_*.Y_N"])", "--set", "assessment.spectra=[]"});
+  const ProgramResult made = simulate("a", {"--set", R"(simulation.channels=["ws1_*.Q_N", "ws1_*.Y_N", "mass.z_m"])",
+                                            "--set", "assessment.spectra=[]"});
   ASSERT_EQ(made.status, 0) << made.err;
   const std::string csv = input_.read("a/history.csv");
-  EXPECT_THAT(csv.substr(0, csv.find('\n')), "t_s,x_m,Q_N,Y_N,ws1_right.Q_N,ws1_right.Y_N");
+  EXPECT_THAT(csv.substr(0, csv.find('\n')), "t_s,x_m,Q_N,Y_N,ws1_right.Q_N,ws1_right.Y_N,mass.z_m");
   EXPECT_EQ(run_program({"assess", path("a")}).status, 0);
   const ProgramResult wrong = simulate("b", {"--set", R"(simulation.channels=["ws1_*.Q"])"});
   EXPECT_EQ(wrong.status, 2);
@@ -149,6 +151,41 @@ TEST_F(AssessCommand, OnlyTheChannelsThatAreChosenAreWrittenDown) {
   const ProgramResult spectra = simulate("b", {"--set", R"(assessment.spectra=["axle_bx.*"])"});
   EXPECT_EQ(spectra.status, 2);
   EXPECT_THAT(spectra.err, HasSubstr("axle_bx.*"));
+}
+
+/// At 20 m/s a line every 1.25 ms, for the weightings up to 100 Hz, is 25 mm, less a step of 200 us: 21 mm.
+TEST_F(AssessCommand, LinesTooFarApartAreRefusedBeforeTheRun) {
+  const ProgramResult refused = simulate("a", {"--set", "simulation.output_every_mm=100"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("simulation.output_every_mm is too coarse for [assessment]"),
+                                 HasSubstr("1.25 ms"), HasSubstr("give at most 21,")));
+  EXPECT_FALSE(fs::exists(path("a")));
+  const ProgramResult most = simulate("a", {"--set", "simulation.output_every_mm=21"});
+  EXPECT_EQ(most.status, 0) << most.err;
+  EXPECT_THAT(most.out, Not(HasSubstr("too_coarse")));
+  // forces alone: 20 Hz
+  EXPECT_EQ(simulate("b", {"--set", "simulation.output_every_mm=100", "--set", "simulation.points=[]"}).status, 0);
+}
+
+/// Below 15 N of T gamma there is no damage, and means of wear are the wear of the mean.
+TEST_F(AssessCommand, LawsAreAskedOfTheWheels) {
+  const ProgramResult made = simulate("a", {"--set", R"(assessment.laws=["british-rail", "burstow-r220"])"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("mm3/km"), HasSubstr("warning: the law burstow-r220 is unverified")));
+  std::map<std::string, double> found;
+  for (const auto& one : nlohmann::json::parse(input_.read("a/assessment.json"))["runs"][0]["assessed"])
+    if (one["place"] == "ws1_left" && one["status"] == "ok") found[one["quantity"]] = one["value"];
+  ASSERT_LT(found.at("Tgamma"), 15.0);
+  EXPECT_NEAR(found.at("british-rail"), 1e-12 * 0.25 * std::numbers::pi * found.at("Tgamma"), 1e-17);
+  EXPECT_GT(found.at("british-rail"), 0.0);
+  EXPECT_EQ(found.at("burstow-r220"), 0.0);
+  const auto refusal = [&](const char* law) { return run_program({"assess", path("a"), "--laws", law}).err; };
+  EXPECT_THAT(refusal("british-rial"), HasSubstr("law 'british-rial' is not known (did you mean 'british-rail'?)"));
+  EXPECT_THAT(refusal("jendel"), HasSubstr("use it in treadmark evolve"));
+  const ProgramResult before = simulate("b", {"--set", R"(assessment.laws=["sheffield-r8t"])"});
+  EXPECT_EQ(before.status, 2);
+  EXPECT_THAT(before.err, HasSubstr("no wheel has the channels that the law sheffield-r8t needs"));
+  EXPECT_FALSE(fs::exists(path("b")));
 }
 
 TEST_F(AssessCommand, RunsStandSideBySide) {

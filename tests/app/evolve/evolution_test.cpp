@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -22,6 +23,7 @@
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/replaced.hpp"
 #include "treadmark/io/histories/evolution_store.hpp"
+#include "treadmark/io/simulations/evolve_keys.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 #include "treadmark/model/contact/hertz_ellipse.hpp"
@@ -609,6 +611,42 @@ TEST_F(Evolution, StepsKeepTheLimits) {
   }
   EXPECT_DOUBLE_EQ(result.generations.back().distance, 100e3);
   EXPECT_LT(result.generations.back().cases.front().pmax, result.generations.front().cases.front().pmax);
+}
+
+/// Full slip at some 6 W/mm2: the severe regime of Krause and Poll, whose volume is 21e-10 kg by J of steel; the damage
+/// of the whole-life model falls from 65 N on.
+TEST_F(Evolution, TakesLawsByName) {
+  const std::string head = "distance_km = 1\nupdates = 1\n[evolve.wheel]\ndy_mm = 0.4\n";
+  const auto result = run(file(kHertz, head, "law = \"krause-poll\"\nfatigue = \"burstow-r220\"\n"));
+  ASSERT_EQ(result.status, "complete") << result.message;
+  const io::EvolvedBody& wheel = result.generations.back().bodies.front();
+  EXPECT_THAT(wheel.source, HasSubstr("krause-poll: Krause and Poll 1986"));
+  const double volume = 21e-10 / 7850.0 * wheel.record.work.sum();
+  EXPECT_NEAR(wheel.record.volume.sum(), volume, 2e-5 * volume);
+  const double t_gamma = result.generations.front().cases.front().t_gamma;
+  const double damage = result.generations.front().bodies.front().fatigue.contacts.front()[FatigueMeasure::whole_life];
+  EXPECT_NEAR(damage, 1e-5 * (175.0 - t_gamma) / 110.0, 1e-9 * std::fabs(damage));
+
+  const auto remarks = nlohmann::json::parse(app::evolution_json(result))["remarks"];
+  ASSERT_EQ(remarks.size(), 2u);
+  EXPECT_EQ(remarks[0]["name"], "unverified_law");
+  EXPECT_THAT(remarks[0]["text"].get<std::string>(), HasSubstr("law of the wheel: krause-poll"));
+  EXPECT_THAT(remarks[1]["text"].get<std::string>(), HasSubstr("burstow-r220"));
+
+  const std::string rail = "passages = 3\n[evolve.rail]\n", set[] = {"evolve.rail.law=british-rail"};
+  file(kHertz, rail, "law = \"jendel\"\n");
+  EXPECT_EQ(io::read_evolution_file(folder_.path() / "study.toml", set).bodies.front().law.patch_t_gamma.size(), 5u);
+  EXPECT_THAT(error(kHertz, rail, "law = \"jendl\"\n"),
+              HasSubstr("study.toml:5:7: law 'jendl' is not known (did you mean 'jendel'?)"));
+  EXPECT_THAT(error(kHertz, rail, "law = \"burstow-r220\"\n"), HasSubstr("law 'burstow-r220' is not known"));
+  EXPECT_THAT(error(kHertz, rail, "law = 3\n"), HasSubstr("evolve.rail.law must be a table"));
+}
+
+TEST(EvolveDocs, NamedLawsAreThoseOfTheProgram) {
+  for (const NamedLaw& law : named_laws())
+    expect_in_document("evolve.md",
+                       fmt::format("| `{}` | `{}` | {} | {} | {} | {} |\n", law.name, law.kind(), io::numbers_of(law),
+                                   law.source, law.validity, law.verified ? "yes" : "no"));
 }
 
 TEST(EvolveDocs, TableOfKeysIsUpToDate) { expect_in_document("evolve.md", io::evolve_key_table()); }

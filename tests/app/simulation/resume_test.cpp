@@ -14,6 +14,7 @@
 namespace treadmark::testing {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -144,7 +145,7 @@ TEST_F(Resume, OtherInputIsRefused) {
   const auto expect_refused = [&](const std::vector<std::string>& options) {
     const ProgramResult r = RunningProgram(command("stopped", options)).wait();
     EXPECT_EQ(r.status, 2) << r.out;
-    EXPECT_THAT(r.err, HasSubstr("another simulation"));
+    EXPECT_THAT(r.err, AllOf(HasSubstr("another simulation"), HasSubstr("--anew")));
     EXPECT_TRUE(kept == input.read("stopped/unfinished.h5")) << "the checkpoint must stay";
   };
   expect_refused({"--resume", "--set", "simulation.speed_m_s=21"});
