@@ -41,7 +41,8 @@ Command add_schema(CLI::App& verb) {
   std::vector<std::string> names;
   for (const FileSchema& schema : kSchemas) names.emplace_back(schema.name);
   verb.add_option("WHAT", *what, fmt::format("{}; without it case", fmt::join(names, ", ")))
-      ->check(CLI::IsMember(names).description(""));
+      ->check(CLI::IsMember(names))
+      ->option_text("KIND");  // all of them are no word of a line
   return [what](const CommonOptions&) -> int {
     for (const FileSchema& schema : kSchemas)
       if (*what == schema.name) std::cout << schema.text() << '\n';
