@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 # Builds a part of the tests with sanitizers and runs it. usage: sanitize.sh [address|all|replay [SECONDS]|thread|trap|memcheck]
-#   address   address and undefined behaviour: readers of files, splines, Kalker's solvers; and replay beside them
+#   address   address and undefined behaviour: readers of files, and splines and Kalker's solvers where the newest
+#             commits changed them; and replay beside them
 #   all       address and undefined behaviour under every test that a sanitized program can run: for a night
 #   replay    the same build of the readers under the corpus of tests/fuzz, then under mutants of it for some seconds (60)
 #   thread    data races; without oneTBB and OpenVDB, in which the sanitizer does not see how threads wait for each other
@@ -18,8 +19,12 @@ programs=()
 case "$kind" in
   address)
     preset=asan
-    programs=(backends/spline/backends_spline_tests solvers/kalker/solvers_kalker_tests io/cases/io_cases_tests io/scans/io_scans_tests
-      io/profiles/io_profiles_tests core/core_tests model/model_tests io/json/io_json_tests io/meshes/io_meshes_tests)
+    programs=(io/cases/io_cases_tests io/scans/io_scans_tests io/profiles/io_profiles_tests core/core_tests model/model_tests
+      io/json/io_json_tests io/meshes/io_meshes_tests)
+    newest=$(git log --first-parent -n 12 --name-only --format= 2>/dev/null) || newest=""
+    for program in backends/spline/backends_spline_tests solvers/kalker/solvers_kalker_tests; do
+      if [[ -z "$newest" ]] || grep -q -E "^(tests/)?${program%/*}/" <<<"$newest"; then programs+=("$program"); fi
+    done
     ;;
   replay) preset=asan ;;
   all)
@@ -46,7 +51,7 @@ case "$kind" in
     done
     exit 0
     ;;
-  *) sed -n '4,14s/^# //p' "$0" >&2; exit 2 ;;
+  *) sed -n '4,15s/^# //p' "$0" >&2; exit 2 ;;
 esac
 
 # Targets of readers whose tests are built here anyway, and of what reads TOML.

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 # Builds everything, the parts under the GPL too, with warnings as errors and runs all tests; counts the instructions of the main paths; then
-# the smallest build and some of its tests, clang-tidy over what changed, and the readers, splines and solvers under the address sanitizer.
+# the smallest build and some of its tests, clang-tidy over what changed, and under the address sanitizer the readers, and splines and
+# solvers where they changed.
 # Prints the minutes of each.
 # Exit status 0 when all passed.
 set -euo pipefail

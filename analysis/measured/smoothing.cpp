@@ -618,8 +618,10 @@ std::vector<Values> errors_of(const Laid& laid, double across, bool rounded, std
         const double found = lowest(middle - kNarrow, middle + kNarrow, kFine,
                                     [&](double x) { return problem.white(x, across).badness; });
         heights = problem.white(found, across).heights;
+        if (heights.empty()) break;  // no curve goes through these: the error by the first one's covariance stays
       }
-      for (std::size_t k = 0; k < error.size(); ++k) error[k] = curve[k] - heights[k];
+      if (!heights.empty())
+        for (std::size_t k = 0; k < error.size(); ++k) error[k] = curve[k] - heights[k];
     }
     out.push_back(std::move(error));
   }

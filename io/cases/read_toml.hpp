@@ -41,7 +41,7 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
 /// The same, but the rows of a table (cases_file) stay in their file.
 ListedCases listed_cases_of(const CaseTable& document, const std::filesystem::path& name,
                             std::span<const std::string> overrides = {});
-
+/// As parse_case_text, but the rows of a table (cases_file) stay in their file.
 ListedCases parse_listed_cases(std::string_view text, const std::filesystem::path& name,
                                std::span<const std::string> overrides = {});
 /// With all rows. Errors: Error(configuration) for more of them than a CaseFile may have.

@@ -22,7 +22,7 @@ std::string result_schema();
 /// stands there, commas and line ends between them (kBetweenCases), and what stands behind the last one. run: without
 /// cases.
 std::string case_text(const CaseResult& result);
-std::string text_before_cases(const RunResult& run);
+std::string text_before_cases(const RunResult& run);  ///< of the file, up to the first case
 inline constexpr std::string_view kBetweenCases = ",\n  ", kBehindCases = "\n ]\n}\n";
 
 /// Writes the text to a file that appears only when complete. Errors: Error(configuration).

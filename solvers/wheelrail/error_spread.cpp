@@ -172,6 +172,7 @@ std::vector<std::optional<ErrorSpread>> error_spread(std::span<const UncertainPa
       for (Again* one : known) one->add(force_given ? one->under_its_force() : one->at(0.0));
   }
   std::vector<std::optional<ErrorSpread>> out;
+  out.reserve(all.size());
   for (const Again& one : all) out.push_back(one.is_patch() && draws > 0 ? std::optional(one.spread()) : std::nullopt);
   return out;
 }
