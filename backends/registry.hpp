@@ -15,13 +15,9 @@
 
 namespace treadmark {
 
-/// Where slopes of a representation jump, so that differences of heights tell nothing of its curvatures.
-enum class Creases {
-  none,
-  cells,   ///< at the borders of cells, within which it is curved
-  chords,  ///< across, from chord to chord
-  facets,  ///< everywhere: between them it is flat, with curvatures of 0
-};
+/// Where slopes of a representation jump: nowhere, between cells that are curved, across from chord to chord, or
+/// everywhere between flat facets, whose curvatures are 0.
+enum class Creases { none, cells, chords, facets };
 
 /// One representation of surfaces: all that the rest of Treadmark knows of it.
 struct Backend {

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# treadmark_plugin(<name> <sources>...): NAME.so, which `treadmark --plugin` loads. What it uses of Treadmark is inside, and nothing but
-# what TREADMARK_PLUGIN makes outside: it shares no symbols with the program or with other plug-ins.
+# treadmark_plugin(<name> <sources>...): NAME.so for `treadmark --plugin`, which shares no symbols with the program or with others.
 function(treadmark_plugin name)
   add_library(${name} MODULE ${ARGN})
   target_link_libraries(${name} PRIVATE treadmark::treadmark)

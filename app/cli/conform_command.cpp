@@ -3,6 +3,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
@@ -17,6 +18,7 @@ struct ConformOptions {
 
 int conform_command(const ConformOptions& options, const CommonOptions& common) {
   const ThreadLimit limit(common.threads);
+  const CancellationScope scope(&interrupted());
   const bool is_file = options.what.find_first_of("./") != std::string::npos;
   const conformance::Record record = with_progress(common.quiet, [&](const Progress& progress) {
     return is_file ? app::hold_case(io::read_any_case(options.what, options.overrides))

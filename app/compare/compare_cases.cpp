@@ -15,6 +15,7 @@
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/backends/registry.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/detector.hpp"
@@ -262,6 +263,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
       };
     std::string wheel_breaks, rail_breaks;
     try {
+      const CancellationScope scope(progress.stop);
       const io::CaseFile represented = with(cases, choice);
       const io::WheelRailCase& one = *first_wheelrail_case(represented);
       const SampledRegions about = regions_of(one, regions);
@@ -285,6 +287,9 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
           truth.surfaces = sample_surfaces(truth.results, used_bodies(represented, truth.results, store));
         }
       }
+    } catch (const Cancelled&) {
+      out.complete = false;
+      break;
     } catch (const Error& e) {
       if (is_first) throw;
       io::ComparisonCandidate failed;

@@ -70,8 +70,8 @@ SampledRegions regions_of(const io::WheelRailCase& input, const SampledRegions& 
 /// sampled of it. Errors: those of the store.
 conformance::Subject seen_body(const io::WheelRailCase& input, SurfaceStore& store, Body body, const Region& region);
 
-/// Wheel and rail of the first case of a file, in the representations that it asks for, held to every promise that
-/// needs no formula. Errors: Error(configuration) without such a case; those of the store.
+/// Wheel and rail of the first case of a file, held to every promise that needs no formula. Errors: those of the store;
+/// Error(configuration) without such a case.
 conformance::Record hold_case(const io::CaseFile& file);
 
 /// Errors: Error(configuration) for a representation that is made for one place, where what says takes in many.

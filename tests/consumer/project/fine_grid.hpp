@@ -2,6 +2,5 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-/// Makes "fine-grid" a choice wherever Treadmark reads names of detectors: every point of a grid with half of the usual
-/// steps. Once a program. Errors: those of treadmark::detection::register_detector.
+/// Makes "fine-grid", every point of a grid with half of the usual steps, a detector by name. Once a program.
 void register_fine_grid();
