@@ -54,8 +54,9 @@ std::string url_of(const fs::path& file) {
 bool is_print(const fs::path& file) { return io::extension_of(file) == ".pdf"; }
 
 std::string printed(const fs::path& file, const std::string& html) {
-  const fs::path folder = fs::absolute(file).parent_path(), page = folder / fmt::format(".page-{}.html", ::getpid()),
-                 pdf = folder / fmt::format(".page-{}.pdf", ::getpid());
+  // Never committed: gone with this object.
+  const OutputFolder stage(fs::absolute(file).parent_path(), OutputFolder::Old::kept);
+  const fs::path page = stage.path() / "page.html", pdf = stage.path() / "page.pdf";
   write_file(page, html);
   // Root gets no sandbox from it.
   std::string words[] = {find_browser().string(),
@@ -78,8 +79,6 @@ std::string printed(const fs::path& file, const std::string& html) {
     while (::waitpid(process, nullptr, 0) < 0 && errno == EINTR) continue;
   posix_spawn_file_actions_destroy(&quiet);
   std::string bytes = fs::exists(pdf) ? io::profiles::read_text(pdf, "PDF", {}) : "";
-  fs::remove(page);
-  fs::remove(pdf);
   if (!bytes.starts_with("%PDF"))
     throw Error(ErrorKind::input_data, words[0] + " made no PDF", {file.string()},
                 "write the page as .html and print it from a browser");

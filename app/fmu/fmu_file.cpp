@@ -102,7 +102,7 @@ std::string archive_of(const Files& files, const fs::path& libraries, const std:
 
 WrittenFmu write_fmu(const FmuContent& content) {
   // Never committed: gone with this object. Not beside the output, which may be a pipe.
-  const OutputFolder stage(fs::temp_directory_path() / "treadmark-fmu", OutputFolder::Old::replaced);
+  const OutputFolder stage(fs::temp_directory_path(), OutputFolder::Old::kept);
   Description about;
   about.name = content.output.stem().string();
   about.title = write_resources(content, stage.path());

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <filesystem>
-
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -13,34 +10,12 @@
 #include "treadmark/app/measure/read_measured.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
-namespace {
-
-/// A folder of this process that goes when it is done with.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    static std::atomic<int> count{0};
-    path_ = std::filesystem::temp_directory_path() / fmt::format("treadmark-measure-{}-{}", getpid(), count++);
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-}  // namespace
 
 bool is_only_scan(const std::string& name) {
   const auto row = io::shape_extension(name);
@@ -48,7 +23,8 @@ bool is_only_scan(const std::string& name) {
 }
 
 ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request) {
-  const ScratchFolder scratch;
+  // Never committed: gone with this object.
+  const OutputFolder scratch(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
   const std::filesystem::path slices = scratch.path() / (request.body == Body::wheel ? "scan.slcw" : "scan.slcs");
   ImportRequest import;
   import.scans = {name};

@@ -83,7 +83,7 @@ void write_checked_points(const std::filesystem::path& output, const Profile& pr
                           const io::ProfileDerivatives* derivatives, const NaturalSurface& meant, double tolerance) {
   std::optional<OutputFolder> own;
   StagedOutputs staged;
-  if (is_stream(output)) own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
+  if (is_stream(output)) own.emplace(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
   const std::filesystem::path place = own ? own->path() / output.filename() : staged.place(output);
   const SurfaceDifference difference = naming(output, place, [&] {
     io::write_profile(place, profile, derivatives);

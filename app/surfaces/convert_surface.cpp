@@ -103,7 +103,7 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
   std::optional<OutputFolder> own;
   StagedOutputs staged;
   if ((is_stream(output) && !slices) || view)
-    own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
+    own.emplace(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
   std::filesystem::path place = own ? own->path() / output.filename() : staged.place(output);
   if (view) place.replace_extension(".ply");
   std::string to_view;

@@ -2,13 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/bench/instructions/import_paths.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "treadmark/app/import/import_scan.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/scans/virtual/virtual_scanner.hpp"
 
@@ -19,12 +18,11 @@ constexpr double kNoise = 20e-6;  // [m]
 
 /// A scan in a folder that goes with it.
 struct ScanFolder {
-  std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("treadmark-instructions-" + std::to_string(::getpid()));
+  const OutputFolder own{std::filesystem::temp_directory_path(), OutputFolder::Old::kept};
+  const std::filesystem::path folder = own.path();
   std::size_t points = 0;
 
   explicit ScanFolder(const Surface& rail) {
-    std::filesystem::create_directories(folder);
     scans::ScannerSettings scanner;
     scanner.u_min = -25e-3, scanner.u_max = 25e-3;
     scanner.points = 12500;
@@ -34,12 +32,6 @@ struct ScanFolder {
     points = scan.cloud.points.size();
     io::write_scan(cloud(), scan.cloud, LengthUnit::millimetre);
   }
-  ~ScanFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder, ignored);
-  }
-  ScanFolder(const ScanFolder&) = delete;
-  ScanFolder& operator=(const ScanFolder&) = delete;
   std::filesystem::path cloud() const { return folder / "rail.ply"; }
 };
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <benchmark/benchmark.h>
 
-#include <unistd.h>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -22,11 +21,6 @@ namespace {
 /// Files of wheel profiles, S1002 with treads worn each by another depth, points every 0.2 mm.
 class Fleet {
  public:
-  Fleet() : folder_(std::filesystem::temp_directory_path() / fmt::format("treadmark-fleet-{}", getpid())) {}
-  ~Fleet() { remove_quietly(folder_); }
-  Fleet(const Fleet&) = delete;
-  Fleet& operator=(const Fleet&) = delete;
-
   /// The first one is new.
   std::vector<std::string> files(std::size_t count) {
     const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 0.2e-3);
@@ -37,14 +31,14 @@ class Fleet {
         const double worn = depth * std::exp(-std::pow(points.y[i] / 20e-3, 2));
         text += fmt::format("{:.5f} {:.5f}\n", 1e3 * points.y[i], 1e3 * (points.z[i] - worn));
       }
-      made_.push_back((folder_ / fmt::format("wheel{:04}.txt", k)).string());
+      made_.push_back((folder_.path() / fmt::format("wheel{:04}.txt", k)).string());
       write_file(made_.back(), text);
     }
     return {made_.begin(), made_.begin() + static_cast<std::ptrdiff_t>(count)};
   }
 
  private:
-  std::filesystem::path folder_;
+  const OutputFolder folder_{std::filesystem::temp_directory_path(), OutputFolder::Old::kept};
   std::vector<std::string> made_;
 };
 

@@ -620,7 +620,7 @@ void write_cad(const std::filesystem::path& file, const CadContent& content) {
     spline.poles.resize(v.functions());
   }
   // OpenCASCADE writes as it goes: what stands under the name of the file is whole
-  OutputFolder own(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
+  OutputFolder own(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
   const std::filesystem::path place = own.path() / "surface.step";
   cad::write_sheet(place, sheet);
   write_file(file, profiles::read_text(place, "CAD file", {}));

@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <fstream>
 #include <sstream>
@@ -23,17 +22,9 @@ std::string slurp(const std::filesystem::path& file) {
   return text.str();
 }
 
-std::filesystem::path capture_file(const char* stream) {
-  static std::atomic<int> count{0};
-  const std::string name =
-      "treadmark_run_" + std::to_string(getpid()) + "_" + std::to_string(count.fetch_add(1)) + stream;
-  return std::filesystem::temp_directory_path() / name;
-}
-
 }  // namespace
 
-RunningProgram::RunningProgram(const std::vector<std::string>& command)
-    : out_(capture_file(".out")), err_(capture_file(".err")) {
+RunningProgram::RunningProgram(const std::vector<std::string>& command) {
   std::vector<std::string> words = command;
   for (std::string& word : words)
     if (word == "treadmark") word = TREADMARK_PROGRAM;
@@ -44,8 +35,10 @@ RunningProgram::RunningProgram(const std::vector<std::string>& command)
   posix_spawn_file_actions_t streams;
   posix_spawn_file_actions_init(&streams);
   posix_spawn_file_actions_addopen(&streams, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&streams, STDOUT_FILENO, (folder_.path() / "out").c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&streams, STDERR_FILENO, (folder_.path() / "err").c_str(),
+                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
   const int failure = posix_spawnp(&process_, arguments.front(), &streams, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&streams);
   if (failure != 0) throw std::system_error(failure, std::generic_category(), "cannot run " + words.front());
@@ -56,9 +49,6 @@ RunningProgram::~RunningProgram() {
     send(SIGKILL);
     wait();
   }
-  std::error_code ignored;
-  std::filesystem::remove(out_, ignored);
-  std::filesystem::remove(err_, ignored);
 }
 
 bool RunningProgram::running() {
@@ -78,7 +68,7 @@ ProgramResult RunningProgram::wait() {
       ended_ = status;
     else if (errno != EINTR)
       throw std::system_error(errno, std::generic_category(), "waitpid");
-  return {WIFEXITED(*ended_) ? WEXITSTATUS(*ended_) : -1, slurp(out_), slurp(err_)};
+  return {WIFEXITED(*ended_) ? WEXITSTATUS(*ended_) : -1, slurp(folder_.path() / "out"), slurp(folder_.path() / "err")};
 }
 
 }  // namespace treadmark::testing

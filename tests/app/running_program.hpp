@@ -4,12 +4,12 @@
 
 #include <sys/types.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
 
@@ -31,7 +31,7 @@ class RunningProgram {
  private:
   pid_t process_ = -1;
   std::optional<int> ended_;  ///< as of waitpid
-  std::filesystem::path out_, err_;
+  TemporaryFolder folder_;    ///< of what it prints
 };
 
 }  // namespace treadmark::testing

@@ -2,10 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/tests/app/sample_input.hpp"
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -63,27 +59,18 @@ const char* kInpCase = R"(
 }  // namespace
 
 SampleInput::SampleInput() {
-  static std::atomic<int> count{0};
-  folder_ = std::filesystem::temp_directory_path() /
-            ("treadmark_" + std::to_string(getpid()) + "_" + std::to_string(count.fetch_add(1)));
-  std::filesystem::create_directories(folder_);
   write("rail.prr", rail_text());
   write("wheel.txt", wheel_text());
   write("case.inp", kInpCase);
 }
 
-SampleInput::~SampleInput() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
 void SampleInput::write(const std::string& file, const std::string& text) const {
-  std::ofstream(folder_ / file, std::ios::binary) << text;
+  std::ofstream(folder() / file, std::ios::binary) << text;
 }
 
 std::string SampleInput::read(const std::string& file) const {
   std::ostringstream text;
-  text << std::ifstream(folder_ / file, std::ios::binary).rdbuf();
+  text << std::ifstream(folder() / file, std::ios::binary).rdbuf();
   return text.str();
 }
 

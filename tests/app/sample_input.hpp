@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "treadmark/tests/support/temporary_folder.hpp"
+
 namespace treadmark::testing {
 
 /// A folder with a complete, small wheel-rail case in CONTACT's input format (rail.prr, wheel.txt, case.inp), removed
@@ -12,10 +14,9 @@ namespace treadmark::testing {
 class SampleInput {
  public:
   SampleInput();
-  ~SampleInput();
 
-  std::filesystem::path folder() const { return folder_; }
-  std::filesystem::path inp() const { return folder_ / "case.inp"; }
+  std::filesystem::path folder() const { return folder_.path(); }
+  std::filesystem::path inp() const { return folder() / "case.inp"; }
 
   /// Replaces the first occurrence of a text in a file; it must be there.
   void edit(const std::string& file, const std::string& from, const std::string& to) const;
@@ -26,7 +27,7 @@ class SampleInput {
   void use_slices() const;
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace treadmark::testing

@@ -102,6 +102,10 @@ MISSING = re.compile(r"\bstd::(?:ranges::|from_chars\(|bit_cast\b|comp_ellint_\d
                      r"ellint_\d|cyl_\w+|sph_\w+|expint\b|riemann_zeta\b)")
 MAY_NEED = "tests/faults/shim/"
 
+# A name that another process may have too, now or before it died: what makes its own name never opens what stands there.
+SHARED_NAME = re.compile(r"\bgetpid\(|\b(?:temp_directory_path|TempDir)\(\)\)? *\n? */(?!.*XXXXXX)")
+MAY_NAME = ("core/output_file.cpp", MAY_NEED)
+
 # Put together here, so that this file does not contain them.
 HOSTS = [".".join(parts) for parts in (
     ("pypi", "org"), ("pythonhosted", "org"), ("anaconda", "org"), ("npmjs", "org"), ("npmjs", "com"), ("crates", "io"),
@@ -230,6 +234,8 @@ def check(root):
                 violations += [f"{relative}: {cast}: use to_whole (core/to_whole.hpp)" for cast in unchecked_casts(text)]
             if not relative.startswith((PLATFORM, MAY_NEED)):
                 violations += [f"{relative}: {name}: not in every standard library, see {PLATFORM}" for name in sorted(set(MISSING.findall(text)))]
+            if not relative.startswith(MAY_NAME):
+                violations += [f"{relative}: {name.strip()}: use OutputFolder, in tests TemporaryFolder" for name in sorted(set(SHARED_NAME.findall(text)))]
         if relative.endswith(LICENSED) and "SPDX-License-Identifier: Apache-2.0" not in text[:400]:
             violations.append(f"{relative}: no SPDX-License-Identifier line at its top")
         violations += [f"{relative}: mentions the package host {host}" for host in HOSTS if host in text.lower()]

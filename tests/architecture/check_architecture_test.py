@@ -85,6 +85,11 @@ class Planted(unittest.TestCase):
             self.assertEqual(self.violations({"core/platform/a.hpp": text + "\n"}), [])
         self.assertEqual(self.violations({"detection/a.cpp": "ranges::sort(v); from_chars(a, b, x); std::from_chars_result r; fmt::format(s);\n"}), [])
 
+    def test_no_name_that_another_process_may_have(self):
+        for text in ("p / std::to_string(getpid())", 'fs::temp_directory_path() / "treadmark"', 'fs::path(::testing::TempDir()) / "a.toml"'):
+            self.expect("tests/a.cpp", text + "\n", "TemporaryFolder")
+        self.assertEqual(self.violations({"tests/a.cpp": '(fs::temp_directory_path() / "a_XXXXXX").string(); Folder f(temp_directory_path(), kept);\n'}), [])
+
     def test_no_unchecked_casts(self):
         for cast in ("static_cast<int>(std::floor(x))", "static_cast<std::size_t>(std::max(1.0, std::round(a / b)))",
                      "static_cast<std::int32_t>(std::ceil(f(x) - 1e-9))", "static_cast<int>((x - x0) / step)",

@@ -6,19 +6,12 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
 
 namespace treadmark::testing {
 namespace {
-
-std::filesystem::path counts_file() {
-  static std::atomic<int> count{0};
-  return std::filesystem::temp_directory_path() /
-         ("treadmark_faults_" + std::to_string(getpid()) + "_" + std::to_string(count.fetch_add(1)));
-}
 
 faults::Counts* mapped(const std::filesystem::path& file) {
   const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
@@ -33,13 +26,13 @@ faults::Counts* mapped(const std::filesystem::path& file) {
 }  // namespace
 
 FaultedProgram::FaultedProgram(const std::filesystem::path& under, const std::vector<std::string>& arguments,
-                               const std::string& fault, const std::filesystem::path& log)
-    : counts_file_(counts_file()) {
-  counts_ = mapped(counts_file_);
+                               const std::string& fault, const std::filesystem::path& log) {
+  const std::filesystem::path counts = folder_.path() / "counts";
+  counts_ = mapped(counts);
   std::vector<std::string> command{"env",
                                    std::string("LD_PRELOAD=") + TREADMARK_FAULT_SHIM,
                                    "TREADMARK_FAULT_UNDER=" + under.string(),
-                                   "TREADMARK_FAULT_COUNTS=" + counts_file_.string(),
+                                   "TREADMARK_FAULT_COUNTS=" + counts.string(),
                                    "TREADMARK_FAULT_BYTES=" + std::to_string(kLeastBytes),
                                    "TREADMARK_FAULT_CLOCK=1",
                                    "TREADMARK_CACHE=" + (under.parent_path() / "cache").string()};
@@ -56,8 +49,6 @@ FaultedProgram::FaultedProgram(const std::filesystem::path& under, const std::ve
 FaultedProgram::~FaultedProgram() {
   program_.reset();
   munmap(counts_, sizeof(faults::Counts));
-  std::error_code ignored;
-  std::filesystem::remove(counts_file_, ignored);
 }
 
 }  // namespace treadmark::testing

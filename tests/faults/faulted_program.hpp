@@ -10,6 +10,7 @@
 
 #include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/faults/shim/shim_memory.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
 
@@ -32,7 +33,7 @@ class FaultedProgram {
 
  private:
   faults::Counts* counts_ = nullptr;
-  std::filesystem::path counts_file_;
+  TemporaryFolder folder_;
   std::unique_ptr<RunningProgram> program_;
 };
 

@@ -2,8 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <stdlib.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -17,7 +19,11 @@ class TemporaryFile {
   TemporaryFile(const std::string& name, const std::string& extension) {
     const std::filesystem::path memory = "/dev/shm";
     const auto folder = std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
-    path_ = folder / (name + "-" + std::to_string(::getpid()) + extension);
+    std::string pattern = (folder / (name + "-XXXXXX" + extension)).string();
+    const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(extension.size()));
+    if (descriptor < 0) std::abort();
+    ::close(descriptor);
+    path_ = pattern;
   }
   ~TemporaryFile() {
     std::error_code ignored;

@@ -12,6 +12,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 // What a case file says about rails of parts, crossings and rollers arrives as surfaces.
 
@@ -89,8 +90,8 @@ TEST(ComposedSource, TheStoreKeepsPartsRollersAndCrossingsApart) {
 }
 
 TEST(ComposedSource, KinksAndSeamsComeFromFiles) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "treadmark_composed_source";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder scratch;
+  const std::filesystem::path& folder = scratch.path();
   const NaturalSurface wheel = create_natural(
       {Body::wheel, 0.46, StandardProfile{"S1002"}, {.polygonizations = {{{{1, 0.5e-3, 0.5}}, 0.0, 0.0}}}});
   SliceSet slices = to_slices(wheel, {"", 20e-3, {}});
@@ -114,7 +115,6 @@ TEST(ComposedSource, KinksAndSeamsComeFromFiles) {
   const double open = jump(app::read_surface(source, Body::wheel, 0.46));
   EXPECT_LT(smooth, 1e-7);
   EXPECT_GT(open, 1e-4) << "of 0.5 mm/460 mm";
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

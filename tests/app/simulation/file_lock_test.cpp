@@ -13,18 +13,15 @@
 
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app {
 namespace {
 
 class FileLockTest : public ::testing::Test {
  protected:
-  void TearDown() override {
-    std::error_code ignored;
-    std::filesystem::remove(file, ignored);
-  }
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("treadmark_lock_" + std::to_string(getpid()));
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "lock";
 };
 
 TEST_F(FileLockTest, OneHolderAtATime) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::offset {
 namespace {
@@ -29,7 +29,8 @@ OffsetFile through_a_file(double step, const fs::path& file) {
 }
 
 TEST(OffsetFileSteps, FineOnesAreKeptAndWhatVdbCannotHoldIsRefused) {
-  const fs::path file = fs::temp_directory_path() / ("treadmark_fine_" + std::to_string(::getpid()) + ".vdb");
+  const testing::TemporaryFolder folder;
+  const fs::path file = folder.path() / "fine.vdb";
   for (const double step : {1e-2, 1e-3, 1e-5, 3e-6}) {
     const OffsetFile back = through_a_file(step, file);
     EXPECT_EQ(back.offsets->frame.du, step);
@@ -38,7 +39,6 @@ TEST(OffsetFileSteps, FineOnesAreKeptAndWhatVdbCannotHoldIsRefused) {
     EXPECT_EQ(back.offsets->grid.active_count(), 1u);
   }
   EXPECT_THROW(through_a_file(1e-7, file), Error);
-  fs::remove(file);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/LevelSetSphere.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -30,8 +30,7 @@ constexpr std::uint32_t kMask = openvdb::io::COMPRESS_ACTIVE_MASK, kZip = openvd
 
 class OpenVdbFiles : public ::testing::Test {
  protected:
-  OpenVdbFiles()
-      : path_(std::filesystem::path(::testing::TempDir()) / ("openvdb_" + std::to_string(getpid()) + ".vdb")) {
+  OpenVdbFiles() : path_(folder_.path() / "offsets.vdb") {
     openvdb::initialize();
     std::vector<float> values(31 * 41);
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = 1e-4f * std::sin(0.1f * static_cast<float>(i % 977));
@@ -42,7 +41,6 @@ class OpenVdbFiles : public ::testing::Test {
     in.open(/*delayLoad=*/false);
     grid_ = openvdb::gridPtrCast<FloatGrid>(in.readGrid("treadmark_offsets"));
   }
-  ~OpenVdbFiles() override { std::filesystem::remove(path_); }
 
   void write(const openvdb::GridPtrVec& grids, std::uint32_t compression = kMask | kBlosc) const {
     openvdb::io::File out(path_.string());
@@ -70,7 +68,8 @@ class OpenVdbFiles : public ::testing::Test {
                     half ? kDigits * std::fabs(given_->grid.value(i, j)) + kLeast : 0.0f);
   }
 
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_;
   std::shared_ptr<const offset::SparseOffsets> given_;
   FloatGrid::Ptr grid_;
 };

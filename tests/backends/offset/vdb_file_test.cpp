@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -14,6 +13,7 @@
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/offset/wheel_with_flat.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -26,9 +26,6 @@ constexpr double kR = 0.46;
 
 class VdbFile : public ::testing::Test {
  protected:
-  VdbFile() : path_(fs::path(::testing::TempDir()) / ("treadmark_" + std::to_string(getpid()) + ".vdb")) {}
-  ~VdbFile() override { fs::remove(path_); }
-
   static OffsetFile wheel() {
     const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
     const auto target =
@@ -55,7 +52,8 @@ class VdbFile : public ::testing::Test {
     return -1;
   }
   static constexpr int kInputData = static_cast<int>(ErrorKind::input_data);
-  fs::path path_;
+  const TemporaryFolder folder_;
+  const fs::path path_ = folder_.path() / "offsets.vdb";
 };
 
 TEST_F(VdbFile, RoundTripKeepsEveryBit) {

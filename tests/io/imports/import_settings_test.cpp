@@ -13,6 +13,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/support/file_content.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -75,9 +76,8 @@ std::vector<Case> cases() {
 }
 
 std::filesystem::path written(const std::string& text) {
-  const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path file =
-      std::filesystem::path(::testing::TempDir()) / (std::string("import_settings_") + test->name() + ".toml");
+  static const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "settings.toml";
   std::ofstream(file, std::ios::binary) << text;
   return file;
 }
@@ -283,8 +283,7 @@ TEST(ImportSettings, BrokenFilesAreRefusedAtTheirPlace) {
     }
   }
   ImportSettings settings;
-  EXPECT_THROW(read_import_settings(std::filesystem::path(::testing::TempDir()) / "no_such_settings.toml", settings),
-               Error);
+  EXPECT_THROW(read_import_settings("no_such_settings.toml", settings), Error);
 }
 
 TEST(ImportSettings, TheSchemaHasEveryKeyWithItsDefault) {

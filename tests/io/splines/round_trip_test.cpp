@@ -57,7 +57,7 @@ double greatest_difference_seen(const Surface& a, const Surface& b, double turne
 
 TEST(SplineRoundTrip, HeightsAreTheSameWithinANanometre) {
   TREADMARK_NEEDS("expat");
-  const OutputFolder folder(std::filesystem::temp_directory_path() / "treadmark-splines", OutputFolder::Old::replaced);
+  const OutputFolder folder(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
   const std::filesystem::path file = folder.path() / "surface.xml";
   for (const auto& [body, closed] : {std::pair{Body::rail, false}, {Body::wheel, false}, {Body::wheel, true}})
     for (const int degree : {0, 2, 3}) {
@@ -82,7 +82,7 @@ TEST(SplineRoundTrip, HeightsAreTheSameWithinANanometre) {
 
 TEST(SplineRoundTrip, ArcsStayExact) {
   TREADMARK_NEEDS("expat");
-  const OutputFolder folder(std::filesystem::temp_directory_path() / "treadmark-splines", OutputFolder::Old::replaced);
+  const OutputFolder folder(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
   const std::filesystem::path file = folder.path() / "arcs.xml";
   const ArcChain chain{-0.045, 0.0, -0.3, {{0.03, 10.0}, {0.03, 0.0}, {0.03, 10.0}}};
   for (const Body body : {Body::rail, Body::wheel}) {

@@ -205,7 +205,7 @@ TEST(Splines, WhatIsWrongIsNamedWithItsPlace) {
 
 TEST(Splines, ComeBackFromAFile) {
   TREADMARK_NEEDS("expat");
-  const OutputFolder folder(std::filesystem::temp_directory_path() / "treadmark-splines", OutputFolder::Old::replaced);
+  const OutputFolder folder(std::filesystem::temp_directory_path(), OutputFolder::Old::kept);
   const std::filesystem::path file = folder.path() / "a.xml";
   for (const std::string& text : {kWheelShell, hierarchical_rail(0.1), hierarchical_rail(0.1, "HB"), two_plates(0.0)}) {
     const SplineFile given = parse_splines(text, "a.xml");
