@@ -261,12 +261,14 @@ std::size_t place_of(const std::string& word, std::span<const std::string_view> 
 using SectionTuple = std::tuple<std::string, double, double, std::string>;  // name, from, to, kind
 
 FoundAssessment assess(const Strings& results, const std::string& vehicle, double from,
-                       const std::vector<SectionTuple>& sections, const Strings& spectra, const Strings& channels) {
+                       const std::vector<SectionTuple>& sections, const Strings& spectra, const Strings& laws,
+                       const Strings& channels) {
   return with_files([&] {
     AssessmentRequest request;
     request.vehicle = static_cast<VehicleKind>(place_of(vehicle, kVehicleKinds));
     request.from = from;
     request.spectra = spectra;
+    request.laws = laws;
     for (const auto& [name, begin, end, kind] : sections)
       request.sections.push_back({name, begin, end, static_cast<SectionKind>(place_of(kind, kSectionKinds))});
     AssessedRuns found{app::assess_files(results, request, channels), channels};

@@ -123,16 +123,18 @@ def test_stability(tmp_path, examples, program):
 @needs("vehicle", "hdf5")
 def test_assessment(tmp_path, examples, program):
     tm.simulate(examples / "flat-at-speed.toml", set={"simulation.wheels": [], "simulation.distance_m": 3.0}).write(tmp_path / "run")
-    found = tm.assess(tmp_path / "run", sections=[("first", 0.0, 1.0), ("rest", 1.0, 3.0, "curve")], spectra=["ws1_left.Q_N"])
+    found = tm.assess(tmp_path / "run", sections=[("first", 0.0, 1.0), ("rest", 1.0, 3.0, "curve")], spectra=["ws1_left.Q_N"],
+                      laws=["british-rail"])
     told = json.loads(program("assess", tmp_path / "run", "--section", "first:0:1", "--section", "rest:1:3:curve", "--spectra", "ws1_left.Q_N",
-                              "--json", "-"))
+                              "--laws", "british-rail", "--json", "-"))
     assert found.document == told and "rest" in found.summary()
     pandas = pytest.importorskip("pandas")
     table = found.to_pandas()
     assert isinstance(table, pandas.DataFrame) and set(table["section"]) == {"first", "rest"}
     found.write(tmp_path / "assessed")
     assert json.loads((tmp_path / "assessed" / "assessment.json").read_text())
-    for wrong in ({"vehicle": "bicycle"}, {"sections": [("a", 0.0, 1.0, "bridge")]}, {"channels": ["ws1_left.Q_M"]}):
+    for wrong in ({"vehicle": "bicycle"}, {"sections": [("a", 0.0, 1.0, "bridge")]}, {"channels": ["ws1_left.Q_M"]},
+                  {"laws": ["jendel"]}, {"laws": ["nobody_1900"]}):
         with pytest.raises(tm.InputError):
             tm.assess([tmp_path / "run"], **wrong)
     with pytest.raises(tm.InputError):
