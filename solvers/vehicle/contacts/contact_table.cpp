@@ -219,7 +219,8 @@ const TableStretch* ContactTable::beyond(double y, const Sheet& sheet) const {
       if (y >= stretch.y_min && y <= stretch.y_max) return &stretch;
     if (wing.ended) return nullptr;
     const TableStretch& last = wing.made.empty() ? sheet.central : wing.made.back();
-    Columns columns = growth_.beyond(sheet.turn, high ? last.y_max : last.y_min);
+    // -0.0 where the middle ends at 0: its sign says the side
+    Columns columns = growth_.beyond(sheet.turn, high ? last.y_max : std::copysign(last.y_min, -1.0));
     if (columns.size() < 2)
       wing.ended = true;
     else

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -258,6 +259,31 @@ INSTANTIATE_TEST_SUITE_P(Wheels, WholeRange,
                                            Wheel{"hollow", [] { return hollow_wheel(0.1); }, -18e-3, 20e-3},
                                            Wheel{"deep", [] { return hollow_wheel(0.25); }, -18e-3, 20e-3}),
                          [](const auto& wheel) { return wheel.param.name; });
+
+/// Also where the central position is the last one with contact on a side.
+TEST(TableContact, ATableGrowsToTheSideThatIsAskedFor) {
+  const ContactUnderLoad contact{1e-4, 1.0, 0.0, 0.0, 0.4, {{1.0, 0.0, 0.0, 0.4, 1e-4, 0.0}}};
+  constexpr double kStep = 1e-3, kMost = 2.5e-3;
+  int asked = 0;
+  ContactTable::Growth growth;
+  growth.beyond = [&](const TableTurn&, double from) -> ContactTableColumns {
+    constexpr int kEnough = 20;
+    if (++asked > kEnough) throw Error(ErrorKind::numerical, "the table does not come nearer");
+    if (std::abs(from) > kMost) return {};
+    const double to = from + std::copysign(kStep, from);
+    return {{std::min(from, to), {contact}}, {std::max(from, to), {contact}}};
+  };
+  for (const double side : {-1.0, 1.0}) {
+    const double other = -side * kStep;  // where the middle reaches to on the other side
+    const ContactTableColumns middle{{std::min(0.0, other), {contact}}, {std::max(0.0, other), {contact}}};
+    const ContactTable table(std::vector<ContactTableColumns>{middle}, ContactTable::Loads{{1e5}}, wheelrail::Problem{},
+                             wheelrail::Placement{}, {}, {}, growth);
+    const TableStretch* const there = table.at(1.5 * side * kStep);
+    ASSERT_NE(there, nullptr);
+    EXPECT_EQ(there->y_min + there->y_max, 3.0 * side * kStep);
+    EXPECT_EQ(table.at(4.0 * side * kStep), nullptr);
+  }
+}
 
 /// Whoever asks, in whatever order: the same stretches, which go over into each other without a jump of the force.
 TEST(TableContact, ATableGrowsTheSameWayWhateverIsAskedFirst) {
