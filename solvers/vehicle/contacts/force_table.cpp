@@ -42,6 +42,11 @@ WheelForces without_numbers(ContactReaction r) {
   return {std::move(r), kNaN, kNaN, kNaN};
 }
 
+bool all_finite(const WheelForces& f) {
+  return ranges::all_of(columns<WheelForces>(),
+                        [&](const auto& column) { return std::isfinite(column.access.get(f)); });
+}
+
 }  // namespace
 
 WheelForces ForceTable::at(const WheelMotion& wanted) {
@@ -51,7 +56,13 @@ WheelForces ForceTable::at(const WheelMotion& wanted) {
   const bool loaded = wanted.vertical_load > 0.0;
   WheelForces out;
   ContactReaction& r = out.reaction;
-  r = loaded ? element_.under_load(wanted.motion, wanted.vertical_load) : element_.evaluate(wanted.motion);
+  try {
+    r = loaded ? element_.under_load(wanted.motion, wanted.vertical_load) : element_.evaluate(wanted.motion);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::numerical) throw;
+    r.status = Status::failed;
+    r.message = error.message();
+  }
   out.z = loaded ? r.wheelset_z : wanted.motion.wheelset.z;
   const double most = contact_->most_load();
   const bool answered = r.status == Status::ok;
@@ -68,7 +79,10 @@ WheelForces ForceTable::at(const WheelMotion& wanted) {
   out.t_gamma = speed > 0.0 ? r.frictional_power / speed : 0.0;
   const Mat3& axes = r.tangents.front().X_TC.rotation;
   out.contact_angle = std::atan2(axes(2, 1), axes(1, 1));
-  return out;
+  if (all_finite(out)) return out;
+  r.status = Status::failed;
+  r.message = "the motion is beyond what forces can be computed for";
+  return without_numbers(std::move(r));
 }
 
 const TableError& TableCheck::of(const std::string& number) const {

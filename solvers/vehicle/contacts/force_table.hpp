@@ -71,9 +71,9 @@ class ForceTable {
              std::shared_ptr<const CreepTable> creep);
 
   /// Status::failed with a message outside of what the table covers: lateral place, roll, yaw, loads above the greatest
-  /// one. Without an answer, and where Status::not_converged says that no height gives the load, all numbers are NaN.
-  /// Nothing is extrapolated; all forces run with the place without jumps. Errors: Error(configuration) for
-  /// motions that are not finite and negative loads.
+  /// one; for a wheel that slides and does not roll, and rates beyond all numbers. Without an answer, and where
+  /// Status::not_converged says that no height gives the load, all numbers are NaN. Nothing is extrapolated; all forces
+  /// run with the place without jumps. Errors: Error(configuration) for motions that are not finite and negative loads.
   WheelForces at(const WheelMotion& wanted);
 
   /// The same tables for a wheel of another side.

@@ -151,12 +151,13 @@ ContactReaction TableContact::under_load(PairMotion motion, double load) {
     r.wheelset_z = motion.wheelset.z;
     const double excess = r.on_rail.force.z() - load;
     if (std::abs(excess) <= kBalance * load) return right ? r : mirrored(r);
+    if (!std::isfinite(excess)) break;
     const double slope = i == 0 ? 1.0 : (excess - excess_before) / (carried - before);
     before = carried, excess_before = excess;
     carried -= excess / (slope > 0.0 ? slope : 1.0);
     carried = std::clamp(carried, 0.2 * before, 5.0 * before);
   }
-  if (r.status == Status::ok) {
+  if (!is_unsolved(r)) {
     r.status = Status::not_converged;
     r.message =
         fmt::format("no height gives the vertical load of {:.6g} N: friction on the flange carries the wheel", load);

@@ -248,6 +248,34 @@ TEST(ForceTable, NothingIsExtrapolated) {
   EXPECT_THROW(table.at(deep), Error);
 }
 
+TEST(ForceTable, MotionsWithoutForcesGiveAStatusAndNoNumbers) {
+  using wheelrail::SixMotion;
+  const auto creep = build_creep_table(combine(tabulated_problem().material).poisson, {2, 2, 4.0, 8, 6});
+  for (const auto& creep_forces : {std::shared_ptr<const CreepTable>(), creep}) {
+    ForceTable table(turned_table(), Side::right, creep_forces);
+    for (const double load : {0.0, kCarried})
+      for (const double rate : {1e-300, 1e10, 1e100, 1e200, 1e307})
+        for (double SixMotion::*member :
+             {&SixMotion::x, &SixMotion::y, &SixMotion::z, &SixMotion::roll, &SixMotion::yaw, &SixMotion::pitch}) {
+          WheelMotion w = running(0.3e-3, 1e-3, 2e-3, kCarried);
+          w.motion.wheelset.z = table.at(w).z;
+          w.vertical_load = load;
+          w.motion.wheelset_velocity.*member = rate;
+          const WheelForces f = table.at(w);
+          for (const auto& column : columns<WheelForces>())
+            EXPECT_EQ(std::isfinite(column.access.get(f)), f.reaction.status == Status::ok)
+                << column.stored << " at a rate of " << rate << ": " << f.reaction.message;
+        }
+    WheelMotion dragged = running(0.3e-3, 0.0, 0.0, kCarried);
+    dragged.motion.wheelset_velocity = {};
+    dragged.motion.wheelset_velocity.y = 1.0;
+    const WheelForces f = table.at(dragged);
+    EXPECT_EQ(f.reaction.status, Status::failed);
+    EXPECT_NE(f.reaction.message.find("does not roll"), std::string::npos) << f.reaction.message;
+    EXPECT_TRUE(std::isnan(f.reaction.normal_force));
+  }
+}
+
 TEST(ForceTable, TheLeftWheelIsTheMirrorImage) {
   ForceTable right = tread_forces(), left = tread_forces(Side::left);
   const WheelMotion w = running(1.2e-3, 2e-3, 5e-3, kCarried);
