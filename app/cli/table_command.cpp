@@ -35,6 +35,7 @@ app::MadeTable table_of(const TableOptions& options, const CommonOptions& common
 
 int table_command(const TableOptions& options, const CommonOptions& common) {
   const ThreadLimit limit(common.threads);
+  if (!options.output.empty()) app::check_table_output(options.output);  // before anything takes long
   const app::MadeTable made = table_of(options, common);
   if (!options.output.empty()) app::write_table(options.output, made);
   const auto json = [&] { return app::table_json(made); };

@@ -73,8 +73,11 @@ MadeTable make_table(const io::Case& given, const wheelrail::Geometry& geometry,
 MadeTable make_table(const std::filesystem::path& case_file, const TableRequest& request,
                      const io::ContentCache* cache = nullptr, const Progress& progress = {});
 
-/// By its extension: .h5 and .json hold everything, .csv the nodes. Errors: Error(configuration) for another one; those
-/// of core/output_file.hpp.
+/// Errors: Error(configuration) for an extension that tables are not written with, and one that needs a part that this
+/// build lacks.
+void check_table_output(const std::filesystem::path& file);
+/// By its extension: .h5 and .json hold everything, .csv the nodes. Errors: those of check_table_output and of
+/// core/output_file.hpp.
 void write_table(const std::filesystem::path& file, const MadeTable& made);
 /// Whether a file is a table by its name: .h5 or .json.
 bool is_table_file(const std::filesystem::path& file);

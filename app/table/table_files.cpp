@@ -11,6 +11,7 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
@@ -251,16 +252,22 @@ bool is_table_file(const std::filesystem::path& file) {
   return extension == ".h5" || extension == ".json";
 }
 
+void check_table_output(const std::filesystem::path& file) {
+  const std::string extension = io::extension_of(file);
+  if (extension != ".h5" && extension != ".json" && extension != ".csv")
+    throw Error(ErrorKind::configuration, "a table of forces is a file .h5, .json or .csv, not " + file.string());
+  if (extension == ".h5") require_part("hdf5", "tables of forces as .h5");
+}
+
 void write_table(const std::filesystem::path& file, const MadeTable& made) {
+  check_table_output(file);
   const std::string extension = io::extension_of(file);
   if (extension == ".h5")
     write_hdf5(file, made);
   else if (extension == ".json")
     write_file(file, json_file(made));
-  else if (extension == ".csv")
-    write_file(file, io::csv_of(made.nodes, Digits::all));
   else
-    throw Error(ErrorKind::configuration, "a table of forces is a file .h5, .json or .csv, not " + file.string());
+    write_file(file, io::csv_of(made.nodes, Digits::all));
 }
 
 MadeTable read_table(const std::filesystem::path& file) {

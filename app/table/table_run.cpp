@@ -74,16 +74,15 @@ MadeTable make_table(const io::Case& given, const wheelrail::Geometry& geometry,
   if (!pair) throw Error(ErrorKind::configuration, "a table of forces is that of a wheel on a rail, not of a patch");
   const wheelrail::Problem prototype = prototype_of(*pair);
   const double load = load_of(*pair, request);
+  if (request.exact_creep) vehicle::require_tabulated(prototype.material);  // refused before anything takes long
   const auto sheets = vehicle::solve_contact_sheets(geometry, prototype, load, request.axes, progress);
   const auto contact = vehicle::contact_table_of(sheets, geometry, prototype, load, request.axes);
   std::shared_ptr<const vehicle::CreepTable> creep;
-  if (request.exact_creep) {
-    vehicle::require_tabulated(prototype.material);
+  if (request.exact_creep)
     creep = kept_creep_table(cache, combine(prototype.material).poisson, request.creep,
                              [&](std::size_t finished, std::size_t all) {
                                if (progress.report) progress.report(finished, all, "table of creep forces");
                              });
-  }
   MadeTable made{given, head_of(*contact, request, load), nodes_of(sheets, request, load),
                  vehicle::ForceTable(contact, pair->side, creep)};
   made.table.keep(vehicle::check_table(made.table, geometry, prototype, request.check, progress));

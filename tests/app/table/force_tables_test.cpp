@@ -184,6 +184,8 @@ TEST(ForceTables, TheProgramWritesThem) {
   EXPECT_EQ(nlohmann::json::parse(told.out)["check"]["compared"], 4);
   EXPECT_EQ(read_table(json).head.creep_forces, "linear");
   EXPECT_EQ(run_program({"table", table, "--step-mm", "1"}).status, 2);
+  EXPECT_THAT(run_program({"table", (folder.path() / "none.toml").string(), "-o", "t.txt"}).err, HasSubstr(".csv"))
+      << "before the case is looked at";
 }
 
 }  // namespace
