@@ -50,6 +50,10 @@ int exit_status(const io::SimulationResult& result) {
   return result.status == "complete" && doubtful_steps(result) == 0.0 ? kOk : kFailed;
 }
 
+void warn_of_derailment(const io::SimulationResult& result) {
+  if (result.status == "derailed") std::cerr << "warning: derailed: " << result.message << '\n';
+}
+
 int show_track(const SimulateOptions& options, const io::SimulationFile& file,
                const std::vector<std::string>& overrides) {
   if (!file.track && !file.flexible_track)
@@ -129,9 +133,13 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     run.checkpoint_file = folder / "unfinished.h5";
     run.table_file = folder / "history.csv";
     if (options.resume && app::is_finished(folder / "simulation.h5", file, overrides)) {
-      std::cerr << "the simulation in " << folder.string() << " is complete already\n";
+      const io::SimulationResult there = io::read_simulation_head(folder / "simulation.h5");
+      const bool derailed = there.status == "derailed";
+      std::cerr << "the simulation in " << folder.string() << (derailed ? " has ended" : " is complete")
+                << " already\n";
+      warn_of_derailment(there);
       write_report_file(options.report_file, [&] { return app::pages::read_report(folder); });
-      return kOk;
+      return derailed ? kFailed : kOk;
     }
     if (options.anew) remove_file(run.checkpoint_file);
     if (app::goes_on(run.checkpoint_file, options.resume)) {
@@ -164,7 +172,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       app::summary_text(result) + (own ? app::assessment_text(std::span(own, 1)) : "") + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; the same command goes on from there") << '\n';
-  if (result.status == "derailed") std::cerr << "warning: derailed: " << result.message << '\n';
+  warn_of_derailment(result);
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
   if (const double steps = doubtful_steps(result); steps > 0.0)
     std::cerr << fmt::format(
