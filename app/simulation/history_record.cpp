@@ -152,7 +152,7 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   add(prefix + "angle_rad", "rad", "contact angle, of all normal forces together, 0 without contact" + of, [=] {
     Vec3 normal = Vec3::Zero();
     for (const vehicle::PatchTangent& t : reaction().tangents) normal += t.normal_force * t.X_TC.rotation.col(2);
-    return std::atan2(-normal.y(), normal.z());
+    return std::atan2(0.0 - normal.y(), normal.z());  // no -0
   });
   const auto motion = [this, wheel] { return vehicle_.motion(wheel, simulation_->state()); };
   add(prefix + "lift_m", "m", "how far the tape circle stands above its height at rest over the rail" + of, [=, this] {
