@@ -29,6 +29,7 @@ namespace {
 template <class Row>
 std::vector<NamedNumber> named_numbers() {
   std::vector<NamedNumber> all;
+  all.reserve(columns<Row>().size());
   for (const Column<Row>& column : columns<Row>())
     all.push_back({std::string(column.stored), std::string(column.unit.si), std::string(column.meaning)});
   return all;

@@ -23,6 +23,7 @@ ForceTable table_made(Make&& make) {
 
 ForceTable create_table(const tm_pair& pair, const tm_case& given, const Strings& settings) {
   std::vector<const char*> texts;
+  texts.reserve(settings.size());
   for (const std::string& text : settings) texts.push_back(text.c_str());
   return table_made([&](auto out) { return tm_table_create(&pair, &given, texts.data(), texts.size(), out); });
 }

@@ -77,6 +77,7 @@ void check(const TableAngles& roll, const TableAngles& yaw) {
 template <class Value>
 std::vector<double> along(const Columns& columns, Value&& value) {
   std::vector<double> values;
+  values.reserve(columns.size());
   for (const ContactTableColumn& column : columns) values.push_back(value(column));
   return values;
 }
@@ -605,6 +606,7 @@ std::vector<Columns> solve_contact_sheets(const wheelrail::Geometry& geometry, c
   constexpr double kRounding = 1e-9;
   const auto each_way = to_whole<std::size_t>(options.lateral_range / options.step + kRounding);
   std::vector<double> y;
+  y.reserve(2 * each_way + 1);
   for (std::size_t i = 0; i <= 2 * each_way; ++i)
     y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));
 

@@ -131,6 +131,7 @@ std::vector<CheckPoint> draw(const ForceTable& table, const wheelrail::Problem& 
   const double least = t.least_load(), most = t.most_load();
   const Vec3 arm = t.nominal().X_TW.origin - t.nominal().X_TWs.origin;
   std::vector<CheckPoint> points;
+  points.reserve(static_cast<std::size_t>(o.points));
   for (int i = 0; i < o.points; ++i) {
     CheckPoint c;
     c.place_y = between(t.y_min(), t.y_max());
