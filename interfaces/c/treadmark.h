@@ -187,8 +187,9 @@ TM_API tm_status tm_table_write(const tm_contact_table *t, const char *file);
 /* Shares the numbers: one copy for each thread costs nothing. */
 TM_API tm_status tm_table_copy(const tm_contact_table *from, tm_contact_table **out);
 /* motion: the first n_motion of the numbers of TM_MOTION_NUMBERS, the others 0; forces: room for the first n_forces of those of
- * TM_FORCE_NUMBERS. TM_OK; TM_NO_CONTACT: the wheel is in the air, forces are 0; TM_FAILED: outside of what the table covers;
- * TM_NOT_CONVERGED: no height gives the load. The last two give NaN, and tm_table_message() says why. Takes a few microseconds. */
+ * TM_FORCE_NUMBERS. TM_OK; TM_NO_CONTACT: the wheel is in the air, forces are 0; TM_FAILED: outside of what the table covers, and
+ * for a wheel that slides and does not roll; TM_NOT_CONVERGED: no height gives the load. The last two give NaN, and tm_table_message()
+ * says why. Takes a few microseconds. */
 TM_API tm_status tm_table_evaluate(tm_contact_table *t, const double *motion, size_t n_motion, double *forces, size_t n_forces);
 /* Of the last tm_table_evaluate; "". Lent until the next one. */
 TM_API const char *tm_table_message(const tm_contact_table *t);
