@@ -125,6 +125,9 @@ bool LocalContact::mix(bool heavier) {
       cells_[cell_count_++] = {stretch, column, std::clamp((y - before) / (behind - before), 0.0, 1.0), of_sheet,
                                std::atan(height.slope * y_by_y - turned * arm_y.slope) - std::atan(height.slope)};
     }
+  // Some cubic weights are negative: of sheets that differ much nothing may be left.
+  for (std::size_t k = 0; k < levels_->size(); ++k)
+    if (!(compression_[k].value > 0.0)) return false;
   // Hertz: 2/5 of the compression under the first load are in its energy height.
   constexpr double kRest = 0.6;
   const Mixed& first = compression_.front();

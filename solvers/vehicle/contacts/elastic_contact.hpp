@@ -40,7 +40,7 @@ struct ElasticContact {
   /// Between columns and loads, of up to four sheets: the first 'count' ones.
   std::array<ElasticPart, 16 * kMostParts> parts;
   std::size_t count = 0;
-  bool in_table = true;  ///< false: the table does not reach so far, nothing else is known
+  bool in_table = true;  ///< false: the table does not reach so far or is too coarse, nothing else is known
 };
 
 /// A table at one lateral place, roll and yaw.
@@ -56,7 +56,7 @@ class LocalContact {
   /// place.z does not count. The table must outlive this. Takes long where the table has to grow.
   LocalContact(const ContactTable& table, const RelativePlace& place) : LocalContact(table, place, false) {}
 
-  /// False: the table does not reach so far, nothing else is known.
+  /// False: the table does not reach so far, or its sheets differ too much; nothing else is known.
   bool covered() const { return covered_; }
   bool is_at(const RelativePlace& place) const {
     return place.y == place_.y && place.roll == place_.roll && place.yaw == place_.yaw;

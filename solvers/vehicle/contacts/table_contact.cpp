@@ -94,6 +94,13 @@ ContactReaction not_covered(const ContactTable& table, const RelativePlace& plac
   };
   if (!table.roll().covers(place.roll)) return turned("rolls against the rail", place.roll, table.roll());
   if (!table.yaw().covers(place.yaw)) return turned("is yawed", place.yaw, table.yaw());
+  if (place.y >= table.y_min() && place.y <= table.y_max()) {
+    r.message = fmt::format(
+        "contact {:.4g} mm aside of the central position changes too much from roll to roll or yaw "
+        "to yaw of the contact table: it needs more of them",
+        1e3 * place.y);
+    return r;
+  }
   r.derailed = table.grows();
   if (!r.derailed)
     r.message = fmt::format(

@@ -276,6 +276,29 @@ TEST(ForceTable, MotionsWithoutForcesGiveAStatusAndNoNumbers) {
   }
 }
 
+/// Between two sheets alike and beside one that is 20 times as soft the parabola has nothing left.
+TEST(ForceTable, SheetsThatDifferTooMuchGiveNoAnswer) {
+  const auto sheet = [](double energy) {
+    const ContactUnderLoad contact{1e-4, energy, 0.0, 0.0, 0.4, {{1.0, 0.0, 0.0, 0.4, 1e-4, 0.0}}};
+    return ContactTableColumns{{-5e-3, {contact}}, {5e-3, {contact}}};
+  };
+  const auto table = std::make_shared<const ContactTable>(
+      std::vector<ContactTableColumns>{sheet(1.0), sheet(1.0), sheet(20.0)}, ContactTable::Loads{{kCarried}},
+      wheelrail::Problem{}, wheelrail::Placement{}, TableAngles{4e-3, 2});
+  ForceTable forces(table, Side::right, nullptr);
+  WheelMotion w;
+  w.motion.wheelset.roll = -2e-3;
+  w.motion.wheelset_velocity.x = kForward, w.motion.wheelset_velocity.pitch = -kForward / kRolling;
+  for (const double load : {0.0, kCarried}) {
+    w.motion.wheelset.z = 1e-3;
+    w.vertical_load = load;
+    const WheelForces f = forces.at(w);
+    EXPECT_EQ(f.reaction.status, Status::failed);
+    EXPECT_NE(f.reaction.message.find("too much"), std::string::npos) << f.reaction.message;
+    EXPECT_TRUE(std::isnan(f.reaction.normal_force));
+  }
+}
+
 TEST(ForceTable, TheLeftWheelIsTheMirrorImage) {
   ForceTable right = tread_forces(), left = tread_forces(Side::left);
   const WheelMotion w = running(1.2e-3, 2e-3, 5e-3, kCarried);
