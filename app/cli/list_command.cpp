@@ -101,7 +101,7 @@ int list_command(const std::string& what) {
       print(fmt::format("{:<24} {:<13}  {}\n", row.name, row.grave ? "warning" : "minor warning", row.meaning));
   } else if (what == "laws") {
     const auto print_row = [](const auto& row) {
-      print(fmt::format("{:<11}  {}\n{:<11}  source: {}\n{:<11}  for: {}\n{:<11}  needs: {}\n", row.word, row.name, "",
+      print(fmt::format("{:<15}  {}\n{:<15}  source: {}\n{:<15}  for: {}\n{:<15}  needs: {}\n", row.word, row.name, "",
                         row.source, "", row.validity, "", row.keys));
     };
     for (const WearTheoryRow& row : kWearTheories) print_row(row);
