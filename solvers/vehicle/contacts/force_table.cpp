@@ -347,8 +347,8 @@ constexpr Column<WheelForces> kForces[] = {
 constexpr Column<TableError> kErrors[] = {
     {"number", kOne, "number", of<&TableError::number>(), "", kInTable, "number"},
     {"over", kOne, "over", of<&TableError::over>(), "what it is divided by; empty: z, in m", kInTable, "over"},
-    {"worst", kOne, "worst", of<&TableError::worst>(), "magnitude", kInTable, "worst", 6},
-    {"rms", kOne, "rms", of<&TableError::rms>(), "root of the mean square", kInTable, "rms", 6},
+    {"worst", kOne, "worst", of<&TableError::worst>(), "magnitude", kInTable, "worst"},
+    {"rms", kOne, "rms", of<&TableError::rms>(), "root of the mean square", kInTable, "rms"},
     {"y_m", kM, "y", of<&TableError::y>(), "where it was worst", kInTable, "at y", 5},
     {"roll_rad", kRad, "roll", of<&TableError::roll>(), "", kInTable, "roll", 5},
     {"yaw_rad", kRad, "yaw", of<&TableError::yaw>(), "", kInTable, "yaw", 5},
