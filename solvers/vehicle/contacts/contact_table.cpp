@@ -55,8 +55,8 @@ void check(const Columns& columns, const std::vector<double>& loads, std::size_t
     for (std::size_t k = 0; k < loads.size(); ++k) {
       const ContactUnderLoad& c = column.under[k];
       require(c.elastic_energy > 0.0 && !c.parts.empty() && c.parts.size() <= kMostParts &&
-                  ranges::all_of(c.parts, [](const ContactPart& part) { return part.area > 0.0; }),
-              "energies and areas of a contact table must be positive");
+                  ranges::all_of(c.parts, [](const ContactPart& part) { return part.area > 0.0 && part.share > 0.0; }),
+              "energies, areas and shares of a contact table must be positive");
       require(k == 0 || c.z > column.under[k - 1].z, "the wheel of a contact table must sink as the load grows");
     }
   }

@@ -136,6 +136,7 @@ TEST(ForceTables, DamagedFilesAreRefused) {
   refused([](auto& j) { j.erase("nodes"); });
   refused([](auto& j) { j["nodes"]["z_m"].erase(0); });
   refused([](auto& j) { j["nodes"]["area_m2"][3] = -1.0; });
+  refused([](auto& j) { j["nodes"]["share"][3] = -1.0; });
   refused([](auto& j) { j["nodes"]["z_m"][0] = nullptr; });
   refused([](auto& j) { j["nodes"]["load_N"][1] = 1e3; });
   refused([](auto& j) { j["nodes"]["roll_rad"][1] = 1e-3; });
