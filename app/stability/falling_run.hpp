@@ -54,7 +54,7 @@ FallingRun run_falling(const io::SimulationFile& file, const std::vector<std::st
 
 /// What follows, in a sentence.
 std::string falling_verdict(const FallingRun& run);
-/// A word for it: "died", "none", "lasting", "interrupted", "failed".
+/// A word for it: "died", "none", "lasting", or the status of a run that is not complete.
 std::string falling_word(const FallingRun& run);
 /// Sway over speed of all runs.
 std::string falling_csv(const FallingRun& run);
