@@ -137,6 +137,7 @@ ContactReaction TableContact::evaluate(const PairMotion& motion) {
 }
 
 ContactReaction TableContact::under_load(PairMotion motion, double load) {
+  motion.wheelset.z = 0.0;
   require_finite(motion);
   if (!(load > 0.0) || !std::isfinite(load))
     throw Error(ErrorKind::configuration, "the vertical load of a wheel must be positive and finite");

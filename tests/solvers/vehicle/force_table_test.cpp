@@ -212,6 +212,9 @@ TEST(ForceTable, AGivenLoadAndItsHeightBelongTogether) {
     const WheelForces found = table.at(loaded);
     ASSERT_EQ(found.reaction.status, Status::ok);
     EXPECT_NEAR(found.reaction.on_rail.force.z(), 0.9 * kCarried, 1e-6 * kCarried);
+    WheelMotion elsewhere = loaded;
+    elsewhere.motion.wheelset.z = 0.7;
+    EXPECT_EQ(table.at(elsewhere).z, found.z) << "a given height does not count";
     WheelMotion at_height = loaded;
     at_height.vertical_load = 0.0;
     at_height.motion.wheelset.z = found.z;
