@@ -40,12 +40,11 @@ struct SimulationTimes {
 };
 
 /// Runs a simulation from static equilibrium to its end, or until a wheel has parted from its rail: status "derailed".
-/// A numerical failure on the way gives status "failed" and the
-/// history up to there, a stop request "interrupted"; of both the checkpoint can be gone on from. Results are the same
-/// to the last bit for any number of threads, interruptions and resumptions. Errors: Error(configuration),
-/// Error(input_data) for input that cannot be simulated at all, and for a checkpoint of another simulation;
-/// Error(numerical) without an equilibrium. Cancelled (core/cancellation.hpp) where the request comes before the first
-/// step.
+/// A numerical failure on the way gives status "failed" and the history up to there, a stop request "interrupted"; of
+/// both the checkpoint can be gone on from. Results are the same to the last bit for any number of threads,
+/// interruptions and resumptions. Errors: Error(configuration), Error(input_data) for input that cannot be simulated at
+/// all, and for a checkpoint of another simulation; Error(numerical) without an equilibrium. Cancelled
+/// (core/cancellation.hpp) where the request comes before the first step.
 io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store,
                                     const SimulationOptions& options, const Progress& progress,
                                     SimulationTimes* times = nullptr);

@@ -132,7 +132,7 @@ class ContactTable {
   };
   /// How its sheets grow; null: they do not.
   struct Growth {
-    /// Columns outwards from y, on the side of its sign; less than two: wheel and rail part there.
+    /// Columns outwards from y, on the side of its sign, which 0 has too; less than two: wheel and rail part there.
     std::function<ContactTableColumns(const TableTurn& turn, double from)> beyond;
     /// The same columns with the heavier loads added.
     std::function<ContactTableColumns(const TableTurn& turn, const ContactTableColumns& columns)> heavier;
@@ -146,20 +146,24 @@ class ContactTable {
                const wheelrail::Placement& nominal, const TableAngles& roll = {}, const TableAngles& yaw = {},
                Growth growth = {});
 
+  /// What it was made with. Thread-safe, as all that follows.
   const wheelrail::Problem& problem() const { return problem_; }
   const wheelrail::Placement& nominal() const { return nominal_; }
   const TableAngles& roll() const { return roll_; }
   const TableAngles& yaw() const { return yaw_; }
+  /// Whether it has no end but those of the profiles.
   bool grows() const { return growth_.beyond != nullptr; }
   /// What it covers at every roll and yaw before it grows [m].
   double y_min() const { return y_min_; }
   double y_max() const { return y_max_; }
   double least_load() const { return loads_.first.front(); }  ///< of those solved [N]
+  /// The greatest that it has, or grows to [N].
   double most_load() const { return loads_.heavier.empty() ? loads_.first.back() : loads_.heavier.back(); }
   static constexpr std::size_t kMostLevels = 8;
 
   /// Index of a sheet.
   std::size_t sheet(int roll, int yaw) const { return static_cast<std::size_t>(roll * (yaw_.intervals + 1) + yaw); }
+  /// Of a sheet.
   const TableTurn& turn(std::size_t sheet) const { return sheets_[sheet].turn; }
   /// Round the central position.
   const TableStretch& central(std::size_t sheet = 0) const { return sheets_[sheet].central; }
@@ -215,18 +219,23 @@ std::vector<ContactTableColumns> solve_contact_sheets(const wheelrail::Geometry&
                                                       const wheelrail::Problem& prototype, double reference_load,
                                                       const ContactTableOptions& options = {},
                                                       const Progress& progress = {});
+/// A stretch outwards from a place, on the side of its sign (-0.0: the low one); less than two columns where wheel and
+/// rail part. On this thread alone. Errors: those of the pair.
 ContactTableColumns solve_columns_beyond(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
                                          double reference_load, const TableTurn& turn, double from,
                                          const ContactTableOptions& options = {});
+/// The columns of such a turn with the heavier loads of the options added. On this thread alone.
 ContactTableColumns solve_heavier(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
                                   double reference_load, const TableTurn& turn, ContactTableColumns columns,
                                   const ContactTableOptions& options = {});
+/// growth: counts unless options.growth is 0. Errors: those of ContactTable.
 std::shared_ptr<const ContactTable> contact_table_of(std::vector<ContactTableColumns> sheets,
                                                      const wheelrail::Geometry& geometry,
                                                      const wheelrail::Problem& prototype, double reference_load,
                                                      const ContactTableOptions& options = {},
                                                      ContactTable::Growth growth = {});
 
+/// As bytes, without the numbers of parts.
 void write_columns(const ContactTableColumns& columns, ByteWriter& out);
 /// Errors: Error(input_data) for bytes that end too early, and for what is no finite number.
 ContactTableColumns read_columns(ByteReader& in);
