@@ -264,11 +264,17 @@ void check(const AssessmentRequest& request) {
       throw Error(ErrorKind::configuration,
                   fmt::format("section {} from {:.6g} to {:.6g} m is none", section.name, section.from, section.to));
   }
+  std::vector<std::string> answered;
+  for (const NamedLaw& law : named_laws())
+    if (!law.is(WearTheory::archard)) answered.emplace_back(law.name);
+  std::set<std::string> asked;
   for (const std::string& name : request.laws) {
     const NamedLaw* law = law_named(name);
     if (law == nullptr)
       throw Error(ErrorKind::configuration, fmt::format("law '{}' is not known", name), {},
-                  advice_on_name(name, law_names<WearLaw, FatigueSettings>()));
+                  advice_on_name(name, answered));
+    if (!asked.insert(name).second)
+      throw Error(ErrorKind::configuration, fmt::format("law '{}' is asked for twice", name));
     if (law->is(WearTheory::archard))
       throw Error(ErrorKind::configuration,
                   fmt::format("law '{}' needs elements of contact: no history has them", name), {},

@@ -181,6 +181,8 @@ TEST_F(AssessCommand, LawsAreAskedOfTheWheels) {
   EXPECT_EQ(found.at("burstow-r220"), 0.0);
   const auto refusal = [&](const char* law) { return run_program({"assess", path("a"), "--laws", law}).err; };
   EXPECT_THAT(refusal("british-rial"), HasSubstr("law 'british-rial' is not known (did you mean 'british-rail'?)"));
+  EXPECT_THAT(refusal("nothing-like-it"), AllOf(HasSubstr("burstow-r220"), Not(HasSubstr("jendel"))));
+  EXPECT_THAT(refusal("british-rail,british-rail"), HasSubstr("asked for twice"));
   EXPECT_THAT(refusal("jendel"), HasSubstr("use it in treadmark evolve"));
   const ProgramResult before = simulate("b", {"--set", R"(assessment.laws=["sheffield-r8t"])"});
   EXPECT_EQ(before.status, 2);
