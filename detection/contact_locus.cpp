@@ -18,9 +18,8 @@ namespace treadmark::detection {
 namespace {
 
 constexpr int kFineRows = 240;
-/// Where only the least gap is wanted: a parabola through rows 10 um apart is good to a tenth of a nanometre, also
-/// where curvatures jump by those of profiles.
-constexpr int kFewRows = 48;
+/// Where only the least gap is wanted: a parabola between these is good to a nanometre, on steep flanges too.
+constexpr int kFewRows = 96;
 
 /// The silhouette of the wheel along x of T, at one point of its profile.
 struct SilhouettePoint {
