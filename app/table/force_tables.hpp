@@ -22,7 +22,7 @@ struct TableRequest {
                                     .step = 0.5e-3,
                                     .element_size = 0.5e-3,
                                     .relative_loads = {0.3, 0.6, 1.0, 1.5, 2.5},
-                                    .roll = {10e-3, 2},
+                                    .roll = {10e-3, 6},
                                     .yaw = {20e-3, 2}};
   std::optional<double> load;  ///< vertical, about which the loads of the table lie [N]; none: that of the case
   bool exact_creep = true;     ///< creep forces of the exact theory's table, else Kalker's coefficients

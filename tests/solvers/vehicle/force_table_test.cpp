@@ -45,7 +45,7 @@ const std::shared_ptr<const ContactTable>& turned_table() {
                                                  .step = 0.5e-3,
                                                  .relative_loads = {0.4, 1.0, 2.0},
                                                  .heavier = {},
-                                                 .roll = {6e-3, 2},
+                                                 .roll = {6e-3, 4},
                                                  .yaw = {12e-3, 2}});
   return table;
 }
@@ -102,10 +102,10 @@ TEST(ForceTable, ErrorsAreAsStatedAtOtherPoints) {
     EXPECT_LT(error.rms, bound.worst) << error.number;
     EXPECT_GT(error.worst, 0.0) << error.number;
   }
-  // What a table of heights for each roll and yaw is good for.
-  EXPECT_LT(stated.of("z").worst, 5e-6);
-  EXPECT_LT(stated.of("normal_force").rms, 0.05);
-  EXPECT_LT(stated.of("fy").rms, 0.03);
+  // What a table with rolls 3 mrad apart is good for; twice as far they make it six times worse.
+  EXPECT_LT(stated.of("z").worst, 2e-6);
+  EXPECT_LT(stated.of("normal_force").rms, 0.02);
+  EXPECT_LT(stated.of("fy").rms, 0.02);
   EXPECT_THROW(stated.of("nothing"), Error);
 }
 
