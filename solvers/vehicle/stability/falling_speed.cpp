@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -50,6 +52,19 @@ class Integrals {
   const std::vector<double>&x_, &y_;
   std::vector<double> sum_, squares_;
 };
+
+/// By what the sway changes in a window, by the trend of its logarithm.
+double change_in_a_window(std::span<const SwayAt> sway, double window) {
+  double distance = 0.0, logarithm = 0.0, squares = 0.0, products = 0.0;
+  const auto log_of = [](const SwayAt& at) { return std::log(std::max(at.rms, std::numeric_limits<double>::min())); };
+  for (const SwayAt& at : sway) distance += at.distance, logarithm += log_of(at);
+  distance /= static_cast<double>(sway.size()), logarithm /= static_cast<double>(sway.size());
+  for (const SwayAt& at : sway) {
+    squares += (at.distance - distance) * (at.distance - distance);
+    products += (at.distance - distance) * (log_of(at) - logarithm);
+  }
+  return std::exp(products / squares * window);
+}
 
 }  // namespace
 
@@ -113,11 +128,13 @@ FallResult judge_fall(const SwayHistory& history, const FallSettings& s) {
     if (at.distance <= end_of_hold) held.push_back(at);
   constexpr std::size_t kOneWindow = 4;
   if (held.size() <= kOneWindow) throw Error(ErrorKind::configuration, "the run ends before its speed begins to fall");
-  const double now = held.back().rms, before = held[held.size() - 1 - kOneWindow].rms;
+  const double now = held.back().rms;
   out.first_amplitude = std::sqrt(2.0) * now;
-  // A sway that still dies away is no limit cycle; one that settles loses less in a window.
+  // A sway that still dies away is no limit cycle. One window with the one before says nothing: between the flanges a
+  // cycle swells and fades by a tenth.
   constexpr double kDyingAway = 0.9;
-  if (!(now > limit) || now < kDyingAway * before) return out;
+  const std::span<const SwayAt> later = std::span(held).last(std::max(kOneWindow + 1, held.size() / 2));
+  if (!(now > limit) || change_in_a_window(later, s.window) < kDyingAway) return out;
   const LastAbove last = last_above(out.sway, limit);
   out.verdict = last.at_end ? FallVerdict::lasting : FallVerdict::died;
   out.speed = last.speed;

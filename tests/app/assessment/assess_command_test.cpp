@@ -173,7 +173,8 @@ TEST_F(AssessCommand, LawsAreAskedOfTheWheels) {
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(made.out, AllOf(HasSubstr("mm3/km"), HasSubstr("warning: the law burstow-r220 is unverified")));
   std::map<std::string, double> found;
-  for (const auto& one : nlohmann::json::parse(input_.read("a/assessment.json"))["runs"][0]["assessed"])
+  const auto json = nlohmann::json::parse(input_.read("a/assessment.json"));
+  for (const auto& one : json.at("runs").at(0).at("assessed"))
     if (one["place"] == "ws1_left" && one["status"] == "ok") found[one["quantity"]] = one["value"];
   ASSERT_LT(found.at("Tgamma"), 15.0);
   EXPECT_NEAR(found.at("british-rail"), 1e-12 * 0.25 * std::numbers::pi * found.at("Tgamma"), 1e-17);

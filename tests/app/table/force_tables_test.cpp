@@ -161,7 +161,7 @@ TEST(ForceTables, WhatTablesAreNotForIsRefused) {
     }
   };
   TableRequest request = small_request();
-  refused("wheel.flats = [{ depth_mm = 1.0 }]\n" + kCase, request, "round");
+  refused("wheel.flats = [{ length_mm = 40.0, depth_mm = 1.0 }]\n" + kCase, request, "round");
   refused(std::string(kCase).replace(kCase.find("vertical_force_N = 80e3"), 23, "z_mm = 0.1"), request, "load_kN");
   refused("[patch]\nmx = 4\nmy = 4\n", request, "");
   EXPECT_THROW(table_request(io::given_settings(std::vector<std::string>{"roll_intervals=1"})), Error);

@@ -324,6 +324,29 @@ TEST(FallingSpeed, SaysWhereThereIsNoLimitCycleAndWhereItLasts) {
   EXPECT_EQ(fall(w, settings, 2e-3).verdict, FallVerdict::lasting);
 }
 
+/// Between the flanges the amplitude of a cycle swells and fades; where it dies away, it does so all the way.
+TEST(FallingSpeed, ACycleThatSwellsAndFadesIsOne) {
+  const FallSettings settings{50.0, 20.0, 200.0, 1.0, 50.0, 1e-4};
+  const auto verdict = [&](auto amplitude) {
+    SwayHistory history;
+    history.sway.resize(1);
+    for (int i = 0; i <= 6000; ++i) {
+      const double x = 0.1 * i;
+      history.distance.push_back(x);
+      history.speed.push_back(50.0 - 0.05 * std::max(0.0, x - settings.hold));
+      history.sway[0].push_back(amplitude(x) * std::sin(2.0 * std::numbers::pi * x / 9.0));
+    }
+    return judge_fall(history, settings).verdict;
+  };
+  for (double phase = 0.0; phase < 6.0; phase += 0.3) {
+    const auto swells = [&](double x) {
+      return 6e-3 * (1.0 + 0.07 * std::sin(2.0 * std::numbers::pi * x / 130.0 + phase));
+    };
+    EXPECT_EQ(verdict(swells), FallVerdict::lasting) << phase;
+    EXPECT_EQ(verdict([&](double x) { return swells(x) * std::exp(-x / 200.0); }), FallVerdict::none) << phase;
+  }
+}
+
 TEST(FallingSpeed, RunningSwayOfASineIsItsAmplitude) {
   SwayHistory history;
   history.sway.resize(2);
