@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import threading
 import warnings
+from pathlib import PurePath
 from typing import Any, Mapping, NamedTuple
 
 import numpy as np
@@ -55,12 +56,12 @@ class ForceTable:
     @classmethod
     def read(cls, file: Path) -> "ForceTable":
         """From a file .h5 or .json. Errors: InputError for what is no table."""
-        return cls(_treadmark.ForceTable.read(file))
+        return cls(_treadmark.ForceTable.read(PurePath(file)))
 
     def write(self, file: Path) -> None:
         """As a file .h5 or .json, which hold all of it, or .csv, which holds the nodes."""
         with self._lock:
-            self._table.write(file)
+            self._table.write(PurePath(file))
 
     def forces(self, **motion: Any) -> dict[str, Array]:
         """Forces of motions in SI units: ``table.forces(y=3e-3, vx=20.0, vpitch=-43.5, vertical_load=60e3)``.
