@@ -71,6 +71,8 @@ def jobs():
     yield "compare-squat", [["compare", example("squat"), "-o", "OUT/results", "--report", "OUT/report.html"]]
     yield "diff-flat", [["run", example("wheel-flat"), "-o", "OUT/a"], ["run", example("wheel-flat"), "-o", "OUT/b", "--set", "friction.coefficient=0.2"], ["diff", "OUT/a", "OUT/b"], ["report", "OUT/a", "OUT/b", "-o", "OUT/overlay.html"]]
     yield "bench-flat", [["bench", example("wheel-flat"), "--resolutions", "1", "--seconds-per-measure", "0.01", "-o", "OUT/results", "--report", "OUT/report.html"]]
+    small = ["--lateral-range-mm", "1", "--step-mm", "1", "--element-mm", "2", "--roll-intervals", "0", "--yaw-intervals", "0", "--creep-forces", "linear", "--check-points", "4"]
+    yield "table-braked", [["table", example("braked-wheel"), *small, "-o", f"OUT/table.{end}"] for end in ("h5", "json", "csv")]
     yield "trace-flat", [["trace", example("wheel-flat"), "--body", "wheel", "--line-mm", "0", "--range-deg", "-10", "10"]]
 
     pair = ["geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauge-mm", "1435"]

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "treadmark/solvers/wheelrail/root_search.hpp"
@@ -39,6 +40,13 @@ class ForceBalance {
   /// Forces on both sides of a jump [N].
   double force_below() const { return bracket_.value_below(); }
   double force_above() const { return bracket_.value_above(); }
+  /// The side of a jump whose force is nearer to the target; not that without contact.
+  double nearer_side() const {
+    const auto off = [&](double z, double force) { return std::abs(force - target_.at(z)); };
+    return force_below() > 0.0 && off(bracket_.below(), force_below()) < off(bracket_.above(), force_above())
+               ? bracket_.below()
+               : bracket_.above();
+  }
 
   /// The force law changed a little (new tangential forces): keep the slope, forget the bracket.
   void restart();

@@ -259,6 +259,10 @@ class Iteration {
       tangential_done = false;
       z = balance.next();
     }
+    if (state == ForceBalance::State::no_balance && balance.nearer_side() != out_.z) {
+      step_.evaluate(out_.z = balance.nearer_side());
+      tangential_done = false;
+    }
     if (inside_the_rail()) return false;
     if (!(tangential_done && exact) && !solve_tangential()) return false;
     if (state == ForceBalance::State::found) {

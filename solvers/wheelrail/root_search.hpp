@@ -14,6 +14,8 @@ class Bracket {
   bool closed() const;
   /// From where the residual is negative to where it is positive.
   double width() const { return x_high_ - x_low_; }
+  double below() const { return x_low_; }
+  double above() const { return x_high_; }
   double value_below() const { return value_low_; }
   double value_above() const { return value_high_; }
   /// The guess if it lies inside, else the middle. Guesses may close in from one side; where they do not halve the
