@@ -16,7 +16,7 @@
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
-#include "treadmark/io/simulations/evolve_keys.hpp"
+#include "treadmark/io/cases/law_keys.hpp"
 #include "treadmark/model/contact/theories.hpp"
 #include "treadmark/model/damage/fatigue.hpp"
 #include "treadmark/model/damage/flow_law.hpp"

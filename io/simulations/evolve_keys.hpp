@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "treadmark/io/cases/law_keys.hpp"
 #include "treadmark/io/settings/key_rows.hpp"
 #include "treadmark/io/simulations/evolution_model.hpp"
-#include "treadmark/model/damage/named_laws.hpp"
 
 namespace treadmark::io {
 
@@ -17,15 +17,8 @@ struct EvolveInput {
   EvolvingBody wheel, rail;
 };
 
-/// [evolve] of files of `treadmark evolve`, its [evolve.wheel] and [evolve.rail], and their [law], [fatigue] and
-/// [flow].
+/// [evolve] of files of `treadmark evolve`, its [evolve.wheel] and [evolve.rail].
 const KeyTable<EvolveInput>& evolve_keys();
 const KeyTable<EvolvingBody>& evolving_body_keys();
-const KeyTable<WearLaw>& wear_law_keys();
-const KeyTable<FatigueSettings>& fatigue_keys();
-const KeyTable<FlowLaw>& flow_law_keys();
-
-/// The numbers of a law as its table of an evolution file has them: "k = [0.001]; hardness_GPa = 3".
-std::string numbers_of(const NamedLaw& law);
 
 }  // namespace treadmark::io
