@@ -162,7 +162,10 @@ class ContactTable {
   static constexpr std::size_t kMostLevels = 8;
 
   /// Index of a sheet.
-  std::size_t sheet(int roll, int yaw) const { return static_cast<std::size_t>(roll * (yaw_.intervals + 1) + yaw); }
+  std::size_t sheet(int roll, int yaw) const {
+    const int number = roll * (yaw_.intervals + 1) + yaw;
+    return static_cast<std::size_t>(number);
+  }
   /// Of a sheet.
   const TableTurn& turn(std::size_t sheet) const { return sheets_[sheet].turn; }
   /// Round the central position.
