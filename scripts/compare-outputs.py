@@ -71,6 +71,7 @@ def jobs():
     yield "compare-squat", [["compare", example("squat"), "-o", "OUT/results", "--report", "OUT/report.html"]]
     yield "diff-flat", [["run", example("wheel-flat"), "-o", "OUT/a"], ["run", example("wheel-flat"), "-o", "OUT/b", "--set", "friction.coefficient=0.2"], ["diff", "OUT/a", "OUT/b"], ["report", "OUT/a", "OUT/b", "-o", "OUT/overlay.html"]]
     yield "bench-flat", [["bench", example("wheel-flat"), "--resolutions", "1", "--seconds-per-measure", "0.01", "-o", "OUT/results", "--report", "OUT/report.html"]]
+    yield "conform-flat", [["conform", example("wheel-flat")], ["conform", "spline"]]
     yield "trace-flat", [["trace", example("wheel-flat"), "--body", "wheel", "--line-mm", "0", "--range-deg", "-10", "10"]]
 
     pair = ["geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauge-mm", "1435"]
