@@ -16,6 +16,8 @@ struct Set {
   Value Law::*member;
   Value value;
 };
+template <class Law, class Value>
+Set(Value Law::*, Value) -> Set<Law, Value>;  // clang before 17 makes none for aggregates
 
 template <class Law, class... Values>
 Law law_of(Set<Law, Values>... parts) {
