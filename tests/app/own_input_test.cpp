@@ -66,6 +66,7 @@ TEST(OwnInput, IsNoOutputOfAnyVerb) {
       {"fmu", {{"@"}, "fmu"}},
       {"report", {{"@"}, "report"}},
       {"plot", {{"@"}, "report"}},
+      {"live", {{"@", "--no-open"}, "report"}},
       {"check", {{"@"}}},
   };
   const std::set<std::string> without{"diff", "list", "schema", "completion", "man", "new"};  // files of both kinds
