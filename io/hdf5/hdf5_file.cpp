@@ -355,7 +355,7 @@ bool check_sum_holds(const std::filesystem::path& file) {
   const std::uint64_t size = std::filesystem::file_size(file, failure);
   std::ifstream in(file, std::ios::binary);
   if (failure || !in || size < kBehind) return true;
-  std::string behind(kBehind, '\0'), piece(std::size_t{1} << 20, '\0');
+  std::string behind(kBehind, '\0'), piece(std::min<std::uint64_t>(size, std::uint64_t{1} << 20), '\0');
   in.seekg(static_cast<std::streamoff>(size - kBehind));
   if (!in.read(behind.data(), kBehind)) return true;
   if (!behind.starts_with(kCheckSum)) return !ends_within_check_sum(behind);

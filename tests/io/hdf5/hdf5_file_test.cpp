@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -224,24 +225,36 @@ SmallFile small_content() {
   return content;
 }
 
-TEST_F(Hdf5File, NoFlippedBitIsSilent) {
-  const SmallFile content = small_content();
-  write_small(path_, content);
-  const std::string sound = content_of(path_);
+/// Reads a file of that content with each of these bits flipped in turn: how often that is refused.
+int refused_of(const std::filesystem::path& path, const SmallFile& content, const std::vector<std::size_t>& bits) {
+  const std::string sound = content_of(path);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  const auto put = [&](std::size_t at, int byte) {
+    file.seekp(static_cast<std::streamoff>(at)).put(static_cast<char>(byte)).flush();
+  };
   int refused = 0;
-  for (std::size_t k = 0; k < sound.size(); ++k) {
-    std::string damaged = sound;
-    damaged[k] = static_cast<char>(damaged[k] ^ 1 << k % 8);
-    std::ofstream(path_, std::ios::binary) << damaged;
+  for (const std::size_t bit : bits) {
+    put(bit / 8, sound[bit / 8] ^ 1 << bit % 8);
     try {
-      EXPECT_EQ(read_small(path_), content) << "byte " << k;
+      EXPECT_EQ(read_small(path), content) << "bit " << bit;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input_data);
       ++refused;
     }
+    put(bit / 8, sound[bit / 8]);
   }
+  EXPECT_TRUE(file);
+  EXPECT_EQ(content_of(path), sound);
+  return refused;
+}
+
+TEST_F(Hdf5File, NoFlippedBitIsSilent) {
+  const SmallFile content = small_content();
+  write_small(path_, content);
+  std::vector<std::size_t> bits(content_of(path_).size());
+  for (std::size_t k = 0; k < bits.size(); ++k) bits[k] = 8 * k + k % 8;
   // all but the name of the check sum, without which nothing is checked
-  EXPECT_GE(refused, static_cast<int>(sound.size()) - 16);
+  EXPECT_GE(refused_of(path_, content, bits), static_cast<int>(bits.size()) - 16);
 }
 
 TEST_F(Hdf5File, AChunkThatIsLostIsNoZeros) {
@@ -256,16 +269,9 @@ TEST_F(Hdf5File, AChunkThatIsLostIsNoZeros) {
   int found = 0, refused = 0;
   for (std::size_t at = sound.find(node); at != std::string::npos; at = sound.find(node, at + 1), ++found) {
     constexpr std::size_t kHead = 24, kEntries = 2 * 40 + 32;
-    for (std::size_t bit = 8 * kHead; bit < 8 * (kHead + kEntries); ++bit) {
-      std::string damaged = sound;
-      damaged[at + bit / 8] = static_cast<char>(damaged[at + bit / 8] ^ 1 << bit % 8);
-      std::ofstream(path_, std::ios::binary) << damaged;
-      try {
-        EXPECT_EQ(read_small(path_).compressed, content.compressed) << "bit " << bit;
-      } catch (const Error&) {
-        ++refused;
-      }
-    }
+    std::vector<std::size_t> bits(8 * kEntries);
+    std::iota(bits.begin(), bits.end(), 8 * (at + kHead));
+    refused += refused_of(path_, content, bits);
   }
   EXPECT_EQ(found, 1);
   EXPECT_GT(refused, 100);
