@@ -78,8 +78,10 @@ std::vector<GeometryRequest> read_pair_list(const std::string& file, const Geome
       continue;
     }
     if (cells.size() > columns.size())
-      throw Error(ErrorKind::input_data,
-                  fmt::format("{} cells where there are {} columns", cells.size(), columns.size()), where);
+      throw Error(
+          ErrorKind::input_data,
+          fmt::format("the line has more cells ({}) than the list has columns ({})", cells.size(), columns.size()),
+          where);
     GeometryRequest request = usual;
     for (std::size_t k = 0; k < cells.size(); ++k)
       if (!cells[k].empty()) set_cell(request, columns[k], cells[k], folder, where);

@@ -227,7 +227,7 @@ CaseRow CaseRows::row(std::string_view line, std::size_t index, int line_number)
   const std::vector<std::string> cells = cells_of(line, where);
   if (cells.size() != heads_.size())
     throw Error(ErrorKind::configuration,
-                fmt::format("{} cells where there are {} columns", cells.size(), heads_.size()), where);
+                fmt::format("cells of the row: {}, columns of the table: {}", cells.size(), heads_.size()), where);
   CaseRow out{common_, std::vector<double>(numbers_.size(), NAN)};
   for (const auto& [key, cell, number] : columns_) {
     if (cells[cell].empty())

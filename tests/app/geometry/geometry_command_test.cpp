@@ -214,7 +214,7 @@ TEST(GeometryCommand, SaysWhatIsWrongWithAList) {
   EXPECT_THAT(error_of("wheel,gauge_mm\nS1002,-1435\n"),
               HasSubstr("list.csv:2: gauge_mm = -1435 must be greater than 0"));
   EXPECT_THAT(error_of("wheel,axle_load_kN\n"), HasSubstr("'axle_load_kN' is no column"));
-  EXPECT_THAT(error_of("wheel\nS1002,60E1\n"), HasSubstr("2 cells where there are 1 columns"));
+  EXPECT_THAT(error_of("wheel\nS1002,60E1\n"), HasSubstr("more cells (2) than the list has columns (1)"));
   EXPECT_THAT(error_of("wheel,rail\n"), HasSubstr("no pairs"));
 }
 
