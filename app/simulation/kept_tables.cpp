@@ -130,6 +130,21 @@ Thing kept_or_made(const io::ContentCache* cache, const std::string& key, Make m
   return made;
 }
 
+using vehicle::ColumnsBeyond, vehicle::ContactTableColumns;
+
+void write_made(const ContactTableColumns& made, ByteWriter& out) { vehicle::write_columns(made, out); }
+ContactTableColumns read_made(ByteReader& in, const ContactTableColumns&) { return vehicle::read_columns(in); }
+
+void write_made(const ColumnsBeyond& made, ByteWriter& out) {
+  vehicle::write_columns(made.columns, out);
+  out.put(made.unsolved);
+}
+ColumnsBeyond read_made(ByteReader& in, ColumnsBeyond made) {
+  made.columns = vehicle::read_columns(in);
+  in.get(made.unsolved);
+  return made;
+}
+
 }  // namespace
 
 const std::string& computing_identity() {
@@ -150,13 +165,13 @@ std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::Conten
   decides.put(options.relative_loads);
   decides.put(options.heavier);
   decides.put(options.growth);
-  using Columns = vehicle::ContactTableColumns;
   const auto kept = [key = "contact table of " + bodies + "\nwith " + hex_of(decides),
                      cache = cache ? std::optional(*cache) : std::nullopt](const std::string& which, auto make) {
-    return kept_or_made<Columns>(cache ? &*cache : nullptr, key + which, make, vehicle::read_columns,
-                                 vehicle::write_columns);
+    return kept_or_made<decltype(make())>(
+        cache ? &*cache : nullptr, key + which, make, [](ByteReader& in) { return read_made(in, decltype(make())()); },
+        [](const auto& made, ByteWriter& out) { write_made(made, out); });
   };
-  const Columns central =
+  const ContactTableColumns central =
       kept("", [&] { return vehicle::solve_contact_sheets(geometry, prototype, load, options).front(); });
   return vehicle::contact_table_of(
       {central}, geometry, prototype, load, options,
@@ -164,7 +179,7 @@ std::shared_ptr<const vehicle::ContactTable> kept_contact_table(const io::Conten
          return kept(fmt::format("\nbeyond {:a} m", from),
                      [&] { return vehicle::solve_columns_beyond(geometry, prototype, load, turn, from, options); });
        },
-       [=](const vehicle::TableTurn& turn, const Columns& columns) {
+       [=](const vehicle::TableTurn& turn, const ContactTableColumns& columns) {
          return kept(fmt::format("\nheavier from {:a} m", columns.front().y),
                      [&] { return vehicle::solve_heavier(geometry, prototype, load, turn, columns, options); });
        }});

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -24,6 +25,8 @@ namespace treadmark::vehicle {
 namespace {
 
 using Columns = ContactTableColumns;
+
+constexpr const char* kTooManyLoads = "a contact table has eight loads at most";
 
 void require(bool holds, const char* message) {
   if (!holds) throw Error(ErrorKind::configuration, message);
@@ -42,6 +45,14 @@ bool is_finite(const ContactUnderLoad& c) {
          });
 }
 
+constexpr double kSteepest = 100.0;  // tangent of a contact angle
+
+bool is_a_contact(const ContactPart& part) {
+  constexpr double kLongest = 1e4;  // of a semi-axis over the other one
+  return std::abs(std::tan(part.angle)) <= kSteepest && std::abs(part.angle) < 0.5 * kPi &&
+         std::abs(part.log_aspect) <= std::log(kLongest);
+}
+
 void check(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
   require(columns.size() >= 2, "a contact table needs two lateral positions or more");
   require(!loads.empty() && loads.front() > 0.0 && std::isfinite(loads.back()) &&
@@ -57,6 +68,8 @@ void check(const Columns& columns, const std::vector<double>& loads, std::size_t
       require(c.elastic_energy > 0.0 && !c.parts.empty() && c.parts.size() <= kMostParts &&
                   ranges::all_of(c.parts, [](const ContactPart& part) { return part.area > 0.0 && part.share > 0.0; }),
               "energies, areas and shares of a contact table must be positive");
+      require(std::abs(c.slope) <= kSteepest && ranges::all_of(c.parts, is_a_contact),
+              "a contact of a contact table is steeper or longer than any");
       require(k == 0 || c.z > column.under[k - 1].z, "the wheel of a contact table must sink as the load grows");
     }
   }
@@ -64,9 +77,9 @@ void check(const Columns& columns, const std::vector<double>& loads, std::size_t
 
 bool make_sense(const TableAngles& angles, int fewest) {
   constexpr int kMost = 64;
-  constexpr double kSteepest = 0.2;  // [rad], what is small against 1
   if (angles.intervals == 0) return true;
-  return angles.intervals >= fewest && angles.intervals <= kMost && angles.most > 0.0 && angles.most <= kSteepest;
+  return angles.intervals >= fewest && angles.intervals <= kMost && angles.most > 0.0 &&
+         angles.most <= TableAngles::kSmall;
 }
 
 void check(const TableAngles& roll, const TableAngles& yaw) {
@@ -190,7 +203,7 @@ ContactTable::ContactTable(std::vector<Columns> sheets, Loads loads, wheelrail::
       yaw_(yaw),
       growth_(std::move(growth)) {
   if (!growth_.heavier) loads_.heavier.clear();
-  require(loads_.first.size() + loads_.heavier.size() <= kMostLevels, "a contact table has eight loads at most");
+  require(loads_.first.size() + loads_.heavier.size() <= kMostLevels, kTooManyLoads);
   const std::vector<TableTurn> turns = table_turns(roll, yaw);
   require(sheets.size() == turns.size(), "a contact table needs a sheet for every roll and yaw");
   sheets_.reserve(sheets.size());
@@ -213,7 +226,7 @@ ContactTable::ContactTable(std::vector<Columns> sheets, Loads loads, wheelrail::
 const TableStretch* ContactTable::beyond(double y, const Sheet& sheet) const {
   if (!growth_.beyond || !std::isfinite(y)) return nullptr;
   const bool high = y > 0.0;
-  Wing& wing = high ? sheet.high : sheet.low;
+  Wing& wing = wing_at(y, sheet);
   const std::lock_guard lock(growing_);
   for (;;) {
     for (const TableStretch& stretch : wing.made)
@@ -221,12 +234,17 @@ const TableStretch* ContactTable::beyond(double y, const Sheet& sheet) const {
     if (wing.ended) return nullptr;
     const TableStretch& last = wing.made.empty() ? sheet.central : wing.made.back();
     // -0.0 where the middle ends at 0: its sign says the side
-    Columns columns = growth_.beyond(sheet.turn, high ? last.y_max : std::copysign(last.y_min, -1.0));
-    if (columns.size() < 2)
-      wing.ended = true;
+    ColumnsBeyond more = growth_.beyond(sheet.turn, high ? last.y_max : std::copysign(last.y_min, -1.0));
+    if (more.columns.size() < 2)
+      wing.ended = true, wing.unsolved = std::move(more.unsolved);
     else
-      wing.made.push_back(stretch_of(std::move(columns), loads_.first, loads_.reference, &last));
+      wing.made.push_back(stretch_of(std::move(more.columns), loads_.first, loads_.reference, &last));
   }
+}
+
+std::string ContactTable::unsolved(double y, std::size_t sheet) const {
+  const std::lock_guard lock(growing_);
+  return wing_at(y, sheets_[sheet]).unsolved;
 }
 
 const TableStretch* ContactTable::heavier(const TableStretch& stretch, std::size_t index) const {
@@ -265,8 +283,10 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
            "use an element that solves the contact of these surfaces");
   if (p.side != wheelrail::Side::right)
     refuse("a contact table is made for the right-hand side", "it serves the left-hand side as it is");
-  if (p.track.curvature != 0.0) refuse("a contact table is made for straight track");
-  if (p.roller) refuse("a contact table knows no rollers");
+  if (p.track.curvature != 0.0)
+    refuse("a contact table is made for straight track",
+           "leave the curve of the track out of the case: what asks the table for forces says how the rail bends");
+  if (p.roller) refuse("a contact table knows no rollers", "use full contacts for a roller rig");
   if (!(load > 0.0) || !std::isfinite(load))
     refuse("the reference load of a contact table must be positive and finite");
   for (const double length : {options.lateral_range, options.step, options.element_size})
@@ -279,6 +299,7 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
   if (loads.empty() || !(loads.front() > 0.0) || !std::isfinite(loads.back()) ||
       !ranges::is_sorted(loads, std::less_equal<>{}))
     refuse("the relative loads of a contact table must be positive and increase");
+  if (loads.size() > ContactTable::kMostLevels) refuse(kTooManyLoads);
   constexpr double kMostSteps = 5000.0;
   if (!(options.step <= options.lateral_range) || options.lateral_range / options.step > kMostSteps)
     refuse(fmt::format("a contact table over +-{:.6g} mm cannot have a step of {:.6g} mm", 1e3 * options.lateral_range,
@@ -422,8 +443,9 @@ ContactUnderLoad under_load(const Surface& rail, double load, const wheelrail::P
 struct Attempt {
   ContactTableColumn column;
   bool solved = true;
-  bool parts = false;  ///< the wheel stands on the tip of its flange, or a profile ends below the wheel
-  std::string message;
+  bool parts = false;   ///< the wheel stands on the tip of its flange, or a profile ends below the wheel
+  bool beside = false;  ///< wheel and rail nowhere face each other
+  std::string message;  ///< why there are no more loads
 };
 
 bool part(const wheelrail::PairSolution& s) {
@@ -488,11 +510,25 @@ class Builder {
           rest_.discretisation.dx * std::cbrt(std::max(1.0, load / (kFine * reference_)));
       const wheelrail::PairSolution s = pair.solve(p);
       a.parts = a.parts || (load <= reference_ && part(s));
-      a.message = s.message;
+      a.beside = a.beside || (load <= reference_ && s.status == Status::no_contact);
+      const auto stop = [&](const std::string& why) {
+        a.message = fmt::format("{:.4g} mm aside of the central position under {:.4g} kN: {}", 1e3 * a.column.y,
+                                1e-3 * load, why);
+      };
       const Vec3 moved(0.0, a.column.y, s.z + turned_aside_.z());
-      if (s.status != Status::ok || s.patches.empty() || !(under.empty() || moved.z() > under.back().z)) break;
+      if (s.status != Status::ok || s.patches.empty()) {
+        stop(s.message);
+        break;
+      }
+      if (!under.empty() && !(moved.z() > under.back().z)) {
+        stop("the wheel does not sink as the load grows");
+        break;
+      }
       const ContactUnderLoad c = under_load(*geometry_.rail, load, s, wheel_origin_, moved);
-      if (!is_finite(c)) break;
+      if (!is_finite(c)) {
+        stop("the contact has numbers that are not finite");
+        break;
+      }
       under.push_back(c);
     }
     if (under.size() < loads && (under.empty() || loads_[under.size() - 1] < reference_)) return false;
@@ -620,24 +656,32 @@ std::vector<Columns> solve_contact_sheets(const wheelrail::Geometry& geometry, c
   return sheets;
 }
 
-Columns solve_columns_beyond(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
-                             double reference_load, const TableTurn& turn, double from,
-                             const ContactTableOptions& options) {
+ColumnsBeyond solve_columns_beyond(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
+                                   double reference_load, const TableTurn& turn, double from,
+                                   const ContactTableOptions& options) {
   // One after the other: whoever evaluates wheels on several threads may wait for this table.
   const Builder builder(geometry, table_problem(prototype, options), loads_of(reference_load, options), reference_load,
                         turn, false);
   const double step = std::copysign(options.step, from);
   const auto most = std::max<std::size_t>(1, to_whole<std::size_t>(std::round(options.growth / std::abs(step))));
-  Columns columns;
-  for (std::size_t i = 0, without = 0; i <= most && without <= kMostBetween; ++i) {
-    const Attempt a = builder.attempt(from + static_cast<double>(i) * step);
+  ColumnsBeyond out;
+  bool parted = false;  // at the last column that has a solution, or behind it
+  // A single column is no stretch: one more, or what ends the table.
+  for (std::size_t i = 0, without = 0; (i <= most || out.columns.size() < 2) && without <= kMostBetween; ++i) {
+    Attempt a = builder.attempt(from + static_cast<double>(i) * step);
+    parted = a.parts || (!a.solved && (parted || a.beside));
     if (a.parts && i > 0) break;
-    without = a.solved ? 0 : without + 1;
-    if (a.solved) columns.push_back(a.column);
+    if (a.solved) {
+      without = 0;
+      out.columns.push_back(std::move(a.column));
+    } else if (without++ == 0) {
+      out.unsolved = std::move(a.message);
+    }
   }
-  ranges::sort(columns, {}, &ContactTableColumn::y);
-  refine(builder, columns);
-  return columns;
+  if (parted) out.unsolved.clear();
+  ranges::sort(out.columns, {}, &ContactTableColumn::y);
+  refine(builder, out.columns);
+  return out;
 }
 
 Columns solve_heavier(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype, double reference_load,

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "treadmark/core/byte_archive.hpp"
@@ -44,12 +45,15 @@ class ShapeCurve {
 };
 
 /// Angles at which a table has sheets: rolls from -most to most, yaws from 0 to most, since a round wheel on a
-/// prismatic rail knows no sign of it. No intervals: one sheet for angle 0, without a limit.
+/// prismatic rail knows no sign of it. No intervals: one sheet for angle 0, which serves what is small against 1.
 struct TableAngles {
-  double most = 0.0;  ///< [rad]
-  int intervals = 0;  ///< of rolls none, or two and more
+  static constexpr double kSmall = 0.2;  ///< [rad]
+  double most = 0.0;                     ///< [rad]
+  int intervals = 0;                     ///< of rolls none, or two and more
 
-  bool covers(double angle) const { return intervals == 0 || std::abs(angle) <= most; }
+  /// To both sides [rad].
+  double reach() const { return intervals == 0 ? kSmall : most; }
+  bool covers(double angle) const { return std::abs(angle) <= reach(); }
 };
 
 /// Roll of the wheel against the rail, yaw of the wheelset [rad].
@@ -100,6 +104,13 @@ struct ContactTableColumn {
 /// By increasing y.
 using ContactTableColumns = std::vector<ContactTableColumn>;
 
+/// What a table grows by on one side.
+struct ColumnsBeyond {
+  ContactTableColumns columns;  ///< less than two: it ends here
+  /// Then: what the solver says where it found no contact, and where. Empty: wheel and rail part there.
+  std::string unsolved = {};
+};
+
 /// How a contact grows from the load before to its own one.
 struct LoadLevel {
   double load = 0.0;       ///< vertical [N]
@@ -132,8 +143,8 @@ class ContactTable {
   };
   /// How its sheets grow; null: they do not.
   struct Growth {
-    /// Columns outwards from y, on the side of its sign, which 0 has too; less than two: wheel and rail part there.
-    std::function<ContactTableColumns(const TableTurn& turn, double from)> beyond;
+    /// Outwards from y, on the side of its sign, which 0 has too.
+    std::function<ColumnsBeyond(const TableTurn& turn, double from)> beyond;
     /// The same columns with the heavier loads added.
     std::function<ContactTableColumns(const TableTurn& turn, const ContactTableColumns& columns)> heavier;
   };
@@ -151,7 +162,7 @@ class ContactTable {
   const wheelrail::Placement& nominal() const { return nominal_; }
   const TableAngles& roll() const { return roll_; }
   const TableAngles& yaw() const { return yaw_; }
-  /// Whether it has no end but those of the profiles.
+  /// Whether it has no end but those of the profiles, and of what can be solved.
   bool grows() const { return growth_.beyond != nullptr; }
   /// What it covers at every roll and yaw before it grows [m].
   double y_min() const { return y_min_; }
@@ -176,6 +187,8 @@ class ContactTable {
     const TableStretch& middle = central(sheet);
     return y >= middle.y_min && y <= middle.y_max ? &middle : beyond(y, sheets_[sheet]);
   }
+  /// Where at() of a table that grows has found no stretch: ColumnsBeyond::unsolved.
+  std::string unsolved(double y, std::size_t sheet = 0) const;
   /// The same stretch of a sheet with the heavier loads; null where there are none. It takes as long.
   const TableStretch* heavier(const TableStretch& stretch, std::size_t sheet = 0) const;
 
@@ -184,6 +197,7 @@ class ContactTable {
   struct Wing {
     std::deque<TableStretch> made, heavier;
     bool ended = false;
+    std::string unsolved = {};  ///< as in ColumnsBeyond
   };
   struct Sheet {
     TableTurn turn;
@@ -191,6 +205,7 @@ class ContactTable {
     mutable std::optional<TableStretch> central_heavier = {};
     mutable Wing low = {}, high = {};
   };
+  static Wing& wing_at(double y, const Sheet& sheet) { return y > 0.0 ? sheet.high : sheet.low; }
   const TableStretch* beyond(double y, const Sheet& sheet) const;
 
   Loads loads_;
@@ -209,10 +224,11 @@ wheelrail::Problem table_problem(wheelrail::Problem prototype, const ContactTabl
 
 /// Solves the contact at every lateral displacement of the range, at every roll and yaw, in parallel. A sheet covers
 /// those round the central position that have a solution, and passes over single ones that have none (rough profiles);
-/// beyond it grows until the wheel stands on the tip of its flange, or where one of the profiles ends. prototype:
-/// material, friction, track and wheelset of a right-hand pair; states and irregularities do not count. Errors:
-/// Error(configuration) for a left-hand prototype, bodies that are not round and prismatic, a curved track, rollers
-/// and options without meaning; Error(numerical) if the bodies do not touch in the central position.
+/// beyond it grows until the wheel stands on the tip of its flange, one of the profiles ends, or several in a row have
+/// none. prototype: material, friction, track and wheelset of a right-hand pair; states and irregularities do not
+/// count. Errors: Error(configuration) for a left-hand prototype, bodies that are not round and prismatic, a curved
+/// track, rollers, more than ContactTable::kMostLevels loads and options without meaning; Error(numerical) if the
+/// bodies do not touch in the central position.
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
                                                         const wheelrail::Problem& prototype, double reference_load,
                                                         const ContactTableOptions& options = {});
@@ -222,11 +238,11 @@ std::vector<ContactTableColumns> solve_contact_sheets(const wheelrail::Geometry&
                                                       const wheelrail::Problem& prototype, double reference_load,
                                                       const ContactTableOptions& options = {},
                                                       const Progress& progress = {});
-/// A stretch outwards from a place, on the side of its sign (-0.0: the low one); less than two columns where wheel and
-/// rail part. On this thread alone. Errors: those of the pair.
-ContactTableColumns solve_columns_beyond(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
-                                         double reference_load, const TableTurn& turn, double from,
-                                         const ContactTableOptions& options = {});
+/// A stretch outwards from a place, on the side of its sign (-0.0: the low one). On this thread alone. Errors: those of
+/// the pair.
+ColumnsBeyond solve_columns_beyond(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
+                                   double reference_load, const TableTurn& turn, double from,
+                                   const ContactTableOptions& options = {});
 /// The columns of such a turn with the heavier loads of the options added. On this thread alone.
 ContactTableColumns solve_heavier(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
                                   double reference_load, const TableTurn& turn, ContactTableColumns columns,

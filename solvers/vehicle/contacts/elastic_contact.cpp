@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "treadmark/core/line.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -63,7 +64,7 @@ class Mixture {
     }
     c.max_pressure += weight * pressure;
     ElasticPart *const begin = c.parts.data() + first, *const end = c.parts.data() + c.count;
-    if (begin != end) ranges::max_element(begin, end, {}, &ElasticPart::normal_force)->strongest = true;
+    if (begin != end) ranges::max_element(std::span(begin, end), {}, &ElasticPart::normal_force)->strongest = true;
   }
 
  private:
@@ -96,6 +97,7 @@ bool LocalContact::mix(bool heavier) {
                    weight_by_roll = nodes_of_roll * by_roll.slope[r] * by_yaw.value[q];
       const std::size_t sheet = table_->sheet(by_roll.first + i, by_yaw.first + j);
       const TableStretch* stretch = table_->at(place_.y, sheet);
+      end_ = {sheet, place_.y};
       if (!stretch) return false;
       const double turned = place_.roll - table_->turn(sheet).roll;
       const std::size_t here = piece_at(stretch->y, place_.y);
@@ -103,8 +105,10 @@ bool LocalContact::mix(bool heavier) {
       // Where the wheel would have to stand at the sheet's roll to have its contact place there.
       const double y = place_.y - turned * arm_z.value, y_by_y = 1.0 - turned * arm_z.slope;
       stretch = table_->at(y, sheet);
+      end_ = {sheet, y};
       if (stretch && heavier) stretch = table_->heavier(*stretch, sheet);
       if (!stretch) return false;
+      end_.reset();
       const std::size_t column = turned == 0.0 ? here : piece_at(stretch->y, y);
       const auto add = [&](Mixed& to, const ShapeCurve::Point& p, double lifted, double lifted_by_y,
                            double lifted_by_roll) {
@@ -175,7 +179,9 @@ LocalContact::Compression LocalContact::compress(double z) const {
 }
 
 void LocalContact::add_parts(const Compression& reached, ElasticContact& c) const {
-  const double u = reached.share, of_force = reached.level == 0 ? 1.0 : std::min(u, 1.0);
+  // Beyond the last load areas grow like Hertz's: a part that shrank towards it would vanish on a straight line.
+  const double u = std::min(reached.share, 1.0), of_force = reached.level == 0 ? 1.0 : u,
+               grown = reached.share > 1.0 ? two_thirds(reached.force / (*levels_)[reached.level].load) : 1.0;
   for (std::size_t i = 0; i < cell_count_; ++i) {
     const Cell& cell = cells_[i];
     Mixture mixture;
@@ -184,7 +190,7 @@ void LocalContact::add_parts(const Compression& reached, ElasticContact& c) cons
       mixture.add(parts[cell.column], (1.0 - cell.share) * weight, (1.0 - cell.share) * of_area);
       mixture.add(parts[cell.column + 1], cell.share * weight, cell.share * of_area);
     };
-    add(reached.level, of_force, u);
+    add(reached.level, of_force, u * grown);
     if (reached.level > 0) add(reached.level - 1, 1.0 - of_force, 1.0 - u);
     mixture.put(c, cell.turn, cell.weight);
   }
@@ -192,7 +198,7 @@ void LocalContact::add_parts(const Compression& reached, ElasticContact& c) cons
 
 ElasticContact LocalContact::at(double z) const {
   ElasticContact c;
-  c.in_table = covered_;
+  c.in_table = covered_, c.end = end_;
   if (!covered_) return c;
   const Compression vertical = compress(z);
   if (lacks(vertical.force)) return LocalContact(*table_, place_, true).at(z);

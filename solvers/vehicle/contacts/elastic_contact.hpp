@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "treadmark/solvers/vehicle/contacts/contact_table.hpp"
@@ -15,6 +16,12 @@ namespace treadmark::vehicle {
 /// [rad].
 struct RelativePlace {
   double y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0;
+};
+
+/// Where a sheet of a table has no more columns.
+struct SheetEnd {
+  std::size_t sheet;
+  double y;  ///< of the wheel at the sheet's roll [m]
 };
 
 /// What slides: an ellipse.
@@ -40,7 +47,8 @@ struct ElasticContact {
   /// Between columns and loads, of up to four sheets: the first 'count' ones.
   std::array<ElasticPart, 16 * kMostParts> parts;
   std::size_t count = 0;
-  bool in_table = true;  ///< false: the table does not reach so far or is too coarse, nothing else is known
+  bool in_table = true;              ///< false: the table does not reach so far or is too coarse, nothing else is known
+  std::optional<SheetEnd> end = {};  ///< that is why; none: turned too far, or sheets differ too much
 };
 
 /// A table at one lateral place, roll and yaw.
@@ -99,6 +107,7 @@ class LocalContact {
   const ContactTable* table_;
   RelativePlace place_;
   bool covered_ = false;
+  std::optional<SheetEnd> end_;
   const std::vector<LoadLevel>* levels_ = nullptr;  ///< of one sheet, all have the same loads
   Mixed touching_;                                  ///< height of first touch
   std::array<Mixed, ContactTable::kMostLevels> compression_;

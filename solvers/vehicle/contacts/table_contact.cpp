@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -84,34 +85,42 @@ void put_below_the_axle(Pose& X_TC, const Pose& X_TWs, double curvature) {
   }
 }
 
-ContactReaction not_covered(const ContactTable& table, const RelativePlace& place) {
+ContactReaction not_covered(const ContactTable& table, const RelativePlace& place, const std::optional<SheetEnd>& end) {
   ContactReaction r;
   r.status = Status::failed;
   const auto turned = [&](const char* how, double angle, const TableAngles& angles) {
     r.message = fmt::format("the wheel {} by {:.4g} mrad; the contact table reaches to {:.4g} mrad each way", how,
-                            1e3 * angle, 1e3 * angles.most);
+                            1e3 * angle, 1e3 * angles.reach());
     return r;
   };
   if (!table.roll().covers(place.roll)) return turned("rolls against the rail", place.roll, table.roll());
   if (!table.yaw().covers(place.yaw)) return turned("is yawed", place.yaw, table.yaw());
-  if (place.y >= table.y_min() && place.y <= table.y_max()) {
+  if (!end) {
     r.message = fmt::format(
         "contact {:.4g} mm aside of the central position changes too much from roll to roll or yaw "
         "to yaw of the contact table: it needs more of them",
         1e3 * place.y);
     return r;
   }
-  r.derailed = table.grows();
-  if (!r.derailed)
+  if (!table.grows()) {
     r.message = fmt::format(
-        "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
-        "reaches from {:.4g} to {:.4g} mm",
-        1e3 * place.y, 1e3 * table.y_min(), 1e3 * table.y_max());
-  else
+        "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side), rolled against it "
+        "by {:.4g} mrad; the contact table reaches from {:.4g} to {:.4g} mm",
+        1e3 * place.y, 1e3 * place.roll, 1e3 * table.y_min(), 1e3 * table.y_max());
+    return r;
+  }
+  if (const std::string unsolved = table.unsolved(end->y, end->sheet); !unsolved.empty()) {
     r.message = fmt::format(
-        "the {}: the wheel stands {:.4g} mm {} of its central position over the rail and {:.4g} mm {}",
-        place.y > 0.0 ? "flange has climbed the rail" : "tread has left the rail", 1e3 * std::abs(place.y),
-        place.y > 0.0 ? "outside" : "inside", 1e3 * std::abs(place.z), place.z < 0.0 ? "above it" : "below it");
+        "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side), where the contact "
+        "table has no answer; {}",
+        1e3 * place.y, unsolved);
+    return r;
+  }
+  r.derailed = true;
+  r.message = fmt::format(
+      "the {}: the wheel stands {:.4g} mm {} of its central position over the rail and {:.4g} mm {}",
+      place.y > 0.0 ? "flange has climbed the rail" : "tread has left the rail", 1e3 * std::abs(place.y),
+      place.y > 0.0 ? "outside" : "inside", 1e3 * std::abs(place.z), place.z < 0.0 ? "above it" : "below it");
   return r;
 }
 
@@ -177,7 +186,7 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion, cons
   const wheelrail::Placement now = placed(*table_, motion);
   const RelativePlace place = relative_place(table_->nominal(), now, motion);
   const ElasticContact elastic = local && local->is_at(place) ? local->at(place.z) : elastic_contact(*table_, place);
-  if (!elastic.in_table) return not_covered(*table_, place);
+  if (!elastic.in_table) return not_covered(*table_, place, elastic.end);
 
   ContactReaction r;
   r.least_gap = -elastic.penetration;

@@ -18,8 +18,9 @@ class LocalContact;
 /// (creep_law) or of the exact theory (creep_table). The coefficient of friction is the law's static one. Yaw counts in
 /// the creepages and in where the force acts along the rail, and in the heights of tables that have yaws; with others a
 /// yawed flange that touches ahead of or behind the axle is taken to touch no sooner. What the table does not cover
-/// gives Status::failed; where one that grows ends, the wheel stands on the tip of its flange or its tread has left the
-/// rail: derailed. It has no memory: accept() does nothing, and there is nothing to save.
+/// gives Status::failed; where one that grows ends since the wheel stands on the tip of its flange or its tread has
+/// left the rail: derailed. Beyond the greatest load contacts grow like Hertz's. It has no memory: accept() does
+/// nothing, and there is nothing to save.
 class TableContact : public ContactElement {
  public:
   /// creep: where creep forces are taken from; null: the linear theory. Errors: Error(configuration) without a table of

@@ -268,6 +268,14 @@ TEST_P(WholeRange, ElasticForcesAreThoseOfTheSolvedContact) {
       }
   EXPECT_LT(least, GetParam().least_y);
   EXPECT_GT(most, GetParam().most_y);
+  // Beyond, the wheel is off the rail: no failure of the solver.
+  for (const int way : {-1, 1}) {
+    PairMotion off;
+    while (table->at(off.wheelset.y) != nullptr) off.wheelset.y += 1e-3 * way;
+    const ContactReaction r = element.evaluate(off);
+    EXPECT_EQ(r.status, Status::failed);
+    EXPECT_TRUE(r.derailed) << r.message;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Wheels, WholeRange,
@@ -284,12 +292,12 @@ TEST(TableContact, ATableGrowsToTheSideThatIsAskedFor) {
   constexpr double kStep = 1e-3, kMost = 2.5e-3;
   int asked = 0;
   ContactTable::Growth growth;
-  growth.beyond = [&](const TableTurn&, double from) -> ContactTableColumns {
+  growth.beyond = [&](const TableTurn&, double from) -> ColumnsBeyond {
     constexpr int kEnough = 20;
     if (++asked > kEnough) throw Error(ErrorKind::numerical, "the table does not come nearer");
     if (std::abs(from) > kMost) return {};
     const double to = from + std::copysign(kStep, from);
-    return {{std::min(from, to), {contact}}, {std::max(from, to), {contact}}};
+    return {{{std::min(from, to), {contact}}, {std::max(from, to), {contact}}}};
   };
   for (const double side : {-1.0, 1.0}) {
     const double other = -side * kStep;  // where the middle reaches to on the other side
@@ -300,6 +308,37 @@ TEST(TableContact, ATableGrowsToTheSideThatIsAskedFor) {
     ASSERT_NE(there, nullptr);
     EXPECT_EQ(there->y_min + there->y_max, 3.0 * side * kStep);
     EXPECT_EQ(table.at(4.0 * side * kStep), nullptr);
+  }
+}
+
+/// A table that ends for want of a solution says so, with what the solver says and where; a wheel derails only where
+/// wheel and rail part.
+TEST(TableContact, WhereTheSolverFailsNothingHasDerailed) {
+  const wheelrail::Geometry bodies = standard_geometry();
+  const wheelrail::Problem good = standard_problem(0.025);
+  wheelrail::Problem hurried = good;
+  hurried.max_force_iterations = 1;
+  const ContactTableOptions options{.lateral_range = 2e-3, .step = 0.5e-3, .relative_loads = {1.0}, .heavier = {}};
+  const auto table_of = [&](const wheelrail::Problem& beyond) {
+    return contact_table_of(solve_contact_sheets(bodies, good, kLoad, options), bodies, good, kLoad, options,
+                            {[&, beyond](const TableTurn& turn, double from) {
+                               return solve_columns_beyond(bodies, beyond, kLoad, turn, from, options);
+                             },
+                             {}});
+  };
+  TableContact failing(table_of(hurried), Side::right), whole(table_of(good), Side::right);
+  for (const double side : {-1.0, 1.0}) {
+    PairMotion m = pressed(*standard_table(), 3e-3 * side, 1e-4);
+    EXPECT_EQ(whole.evaluate(m).status, Status::ok);
+    const ContactReaction r = failing.evaluate(m);
+    EXPECT_EQ(r.status, Status::failed);
+    EXPECT_FALSE(r.derailed) << r.message;
+    EXPECT_NE(r.message.find(side < 0.0 ? "-2 mm aside" : "2 mm aside"), std::string::npos) << r.message;
+    EXPECT_NE(r.message.find("under 80 kN"), std::string::npos) << r.message;
+    EXPECT_NE(r.message.find("iterations"), std::string::npos) << r.message;
+    m.wheelset.y = 90e-3 * side;
+    EXPECT_FALSE(failing.evaluate(m).derailed);
+    EXPECT_TRUE(whole.evaluate(m).derailed);
   }
 }
 
@@ -677,6 +716,56 @@ TEST(TableContact, OutsideTheTableAndInTheAir) {
   EXPECT_THROW(element.evaluate(m), Error);
 }
 
+/// Tables without sheets for rolls and yaws are to first order in them: good for what is small.
+TEST(TableContact, TurnsThatAreNotSmallHaveNoAnswer) {
+  TableContact element(standard_table(), Side::right);
+  const PairMotion upright = rolling(pressed(*standard_table(), 0.0, 1e-4));
+  for (double wheelrail::SixMotion::*turn : {&wheelrail::SixMotion::yaw, &wheelrail::SixMotion::roll})
+    for (const double angle : {-1.0, -0.21, 0.21, 1.0}) {
+      PairMotion m = upright;
+      m.wheelset.*turn = angle;
+      const ContactReaction r = element.evaluate(m);
+      EXPECT_EQ(r.status, Status::failed) << angle;
+      EXPECT_FALSE(r.derailed) << r.message;
+      EXPECT_NE(r.message.find("200 mrad"), std::string::npos) << r.message;
+    }
+  PairMotion small = upright;
+  small.wheelset.yaw = 0.19;
+  const wheelrail::Placement& nominal = standard_table()->nominal();
+  const Vec3 arm = nominal.X_TW.origin - nominal.X_TWs.origin;
+  small.wheelset.y -= (rotation_z(small.wheelset.yaw) * arm - arm).y();
+  const ContactReaction r = element.under_load(small, kLoad);
+  EXPECT_EQ(r.status, Status::ok) << r.message;
+}
+
+/// A contact that shrinks from load to load keeps its friction beyond the last one, where it grows like Hertz's.
+TEST(TableContact, BeyondTheLastLoadNoContactVanishes) {
+  constexpr double kLast = 2e5, kArea = 0.5e-4, kFriction = 0.3, kStiff = 1e9;
+  const auto under = [](double load, double area) {
+    return ContactUnderLoad{load / kStiff, 0.4 * load * load / kStiff,       0.0, 0.0,
+                            0.4,           {{1.0, 0.0, 0.0, 0.4, area, 0.0}}};
+  };
+  ContactTableColumns columns;
+  for (const double y : {-1e-3, 1e-3}) columns.push_back({y, {under(0.5 * kLast, 2.0 * kArea), under(kLast, kArea)}});
+  wheelrail::Problem problem;
+  problem.friction.kinetic = kFriction;
+  const auto table =
+      std::make_shared<const ContactTable>(std::vector<ContactTableColumns>{columns},
+                                           ContactTable::Loads{{0.5 * kLast, kLast}}, problem, wheelrail::Placement{});
+  TableContact element(table, Side::right);
+  for (const double times : {0.999, 1.001, 2.0, 5.0, 20.0}) {
+    PairMotion m;
+    m.wheelset_velocity.x = kSpeed;  // it slides
+    const ContactReaction r = element.under_load(m, times * kLast);
+    ASSERT_EQ(r.status, Status::ok) << r.message;
+    const double area = times < 1.0 ? kArea : kArea * std::cbrt(times * times);
+    EXPECT_NEAR(r.area, area, 0.01 * area) << times;
+    EXPECT_NEAR(std::hypot(r.longitudinal_creep_force, r.lateral_creep_force), kFriction * r.normal_force,
+                0.01 * r.normal_force)
+        << times;
+  }
+}
+
 TEST(TableContact, SavedStatesAreTheirOwn) {
   TableContact element(standard_table(), Side::right);
   ByteWriter saved, other;
@@ -702,6 +791,8 @@ TEST(TableContact, WrongInputIsRefused) {
   refused(good, kLoad, {.step = -1e-3});
   refused(good, kLoad, {.relative_loads = {1.0, 0.5}});
   refused(good, kLoad, {.relative_loads = {}});
+  refused(good, kLoad, {.relative_loads = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}, .heavier = {}});
+  refused(good, kLoad, {.relative_loads = {0.3, 0.6, 1.0, 1.4, 2.0, 2.5}});
   wheelrail::Problem left = good, curved = good, far = good;
   left.side = Side::left;
   curved.track.curvature = 1e-3;
