@@ -99,7 +99,10 @@ MAY_FOLLOW_LOCALE = ("tests", "bench", "examples")
 PLATFORM = "core/platform/"
 MISSING = re.compile(r"\bstd::(?:ranges::|from_chars\(|bit_cast\b|comp_ellint_\d)|\brenameat2\(|"
                      r"\bstd::(?:views::|format\(|jthread\b|stop_\w+|atomic_ref\b|source_location\b|make_\w+_for_overwrite\b|execution\b|osyncstream\b|"
-                     r"ellint_\d|cyl_\w+|sph_\w+|expint\b|riemann_zeta\b)")
+                     r"ellint_\d|cyl_\w+|sph_\w+|expint\b|riemann_zeta\b)|"
+                     # two iterators in place of a range, which ours takes of find_if alone
+                     r"\branges::(?!find_if\()\w+\(\s*(?:[\w.>-]+(?:\.|->))?(?:c?r?begin(?:\(\))?|first)\s*,\s*"
+                     r"(?:[\w.>-]+(?:\.|->))?(?:c?r?end(?:\(\))?|last)\s*[,)]")
 MAY_NEED = "tests/faults/shim/"
 
 # A name that another process may have too, now or before it died: what makes its own name never opens what stands there.

@@ -80,10 +80,11 @@ class Planted(unittest.TestCase):
     def test_nothing_that_a_standard_library_lacks(self):
         for text in ("std::ranges::sort(v);", "std::from_chars(a, b, x);", "std::bit_cast<double>(n)", "std::comp_ellint_1(k)",
                      "::renameat2(a, b, c, d, e);", "std::jthread t;", "std::stop_token s", "std::make_unique_for_overwrite<int[]>(3)",
-                     "std::format(\"{}\", 1)", "v | std::views::reverse", "std::atomic_ref(x)"):
+                     "std::format(\"{}\", 1)", "v | std::views::reverse", "std::atomic_ref(x)", "ranges::max_element(begin, end, {}, &A::b)",
+                     "ranges::sort(v.begin(), v.end());", "ranges::all_of(first, last, good)"):
             self.expect("detection/a.cpp", text + "\n", "core/platform")
             self.assertEqual(self.violations({"core/platform/a.hpp": text + "\n"}), [])
-        self.assertEqual(self.violations({"detection/a.cpp": "ranges::sort(v); from_chars(a, b, x); std::from_chars_result r; fmt::format(s);\n"}), [])
+        self.assertEqual(self.violations({"detection/a.cpp": "ranges::sort(v); ranges::find_if(v.begin(), v.end(), good); from_chars(a, b, x); std::from_chars_result r; fmt::format(s);\n"}), [])
 
     def test_no_name_that_another_process_may_have(self):
         for text in ("p / std::to_string(getpid())", 'fs::temp_directory_path() / "treadmark"', 'fs::path(::testing::TempDir()) / "a.toml"'):
