@@ -22,6 +22,7 @@ struct TableRequest {
                                     .step = 0.5e-3,
                                     .element_size = 0.5e-3,
                                     .relative_loads = {0.3, 0.6, 1.0, 1.5, 2.5},
+                                    .heavier = {},
                                     .roll = {10e-3, 6},
                                     .yaw = {20e-3, 2}};
   std::optional<double> load;  ///< vertical, about which the loads of the table lie [N]; none: that of the case
@@ -58,7 +59,8 @@ struct TableNode {
 
 /// A table with what it is made from.
 struct MadeTable {
-  io::Case given;  ///< of which track, wheelset, material and friction count
+  std::string title;  ///< of the case file
+  io::Case given;     ///< of which track, wheelset, material and friction count
   TableHead head;
   std::vector<TableNode> nodes;
   vehicle::ForceTable table;
@@ -66,7 +68,7 @@ struct MadeTable {
 
 /// Solves all nodes and compares the table with the exact theory. given: of a wheel on a rail. cache: where the table
 /// of creep forces is kept. The same for any number of threads. Errors: those of vehicle::solve_contact_sheets,
-/// CreepTable and check_table; Error(configuration) for a case that tables are not for.
+/// CreepTable and check_table; Error(configuration) for a case that tables are not for, before anything takes long.
 MadeTable make_table(const io::Case& given, const wheelrail::Geometry& geometry, const TableRequest& request,
                      const io::ContentCache* cache = nullptr, const Progress& progress = {});
 /// Of the first case of a wheel on a rail in a file. Errors: those of readers, too.
@@ -81,7 +83,8 @@ void check_table_output(const std::filesystem::path& file);
 void write_table(const std::filesystem::path& file, const MadeTable& made);
 /// Whether a file is a table by its name: .h5 or .json.
 bool is_table_file(const std::filesystem::path& file);
-/// .h5 or .json. Errors: Error(input_data) for what is no table, or a damaged one.
+/// .h5 or .json. Opens no other file. Errors: Error(input_data) for what is no table, or a damaged one: the file says
+/// the digest of what it holds.
 MadeTable read_table(const std::filesystem::path& file);
 
 /// For a terminal, and as JSON: what it covers, how far it is from the exact theory.

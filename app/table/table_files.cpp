@@ -2,13 +2,18 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/table/force_tables.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
@@ -16,6 +21,7 @@
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/extension.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/json/json_tree.hpp"
@@ -40,6 +46,7 @@ constexpr const char* kFormat = "treadmark force table 1";
 
 std::string case_text(const MadeTable& made) {
   io::CaseFile file;
+  file.title = made.title;
   file.cases.push_back(made.given);
   return io::case_file_text(file, {});
 }
@@ -61,7 +68,48 @@ struct Stored {
   std::vector<TableNode> nodes;
   std::optional<TableCheck> check;
   std::optional<StoredCreep> creep;
+  std::string sha256 = {};  ///< that the file says of itself
 };
+
+Stored stored_of(const MadeTable& made) {
+  Stored stored{case_text(made), made.head, made.nodes, made.table.check(), {}};
+  if (const auto& creep = made.table.creep())
+    stored.creep = {creep->poisson(), creep->options().greatest_ratio, counts_of(creep->options()), creep->values(),
+                    creep->slopes()};
+  return stored;
+}
+
+/// Of all that counts, however it is written: any bit of it that changes makes another one.
+std::string digest_of(const Stored& stored) {
+  ByteWriter out;
+  // -0 and 0 are one number, which text may not tell apart.
+  const auto put = [&out](double value) { out.put(value + 0.0); };
+  const auto put_all = [&](const std::vector<double>& values) {
+    out.put(values.size());
+    ranges::for_each(values, put);
+  };
+  const auto put_row = [&]<class Row>(const Row& row) {
+    for (const Column<Row>& column : columns<Row>())
+      column.access.word != nullptr ? out.put(column.access.word(row)) : put(column.access.get(row));
+  };
+  out.put(stored.text);
+  put_row(stored.head);
+  out.put(stored.nodes.size());
+  ranges::for_each(stored.nodes, put_row);
+  out.put(stored.check.has_value());
+  if (stored.check) {
+    put_row(*stored.check);
+    out.put(stored.check->errors.size());
+    ranges::for_each(stored.check->errors, put_row);
+  }
+  out.put(stored.creep.has_value());
+  if (stored.creep) {
+    put(stored.creep->poisson), put(stored.creep->greatest_ratio);
+    out.put(std::span<const int>(stored.creep->counts));
+    put_all(stored.creep->values), put_all(stored.creep->slopes);
+  }
+  return io::sha256_hex({reinterpret_cast<const char*>(out.bytes().data()), out.bytes().size()});
+}
 
 std::shared_ptr<const CreepTable> creep_of(StoredCreep from) {
   CreepTableOptions o;
@@ -108,7 +156,10 @@ std::vector<double> loads_of(const std::vector<TableNode>& nodes) {
 }
 
 MadeTable made_of(const std::filesystem::path& file, Stored stored) {
-  const io::CaseFile cases = io::parse_case_text(stored.text, file);
+  const io::CaseTable document = io::parse_toml(stored.text, file.string());
+  if (ranges::any_of(document, [](const io::CaseEntry& entry) { return entry.key == "cases_file"; }))
+    refuse(file, "this table of forces names another file with its case");
+  const io::CaseFile cases = io::case_file_of(document, file);
   if (cases.cases.size() != 1 || !std::holds_alternative<io::WheelRailCase>(cases.cases.front().content))
     refuse(file, "this table of forces holds no case of a wheel on a rail");
   const io::Case& given = cases.cases.front();
@@ -117,7 +168,9 @@ MadeTable made_of(const std::filesystem::path& file, Stored stored) {
   for (const Column<TableHead>& column : columns<TableHead>())
     if (column.access.get != nullptr && !std::isfinite(column.access.get(h)))
       refuse(file, fmt::format("this table of forces has no {}", column.key));
-  if (!(h.load > 0.0)) refuse(file, "this table of forces has no load");
+  if (!(h.load > 0.0) || !(h.element_size > 0.0))
+    refuse(file, "this table of forces has no load, or elements of no size");
+  if (stored.check) vehicle::require_whole(*stored.check);
   wheelrail::Problem problem = to_problem(pair, true);
   problem.side = wheelrail::Side::right;
   vehicle::ContactTableOptions axes;
@@ -135,35 +188,34 @@ MadeTable made_of(const std::filesystem::path& file, Stored stored) {
       vehicle::ContactTable::Loads{loads, {}, static_cast<std::size_t>(nearest - loads.begin())},
       vehicle::table_problem(problem, axes), nominal, roll, yaw);
   MadeTable made{
-      given, h, std::move(stored.nodes),
+      cases.title, given, h, std::move(stored.nodes),
       vehicle::ForceTable(std::move(contact), pair.side, stored.creep ? creep_of(*std::move(stored.creep)) : nullptr)};
   if (stored.check) made.table.keep(*std::move(stored.check));
   return made;
 }
 
-void write_hdf5(const std::filesystem::path& file, const MadeTable& made) {
+void write_hdf5(const std::filesystem::path& file, const Stored& stored) {
   io::Hdf5Writer out(file);
   const io::Hdf5GroupWriter& root = out.root();
   root.add({"format", std::string(kFormat)});
   root.add({"units", std::string("SI")});
   root.add({"version", std::string(version())});
-  root.add({"case", case_text(made)});
-  io::write_attributes(root.make_group("head"), made.head);
-  io::write_rows(root.make_group("nodes"), made.nodes);
-  if (const auto& check = made.table.check()) {
+  root.add({"sha256", digest_of(stored)});
+  root.add({"case", stored.text});
+  io::write_attributes(root.make_group("head"), stored.head);
+  io::write_rows(root.make_group("nodes"), stored.nodes);
+  if (const auto& check = stored.check) {
     const io::Hdf5GroupWriter group = root.make_group("check");
     io::write_attributes(group, *check);
     io::write_rows(group.make_group("errors"), check->errors);
   }
-  if (const auto& creep = made.table.creep()) {
+  if (const auto& creep = stored.creep) {
     const io::Hdf5GroupWriter group = root.make_group("creep");
-    const std::vector<int> counts = counts_of(creep->options());
-    for (std::size_t i = 0; i < counts.size(); ++i) group.add({kCreepCounts[i], counts[i]});
-    group.add({"poisson", creep->poisson()});
-    group.add({"greatest_ratio", creep->options().greatest_ratio});
-    group.write({"values", {creep->values().size()}, "1", "F_x, F_y, M_n over the friction bound", true},
-                creep->values());
-    group.write({"slopes", {creep->slopes().size()}, "1", "without creepage"}, creep->slopes());
+    for (std::size_t i = 0; i < creep->counts.size(); ++i) group.add({kCreepCounts[i], creep->counts[i]});
+    group.add({"poisson", creep->poisson});
+    group.add({"greatest_ratio", creep->greatest_ratio});
+    group.write({"values", {creep->values.size()}, "1", "F_x, F_y, M_n over the friction bound", true}, creep->values);
+    group.write({"slopes", {creep->slopes.size()}, "1", "without creepage"}, creep->slopes);
   }
   out.commit();
 }
@@ -173,6 +225,7 @@ Stored read_hdf5(const std::filesystem::path& file) {
   const io::Hdf5GroupReader& root = in.root();
   if (!root.has_attribute("format") || root.text("format") != kFormat) refuse(file, "this is no table of forces");
   Stored stored;
+  stored.sha256 = root.text("sha256");
   stored.text = root.text("case");
   io::read_attributes(root.open_group("head"), stored.head);
   stored.nodes = io::read_rows<TableNode>(root.open_group("nodes"));
@@ -191,25 +244,25 @@ Stored read_hdf5(const std::filesystem::path& file) {
   return stored;
 }
 
-std::string json_file(const MadeTable& made) {
+std::string json_file(const Stored& stored) {
   io::Json out;
   out["format"] = kFormat;
   out["version"] = std::string(version());
-  out["case"] = case_text(made);
-  out["head"] = io::json_of(made.head, Digits::all);
-  if (const auto& check = made.table.check()) {
+  out["sha256"] = digest_of(stored);
+  out["case"] = stored.text;
+  out["head"] = io::json_of(stored.head, Digits::all);
+  if (const auto& check = stored.check) {
     out["check"] = io::json_of(*check, Digits::all);
     out["check"]["errors"] = io::json_of(check->errors, Digits::all);
   }
-  io::add_lists(out["nodes"], made.nodes, Digits::all);
-  if (const auto& creep = made.table.creep()) {
+  io::add_lists(out["nodes"], stored.nodes, Digits::all);
+  if (const auto& creep = stored.creep) {
     io::Json& to = out["creep"];
-    const std::vector<int> counts = counts_of(creep->options());
-    for (std::size_t i = 0; i < counts.size(); ++i) to[kCreepCounts[i]] = counts[i];
-    to["poisson"] = creep->poisson();
-    to["greatest_ratio"] = creep->options().greatest_ratio;
-    to["values"] = io::numbers(creep->values(), Digits::all);
-    to["slopes"] = io::numbers(creep->slopes(), Digits::all);
+    for (std::size_t i = 0; i < creep->counts.size(); ++i) to[kCreepCounts[i]] = creep->counts[i];
+    to["poisson"] = creep->poisson;
+    to["greatest_ratio"] = creep->greatest_ratio;
+    to["values"] = io::numbers(creep->values, Digits::all);
+    to["slopes"] = io::numbers(creep->slopes, Digits::all);
   }
   return io::dumped(out, -1) + '\n';
 }
@@ -229,6 +282,7 @@ Stored read_json_table(const std::filesystem::path& file) {
   const io::JsonTree in = io::read_json_file(file);
   if (!in.has("format") || in.text("format") != kFormat) refuse(file, "this is no table of forces");
   Stored stored;
+  stored.sha256 = in.text("sha256");
   stored.text = in.text("case");
   io::read_json(in.at("head"), stored.head);
   stored.nodes = nodes_of(in.at("nodes"));
@@ -263,9 +317,9 @@ void write_table(const std::filesystem::path& file, const MadeTable& made) {
   check_table_output(file);
   const std::string extension = io::extension_of(file);
   if (extension == ".h5")
-    write_hdf5(file, made);
+    write_hdf5(file, stored_of(made));
   else if (extension == ".json")
-    write_file(file, json_file(made));
+    write_file(file, json_file(stored_of(made)));
   else
     write_file(file, io::csv_of(made.nodes, Digits::all));
 }
@@ -273,8 +327,11 @@ void write_table(const std::filesystem::path& file, const MadeTable& made) {
 MadeTable read_table(const std::filesystem::path& file) {
   if (!is_table_file(file)) refuse(file, "a table of forces is read from a file .h5 or .json");
   Stored stored = io::extension_of(file) == ".h5" ? read_hdf5(file) : read_json_table(file);
+  const bool as_written = digest_of(stored) == stored.sha256;
   try {
-    return made_of(file, std::move(stored));
+    MadeTable made = made_of(file, std::move(stored));
+    if (!as_written) refuse(file, "this table of forces is damaged: it is not what was written");
+    return made;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::input_data) throw;
     refuse(file, "this table of forces is damaged: " + error.message());

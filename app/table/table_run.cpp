@@ -74,6 +74,7 @@ MadeTable make_table(const io::Case& given, const wheelrail::Geometry& geometry,
   if (!pair) throw Error(ErrorKind::configuration, "a table of forces is that of a wheel on a rail, not of a patch");
   const wheelrail::Problem prototype = prototype_of(*pair);
   const double load = load_of(*pair, request);
+  vehicle::require_sensible(request.check);
   if (request.exact_creep) vehicle::require_tabulated(prototype.material);  // refused before anything takes long
   const auto sheets = vehicle::solve_contact_sheets(geometry, prototype, load, request.axes, progress);
   const auto contact = vehicle::contact_table_of(sheets, geometry, prototype, load, request.axes);
@@ -83,7 +84,10 @@ MadeTable make_table(const io::Case& given, const wheelrail::Geometry& geometry,
                              [&](std::size_t finished, std::size_t all) {
                                if (progress.report) progress.report(finished, all, "table of creep forces");
                              });
-  MadeTable made{given, head_of(*contact, request, load), nodes_of(sheets, request, load),
+  MadeTable made{{},
+                 given,
+                 head_of(*contact, request, load),
+                 nodes_of(sheets, request, load),
                  vehicle::ForceTable(contact, pair->side, creep)};
   made.table.keep(vehicle::check_table(made.table, geometry, prototype, request.check, progress));
   return made;
@@ -100,16 +104,18 @@ MadeTable make_table(const std::filesystem::path& case_file, const TableRequest&
   SurfaceStore store;
   const StoredSurface& rail = store.get(pair.rail, Body::rail, profile_radius(pair, Body::rail), Region{});
   const StoredSurface& wheel = store.get(pair.wheel, Body::wheel, profile_radius(pair, Body::wheel), Region{});
-  return make_table(*found,
-                    {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !pair.roller,
-                     wheel.constant_profile()},
-                    request, cache, progress);
+  MadeTable made = make_table(*found,
+                              {rail.represented.surface, wheel.represented.surface,
+                               rail.constant_profile() && !pair.roller, wheel.constant_profile()},
+                              request, cache, progress);
+  made.title = file.title;
+  return made;
 }
 
 std::string table_text(const MadeTable& made) {
   const vehicle::ContactTable& t = made.table.contact();
   const auto angles = [](const vehicle::TableAngles& a) {
-    return a.intervals > 0 ? fmt::format("-{0:.4g} to {0:.4g} mrad", kMilli * a.most) : std::string("without a limit");
+    return fmt::format("-{0:.4g} to {0:.4g} mrad{1}", kMilli * a.reach(), a.intervals == 0 ? ", to first order" : "");
   };
   constexpr std::size_t kWidth = 28;
   std::string out = io::text_line("lateral place", kWidth,

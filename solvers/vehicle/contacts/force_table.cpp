@@ -9,6 +9,7 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -95,14 +96,7 @@ const TableError& TableCheck::of(const std::string& number) const {
 
 namespace {
 
-/// One place that both are asked for.
-struct CheckPoint {
-  double place_y = 0.0;
-  WheelMotion wanted;
-};
-
-constexpr int kCompared = 6;
-constexpr std::array<std::array<const char*, 2>, kCompared> kComparedNumbers = {
+constexpr std::array<std::array<const char*, 2>, CheckedPoint::kNumbers> kComparedNumbers = {
     {{"z", ""},
      {"normal_force", "normal force"},
      {"fx", "friction bound"},
@@ -110,9 +104,9 @@ constexpr std::array<std::array<const char*, 2>, kCompared> kComparedNumbers = {
      {"spin_moment", "friction bound times sqrt(ab)"},
      {"t_gamma", "friction bound times creepage"}}};
 
-struct Compared {
-  bool solved = false, answered = false;
-  std::array<double, kCompared> error{};
+struct CheckPoint {
+  CheckedPoint place;
+  WheelMotion wanted;
 };
 
 std::vector<CheckPoint> draw(const ForceTable& table, const wheelrail::Problem& exact, const TableCheckOptions& o) {
@@ -134,14 +128,15 @@ std::vector<CheckPoint> draw(const ForceTable& table, const wheelrail::Problem& 
   points.reserve(static_cast<std::size_t>(o.points));
   for (int i = 0; i < o.points; ++i) {
     CheckPoint c;
-    c.place_y = between(t.y_min(), t.y_max());
+    CheckedPoint& at = c.place;
+    at.y = between(t.y_min(), t.y_max());
     PairMotion& m = c.wanted.motion;
-    m.wheelset.roll = angle(t.roll()), m.wheelset.yaw = angle(t.yaw());
+    m.wheelset.roll = at.roll = angle(t.roll()), m.wheelset.yaw = at.yaw = angle(t.yaw());
     const Vec3 turned = rotation_x(m.wheelset.roll) * rotation_z(m.wheelset.yaw) * arm - arm;
-    m.wheelset.y = c.place_y - turned.y();
+    m.wheelset.y = at.y - turned.y();
     // Friction beside the pressures must not lift the load above the table's greatest one.
     constexpr double kBelow = 0.8;
-    c.wanted.vertical_load = least * std::pow(kBelow * most / least, random.uniform());
+    c.wanted.vertical_load = at.load = least * std::pow(kBelow * most / least, random.uniform());
     m.wheelset_velocity.x = o.speed;
     m.wheelset_velocity.y = o.speed * (creepage() + m.wheelset.yaw);
     m.wheelset_velocity.pitch = -o.speed / exact.wheelset.nominal_radius * (1.0 + creepage());
@@ -158,8 +153,8 @@ wheelrail::Problem problem_at(const wheelrail::Problem& rest, const PairMotion& 
   return p;
 }
 
-Compared compare(ForceTable table, wheelrail::Pair& pair, const wheelrail::Problem& rest, const CheckPoint& c) {
-  Compared out;
+CheckedPoint compare(ForceTable table, wheelrail::Pair& pair, const wheelrail::Problem& rest, const CheckPoint& c) {
+  CheckedPoint out = c.place;
   const double load = c.wanted.vertical_load;
   const wheelrail::PairSolution s = pair.solve(problem_at(rest, c.wanted.motion, load));
   out.solved = s.status == Status::ok && !s.patches.empty();
@@ -200,13 +195,54 @@ Compared compare(ForceTable table, wheelrail::Pair& pair, const wheelrail::Probl
 
 }  // namespace
 
-TableCheck check_table(const ForceTable& table, const wheelrail::Geometry& geometry, const wheelrail::Problem& exact,
-                       const TableCheckOptions& options, const Progress& progress) {
+void require_sensible(const TableCheckOptions& o) {
   constexpr int kMostPoints = 1000000;
-  if (options.points < 1 || options.points > kMostPoints || !(options.speed > 0.0) || !std::isfinite(options.speed) ||
-      !(options.creepage > 0.0 && options.creepage <= 0.5))
+  if (o.points < 1 || o.points > kMostPoints || !(o.speed > 0.0) || !std::isfinite(o.speed) ||
+      !(o.creepage > 0.0 && o.creepage <= 0.5))
     throw Error(ErrorKind::configuration,
                 "a table is compared at 1 to 1000000 points, at a positive speed and creepages up to 0.5");
+}
+
+TableCheck table_check_of(const TableCheckOptions& options, const std::vector<CheckedPoint>& points) {
+  TableCheck check;
+  check.options = options;
+  for (const auto& [number, over] : kComparedNumbers)
+    check.errors.push_back({number, over, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  for (const CheckedPoint& p : points) {
+    const bool solved = p.solved && ranges::all_of(p.error, [](double error) { return std::isfinite(error * error); });
+    (!solved ? check.unsolved : !p.answered ? check.unanswered : check.compared) += 1;
+    if (!solved || !p.answered) continue;
+    for (std::size_t k = 0; k < check.errors.size(); ++k) {
+      TableError& error = check.errors[k];
+      error.rms += p.error[k] * p.error[k];
+      if (std::abs(p.error[k]) < error.worst) continue;
+      error.worst = std::abs(p.error[k]);
+      error.y = p.y, error.roll = p.roll, error.yaw = p.yaw, error.load = p.load;
+    }
+  }
+  if (check.compared == 0)
+    throw Error(ErrorKind::numerical, "the table could be compared with the exact theory nowhere");
+  for (TableError& error : check.errors) error.rms = std::sqrt(error.rms / check.compared);
+  constexpr double kRisk = 0.01;
+  check.beyond = 1.0 - std::pow(kRisk, 1.0 / check.compared);
+  return check;
+}
+
+void require_whole(const TableCheck& check) {
+  const auto finite = [](const auto& row) {
+    return ranges::all_of(columns<std::remove_cvref_t<decltype(row)>>(), [&](const auto& column) {
+      return column.access.get == nullptr || std::isfinite(column.access.get(row));
+    });
+  };
+  bool whole = check.compared > 0 && finite(check) && check.errors.size() == kComparedNumbers.size();
+  for (std::size_t k = 0; whole && k < kComparedNumbers.size(); ++k)
+    whole = check.errors[k].number == kComparedNumbers[k][0] && finite(check.errors[k]);
+  if (!whole) throw Error(ErrorKind::configuration, "the comparison with the exact theory is not whole");
+}
+
+TableCheck check_table(const ForceTable& table, const wheelrail::Geometry& geometry, const wheelrail::Problem& exact,
+                       const TableCheckOptions& options, const Progress& progress) {
+  require_sensible(options);
   const ForceTable right = table.on(wheelrail::Side::right);
   wheelrail::Problem rest = table.contact().problem();
   rest.regime = kalker::Regime::steady;
@@ -214,7 +250,7 @@ TableCheck check_table(const ForceTable& table, const wheelrail::Geometry& geome
   rest.refinement = false;
   rest.discretisation = exact.discretisation;
   const std::vector<CheckPoint> points = draw(right, rest, options);
-  std::vector<Compared> compared(points.size());
+  std::vector<CheckedPoint> compared(points.size());
   std::mutex mutex;
   std::size_t finished = 0;
   parallel_for(points.size(), [&](std::size_t i) {
@@ -226,29 +262,7 @@ TableCheck check_table(const ForceTable& table, const wheelrail::Geometry& geome
     if (progress.report) progress.report(finished, points.size(), "comparison with the exact theory");
   });
 
-  TableCheck check;
-  check.options = options;
-  for (const auto& [number, over] : kComparedNumbers)
-    check.errors.push_back({number, over, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Compared& c = compared[i];
-    (!c.solved ? check.unsolved : !c.answered ? check.unanswered : check.compared) += 1;
-    if (!c.solved || !c.answered) continue;
-    for (std::size_t k = 0; k < check.errors.size(); ++k) {
-      TableError& error = check.errors[k];
-      error.rms += c.error[k] * c.error[k];
-      if (std::abs(c.error[k]) < error.worst) continue;
-      error.worst = std::abs(c.error[k]);
-      error.y = points[i].place_y, error.load = points[i].wanted.vertical_load;
-      error.roll = points[i].wanted.motion.wheelset.roll, error.yaw = points[i].wanted.motion.wheelset.yaw;
-    }
-  }
-  if (check.compared == 0)
-    throw Error(ErrorKind::numerical, "the table could be compared with the exact theory nowhere");
-  for (TableError& error : check.errors) error.rms = std::sqrt(error.rms / check.compared);
-  constexpr double kRisk = 0.01;
-  check.beyond = 1.0 - std::pow(kRisk, 1.0 / check.compared);
-  return check;
+  return table_check_of(options, compared);
 }
 
 }  // namespace treadmark::vehicle

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +49,27 @@ struct TableCheck {
   /// Errors: Error(configuration) for a number that is not compared.
   const TableError& of(const std::string& number) const;
 };
+
+/// One place that table and exact theory are asked for.
+struct CheckedPoint {
+  static constexpr std::size_t kNumbers = 6;
+  double y = 0.0;                ///< of the wheel against the rail [m]
+  double roll = 0.0, yaw = 0.0;  ///< [rad]
+  double load = 0.0;             ///< vertical [N]
+  bool solved = false;           ///< the exact theory has an answer
+  bool answered = false;         ///< so has the table
+  std::array<double, kNumbers> error{};
+};
+
+/// What the comparison at points has found: counts, the worst, the means. What is off by no finite number was not
+/// solved: the table's own numbers are finite. Errors: Error(numerical) where no point could be compared.
+TableCheck table_check_of(const TableCheckOptions& options, const std::vector<CheckedPoint>& points);
+
+/// Errors: Error(configuration) for a check that does not hold all that table_check_of makes, as finite numbers.
+void require_whole(const TableCheck& check);
+
+/// Errors: Error(configuration) for options without meaning.
+void require_sensible(const TableCheckOptions& options);
 
 /// What a wheel on a rail is asked: how it moves, and its height or its vertical load.
 struct WheelMotion {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -116,6 +117,80 @@ TEST(ForceTables, NodesAreATable) {
   EXPECT_THROW(write_table(folder.path() / "table.txt", small_table()), Error);
 }
 
+/// What read_table says against a file; empty: nothing.
+std::string said_against(const std::filesystem::path& file) {
+  try {
+    read_table(file);
+    return {};
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::input_data) << error.what();
+    return error.what();
+  }
+}
+
+TEST(ForceTables, TheTitleOfTheCaseIsKept) {
+  TREADMARK_NEEDS("hdf5");
+  const TemporaryFolder folder;
+  EXPECT_EQ(small_table().title, "a wheel to tabulate");
+  for (const char* name : {"table.h5", "table.json"}) {
+    write_table(folder.path() / name, small_table());
+    EXPECT_EQ(read_table(folder.path() / name).title, small_table().title);
+  }
+}
+
+/// Whatever bit of a file changes: it is refused, or it was one that says nothing, and the table is the same.
+TEST(ForceTables, NoChangedBitMakesAnotherTable) {
+  TREADMARK_NEEDS("hdf5");
+  const TemporaryFolder folder;
+  constexpr std::size_t kFlips = 300;
+  for (const char* name : {"table.h5", "table.json"}) {
+    const auto file = folder.path() / name, again = folder.path() / (std::string("again_") + name);
+    write_table(file, small_table());
+    const std::string whole = text_of(file);
+    std::size_t refused = 0;
+    for (std::size_t i = 0; i < kFlips; ++i) {
+      std::string damaged = whole;
+      damaged[i * whole.size() / kFlips] ^= static_cast<char>(1 << i % 8);
+      std::ofstream(file, std::ios::binary) << damaged;
+      try {
+        write_table(again, read_table(file));
+        EXPECT_EQ(text_of(again), whole) << name << ", flip " << i;
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+    EXPECT_GT(refused, kFlips / 2) << name;
+  }
+}
+
+/// Also where a file is what was written, but that makes no sense.
+TEST(ForceTables, TablesWithoutMeaningAreNotRead) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "table.json";
+  const auto refused = [&](auto change) {
+    MadeTable made = small_table();
+    change(made);
+    write_table(file, made);
+    EXPECT_THAT(said_against(file), HasSubstr("table of forces"));
+  };
+  const auto check = [](MadeTable& made, auto change) {
+    vehicle::TableCheck changed = *made.table.check();
+    change(changed);
+    made.table.keep(changed);
+  };
+  refused([](MadeTable& m) { m.head.element_size = 0.0; });
+  refused([](MadeTable& m) { m.head.load = -1.0; });
+  refused([](MadeTable& m) { m.nodes[2].contact.slope = 1e9; });
+  refused([](MadeTable& m) { m.nodes[2].part.angle = 1.6; });
+  refused([](MadeTable& m) { m.nodes[2].part.log_aspect = -40.0; });
+  refused([](MadeTable& m) { m.nodes.clear(); });
+  refused([&](MadeTable& m) { check(m, [](auto& c) { c.errors.clear(); }); });
+  refused([&](MadeTable& m) { check(m, [](auto& c) { c.errors.pop_back(); }); });
+  refused([&](MadeTable& m) { check(m, [](auto& c) { c.errors[1].rms = std::nan(""); }); });
+  refused([&](MadeTable& m) { check(m, [](auto& c) { c.errors[1].number = "fz"; }); });
+  refused([&](MadeTable& m) { check(m, [](auto& c) { c.compared = 0; }); });
+}
+
 TEST(ForceTables, DamagedFilesAreRefused) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "table.json";
@@ -125,12 +200,9 @@ TEST(ForceTables, DamagedFilesAreRefused) {
     nlohmann::ordered_json damaged = whole;
     change(damaged);
     std::ofstream(file) << damaged.dump();
-    try {
-      read_table(file);
-      ADD_FAILURE() << "a damaged table was read";
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::input_data) << error.what();
-    }
+    const std::string said = said_against(file);
+    EXPECT_FALSE(said.empty()) << "a damaged table was read";
+    return said;
   };
   refused([](auto& j) { j["format"] = "something else"; });
   refused([](auto& j) { j.erase("nodes"); });
@@ -146,6 +218,16 @@ TEST(ForceTables, DamagedFilesAreRefused) {
   refused([](auto& j) { j["creep"]["poisson"] = -1.0; });
   refused([](auto& j) { j["creep"]["values"].erase(0); });
   refused([](auto& j) { j["case"] = "nonsense = 1"; });
+  refused([](auto& j) { j.erase("sha256"); });
+  // Changed within what makes sense.
+  EXPECT_THAT(refused([](auto& j) { j["nodes"]["area_m2"][3] = 1e-4; }), HasSubstr("not what was written"));
+  EXPECT_THAT(refused([](auto& j) { j["head"]["element_size_m"] = 2e-3; }), HasSubstr("not what was written"));
+  EXPECT_THAT(refused([](auto& j) { j["check"]["errors"][0]["worst"] = 0.0; }), HasSubstr("not what was written"));
+  // No other file is opened.
+  EXPECT_THAT(refused([](auto& j) {
+                j["case"] = "cases_file = \"no_such_rows.csv\"\n" + j["case"].template get<std::string>();
+              }),
+              HasSubstr("names another file"));
 }
 
 TEST(ForceTables, WhatTablesAreNotForIsRefused) {
@@ -164,6 +246,24 @@ TEST(ForceTables, WhatTablesAreNotForIsRefused) {
   refused("wheel.flats = [{ length_mm = 40.0, depth_mm = 1.0 }]\n" + kCase, request, "round");
   refused(std::string(kCase).replace(kCase.find("vertical_force_N = 80e3"), 23, "z_mm = 0.1"), request, "load_kN");
   refused("[patch]\nmx = 4\nmy = 4\n", request, "");
+  refused("track.curvature_per_m = 0.003\n" + kCase, request, "leave the curve");
+  // Before minutes are spent on nodes.
+  const auto refused_at_once = [&](auto change, const char* why) {
+    TableRequest wrong = small_request();
+    change(wrong);
+    std::ofstream(file) << kCase;
+    const Progress progress{[](std::size_t, std::size_t, const std::string&) { ADD_FAILURE() << "solved first"; }, {}};
+    try {
+      make_table(file, wrong, nullptr, progress);
+      ADD_FAILURE() << why;
+    } catch (const Error& error) {
+      EXPECT_THAT(std::string(error.what()), HasSubstr(why));
+    }
+  };
+  refused_at_once([](TableRequest& r) { r.axes.relative_loads = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9}; },
+                  "eight loads");
+  refused_at_once([](TableRequest& r) { r.check.points = 0; }, "1 to 1000000 points");
+  refused_at_once([](TableRequest& r) { r.check.creepage = 0.7; }, "creepages up to 0.5");
   EXPECT_THROW(table_request(io::given_settings(std::vector<std::string>{"roll_intervals=1"})), Error);
   EXPECT_THROW(table_request(io::given_settings(std::vector<std::string>{"yaw_mrad=0"})), Error);
   EXPECT_THROW(table_request(io::given_settings(std::vector<std::string>{"nonsense=0"})), Error);

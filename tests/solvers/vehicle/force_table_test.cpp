@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/random.hpp"
@@ -300,6 +304,37 @@ TEST(ForceTable, SheetsThatDifferTooMuchGiveNoAnswer) {
     EXPECT_NE(f.reaction.message.find("too much"), std::string::npos) << f.reaction.message;
     EXPECT_TRUE(std::isnan(f.reaction.normal_force));
   }
+}
+
+/// Points without a number spoil neither the worst nor the mean: they were not solved.
+TEST(ForceTable, ErrorsThatAreNoNumbersAreNotCounted) {
+  const auto point = [](double error, bool solved, bool answered) {
+    CheckedPoint p{1e-3 * error, 0.0, 0.0, 1e5, solved, answered, {}};
+    p.error.fill(error);
+    return p;
+  };
+  std::vector<CheckedPoint> points = {point(0.3, true, true), point(-0.4, true, true), point(0.9, true, false),
+                                      point(0.9, false, false)};
+  const TableCheck clean = table_check_of({}, points);
+  EXPECT_EQ(clean.compared, 2);
+  EXPECT_EQ(clean.unanswered, 1);
+  EXPECT_EQ(clean.unsolved, 1);
+  constexpr double kHuge = 1e200;  // its square is none
+  for (const double none : {kNaN, std::numeric_limits<double>::infinity(), kHuge})
+    for (std::size_t number = 0; number < CheckedPoint::kNumbers; ++number)
+      for (const std::size_t at : {std::size_t{0}, std::size_t{1}, points.size()}) {
+        std::vector<CheckedPoint> with = points;
+        with.insert(with.begin() + static_cast<std::ptrdiff_t>(at), point(0.1, true, true))->error[number] = none;
+        const TableCheck check = table_check_of({}, with);
+        EXPECT_EQ(check.compared, 2);
+        EXPECT_EQ(check.unsolved, 2);
+        for (const TableError& error : check.errors) {
+          EXPECT_EQ(error.worst, 0.4);
+          EXPECT_EQ(error.y, -0.4e-3);
+          EXPECT_NEAR(error.rms, std::sqrt(0.5 * (0.09 + 0.16)), 1e-15);
+        }
+      }
+  EXPECT_THROW(table_check_of({}, {point(kNaN, true, true)}), Error);
 }
 
 TEST(ForceTable, TheLeftWheelIsTheMirrorImage) {
