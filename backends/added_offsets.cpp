@@ -29,6 +29,7 @@ NaturalSurface add_offsets(const NaturalSurface& natural, const OffsetMap& map) 
   out.spec.body = natural.spec.body;
   out.spec.nominal_radius = natural.spec.nominal_radius;
   out.spec.errors = natural.spec.errors;
+  out.spec.doubts = natural.spec.doubts;
   out.spec.shape = SliceSet{};  // known no longer: resampled from the surface
   return out;
 }

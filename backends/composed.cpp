@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "treadmark/backends/analytic/defects/moving_section.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/assembly/limited_surface.hpp"
@@ -17,6 +19,7 @@
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/stopwatch.hpp"
 
 namespace treadmark {
@@ -288,7 +291,14 @@ NaturalSurface join_surfaces(std::vector<SurfacePart> parts) {
                   "offset them along y only");
     surfaces.push_back(placed(part.natural->surface, part.offset));
     natural.note += part.natural->note;
+    add_doubts(natural.spec.doubts, spec.doubts);
   }
+  const auto uncertain =
+      ranges::count_if(parts, [](const SurfacePart& part) { return part.natural->spec.errors != nullptr; });
+  if (uncertain > 0)
+    natural.note +=
+        fmt::format("what scatter of their scans leaves uncertain of {} of its {} parts is not counted in results. ",
+                    uncertain, parts.size());
   natural.surface = assembly::outermost_of(std::move(surfaces));
   natural.spec.body = parts.front().natural->spec.body;
   natural.spec.nominal_radius = parts.front().natural->spec.nominal_radius;

@@ -72,6 +72,7 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
   natural.spec.body = content.base.body;
   natural.spec.nominal_radius = content.base.nominal_radius;
   natural.spec.errors = content.base.errors;
+  natural.spec.doubts = content.base.doubts;
   natural.spec.shape = SliceSet{};
   return natural;
 }

@@ -119,6 +119,7 @@ void NaturalKind::write_offsets(const std::filesystem::path& file, const Natural
   content.offsets = offsets_over(resampling, *below.surface, below.region_uy).offsets;
   content.base = std::move(below.spec);
   content.base.errors = natural.spec.errors;
+  content.base.doubts = natural.spec.doubts;
   content.notes = notes;
   if (sampled != nullptr) *sampled = resampling.sampled();
   offset::write_vdb(file, content);

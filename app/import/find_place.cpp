@@ -89,7 +89,7 @@ std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, c
 }
 
 /// What the points leave open about the place, with its numbers.
-void add_doubts(const PlacedScan& scan, io::ImportReport& report) {
+void doubt_place(PlacedScan& scan, io::ImportReport& report) {
   const scans::Placement& placement = scan.placement;
   constexpr double kRadius = 0.05e-3, kDirection = 1e-3, kSymmetric = 0.05e-3;
   if (placement.radius_error > kRadius || placement.direction_error > kDirection)
@@ -103,16 +103,22 @@ void add_doubts(const PlacedScan& scan, io::ImportReport& report) {
         fmt::format("y = 0 is 70 mm from the back of the flange, {:.2f} mm from where the flange of {} would put it: "
                     "is the flange worn?",
                     kMilli * std::fabs(placement.moved_by_back), report.nominal));
-  for (const measured::Doubt& doubt : placement.doubts)
+  for (const measured::Doubt& doubt : placement.doubts) {
     report.warnings.push_back(fmt::format("{}: {}", doubt.name, doubt.text));
+    scan.doubts.push_back({doubt.name, doubt.text});
+  }
   if (!placement.match || !placement.match->ways) return;
   const scans::SectionMatch::Ways& ways = *placement.match->ways;
-  if (!ways.clear && ways.asymmetry > kSymmetric)
-    report.warnings.push_back(fmt::format(
-        "which side of the rail is its gauge side is not clear: its points lie {:.3f} mm from {} on average, "
-        "turned round {:.3f} mm; its sides differ by {:.2f} mm. x of the rail was taken to run as the axis of "
-        "the scan does that is nearest; say placement.forward, with the gauge side to the left, to settle it",
-        kMilli * ways.here, report.nominal, kMilli * ways.turned, kMilli * ways.asymmetry));
+  if (ways.clear || !(ways.asymmetry > kSymmetric)) return;
+  const std::string unclear = fmt::format(
+      "which side of the rail is its gauge side is not clear: its points lie {:.3f} mm from {} on average, turned "
+      "round "
+      "{:.3f} mm; its sides differ by {:.2f} mm",
+      kMilli * ways.here, report.nominal, kMilli * ways.turned, kMilli * ways.asymmetry);
+  report.warnings.push_back(unclear +
+                            ". x of the rail was taken to run as the axis of the scan does that is nearest; say "
+                            "placement.forward, with the gauge side to the left, to settle it");
+  scan.doubts.push_back({"gauge_side", unclear});
 }
 
 scans::PlaceSettings place_settings(const PlacedScan& scan, const io::ImportSettings& settings) {
@@ -304,7 +310,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
       scan.placement = scans::place(scan.points, scan.keep, rough, how);
     }
   }
-  add_doubts(scan, report);
+  doubt_place(scan, report);
   // files and cases must agree on a radius: one that people write down
   constexpr double kRound = 0.01e-3;
   if (scan.body == Body::wheel)

@@ -16,6 +16,7 @@ struct PlacedScan {
   std::vector<std::uint16_t> passes;
   std::vector<std::uint8_t> keep;  ///< 0 = stray
   scans::Placement placement;
+  std::vector<SurfaceDoubt> doubts;         ///< about it, which go with the surface
   std::vector<Vec2> nominal;                ///< (y, z) of the nominal profile; empty: none
   std::optional<SurfaceSpec> nominal_spec;  ///< without a radius
 };

@@ -87,11 +87,13 @@ PlacedScan read_map(const ImportRequest& request, io::ImportReport& report) {
   scan.placement.nominal_radius = radius;
   constexpr double kAlike = 0.95, kLeastSlope = 0.3;
   if (const LikeSection like = like_section(map, scan.placement.section);
-      std::fabs(like.correlation) > kAlike && std::fabs(like.slope) > kLeastSlope)
-    report.warnings.push_back(fmt::format(
-        "the deviations follow the section itself (correlation {:.3f}, {:.2g} times its heights): are these "
-        "heights? say map.values = heights then",
-        like.correlation, like.slope));
+      std::fabs(like.correlation) > kAlike && std::fabs(like.slope) > kLeastSlope) {
+    scan.doubts.push_back(
+        {"heights", fmt::format("the deviations follow the section itself (correlation {:.3f}, {:.2g} times its "
+                                "heights): are these heights? say map.values = heights then",
+                                like.correlation, like.slope)});
+    report.warnings.push_back(scan.doubts.back().text);
+  }
   const Grid2& g = map.grid;
   std::size_t missing = 0, beside = 0;
   for (int iy = 0; iy < g.ny; ++iy)

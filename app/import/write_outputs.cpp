@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -156,6 +157,7 @@ void write_offset_file(const std::filesystem::path& file, const FittedScan& fit,
   spec.nominal_radius = radius_of(fit);
   spec.shape = slices_of(fit, settings);
   spec.errors = fit.errors;
+  spec.doubts = fit.scan.doubts;
   SurfaceSpec base;
   base.body = fit.scan.body;
   base.nominal_radius = radius_of(fit);
@@ -326,20 +328,25 @@ io::ImportReport::Output written(const std::filesystem::path& file, const std::f
                                  const std::vector<std::string>& summary, double share) {
   io::ImportReport::Output out;
   out.file = file.filename().string();
-  const std::vector<std::string> errors = fit.errors ? to_lines(*fit.errors) : std::vector<std::string>();
+  // What is not known of the surface.
+  std::vector<std::string> unknown = to_lines(fit.scan.doubts);
+  if (fit.errors) ranges::copy(to_lines(*fit.errors), std::back_inserter(unknown));
   try {
     if (io::is_slices_file(file)) {
       out.kind = "slices";
       const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings, share);
       check_angles(slices, file);
       out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
-      out.bytes = io::write_slices(place, slices, summary, errors);
+      out.bytes = io::write_slices(place, slices, summary, unknown);
     } else if (io::is_mesh_file(file)) {
       out.kind = "triangles";
       const TriangleMesh mesh = triangles_of(fit, settings);
       out.details = fmt::format("{} triangles over {} vertices", mesh.triangles.size(), mesh.vertices.size());
       std::vector<std::string> comments = summary;
-      comments.insert(comments.end(), errors.begin(), errors.end());
+      comments.insert(comments.end(), unknown.begin(), unknown.end());
+      // of which a head of few characters takes the first line
+      if (io::extension_of(file) == ".stl" && !fit.scan.doubts.empty())
+        comments.insert(comments.begin(), names_line(fit.scan.doubts));
       io::write_mesh(place, mesh, comments);
     } else {
       out.kind = "offsets";

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -108,7 +110,10 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
   if (view) place.replace_extension(".ply");
   std::string to_view;
   const std::shared_ptr<const SurfaceErrors>& errors = out.source.spec.errors;
-  const std::vector<std::string> lines = errors ? to_lines(*errors) : std::vector<std::string>();
+  const std::vector<SurfaceDoubt>& doubts = out.source.spec.doubts;
+  std::vector<std::string> lines = to_lines(doubts);
+  if (errors) ranges::copy(to_lines(*errors), std::back_inserter(lines));
+  if (extension == ".stl") lines = doubts.empty() ? std::vector<std::string>() : std::vector{names_line(doubts)};
   const auto write = [&] {
     if (cad) {
       out.kind = "CAD";
@@ -122,7 +127,7 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
     } else if (triangles) {
       out.kind = "triangles";
       const TriangleMesh mesh = to_triangles(out.source, wanted, &sampled);
-      io::write_mesh(place, mesh, extension == ".stl" ? std::vector<std::string>() : lines);
+      io::write_mesh(place, mesh, lines);
       if (view) to_view = io::triangles_to_vtp(mesh);
     } else if (slices) {
       out.kind = "slices";
@@ -140,6 +145,8 @@ Converted write_checked(NaturalSurface source, const std::optional<AddedTable>& 
     write();
     if (errors && (extension == ".stl" || view || cad || splines))
       sampled.note += "what scatter of the scan leaves uncertain of the surface has no place in such a file. ";
+    if (!doubts.empty() && (view || cad || splines))
+      sampled.note += "what its import doubted has no place in such a file. ";
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     // measured on the surface that a reader of the file gets
     io::SurfaceSource again;

@@ -258,6 +258,7 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
     else
       spec.shape = placed_profile(*file, body, source.where, note);
     spec.errors = errors_of(*file, body);
+    spec.doubts = io::read_surface_doubts(file->file);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
     if (!library_body(standard->name)) {
       const std::string near = nearest_library_name(standard->name);

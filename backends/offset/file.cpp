@@ -22,6 +22,7 @@
 #include "treadmark/core/number_text.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/to_whole.hpp"
+#include "treadmark/model/shape/surface_doubts.hpp"
 #include "treadmark/model/shape/surface_errors.hpp"
 
 namespace treadmark::offset {
@@ -269,6 +270,7 @@ Metadata to_metadata(const SparseOffsets& offsets, const SurfaceSpec& base) {
   m.emplace("frame", list({f.u0, f.y0, f.du, f.dy, static_cast<double>(f.turn), f.first, f.last}));
   m.emplace("tolerance", number(offsets.tolerance));
   if (base.errors) m.emplace(kSurfaceErrors, fmt::format("{}", fmt::join(to_lines(*base.errors), "\n")));
+  if (!base.doubts.empty()) m.emplace(kSurfaceDoubt, fmt::format("{}", fmt::join(to_lines(base.doubts), "\n")));
   if (const auto* points = std::get_if<Profile>(&base.shape))
     write_shape(*points, m);
   else if (const auto* standard = std::get_if<StandardProfile>(&base.shape))
@@ -306,16 +308,20 @@ void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec
   f.first = frame[5], f.last = frame[6];
   if (f.turn != frame[4] || (f.turn > 0 && std::fabs(f.turn * f.du - 2.0 * std::numbers::pi) > 1e-9))
     in.refuse("the voxels in the VDB file do not fill the turn");
-  if (const auto errors = metadata.find(std::string(kSurfaceErrors)); errors != metadata.end()) {
+  const auto lines_of = [&](std::string_view name) {
     std::vector<std::string> lines;
-    std::istringstream text(errors->second);
+    const auto entry = metadata.find(std::string(name));
+    if (entry == metadata.end()) return lines;
+    std::istringstream text(entry->second);
     for (std::string line; std::getline(text, line);) lines.push_back(line);
-    try {
-      base.errors = errors_of_lines(lines);
-    } catch (const Error& error) {
-      in.refuse(error.message());
-    }
+    return lines;
+  };
+  try {
+    base.errors = errors_of_lines(lines_of(kSurfaceErrors));
+  } catch (const Error& error) {
+    in.refuse(error.message());
   }
+  base.doubts = doubts_of_lines(lines_of(kSurfaceDoubt));
   const std::string& kind = in.text("base");
   if (kind == "points")
     base.shape = read_points(in, f.body);

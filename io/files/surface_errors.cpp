@@ -6,8 +6,10 @@
 #include <array>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "treadmark/core/error.hpp"
@@ -36,14 +38,18 @@ bool is_one_of(std::string_view word, std::string_view words) {
   return false;
 }
 
-}  // namespace
-
-std::shared_ptr<const SurfaceErrors> read_surface_errors(const std::filesystem::path& file) {
-  const auto style = ranges::find(kCommentStyles, extension_of(file), &CommentStyle::extension);
-  if (style == std::end(kCommentStyles)) return nullptr;
+std::ifstream opened(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) stream.open(profiles::portable_path(file.string()), std::ios::binary);
+  return stream;
+}
+
+/// At the top of a file, without their signs.
+std::vector<std::string> comments_of(const std::filesystem::path& file) {
   std::vector<std::string> comments;
+  const auto style = ranges::find(kCommentStyles, extension_of(file), &CommentStyle::extension);
+  if (style == std::end(kCommentStyles)) return comments;
+  std::ifstream stream = opened(file);
   std::array<char, 4096> buffer{};
   const auto next = [&] {
     if (stream.getline(buffer.data(), buffer.size())) return true;
@@ -65,8 +71,28 @@ std::shared_ptr<const SurfaceErrors> read_surface_errors(const std::filesystem::
       break;
     }
   }
+  return comments;
+}
+
+/// What stands in the 80 characters before the triangles of a binary .stl, piece by piece.
+std::vector<std::string> pieces_of_head(const std::filesystem::path& file) {
+  std::array<char, 80> head{};
+  opened(file).read(head.data(), head.size());
+  std::vector<std::string> pieces;
+  std::istringstream text(std::string(head.data(), head.size()));
+  for (std::string piece; std::getline(text, piece, ';');) pieces.push_back(std::move(piece));
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<SurfaceDoubt> read_surface_doubts(const std::filesystem::path& file) {
+  return doubts_of_lines(extension_of(file) == ".stl" ? pieces_of_head(file) : comments_of(file));
+}
+
+std::shared_ptr<const SurfaceErrors> read_surface_errors(const std::filesystem::path& file) {
   try {
-    return errors_of_lines(comments);
+    return errors_of_lines(comments_of(file));
   } catch (const Error& error) {
     throw Error(error.kind(), error.message(), {file.string(), 0, 0}, error.advice());
   }

@@ -11,6 +11,7 @@
 #include "treadmark/model/shape/profile.hpp"
 #include "treadmark/model/shape/slices.hpp"
 #include "treadmark/model/shape/spline_surface.hpp"
+#include "treadmark/model/shape/surface_doubts.hpp"
 #include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark {
@@ -49,6 +50,7 @@ struct SurfaceSpec {
   /// defects do not fit it.
   double roller_radius = 0.0;
   std::shared_ptr<const SurfaceErrors> errors = {};  ///< of an imported scan (surface_errors.hpp); may be missing
+  std::vector<SurfaceDoubt> doubts = {};             ///< of its import
 };
 
 }  // namespace treadmark

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -37,6 +38,26 @@ TEST(ErrorsInFiles, AreFoundInTheHeadOnly) {
   }
   EXPECT_EQ(read_surface_errors(folder.write("a.stl", "# " + std::string(kErrors) + '\n')), nullptr);
   EXPECT_EQ(read_surface_errors(folder.path() / "none.ply"), nullptr);
+}
+
+TEST(ErrorsInFiles, SoAreTheDoubtsOfImports) {
+  const testing::TemporaryFolder folder;
+  const std::vector<SurfaceDoubt> doubts{{"no_flange", "not scanned"}};
+  for (const Head& head : kHeads) {
+    const std::string line = head.sign + to_lines(doubts).front() + '\n',
+                      more = head.sign + std::string(kErrors) + '\n';
+    const auto file = folder.write(head.name, head.start + more + line + head.rest);
+    EXPECT_EQ(read_surface_doubts(file), doubts) << head.name;
+    EXPECT_NE(read_surface_errors(file), nullptr) << head.name;
+    EXPECT_TRUE(read_surface_doubts(folder.write(head.name, head.start + more + head.rest + line)).empty());
+  }
+  std::string stl = "binary STL, millimetres; " + names_line(doubts);
+  stl.resize(80, ' ');
+  const std::vector<SurfaceDoubt> named = read_surface_doubts(folder.write("a.stl", stl + std::string(4, '\0')));
+  ASSERT_EQ(named.size(), 1u);
+  EXPECT_EQ(named.front().name, "no_flange");
+  for (const char* other : {"none.stl", "none.ply", "none.prr"})
+    EXPECT_TRUE(read_surface_doubts(folder.path() / other).empty());
 }
 
 TEST(ErrorsInFiles, LongCommentsOfOthersHideNone) {
