@@ -38,7 +38,7 @@ void ResultNotes::add(const io::Case& given, const io::Case& c, io::CaseResult& 
   const NoiseOfResults* noise = nullptr;
   {
     const std::lock_guard lock(mutex_);
-    add_profile_doubts(given, profiles_, store_, slices_, result);
+    add_profile_doubts(given, profiles_, store_, doubted_, result);
     doubt_contact_beyond_data(*input, store_, result);
     doubt_contact_between_sections(*input, store_, result);
     const auto rail = store_.natural(input->rail, Body::rail, profile_radius(*input, Body::rail));

@@ -37,7 +37,7 @@ class ResultNotes {
   const ProfilesOfRun& profiles_;
   std::mutex mutex_;
   SurfaceStore& store_;
-  SliceDoubts slices_;
+  SurfaceDoubts doubted_;
   std::map<std::pair<const NaturalSurface*, const NaturalSurface*>, NoiseOfResults> pairs_;
 };
 

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -9,6 +11,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/compare/pages/compare_page.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -84,6 +87,8 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   io::Comparison& result = *compared;
   result.settings = echo(options);
   print_notes(file.notes, common.quiet);
+  const std::vector<std::string> doubts = app::import_doubts(file);
+  for (const std::string& doubt : doubts) std::cerr << "warning: " << doubt << '\n';
   if (!options.output_folder.empty())
     print_notes(app::write_comparison_folder(options.output_folder, result), common.quiet);
   write_report_file(options.report_file, [&] { return app::pages::compare_page(compared, io::to_json(result)); });
@@ -91,7 +96,8 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   print_results(options.json_file, json, [&] { return io::comparison_table(result); });
   write_json_file(options.json_file, json);
   if (!result.complete) std::cerr << "interrupted: " << result.candidates.size() << " representations finished\n";
-  return exit_status(result);
+  const int status = exit_status(result);
+  return status == kOk && !doubts.empty() ? kFailed : status;
 }
 
 }  // namespace

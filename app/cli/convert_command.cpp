@@ -29,6 +29,7 @@
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
+#include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/length_unit.hpp"
 
 namespace treadmark::cli {
@@ -88,17 +89,21 @@ int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
   return kOk;
 }
 
-/// What reading a profile changed or could not be sure of; the exit status that follows.
+/// What reading a profile changed or could not be sure of, or the import of a surface; the exit status that follows.
 int tell_doubts(const ConvertOptions& options, const app::ConvertSettings& settings) {
+  const std::optional<Body> body = settings.body ? settings.body : io::profile_body(options.output);
+  int status = kOk;
+  for (const std::string& doubt : app::import_doubts(options.input, body.value_or(Body::rail))) {
+    std::cerr << "warning: " << doubt << '\n';
+    status = kFailed;
+  }
   std::error_code ignored;
   if (!app::is_profile_file(options.input) || !std::filesystem::exists(io::profile_file(options.input), ignored))
-    return kOk;
+    return status;
   io::ProfileOptions how;
   how.scale = settings.scale_to_mm;
-  const std::optional<Body> body = settings.body ? settings.body : io::profile_body(options.output);
   const io::ProfileJudgement judged = app::check_profile(options.input, body, how).judgement;
   print_notes(judged.notes, false);
-  int status = kOk;
   for (const io::ProfileRemark& doubt : judged.remarks) {
     if (doubt.name == "gauge_point") continue;  // it is asked for where the rail is placed
     std::cerr << "warning: " << doubt.name << ": " << doubt.text << '\n';
@@ -151,7 +156,9 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
       result.written.build_seconds, result.written.surface->memory_bytes(),         result.fit,
       result.written.note};
   std::cout << options.output << ": " << result.kind << ", " << io::summary(use) << '\n';
-  return kOk;
+  for (const SurfaceDoubt& doubt : result.source.spec.doubts)
+    std::cerr << "warning: " << in_words(doubt, body_name(result.body), options.input) << '\n';
+  return result.source.spec.doubts.empty() ? kOk : kFailed;
 }
 
 }  // namespace

@@ -379,6 +379,7 @@ std::vector<std::string> profile_doubts(const GeometryRequest& request) {
                                    std::pair{request.rail, Body::rail}, std::pair{request.rail_left, Body::rail}}) {
     if (ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name)) continue;
     seen.push_back(name);
+    for (std::string& doubt : import_doubts(name, body)) out.push_back(std::move(doubt));
     const io::ExpectedProfile expected{{}, {}, true, request.cant};
     if (io::is_slices_file(name)) {
       io::ProfileOptions options;

@@ -81,11 +81,14 @@ ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& req
   if (const auto known = measured_range(natural, {}); known && request.body == Body::rail)
     out.x_min = known->first, out.x_max = known->second;
   if (!natural.note.empty()) out.notes.push_back(natural.note);
+  const auto warn = [&](const std::string& doubt) {
+    out.notes.push_back("warning: " + doubt);
+    out.doubtful = true;
+  };
+  for (const SurfaceDoubt& doubt : natural.spec.doubts) warn(in_words(doubt, body_name(request.body), name));
   if (const auto* slices = std::get_if<SliceSet>(&natural.spec.shape))
-    if (const std::string doubt = doubt_of_slices(*slices, name, request.body, {{}, {}, false, {}}); !doubt.empty()) {
-      out.notes.push_back("warning: " + doubt);
-      out.doubtful = true;
-    }
+    if (const std::string doubt = doubt_of_slices(*slices, name, request.body, {{}, {}, false, {}}); !doubt.empty())
+      warn(doubt);
   return out;
 }
 

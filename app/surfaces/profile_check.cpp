@@ -17,12 +17,14 @@
 #include "treadmark/analysis/measures/wheel.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/backends/offset/file.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
+#include "treadmark/io/files/surface_errors.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
@@ -409,9 +411,45 @@ std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Bod
                 : std::string();
 }
 
+std::vector<std::string> import_doubts(const std::filesystem::path& file, Body body) {
+  std::vector<std::string> out;
+  const std::vector<SurfaceDoubt> doubts =
+      is_offset_file(file) ? offset::read_vdb(file).base.doubts : io::read_surface_doubts(file);
+  for (const SurfaceDoubt& doubt : doubts) out.push_back(in_words(doubt, body_name(body), file.string()));
+  return out;
+}
+
+namespace {
+
+void add_import_doubts(const io::SurfaceSource& source, Body body, std::vector<std::string>& out) {
+  for (const io::SurfaceSource& part : source.parts) add_import_doubts(part, body, out);
+  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  if (!source.parts.empty() || file == nullptr) return;
+  for (std::string& doubt : import_doubts(file->file, body))
+    if (ranges::find(out, doubt) == out.end()) out.push_back(std::move(doubt));
+}
+
+}  // namespace
+
+std::vector<std::string> import_doubts(const io::SurfaceSource& source, Body body) {
+  std::vector<std::string> out;
+  add_import_doubts(source, body, out);
+  return out;
+}
+
+std::vector<std::string> import_doubts(const io::CaseFile& file) {
+  std::vector<std::string> out;
+  for (const io::Case& c : file.cases)
+    if (const auto* pair = std::get_if<io::WheelRailCase>(&c.content)) {
+      add_import_doubts(pair->rail, Body::rail, out);
+      add_import_doubts(pair->wheel, Body::wheel, out);
+    }
+  return out;
+}
+
 std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body,
                                        const io::ExpectedProfile& expected) {
-  std::vector<std::string> out;
+  std::vector<std::string> out = import_doubts(source, body);
   if (const io::GeometryFile* file = slices_file(source))
     if (std::string doubt = doubt_of_slices(io::read_slices(file->file, body, file->options, source.where),
                                             file->file.string(), body, expected);
@@ -446,22 +484,24 @@ bool may_touch(const io::CaseResult& result, Side side, Body body, const std::pa
 
 }  // namespace
 
-void add_profile_doubts(const io::Case& given, const ProfilesOfRun& profiles, SurfaceStore& store, SliceDoubts& known,
+void add_profile_doubts(const io::Case& given, const ProfilesOfRun& profiles, SurfaceStore& store, SurfaceDoubts& known,
                         io::CaseResult& result) {
   const auto* input = std::get_if<io::WheelRailCase>(&given.content);
   if (input == nullptr) return;
   for (const Body body : {Body::rail, Body::wheel}) {
     const io::SurfaceSource& source = body == Body::wheel ? input->wheel : input->rail;
-    const io::GeometryFile* file_of = slices_file(source);
-    if (file_of == nullptr) continue;
     const std::shared_ptr<const NaturalSurface> natural = store.natural(source, body, profile_radius(*input, body));
-    const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
-    if (slices == nullptr) continue;
     const std::optional<double> cant = body == Body::rail ? std::optional(input->track.cant) : std::nullopt;
-    const auto [doubt, fresh] = known.try_emplace({natural, input->track.gauge_based, cant});
-    if (fresh)
-      doubt->second = doubt_of_slices(*slices, file_of->file.string(), body, {{}, {}, input->track.gauge_based, cant});
-    if (!doubt->second.empty()) result.remarks.push_back({RemarkKind::profile_doubtful, 0, doubt->second});
+    const auto [doubts, fresh] = known.try_emplace({natural, input->track.gauge_based, cant});
+    if (fresh && !natural->spec.doubts.empty()) doubts->second = import_doubts(source, body);
+    const io::GeometryFile* file_of = slices_file(source);
+    const auto* slices = std::get_if<SliceSet>(&natural->spec.shape);
+    if (fresh && file_of != nullptr && slices != nullptr)
+      if (std::string doubt =
+              doubt_of_slices(*slices, file_of->file.string(), body, {{}, {}, input->track.gauge_based, cant});
+          !doubt.empty())
+        doubts->second.push_back(std::move(doubt));
+    for (const std::string& doubt : doubts->second) result.remarks.push_back({RemarkKind::profile_doubtful, 0, doubt});
   }
   for (const ProfileUse& use : uses_of(given))
     for (const auto& [same, profile] : profiles) {

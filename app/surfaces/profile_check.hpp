@@ -52,7 +52,15 @@ std::optional<io::ProfileRemark> remark_on_slices(const SliceSet& slices, Body b
 std::string doubt_of_slices(const SliceSet& slices, const std::string& file, Body body,
                             const io::ExpectedProfile& expected);
 
-/// The doubts about the profile files or slices behind a wheel or rail. Errors as read_profile and read_slices.
+/// What imports of scans doubted of the files that a wheel or rail, or its parts, are made from, in words, each once.
+/// Errors: those of files of offsets.
+std::vector<std::string> import_doubts(const io::SurfaceSource& source, Body body);
+std::vector<std::string> import_doubts(const std::filesystem::path& file, Body body);
+/// Of all wheels and rails of the cases.
+std::vector<std::string> import_doubts(const io::CaseFile& file);
+
+/// The doubts about the files of profiles, slices or imported scans behind a wheel or rail. Errors as read_profile and
+/// read_slices, and as above.
 std::vector<std::string> source_doubts(const io::SurfaceSource& source, Body body, const io::ExpectedProfile& expected);
 
 /// One use of a file: the same file may be turned or scaled otherwise elsewhere.
@@ -72,14 +80,14 @@ ProfilesOfRun check_profiles_of_run(const io::CaseFile& file);
 /// Their doubts and notes as notes of a run.
 std::vector<std::string> profile_doubts(const ProfilesOfRun& profiles);
 
-/// What slices are doubted for, by surface, whether the track has a gauge, and cant; empty: nothing.
-using SliceDoubts =
-    std::map<std::tuple<std::shared_ptr<const NaturalSurface>, bool, std::optional<double>>, std::string>;
+/// What slices and imported scans are doubted for, by surface, whether the track has a gauge, and cant.
+using SurfaceDoubts =
+    std::map<std::tuple<std::shared_ptr<const NaturalSurface>, bool, std::optional<double>>, std::vector<std::string>>;
 
-/// The doubts of check_profiles as remarks on the result of a case; those that a contact has remarks of its own for are
-/// left to it.
+/// The doubts of check_profiles and import_doubts as remarks on the result of a case; those that a contact has remarks
+/// of its own for are left to it.
 /// store: of the surfaces of the run; slices are judged by one in their middle. known: what was found before.
-void add_profile_doubts(const io::Case& given, const ProfilesOfRun& profiles, SurfaceStore& store, SliceDoubts& known,
+void add_profile_doubts(const io::Case& given, const ProfilesOfRun& profiles, SurfaceStore& store, SurfaceDoubts& known,
                         io::CaseResult& result);
 
 }  // namespace treadmark::app

@@ -154,6 +154,7 @@ CheckedProfile described(const io::SurfaceSource& source, const NaturalSurface& 
         {"unit", fmt::format("{:.4g} mm across is no wheel or rail: is the file in mm? shape.scale_to_mm leads to it",
                              kMilli * size)});
   if (!natural.note.empty()) out.judgement.notes.push_back(natural.note);
+  for (const SurfaceDoubt& doubt : natural.spec.doubts) out.judgement.remarks.push_back({doubt.name, doubt.text});
   if (const auto* slices = std::get_if<SliceSet>(&natural.spec.shape)) {
     if (auto remark = remark_on_slices(*slices, natural.spec.body, {{}, {}, false, {}}))
       out.judgement.remarks.push_back(*std::move(remark));

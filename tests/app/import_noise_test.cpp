@@ -20,7 +20,9 @@
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/import/scan_surface.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/app/surfaces/surface_check.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -285,6 +287,78 @@ TEST_F(ImportedNoise, TreadsWithoutTheirFlangeAreDoubted) {
   }
 }
 
+/// What an import doubts is told by all that use the surface, whatever file it was written to or came through.
+TEST_F(ImportedNoise, DoubtsGoWithTheSurface) {
+  TREADMARK_NEEDS("embree");
+  // the top of a rail, without its sides
+  const NaturalSurface whole = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
+  std::vector<double> y, z;
+  for (double at = -26e-3; at < 26.1e-3; at += 0.2e-3) y.push_back(at);
+  z.resize(y.size());
+  HeightsOut out;
+  out.z = z;
+  section_heights(*whole.surface, Body::rail, 0.0, y, out);
+  std::string top;
+  for (std::size_t k = 0; k < y.size(); ++k) top += fmt::format("{:.9f}, {:.9f}\n", 1e3 * y[k], 1e3 * z[k]);
+  input.write("top.csv", top);
+  const auto text = [](const std::string& rail) {
+    return "[wheel]\nshape.standard = \"S1002\"\n[rail]\n" + rail +
+           "\n[track]\nrail_y_mm = 753\n[wheelset]\nvertical_force_N = 80e3\nvelocity_m_s = 20\nrolling = "
+           "\"nominal\"\n[discretisation]\ndx_mm = 2\nds_mm = 2\n";
+  };
+  input.write("truth.toml", text("shape.file = \"top.csv\"\nshape.smoothing = \"none\""));
+  ScanRequest scan;
+  scan.surface.body = Body::rail;
+  scan.scanner.points = 30000;
+  scan.scanner.noise = 20e-6;
+  scan.scanner.seed = 7;
+  scan.range_x = std::pair{-0.1, 0.1};
+  scan_surface(path("truth.toml"), path("cloud.ply"), scan);
+  std::vector<std::string> files{"found.slcs", "found.ply", "found.stl", "found.obj", "found.off"};
+  if (has_part("openvdb")) files.emplace_back("found.vdb");
+  ImportRequest request;
+  request.scans = {path("cloud.ply")};
+  for (const std::string& file : files) request.outputs.push_back(path(file));
+  request.settings.fit.errors = false;
+  const io::ImportReport report = import_scan(request);
+  const auto told = [](const std::string& words) { return words.find("no_sides: ") != std::string::npos; };
+  ASSERT_EQ(ranges::count_if(report.warnings, told), 1) << ::testing::PrintToString(report.warnings);
+
+  ConvertSettings how;
+  how.body = Body::rail;
+  how.resolution = 2e-3;
+  how.tolerance = 1e-3;
+  for (const std::string& file : files) {
+    SCOPED_TRACE(file);
+    // where contacts are solved
+    const io::CaseFile run = io::parse_case_text(text("shape.file = \"" + file + "\""), input.folder() / "case.toml");
+    const io::CaseResult result = run_cases(run).cases.at(0);
+    EXPECT_EQ(ranges::count_if(result.remarks,
+                               [&](const Remark& r) { return r.kind == RemarkKind::profile_doubtful && told(r.text); }),
+              1)
+        << result.message;
+    // simulations and comparisons
+    const auto& pair = std::get<io::WheelRailCase>(run.cases.front().content);
+    EXPECT_EQ(ranges::count_if(source_doubts(pair.rail, Body::rail, {}), told), 1);
+    EXPECT_EQ(ranges::count_if(import_doubts(run), told), 1);
+    // what `check` shows
+    const CheckedProfile checked = check_surface(path(file), Body::rail);
+    EXPECT_EQ(ranges::count(checked.judgement.remarks, "no_sides", &io::ProfileRemark::name), 1);
+    // and through any other file
+    for (const std::string& other : files) {
+      const auto again = path("again_" + other);
+      convert_surface(path(file), again, how);
+      EXPECT_EQ(ranges::count_if(import_doubts(again, Body::rail), told), 1) << other;
+    }
+  }
+  // a body of several parts has those of all of them
+  io::SurfaceSource doubted, clean, both;
+  doubted.geometry = io::GeometryFile{path("found.slcs"), {}};
+  clean.geometry = StandardProfile{"60E1"};
+  both.parts = {clean, doubted, doubted};
+  EXPECT_EQ(ranges::count(read_surface(both, Body::rail, 0.0).spec.doubts, "no_sides", &SurfaceDoubt::name), 1);
+}
+
 TEST_F(ImportedNoise, EveryFileKeepsItThatHasRoomForIt) {
   input.write("truth.toml", case_text("shape.standard = \"S1002\"", "shape.standard = \"60E1\"", "0"));
   const io::ImportReport report = import("truth.toml", Body::rail, 60000, 30e-6, "found.slcs");
@@ -329,6 +403,13 @@ TEST_F(ImportedNoise, EveryFileKeepsItThatHasRoomForIt) {
   } catch (const Error& error) {
     EXPECT_THAT(error.message(), HasSubstr("not those that this file was written with"));
   }
+  // what parts of a body know is not known of the whole, and that is said
+  io::SurfaceSource part, body;
+  part.geometry = io::GeometryFile{path("found.ply"), {}};
+  body.parts = {part, part};
+  const NaturalSurface joined = read_surface(body, Body::rail, 0.0);
+  EXPECT_EQ(joined.spec.errors, nullptr);
+  EXPECT_THAT(joined.note, HasSubstr("of 2 of its 2 parts is not counted"));
   // switched off there is none
   io::ImportSettings off;
   off.fit.errors = false;
