@@ -111,9 +111,8 @@ void doubt_place(PlacedScan& scan, io::ImportReport& report) {
   const scans::SectionMatch::Ways& ways = *placement.match->ways;
   if (ways.clear || !(ways.asymmetry > kSymmetric)) return;
   const std::string unclear = fmt::format(
-      "which side of the rail is its gauge side is not clear: its points lie {:.3f} mm from {} on average, turned "
-      "round "
-      "{:.3f} mm; its sides differ by {:.2f} mm",
+      "which side of the rail is its gauge side is not clear: its points lie {:.3f} mm from {} on average, "
+      "turned round {:.3f} mm; its sides differ by {:.2f} mm",
       kMilli * ways.here, report.nominal, kMilli * ways.turned, kMilli * ways.asymmetry);
   report.warnings.push_back(unclear +
                             ". x of the rail was taken to run as the axis of the scan does that is nearest; say "
