@@ -30,8 +30,7 @@ io::KeyTable<TableRequest> list_table_keys() {
   keys.integer("roll_intervals", 0, 64, "Between them; 0: to first order about an upright wheel, up to 200 mrad",
                angles(&A::roll, &T::intervals));
   keys.number("yaw_mrad", {{}, 0.01, 200.0}, "Yaws of the wheelset, to both sides", angles(&A::yaw, &T::most));
-  keys.integer("yaw_intervals", 0, 64,
-               "Between none and the greatest; 0: yaw, up to 200 mrad, does not count in heights",
+  keys.integer("yaw_intervals", 0, 64, "Between none and the greatest; 0: up to 200 mrad, without a part in heights",
                angles(&A::yaw, &T::intervals));
   keys.choice("creep_forces", {{"exact_table", true}, {"linear", false}},
               "exact_table: of the exact theory over ellipses; linear: Kalker's coefficients with saturation",
