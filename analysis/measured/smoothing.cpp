@@ -39,6 +39,22 @@ constexpr int kErrorDraws = 16;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// The sum of the logarithms of positive numbers.
+class LogSum {
+ public:
+  void add(double x) {
+    constexpr double kFar = 1e100;
+    product_ *= x;
+    if (product_ > 1.0 / kFar && product_ < kFar) return;
+    sum_ += std::log(product_);
+    product_ = 1.0;
+  }
+  double value() const { return sum_ + std::log(product_); }
+
+ private:
+  double sum_ = 0.0, product_ = 1.0;
+};
+
 /// Symmetric matrix of half bandwidth 3, rows from the diagonal to the left; factorised into L D L'.
 class Band {
  public:
@@ -49,20 +65,20 @@ class Band {
   const std::vector<Row>& rows() const { return rows_; }
 
   bool factor() {
-    log_determinant_ = 0.0;
-    for (int i = 0; i < size(); ++i)
-      for (int left = std::min(3, i); left >= 0; --left) {
-        const int j = i - left;
-        double sum = get(i, left);
-        for (int m = std::max(0, i - 3); m < j; ++m) sum -= get(i, i - m) * get(m, 0) * get(j, j - m);
-        if (left > 0) {
-          entry(i, left) = sum / get(j, 0);
-        } else {
-          if (!(sum > 0.0)) return false;
-          entry(i, 0) = sum;
-          log_determinant_ += std::log(sum);
-        }
-      }
+    LogSum logs;
+    Row one{1.0, 0.0, 0.0, 0.0}, two = one, three = one;  // the rows above; there is nothing to the left of the first
+    for (Row& row : rows_) {
+      row[3] /= three[0];
+      const double third = row[3] * three[0];
+      row[2] = (row[2] - third * two[1]) / two[0];
+      const double second = row[2] * two[0];
+      row[1] = (row[1] - third * one[2] - second * one[1]) / one[0];
+      row[0] = row[0] - third * row[3] - second * row[2] - row[1] * one[0] * row[1];
+      if (!(row[0] > 0.0)) return false;
+      logs.add(row[0]);
+      three = two, two = one, one = row;
+    }
+    log_determinant_ = logs.value();
     return true;
   }
   double log_determinant() const { return log_determinant_; }
@@ -87,16 +103,16 @@ class Band {
   /// The same of an x that is 0 but for few numbers from one on. What is far from them adds nothing.
   double inverse_square_of_few(std::size_t from, std::span<const double> few) const {
     constexpr double kNothing = 1e-14;
-    std::array<double, 3> before{};  // solutions of the rows above, nearest first
+    double one = 0.0, two = 0.0, three = 0.0;  // solutions of the rows above
     double sum = 0.0;
-    for (int i = static_cast<int>(from), none = 0; i < size() && none < 3; ++i) {
-      const std::size_t k = at(i) - from;
-      double x = k < few.size() ? few[k] : 0.0;
-      for (int left = 1; left <= std::min(3, i); ++left) x -= get(i, left) * before[at(left - 1)];
-      before = {x, before[0], before[1]};
-      const double more = x * x / get(i, 0);
+    for (std::size_t i = from, none = 0; i < rows_.size() && none < 3; ++i) {
+      const Row& row = rows_[i];
+      const bool given = i - from < few.size();
+      const double x = (given ? few[i - from] : 0.0) - row[1] * one - row[2] * two - row[3] * three;
+      three = two, two = one, one = x;
+      const double more = x * x / row[0];
       sum += more;
-      none = k >= few.size() && more < kNothing * sum ? none + 1 : 0;
+      none = !given && more < kNothing * sum ? none + 1 : 0;
     }
     return sum;
   }
@@ -104,12 +120,22 @@ class Band {
  private:
   double get(int i, int left) const { return rows_[at(i)][at(left)]; }
   void lower(Values& x) const {
-    for (int i = 0; i < size(); ++i)
-      for (int k = 1; k <= std::min(3, i); ++k) x[at(i)] -= get(i, k) * x[at(i - k)];
+    double one = 0.0, two = 0.0, three = 0.0;  // solutions of the rows above
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Row& row = rows_[i];
+      x[i] = x[i] - row[1] * one - row[2] * two - row[3] * three;
+      three = two, two = one, one = x[i];
+    }
   }
   void upper(Values& x) const {
-    for (int i = size() - 1; i >= 0; --i)
-      for (int k = 1; k <= 3 && i + k < size(); ++k) x[at(i)] -= get(i + k, k) * x[at(i + k)];
+    constexpr Row kNone{};
+    const Row *a = &kNone, *b = a, *c = a;  // the rows below
+    double one = 0.0, two = 0.0, three = 0.0;
+    for (std::size_t i = x.size(); i-- > 0;) {
+      x[i] = x[i] - (*a)[1] * one - (*b)[2] * two - (*c)[3] * three;
+      three = two, two = one, one = x[i];
+      c = b, b = a, a = &rows_[i];
+    }
   }
   std::vector<Row> rows_;
   double log_determinant_ = 0.0;
@@ -142,31 +168,40 @@ struct Knots {
       out = {u / (step * step), (3.0 * t - 2.0) / (step * step), (1.0 - 3.0 * t) / (step * step), t / (step * step)};
     return cell;
   }
+  static double sum_of(const Row& b, int cell, const Values& c) {
+    const double* const of = c.data() + cell;
+    return b[0] * of[0] + b[1] * of[1] + b[2] * of[2] + b[3] * of[3];
+  }
   double value(const Values& c, double s, int derivative = 0) const {
     Row b;
     const int cell = basis(s, derivative, b);
-    double sum = 0.0;
-    for (int a = 0; a < 4; ++a) sum += b[at(a)] * c[at(cell + a)];
-    return sum;
+    return sum_of(b, cell, c);
   }
 };
 
+/// The B-splines at places that are asked for again and again.
+struct Bases {
+  std::vector<int> cells;
+  std::vector<Row> rows;
+
+  Bases(const Knots& knots, const Values& s) : cells(s.size()), rows(s.size()) {
+    for (std::size_t i = 0; i < s.size(); ++i) cells[i] = knots.basis(s[i], 0, rows[i]);
+  }
+  double value(const Values& c, std::size_t i) const { return Knots::sum_of(rows[i], cells[i], c); }
+};
+
 /// Adds weights times products of B-splines, and with them times the data.
-void add_products(const Knots& knots, const Values& s, const Values& weights, Band& matrix) {
-  Row b;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const int cell = knots.basis(s[i], 0, b);
+void add_products(const Bases& bases, const Values& weights, Band& matrix) {
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const Row& b = bases.rows[i];
     for (int p = 0; p < 4; ++p)
-      for (int q = 0; q <= p; ++q) matrix.entry(cell + p, p - q) += weights[i] * b[at(p)] * b[at(q)];
+      for (int q = 0; q <= p; ++q) matrix.entry(bases.cells[i] + p, p - q) += weights[i] * b[at(p)] * b[at(q)];
   }
 }
-Values products_with(const Knots& knots, const Values& s, const Values& data) {
+Values products_with(const Knots& knots, const Bases& bases, const Values& data) {
   Values out(at(knots.size()), 0.0);
-  Row b;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const int cell = knots.basis(s[i], 0, b);
-    for (int p = 0; p < 4; ++p) out[at(cell + p)] += b[at(p)] * data[i];
-  }
+  for (std::size_t i = 0; i < data.size(); ++i)
+    for (std::size_t p = 0; p < 4; ++p) out[at(bases.cells[i]) + p] += bases.rows[i][p] * data[i];
   return out;
 }
 
@@ -175,10 +210,15 @@ double third_difference(const Values& c, int cell) {
 }
 /// Adds penalties on squares of third differences, one a cell.
 void add_penalty(const Values& penalty, Band& matrix) {
-  constexpr double kDifference[] = {-1.0, 3.0, -3.0, 1.0};
-  for (int k = 0; k < static_cast<int>(penalty.size()); ++k)
-    for (int p = 0; p < 4; ++p)
-      for (int q = 0; q <= p; ++q) matrix.entry(k + p, p - q) += penalty[at(k)] * kDifference[p] * kDifference[q];
+  double one = 0.0, two = 0.0, three = 0.0;  // of the cells before
+  for (int i = 0; i < matrix.size(); ++i) {
+    const double own = at(i) < penalty.size() ? penalty[at(i)] : 0.0;
+    matrix.entry(i, 0) = matrix.entry(i, 0) + three + 3.0 * (3.0 * two) + 3.0 * (3.0 * one) + own;
+    matrix.entry(i, 1) = matrix.entry(i, 1) - 3.0 * three - 3.0 * (3.0 * two) - 3.0 * one;
+    matrix.entry(i, 2) = matrix.entry(i, 2) + 3.0 * three + 3.0 * two;
+    matrix.entry(i, 3) -= three;
+    three = two, two = one, one = own;
+  }
 }
 
 /// A curve with its arc length as the parameter, nearly.
@@ -188,16 +228,21 @@ struct Curve {
 
   double at_y(double s, int derivative = 0) const { return knots.value(y, s, derivative); }
   double at_z(double s, int derivative = 0) const { return knots.value(z, s, derivative); }
-  double speed(double s) const { return std::hypot(at_y(s, 1), at_z(s, 1)); }
+  double speed(double s) const {
+    Row b;
+    const int cell = knots.basis(s, 1, b);
+    return std::hypot(Knots::sum_of(b, cell, y), Knots::sum_of(b, cell, z));
+  }
   double angle(double s) const { return std::atan2(at_z(s, 1), at_y(s, 1)); }
 };
 
 /// Through the points, with one penalty everywhere.
 Curve even_curve(const Knots& knots, const Values& s, const Values& y, const Values& z, double penalty) {
+  const Bases bases(knots, s);
   Band matrix(knots.size());
-  add_products(knots, s, Values(s.size(), 1.0), matrix);
+  add_products(bases, Values(s.size(), 1.0), matrix);
   add_penalty(Values(at(knots.cells), penalty), matrix);
-  Curve curve{knots, products_with(knots, s, y), products_with(knots, s, z)};
+  Curve curve{knots, products_with(knots, bases, y), products_with(knots, bases, z)};
   if (!matrix.factor()) return {knots, {}, {}};
   matrix.solve(curve.y);
   matrix.solve(curve.z);
@@ -393,9 +438,11 @@ class Problem {
       : line_(line),
         restless_(std::move(restless)),
         third_differences_(std::move(third_differences)),
+        step5_(std::pow(line.knots.step, 5)),
+        bases_(line.knots, line.s),
         products_(line.knots.size()),
-        right_(products_with(line.knots, line.s, weighted(line))) {
-    add_products(line.knots, line.s, line.weight, products_);
+        right_(products_with(line.knots, bases_, weighted(line))) {
+    add_products(bases_, line.weight, products_);
   }
 
   /// White noise of unknown variance.
@@ -408,7 +455,7 @@ class Problem {
     matrix.solve(fit.heights);
     double sum = penalty_of(fit.heights);
     for (std::size_t i = 0; i < line_.s.size(); ++i) {
-      const double rest = line_.height[i] - line_.knots.value(fit.heights, line_.s[i]);
+      const double rest = line_.height[i] - bases_.value(fit.heights, i);
       sum += line_.weight[i] * rest * rest;
     }
     const auto free = static_cast<double>(line_.s.size() - 3);
@@ -431,7 +478,7 @@ class Problem {
     const auto value_of = [&](const Values& c) {
       double sum = penalty_of(c);
       for (std::size_t i = 0; i < n; ++i) {
-        const double rest = line_.height[i] - line_.knots.value(c, line_.s[i]), half = line_.half_step[i];
+        const double rest = line_.height[i] - bases_.value(c, i), half = line_.half_step[i];
         sum -= 2.0 * log_normal_share((rest - half) / noise, (rest + half) / noise, slope[i], bend[i]);
       }
       return sum;
@@ -442,12 +489,12 @@ class Problem {
       Values weights(n), data(n);
       for (std::size_t i = 0; i < n; ++i) {
         weights[i] = bend[i] / (noise * noise);
-        data[i] = weights[i] * line_.knots.value(now, line_.s[i]) + slope[i] / noise;
+        data[i] = weights[i] * bases_.value(now, i) + slope[i] / noise;
       }
-      add_products(line_.knots, line_.s, weights, matrix);
+      add_products(bases_, weights, matrix);
       add_penalty(penalties_, matrix);
       if (!matrix.factor()) return fit;
-      Values next = products_with(line_.knots, line_.s, data);
+      Values next = products_with(line_.knots, bases_, data);
       matrix.solve(next);
       double next_value = value_of(next);
       for (int half = 0; half < 8 && next_value > value; ++half) {
@@ -507,13 +554,14 @@ class Problem {
     Fit fit;
     fit.penalty = std::exp(log_factor);
     penalties_.clear();
-    log_penalties_ = 0.0;
+    LogSum logs;
     for (std::size_t k = 0; k < restless_.size(); ++k) {
-      penalties_.push_back(fit.penalty / (restless_[k] * std::pow(line_.knots.step, 5)));
+      penalties_.push_back(fit.penalty / (restless_[k] * step5_));
       if (const double known = third_differences_[k]; known > 0.0)
         penalties_.back() = std::min(penalties_.back(), std::pow(noise / known, 2));
-      log_penalties_ += std::log(penalties_.back());
+      logs.add(penalties_.back());
     }
+    log_penalties_ = logs.value();
     return fit;
   }
   double penalty_of(const Values& c) const {
@@ -524,6 +572,8 @@ class Problem {
 
   const Straightened& line_;
   Values restless_, third_differences_;
+  double step5_;  ///< fifth power of the knots' step
+  Bases bases_;
   Band products_;
   Values right_;
   mutable Values penalties_;
