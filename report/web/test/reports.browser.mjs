@@ -113,10 +113,17 @@ class Tab {
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-/** What axe finds serious in a page as it is. */
+/** What axe finds serious in a page as it is, its menu of printing open with a complaint. */
 async function barriers(page) {
+  const steps = page.locator(STEPS_ON_PAPER);
+  const some = await steps.count();
+  const menu = page.locator(".print-menu summary");
+  if (await menu.count()) await menu.click();
+  if (some) await steps.fill("0");
+  await page.waitForTimeout(300);  // colours change gradually
   await page.evaluate(axe);
   const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  if (some) await steps.fill("");
   return violations
     .filter(({ impact }) => ["serious", "critical"].includes(impact))
     .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(" ")).slice(0, 3).join("; ")}`);
@@ -158,45 +165,54 @@ async function showTheme(page, theme) {
   );
 }
 
-/** Every view of a page drawn at both widths, in both themes, and on A4: no text is cut off, nothing sticks out at the side. `steps`: what the reader chooses for paper. */
+/** No text of the page as it is is cut off, no chart empty, no word on another. */
+async function unspoilt(page, name, size) {
+  assert.deepEqual(await page.evaluate(clipped, size === "paper"), [], `cut off in ${name}, ${size}`);
+  assert.deepEqual(await page.evaluate(flaws, size === "desktop"), [], `flaws of ${name}, ${size}`);
+  await screenshot(page, `${name}-${size}-whole`, { fullPage: true });
+}
+
+/** The same on A4, after it was read on a screen. `steps`: what the reader chooses for paper in the menu, which is open. */
+async function readOnPaper(page, name, steps) {
+  if (steps) {
+    await page.locator(STEPS_ON_PAPER).fill(steps);
+    assert.equal(await page.locator(".print-note").textContent(), "");
+  }
+  // Other pages would only try the browser.
+  if (steps || process.env.PICTURES) await page.pdf({ path: join(pictures, `${name}.pdf`), format: "A4", preferCSSPageSize: true });
+  // What is printed has gone again; for measuring it is made anew, as wide as A4 between its margins.
+  await page.setViewportSize({ width: Math.floor(((210 - 2 * 14) / 25.4) * 96), height: 1016 });
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+  // What paper may not break through is no higher than a page.
+  const high = await page.evaluate(() =>
+    [...document.querySelectorAll("figure.view:not(.on-paper, .long, [data-view='contact']), figure.view svg, figure:not([data-view='contact']) .paper-step, .contact-side, .contact-values")]
+      .filter((one) => one.getBoundingClientRect().height > ((297 - 2 * 14) / 25.4) * 96)
+      .map((one) => `${one.closest("figure").id} ${one.className.baseVal ?? one.className}`),
+  );
+  assert.deepEqual(high, [], `higher than a page in ${name}`);
+  await unspoilt(page, name, "paper");
+  await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+}
+
+/**
+ * Every view of a page drawn at both widths, in both themes, and on A4: no text is cut off, nothing sticks out at the side, nothing stands in the
+ * way of readers who use other means.
+ */
 async function readWhole(file, name, steps = "") {
-  for (const size of [...Object.keys(sizes), "paper"]) {
-    const paper = size === "paper";
-    const tab = await Tab.open(file, { size: paper ? "desktop" : size });
+  for (const [size, themes] of [["phone", ["light", "dark"]], ["desktop", ["dark", "light"]]]) {
+    const tab = await Tab.open(file, { size });
     const { page } = tab;
     for (const view of await page.locator("figure.view").all()) {
       await view.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
-      await page.waitForTimeout(paper ? 0 : 250);
+      await page.waitForTimeout(250);
     }
-    if (!paper) {
-      const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
-      assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
-      for (const theme of ["dark", "light"]) await showTheme(page, theme);
-    }
-    if (paper) {
-      if (steps) {
-        await page.locator(".print-menu summary").click();
-        await page.locator(STEPS_ON_PAPER).fill(steps);
-        assert.equal(await page.locator(".print-note").textContent(), "");
-      }
-      await page.pdf({ path: join(pictures, `${name}.pdf`), format: "A4", preferCSSPageSize: true });
-      // What is printed has gone again; for measuring it is made anew, as wide as A4 between its margins.
-      await page.setViewportSize({ width: Math.floor(((210 - 2 * 14) / 25.4) * 96), height: 1016 });
-      await page.emulateMedia({ media: "print" });
-      await page.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
-    }
-    if (paper) {
-      // What paper may not break through is no higher than a page.
-      const high = await page.evaluate(() =>
-        [...document.querySelectorAll("figure.view:not(.on-paper, .long, [data-view='contact']), figure.view svg, figure:not([data-view='contact']) .paper-step, .contact-side, .contact-values")]
-          .filter((one) => one.getBoundingClientRect().height > ((297 - 2 * 14) / 25.4) * 96)
-          .map((one) => `${one.closest("figure").id} ${one.className.baseVal ?? one.className}`),
-      );
-      assert.deepEqual(high, [], `higher than a page in ${name}`);
-    }
-    assert.deepEqual(await page.evaluate(clipped, paper), [], `cut off in ${name}, ${size}`);
-    assert.deepEqual(await page.evaluate(flaws, size === "desktop"), [], `flaws of ${name}, ${size}`);
-    await screenshot(page, `${name}-${size}-whole`, { fullPage: true });
+    const [wide, window] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+    assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
+    for (const theme of themes) await showTheme(page, theme);
+    await unspoilt(page, name, size);
+    assert.deepEqual(await barriers(page), [], `${name}, ${size}`);
+    if (size === "desktop") await readOnPaper(page, name, steps);
     await tab.close();
   }
 }
@@ -413,9 +429,8 @@ test("26 positions open and follow the slider without delay", async () => {
       const scene = document.querySelector("#scene");
       const times = [];
       const before = Number(scene.dataset.pictures);
-      const from = performance.now();
-      for (let k = 0; performance.now() - from < 2000; ++k) {
-        slider.value = String(k % 26);
+      for (let k = 0; k < 26; ++k) {
+        slider.value = String(k);
         slider.dispatchEvent(new Event("input", { bubbles: true }));
         await new Promise(requestAnimationFrame);
         times.push(performance.now());
@@ -768,35 +783,10 @@ test("fixed pictures need no scripts", async () => {
   await tab.close();
 });
 
-test("nothing stands in the way of readers who use other means, in both themes", async () => {
-  for (const file of ["run.html", "compare.html", "simulation.html", "sweep.html", "overlay.html", "overlay-simulations.html", join("import", "report.html")])
-    for (const theme of ["light", "dark"]) {
-      const tab = await Tab.open(file, { theme, size: theme === "dark" ? "phone" : "desktop" });
-      const { page } = tab;
-      for (const view of await page.locator("figure.view").all()) await view.evaluate((element) => element.scrollIntoView({ block: "center", behavior: "instant" }));
-      const menu = page.locator(".print-menu summary");
-      if (await menu.count()) {
-        await menu.click();
-        const steps = page.locator(STEPS_ON_PAPER);
-        if (await steps.count()) await steps.fill("0");  // with its complaint
-      }
-      await page.waitForTimeout(300);
-      assert.deepEqual(await barriers(page), [], `${file}, ${theme}`);
-      await tab.close();
-    }
-});
-
 test("geometry, measures, checks and assessments are read whole by everybody", async () => {
   for (const name of results.small()) {
-    const file = `${name}.html`;
-    await photograph(file, name);
-    await readWhole(file, name);
-    for (const theme of ["light", "dark"]) {
-      const tab = await Tab.open(file, { theme });
-      await tab.page.waitForTimeout(300);
-      assert.deepEqual(await barriers(tab.page), [], `${file}, ${theme}`);
-      await tab.close();
-    }
+    await photograph(`${name}.html`, name);
+    await readWhole(`${name}.html`, name);
   }
 });
 
@@ -811,20 +801,8 @@ test("a report is printed into any folder", () => {
   assert.deepEqual(readdirSync(strange), ["wheelset.pdf"]);
 });
 
-test("every page stays below 8 MB; how fast they open is told", async () => {
+test("every page stays below 8 MB", () => {
   const files = [...readdirSync(folder).filter((name) => name.endsWith(".html")), join("import", "report.html")];
   assert.ok(files.length >= 9, files.join(", "));
-  const told = [];
-  for (const file of files) {
-    const { size } = statSync(join(folder, file));
-    assert.ok(size < 8e6, `${file} has ${size} bytes`);
-    const tab = await Tab.open(file);
-    const opened = await tab.page.evaluate(() => {
-      const [entry] = performance.getEntriesByType("navigation");
-      return entry.loadEventEnd - entry.startTime;
-    });
-    told.push(`${file} ${(size / 1e6).toFixed(2)} MB, ${opened.toFixed(0)} ms`);
-    await tab.context.close();
-  }
-  console.log(told.join("\n"));  // times decide no test: machines are busy
+  for (const file of files) assert.ok(statSync(join(folder, file)).size < 8e6, file);
 });
