@@ -103,16 +103,12 @@ Command add_assess(CLI::App& verb) {
   add_values(verb, "--laws", options->laws, "Named laws of wear and fatigue that are asked of the wheels (list laws)",
              "LAW,...");
   add_values(verb, "--channels", options->channels, "Channels that are drawn over the distance", "CHANNEL,...");
-  verb.add_option("--csv", options->csv_file, "Write the table here; - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("--json", options->json_file, "Write all numbers here; - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("-o,--output", options->folder,
-                  "Folder for assessment.csv, assessment.json, spectra.csv, runs.csv and pictures (SVG)")
-      ->check(is_output())
-      ->type_name("FOLDER");
+  add_output(verb, "--csv", options->csv_file, "Write the table here; - for standard output instead of the text",
+             "FILE");
+  add_output(verb, "--json", options->json_file, "Write all numbers here; - for standard output instead of the text",
+             "FILE");
+  add_output(verb, "-o,--output", options->folder,
+             "Folder for assessment.csv, assessment.json, spectra.csv, runs.csv and pictures (SVG)", "FOLDER");
   add_report_file(verb, options->report_file);
   return command(options, assess_command);
 }

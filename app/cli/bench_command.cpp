@@ -85,13 +85,10 @@ Command add_bench(CLI::App& verb) {
   verb.add_option("--seconds-per-measure", options->seconds_per_measure,
                   "Each time is the median of repeats over so long [s]")
       ->type_name("S");
-  verb.add_option("-o,--output", options->output_folder, "Folder for bench.json, bench.csv and a picture (SVG)")
-      ->check(is_output())
-      ->type_name("FOLDER");
-  CLI::Option* bench_json =
-      verb.add_option("--json", options->json_file, "Write the rows here; - for standard output instead of the table")
-          ->check(is_output())
-          ->type_name("FILE");
+  add_output(verb, "-o,--output", options->output_folder, "Folder for bench.json, bench.csv and a picture (SVG)",
+             "FOLDER");
+  CLI::Option* bench_json = add_output(verb, "--json", options->json_file,
+                                       "Write the rows here; - for standard output instead of the table", "FILE");
   verb.add_flag("--markdown", options->markdown, "Print the table in Markdown")->excludes(bench_json);
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides);

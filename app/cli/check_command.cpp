@@ -173,11 +173,10 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
 Command add_check(CLI::App& verb) {
   auto options = std::make_shared<CheckOptions>();
   add_case_files(verb, options->cases, options->overrides);
-  verb.add_option("-o,--output", options->output_folder,
-                  "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg; of "
-                  "several case files for one with the name of each")
-      ->check(is_output())
-      ->type_name("FOLDER");
+  add_output(verb, "-o,--output", options->output_folder,
+             "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg; of "
+             "several case files for one with the name of each",
+             "FOLDER");
   add_report_file(verb, options->report_file);
   verb.add_option("--body", options->body, "Of profiles: wheel or rail, where the file does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));

@@ -51,9 +51,8 @@ void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const ch
 }
 
 void add_report_file(CLI::App& verb, std::string& file) {
-  verb.add_option("--report", file, "Write a report here that opens in any browser, offline; .pdf: as it is printed")
-      ->check(is_output())
-      ->type_name("FILE.html")
+  add_output(verb, "--report", file, "Write a report here that opens in any browser, offline; .pdf: as it is printed",
+             "FILE.html")
       ->each([](const std::string& name) {
         require_part("report", "--report");
         check_page_name(name);

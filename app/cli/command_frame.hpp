@@ -79,6 +79,11 @@ void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector
 void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const char* example = "wheelset.y_mm=3");
 /// Marks an option that names what is written. told: the verb itself says so on standard output.
 CLI::Validator is_output(bool told = false);
+/// An option that names what is written.
+template <class Value>
+CLI::Option* add_output(CLI::App& verb, const char* name, Value& value, const std::string& text, const char* type) {
+  return verb.add_option(name, value, text)->check(is_output())->type_name(type);
+}
 /// The words that options of a verb were given: names of outputs, those of them that the verb does not tell, and
 /// others, files that are read among them.
 struct NamedFiles {

@@ -125,13 +125,10 @@ Command add_compare(CLI::App& verb) {
       ->excludes(bodies)
       ->excludes("--wheel-backends")
       ->excludes("--rail-backends");
-  verb.add_option("-o,--output", options->output_folder,
-                  "Folder for compare.json, compare.csv, table.txt and pictures (SVG)")
-      ->check(is_output())
-      ->type_name("FOLDER");
-  verb.add_option("--json", options->json_file, "Write the rows here; - for standard output instead of the table")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "-o,--output", options->output_folder,
+             "Folder for compare.json, compare.csv, table.txt and pictures (SVG)", "FOLDER");
+  add_output(verb, "--json", options->json_file, "Write the rows here; - for standard output instead of the table",
+             "FILE");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides);
   return command(options, compare_command);

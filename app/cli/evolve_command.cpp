@@ -53,16 +53,12 @@ int evolve_command(const EvolveOptions& options, const CommonOptions& common) {
 Command add_evolve(CLI::App& verb) {
   auto options = std::make_shared<EvolveOptions>();
   verb.add_option("FILE", options->file, "Evolution file (.toml)")->required();
-  verb.add_option("-o,--output", options->output_folder, "Folder for generations, surfaces and tables")
-      ->check(is_output())
-      ->type_name("FOLDER")
+  add_output(verb, "-o,--output", options->output_folder, "Folder for generations, surfaces and tables", "FOLDER")
       ->required();
   verb.add_flag("--resume", options->resume,
                 "Go on with an evolution that was stopped; there must be one in the folder");
   verb.add_flag("--vtk", options->vtk, "Write the surfaces of all generations for ParaView too: FOLDER/vtk");
-  verb.add_option("--json", options->json_file, "Write the results here as JSON; - for standard output")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "--json", options->json_file, "Write the results here as JSON; - for standard output", "FILE");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides, "evolve.max_depth_mm=0.1");
   return command(options, evolve_command);

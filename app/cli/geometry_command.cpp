@@ -80,17 +80,13 @@ Command add_geometry(CLI::App& verb) {
                   "Many pairs: a table whose first line names its columns (name, wheel, rail, wheel_left, "
                   "rail_left, diameter_mm, gauge_mm, cant ...); the options hold where cells are empty")
       ->type_name("LIST.csv");
-  verb.add_option("--json", options->json_file, "Write the results here; - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("--csv", options->csv_file,
-                  "Write the contact over the shift here as a table, with --pairs one row a pair")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "--json", options->json_file, "Write the results here; - for standard output instead of the text",
+             "FILE");
+  add_output(verb, "--csv", options->csv_file,
+             "Write the contact over the shift here as a table, with --pairs one row a pair", "FILE");
   add_hdf5_file(verb, options->hdf5_file);
-  verb.add_option("-o,--output", options->folder, "Folder for geometry.json, functions.csv, conicity.csv and pictures")
-      ->check(is_output())
-      ->type_name("FOLDER");
+  add_output(verb, "-o,--output", options->folder, "Folder for geometry.json, functions.csv, conicity.csv and pictures",
+             "FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->given.overrides);
   return command(options, geometry_command);

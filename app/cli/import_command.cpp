@@ -79,20 +79,15 @@ Command add_import(CLI::App& verb) {
   verb.add_option("SCAN", options->scans,
                   "Points (" + io::scan_extensions() +
                       "), several files = several passes; or a gridded map of deviations (.csv .asc)");
-  verb.add_option(
-          "-o,--output", options->outputs,
-          "Surface file: .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset); may be given several times")
-      ->check(is_output())
-      ->allow_extra_args(false)
-      ->type_name("FILE");
-  verb.add_option("--report", options->report_folder,
-                  "Folder for the audit: report.json, summary.txt, settings.toml and pictures (SVG)")
-      ->check(is_output())
-      ->type_name("FOLDER");
-  verb.add_option("--json", options->json_file,
-                  "Write the audit here (JSON); - for standard output instead of the summary")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(
+      verb, "-o,--output", options->outputs,
+      "Surface file: .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset); may be given several times",
+      "FILE")
+      ->allow_extra_args(false);
+  add_output(verb, "--report", options->report_folder,
+             "Folder for the audit: report.json, summary.txt, settings.toml and pictures (SVG)", "FOLDER");
+  add_output(verb, "--json", options->json_file,
+             "Write the audit here (JSON); - for standard output instead of the summary", "FILE");
   verb.add_option("--settings", options->settings_file, "TOML file of settings (see --list-settings)")
       ->type_name("FILE");
   verb.add_option(

@@ -25,9 +25,7 @@ std::filesystem::path kept_rows(const ListFiles& files) {
 }  // namespace
 
 void add_hdf5_file(CLI::App& verb, std::string& file) {
-  verb.add_option("--hdf5", file, "Write the table here (HDF5), a dataset a column")
-      ->check(is_output())
-      ->type_name("FILE")
+  add_output(verb, "--hdf5", file, "Write the table here (HDF5), a dataset a column", "FILE")
       ->each([](const std::string&) { require_part("hdf5", "--hdf5"); });
 }
 

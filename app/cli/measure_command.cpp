@@ -72,12 +72,9 @@ Command add_measure(CLI::App& verb) {
       ->required()
       ->type_name(kProfileName);
   add_settings(verb, app::measure_keys().infos, options->given.settings);
-  verb.add_option("--json", options->json, "Write all of it here (JSON); - for standard output instead of the table")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("--csv", options->csv, "Write a row a file here (CSV); - for standard output")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "--json", options->json, "Write all of it here (JSON); - for standard output instead of the table",
+             "FILE");
+  add_output(verb, "--csv", options->csv, "Write a row a file here (CSV); - for standard output", "FILE");
   add_hdf5_file(verb, options->hdf5);
   add_report_file(verb, options->report);
   add_overrides(verb, options->given.overrides);

@@ -50,9 +50,7 @@ Command add_plot(CLI::App& verb) {
       ->required();
   verb.add_option("--what", options->what,
                   "pressure, traction, slip, gap, forces, section ...; without it: a list of what can be drawn");
-  verb.add_option("-o,--output", options->output_file, "The picture; - for standard output")
-      ->check(is_output())
-      ->type_name("FILE.svg");
+  add_output(verb, "-o,--output", options->output_file, "The picture; - for standard output", "FILE.svg");
   verb.add_option("--case", options->cases, "Numbers of the cases that are drawn, default all")
       ->delimiter(',')
       ->allow_extra_args(false)

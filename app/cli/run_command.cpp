@@ -215,14 +215,11 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
 Command add_run(CLI::App& verb) {
   auto options = std::make_shared<RunOptions>();
   add_case_files(verb, options->cases, options->overrides);
-  verb.add_option("-o,--output", options->output_folder,
-                  "Folder for result.json, fields.h5, ParaView files, pressure.svg; of lists for cases.csv, cases.h5")
-      ->check(is_output())
-      ->type_name("FOLDER");
-  verb.add_option("--json", options->json_file,
-                  "Write the result file here; - for standard output instead of the summary")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "-o,--output", options->output_folder,
+             "Folder for result.json, fields.h5, ParaView files, pressure.svg; of lists for cases.csv, cases.h5",
+             "FOLDER");
+  add_output(verb, "--json", options->json_file,
+             "Write the result file here; - for standard output instead of the summary", "FILE");
   verb.add_flag("--vtk", options->bodies, "Write wheel and rail of every case for ParaView too: FOLDER/vtk/bodies.pvd");
   add_values(verb, "--numbers", options->numbers,
              "Of lists: columns, by their names in results (pmax_MPa, patch_2.fn_N, ...)", "NAME,...");

@@ -97,14 +97,10 @@ Command add_scan(CLI::App& verb) {
   verb.add_option("SURFACE", options->surface,
                   "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")
       ->required();
-  verb.add_option("-o,--output", options->cloud, "File of points: " + io::written_scan_extensions())
-      ->check(is_output())
-      ->required()
-      ->type_name("FILE");
-  verb.add_option("--truth", options->truth_file,
-                  "Write what is known about the scan here (JSON); - for standard output instead of the summary")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "-o,--output", options->cloud, "File of points: " + io::written_scan_extensions(), "FILE")
+      ->required();
+  add_output(verb, "--truth", options->truth_file,
+             "Write what is known about the scan here (JSON); - for standard output instead of the summary", "FILE");
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
   CLI::Option* points =

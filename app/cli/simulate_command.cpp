@@ -188,13 +188,10 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
 Command add_simulate(CLI::App& verb) {
   auto options = std::make_shared<SimulateOptions>();
   verb.add_option("FILE", options->file, "Simulation file (.toml)")->required();
-  verb.add_option("-o,--output", options->output_folder,
-                  "Folder for simulation.h5, history.csv, events.csv, modes.csv and pictures (SVG)")
-      ->check(is_output())
-      ->type_name("FOLDER");
-  verb.add_option("--json", options->json_file, "Write the summary here; - for standard output instead of the table")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "-o,--output", options->output_folder,
+             "Folder for simulation.h5, history.csv, events.csv, modes.csv and pictures (SVG)", "FOLDER");
+  add_output(verb, "--json", options->json_file, "Write the summary here; - for standard output instead of the table",
+             "FILE");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail")->type_name(kBackendName);
   verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel")->type_name(kBackendName);
   verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail")->type_name(kBackendName);
@@ -205,10 +202,8 @@ Command add_simulate(CLI::App& verb) {
   verb.add_flag("--vtk", options->vtk,
                 "Write the contact at the snapshots, wheel and rail for ParaView too, over time: FOLDER/vtk");
   verb.add_flag("--modes", options->modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
-  verb.add_option("--receptance", options->track_folder,
-                  "Write the track dynamics (track.json, receptance.csv, track.svg) into this folder, and stop")
-      ->check(is_output())
-      ->type_name("FOLDER");
+  add_output(verb, "--receptance", options->track_folder,
+             "Write the track dynamics (track.json, receptance.csv, track.svg) into this folder, and stop", "FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides, "simulation.speed_m_s=20");
   return command(options, simulate_command);

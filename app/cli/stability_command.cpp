@@ -75,13 +75,10 @@ Command add_stability(CLI::App& verb) {
       ->check(CLI::Range(1e-3, 1e5))
       ->capture_default_str()
       ->type_name("HZ");
-  verb.add_option("--json", options->json_file, "Write the numbers here; - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("-o,--output", options->folder,
-                  "Folder for stability.json, eigenvalues.csv and stability.svg, with --falling histories too")
-      ->check(is_output())
-      ->type_name("FOLDER");
+  add_output(verb, "--json", options->json_file, "Write the numbers here; - for standard output instead of the text",
+             "FILE");
+  add_output(verb, "-o,--output", options->folder,
+             "Folder for stability.json, eigenvalues.csv and stability.svg, with --falling histories too", "FOLDER");
   app::FallingRequest& falling = options->falling;
   CLI::Option* const falls =
       verb.add_flag("--falling", options->falls,

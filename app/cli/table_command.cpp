@@ -52,14 +52,10 @@ Command add_table(CLI::App& verb) {
                   "Case file (.toml or .inp) of a round wheel on a prismatic rail, or a table (.h5 or .json)")
       ->required();
   add_settings(verb, app::table_keys().infos, options->given.settings);
-  verb.add_option("-o,--output", options->output,
-                  "Write the table here: .h5 or .json with all of it, or .csv with its nodes")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("--json", options->json_file,
-                  "Write what it covers and its errors here; - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "-o,--output", options->output,
+             "Write the table here: .h5 or .json with all of it, or .csv with its nodes", "FILE");
+  add_output(verb, "--json", options->json_file,
+             "Write what it covers and its errors here; - for standard output instead of the text", "FILE");
   add_overrides(verb, options->given.overrides);
   return command(options, table_command);
 }

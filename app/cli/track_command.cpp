@@ -56,10 +56,9 @@ int track_command(const TrackOptions& options, const CommonOptions&) {
 Command add_track(CLI::App& verb) {
   auto options = std::make_shared<TrackOptions>();
   verb.add_option("FILE", options->file, "Track file (.toml), flexible or lumped")->required();
-  verb.add_option("--receptance", options->csv_file,
-                  "Write magnitude and phase over the frequency here (CSV); - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
+  add_output(verb, "--receptance", options->csv_file,
+             "Write magnitude and phase over the frequency here (CSV); - for standard output instead of the text",
+             "FILE");
   verb.add_option("--fit", options->layers, "Fit a lumped track of so many masses at each rail to the receptance")
       ->check(CLI::Range(1, vehicle::kMostLumpedLayers))
       ->type_name("LAYERS");
@@ -79,13 +78,10 @@ Command add_track(CLI::App& verb) {
       ->check(CLI::Range(-100.0, 100.0))
       ->capture_default_str()
       ->type_name("MM");
-  verb.add_option("--json", options->json_file, "Write all numbers here; - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("-o,--output", options->folder,
-                  "Folder for track.json, receptance.csv, track.svg and the fitted track, fitted.toml")
-      ->check(is_output())
-      ->type_name("FOLDER");
+  add_output(verb, "--json", options->json_file, "Write all numbers here; - for standard output instead of the text",
+             "FILE");
+  add_output(verb, "-o,--output", options->folder,
+             "Folder for track.json, receptance.csv, track.svg and the fitted track, fitted.toml", "FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides, "scale_stiffness=2");
   return command(options, track_command);
