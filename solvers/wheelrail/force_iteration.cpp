@@ -259,10 +259,7 @@ class Iteration {
       tangential_done = false;
       z = balance.next();
     }
-    if (state == ForceBalance::State::no_balance && balance.nearer_side() != out_.z) {
-      step_.evaluate(out_.z = balance.nearer_side());
-      tangential_done = false;
-    }
+    if (state == ForceBalance::State::no_balance && to_nearer_side(balance)) tangential_done = false;
     if (inside_the_rail()) return false;
     if (!(tangential_done && exact) && !solve_tangential()) return false;
     if (state == ForceBalance::State::found) {
@@ -272,6 +269,13 @@ class Iteration {
     if (state == ForceBalance::State::no_balance) return no_balance(balance, target);
     not_reached();
     return false;
+  }
+
+  /// Whether the height had to be changed to the side of a jump whose force is nearer to the one prescribed.
+  bool to_nearer_side(const ForceBalance& balance) {
+    if (balance.nearer_side() == out_.z) return false;
+    step_.evaluate(out_.z = balance.nearer_side());
+    return true;
   }
 
   /// With tractions at every height: for forces that they turn so much that rounds go to and fro.
@@ -290,7 +294,10 @@ class Iteration {
       constexpr double kSmallJump = 1e-3;
       const bool small_jump = state == ForceBalance::State::no_balance &&
                               std::abs(force - target.at(z)) <= kSmallJump * std::abs(target.at(z));
-      if (state == ForceBalance::State::no_balance && !small_jump) return no_balance(balance, target);
+      if (state == ForceBalance::State::no_balance && !small_jump) {
+        if (to_nearer_side(balance) && step_.too_deep() <= 0.0 && !solve_tangential()) return false;
+        return no_balance(balance, target);
+      }
       if ((state == ForceBalance::State::found || small_jump) && step_.too_deep() <= 0.0) {
         keep_stiffness(target, z, &balance);
         return true;
