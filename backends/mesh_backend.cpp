@@ -55,7 +55,9 @@ std::vector<Backend> mesh_backends() {
       mesh_row("mesh", "triangles with local polynomials blended over them", 4.0, mesh::Refinement::smooth);
   smooth.natural_for = is_triangles;
   smooth.make_natural = natural_mesh;
-  return {smooth, mesh_row("mesh-flat", "the triangles themselves", 2.0, mesh::Refinement::facets)};
+  Backend flat = mesh_row("mesh-flat", "the triangles themselves", 2.0, mesh::Refinement::facets);
+  flat.creases = Creases::facets;
+  return {smooth, flat};
 }
 
 }  // namespace treadmark

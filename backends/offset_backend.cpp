@@ -81,9 +81,10 @@ offset::OffsetSample offsets_over(Resampling& r, const Surface& base, Rectangle 
 
 std::vector<Backend> offset_backends() {
   using offset::Interpolation;
+  Backend bilinear = offset_row("offset-bilinear", "linearly", 2.0, Interpolation::bilinear);
+  bilinear.creases = Creases::cells;
   return {offset_row("offset", "by cubic B-splines", 4.0, Interpolation::bicubic),
-          offset_row("offset-quadratic", "by quadratic B-splines", 3.0, Interpolation::quadratic),
-          offset_row("offset-bilinear", "linearly", 2.0, Interpolation::bilinear)};
+          offset_row("offset-quadratic", "by quadratic B-splines", 3.0, Interpolation::quadratic), bilinear};
 }
 
 }  // namespace treadmark

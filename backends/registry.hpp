@@ -15,6 +15,10 @@
 
 namespace treadmark {
 
+/// Where slopes of a representation jump: nowhere, between cells that are curved, across from chord to chord, or
+/// everywhere between flat facets, whose curvatures are 0.
+enum class Creases { none, cells, chords, facets };
+
 /// One representation of surfaces: all that the rest of Treadmark knows of it.
 struct Backend {
   std::string name;     ///< for case files and the command line, see is_backend_name; Surface::backend() says the same
@@ -40,6 +44,8 @@ struct Backend {
 
   /// Made for one place, the middle of the region: cases at different places get surfaces of their own.
   bool one_place = false;
+
+  Creases creases = Creases::none;  ///< what conformance (backends/conformance/promises.hpp) does not ask of it
 };
 
 /// Adds a representation; from then on it is a choice wherever names of backends are read, and last in every list.

@@ -54,6 +54,7 @@ std::shared_ptr<const Surface> as_prismatic(Resampling& r) {
 
 std::vector<Backend> shortcut_backends() {
   Backend chords{kChords, "points of sections joined by straight lines, cubic along or round", 2.0, false, as_chords};
+  chords.creases = Creases::chords;
   Backend prismatic{kPrismatic, "the section at the contact, the same along the track or all round", 4.0, false,
                     as_prismatic};
   prismatic.one_place = true;

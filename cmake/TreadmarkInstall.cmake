@@ -23,6 +23,7 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/TreadmarkConfig.cmake.i
   "${PROJECT_BINARY_DIR}/TreadmarkConfig.cmake" INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/TreadmarkConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/TreadmarkConfig.cmake" "${PROJECT_BINARY_DIR}/TreadmarkConfigVersion.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/TreadmarkPlugin.cmake" "${CMAKE_CURRENT_LIST_DIR}/treadmark_plugin.map"
   DESTINATION ${package_folder})
 if(TREADMARK_LIBCXX)
   install(FILES "${CMAKE_CURRENT_LIST_DIR}/libcxx/Findfmt.cmake" "${CMAKE_CURRENT_LIST_DIR}/libcxx/Findtomlplusplus.cmake"

@@ -73,6 +73,7 @@ def jobs():
     yield "bench-flat", [["bench", example("wheel-flat"), "--resolutions", "1", "--seconds-per-measure", "0.01", "-o", "OUT/results", "--report", "OUT/report.html"]]
     small = ["--lateral-range-mm", "1", "--step-mm", "1", "--element-mm", "2", "--roll-intervals", "0", "--yaw-intervals", "0", "--creep-forces", "linear", "--check-points", "4"]
     yield "table-braked", [["table", example("braked-wheel"), *small, "-o", f"OUT/table.{end}"] for end in ("h5", "json", "csv")]
+    yield "conform-flat", [["conform", example("wheel-flat")], ["conform", "spline"]]
     yield "trace-flat", [["trace", example("wheel-flat"), "--body", "wheel", "--line-mm", "0", "--range-deg", "-10", "10"]]
 
     pair = ["geometry", "--wheel", "S1002", "--rail", "60E1", "--cant", "1:40", "--gauge-mm", "1435"]

@@ -111,7 +111,7 @@ ROWS = {  # name: command, target
     "evolve": (f"evolve {EXAMPLES}/hollow-wheel.toml -o @", "out"),
 }
 # What only reads and prints ends at once.
-PRINTING = {"diff", "new", "list", "schema", "completion", "man"}
+PRINTING = {"diff", "conform", "new", "list", "schema", "completion", "man"}
 OLD = b"what was there before\n"
 LONGEST = 10.0  # of the moments at which the signal comes [s]
 

@@ -4,6 +4,7 @@
 
 #include "treadmark/app/bench/check_surface.hpp"
 #include "treadmark/app/bench/machine.hpp"
+#include "treadmark/backends/conformance/promises.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -59,6 +60,11 @@ class PairBench {
     const SurfaceAgreement agreement = check_surface(surface, view, pair_.resolution, one_place());
     row.difference = agreement.difference;
     row.reason = agreement.reason;
+    if (row.reason.empty()) {
+      conformance::Subject subject = conformance::look_at(rail ? pair_.rail : pair_.wheel, 0.0, pair_.backend);
+      subject.planes = {view.level.X_SP, view.tilted.X_SP};
+      row.reason = conformance::broken_promise(subject);
+    }
     row.agrees = row.reason.empty();
     if (!row.agrees) return row;
 

@@ -25,8 +25,8 @@ struct BenchPair {
 using BenchStep = std::function<bool(const std::string& what)>;
 inline constexpr std::size_t kStepsOfPair = 13;  ///< at most
 
-/// Checks both bodies, then the search and the undeformed distance; measures what agrees. A row for the rail and one
-/// for the wheel; nothing if it was stopped.
+/// Checks both bodies, by check_surface and the short form of conformance, then the search and the undeformed distance;
+/// measures what agrees. A row for the rail and one for the wheel; nothing if it was stopped.
 std::optional<std::array<BenchRow, 2>> measure_pair(const BenchScene& scene, const BenchPair& pair,
                                                     double seconds_per_measure, const BenchStep& step);
 

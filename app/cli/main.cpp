@@ -24,6 +24,7 @@
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/cli/usage_faults.hpp"
 #include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_claim.hpp"
@@ -112,6 +113,12 @@ int parse_and_run(int argc, char** argv) {
   const CLI::Option* threads =
       program.add_option("--threads", common.threads, "Number of threads, 0 = all cores")->check(CLI::Range(0, 4096));
   program.add_flag("--quiet", common.quiet, "No progress and no notes");
+  program
+      .add_option("--plugin", common.plugins,
+                  "Plug-in with backends or detectors (.so), beside those of $TREADMARK_PLUGINS; once for each")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 
   std::vector<std::pair<CLI::App*, cli::Command>> commands;
   for (const cli::Verb& verb : cli::verbs()) {
@@ -147,6 +154,8 @@ int parse_and_run(int argc, char** argv) {
     return cli::kUsage;
   }
   common.threads_given = threads->count() > 0;
+  app::load_plugins(app::plugins_of_environment());
+  app::load_plugins(common.plugins);
   for (const auto& [verb, command] : commands) {
     if (!verb->parsed()) continue;
     const cli::NamedFiles named = cli::named_files(*verb);

@@ -23,10 +23,11 @@ bool is_verb(const std::string& word) {
   return ranges::any_of(verbs(), [&](const Verb& verb) { return word == verb.name; });
 }
 
-/// Where the verb stands: the first word that is no option, nor the number of threads.
+/// Where the verb stands: the first word that is no option, nor the value of one.
 std::size_t place_of_verb(const std::vector<std::string>& words) {
   std::size_t at = 0;
-  while (at < words.size() && words[at].starts_with("-")) at += words[at] == "--threads" ? 2 : 1;
+  while (at < words.size() && words[at].starts_with("-"))
+    at += words[at] == "--threads" || words[at] == "--plugin" ? 2 : 1;
   return std::min(at, words.size());
 }
 

@@ -24,6 +24,7 @@ struct CommonOptions {
   int threads = 0;             ///< 0 = all cores
   bool threads_given = false;  ///< by the user
   bool quiet = false;          ///< no progress
+  std::vector<std::string> plugins;
 };
 
 /// Does the work of a verb, whose options it holds. Returns an exit status or throws treadmark::Error.

@@ -15,6 +15,7 @@
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/backends/registry.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -261,8 +262,17 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
       inner.report = [&](std::size_t finished, std::size_t, const std::string& what) {
         progress.report(done + finished, total, fmt::format("{}, {}", name, what));
       };
+    std::string wheel_breaks, rail_breaks;
     try {
-      const io::RunResult run = run_cases(with(cases, choice), store, inner);
+      const CancellationScope scope(progress.stop);
+      const io::CaseFile represented = with(cases, choice);
+      const io::WheelRailCase& one = *first_wheelrail_case(represented);
+      const SampledRegions about = regions_of(one, regions);
+      if (choice.detector.empty()) {
+        wheel_breaks = conformance::broken_promise(seen_body(one, store, Body::wheel, about.wheel));
+        rail_breaks = conformance::broken_promise(seen_body(one, store, Body::rail, about.rail));
+      }
+      const io::RunResult run = run_cases(represented, store, inner);
       if (!run.complete) {
         out.complete = false;
         break;
@@ -275,9 +285,12 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
         for (io::ComparisonRow& row : out.candidates.front().rows) row.comparable = row.patches > 0;
         if (settings.sample_surfaces) {
           io::ComparisonCandidate& truth = out.candidates.front();
-          truth.surfaces = sample_surfaces(truth.results, used_bodies(with(cases, choice), truth.results, store));
+          truth.surfaces = sample_surfaces(truth.results, used_bodies(represented, truth.results, store));
         }
       }
+    } catch (const Cancelled&) {
+      out.complete = false;
+      break;
     } catch (const Error& e) {
       if (is_first) throw;
       io::ComparisonCandidate failed;
@@ -286,6 +299,8 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
       failed.failure = e.what();
       out.candidates.push_back(std::move(failed));
     }
+    out.candidates.back().wheel.note += wheel_breaks;
+    out.candidates.back().rail.note += rail_breaks;
     done += file.cases.size();
     if (!come_up_again) store.forget_sampled();
   }

@@ -30,7 +30,8 @@ struct CompareSettings {
 /// Solves the same cases with the surfaces as given (the reference) and in every representation at every resolution.
 /// Formulas and data as given need no samples: "analytic", and "spline" for measured points, also appear once without a
 /// resolution. A representation that cannot be built, or cases that cannot be solved with it, become a failure of that
-/// candidate. Progress counts candidates times cases. Deterministic but for the times. Errors: those of the reference;
+/// candidate; promises of surfaces (backends/conformance/promises.hpp) that it breaks stand in the notes of its bodies.
+/// Progress counts candidates times cases. Deterministic but for the times. Errors: those of the reference;
 /// Error(configuration) for unknown backends or detectors, bad resolutions, or no wheel-rail case.
 io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& settings, const Progress& progress = {});
 

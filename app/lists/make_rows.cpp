@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "treadmark/app/lists/result_list.hpp"
+#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -91,7 +92,8 @@ class KeptRows {
 
 /// Everything that a row is made from; empty where that is not known: files that cannot be read, or name others.
 std::string key_of(const ResultList& list, const ListWork& work, std::size_t i) try {
-  std::string all = fmt::format("{} {}\n{}\n{}\n", version(), git_revision(), list.title, list.settings);
+  std::string all =
+      fmt::format("{} {}\n{}{}\n{}\n", version(), git_revision(), plugin_identity(), list.title, list.settings);
   for (const std::string& source : work.sources(i)) {
     const std::string extension = io::extension_of(source);
     if (extension == ".toml" || extension == ".inp" || io::can_hold(source, io::kSlicesFile)) return {};

@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -113,7 +114,7 @@ std::string hex_of(const ByteWriter& bytes) {
 template <class Thing, class Make, class Read, class Save>
 Thing kept_or_made(const io::ContentCache* cache, const std::string& key, Make make, Read read, Save save) {
   if (cache == nullptr || computing_identity().empty()) return make();
-  const std::string whole = key + "\ncomputed by " + computing_identity();
+  const std::string whole = key + "\ncomputed by " + computing_identity() + plugin_identity();
   if (const auto bytes = cache->find(whole)) {
     try {
       ByteReader in(*bytes);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -52,6 +53,7 @@ std::string sweep_call(const SlurmRequest& request, const std::string& own) {
   std::string text = fmt::format("exec {} --quiet --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" sweep {} -o {} {}",
                                  shell_word(request.program.string()), shell_word(request.study.string()),
                                  shell_word(request.folder.string()), own);
+  for (const std::string& plugin : loaded_plugins()) text += " --plugin " + shell_word(plugin);
   for (const std::string& setting : request.settings) text += " --set " + shell_word(setting);
   return text + '\n';
 }

@@ -205,4 +205,28 @@ void refuse_one_place(const io::SurfaceSource& source, const char* what) {
                 source.where, "choose another backend, see treadmark list backends");
 }
 
+conformance::Subject seen_body(const io::WheelRailCase& input, SurfaceStore& store, Body body, const Region& region) {
+  const io::SurfaceSource& source = body == Body::wheel ? input.wheel : input.rail;
+  const double radius = profile_radius(input, body), middle = 0.5 * (region.u_min + region.u_max);
+  // of rollers regions are arc lengths
+  const bool known = std::isfinite(middle) && (body == Body::wheel || radius == 0.0);
+  return conformance::look_at(store.get(source, body, radius, region).represented.surface, known ? middle : 0.0,
+                              source.backend);
+}
+
+conformance::Record hold_case(const io::CaseFile& file) {
+  const io::WheelRailCase* input = first_wheelrail_case(file);
+  if (input == nullptr)
+    throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail, so no surface", {file.path.string()});
+  const SampledRegions regions = regions_of(*input, sampled_regions(file));
+  SurfaceStore store;
+  conformance::Record record;
+  for (const Body body : {Body::wheel, Body::rail}) {
+    conformance::Subject subject = seen_body(*input, store, body, body == Body::wheel ? regions.wheel : regions.rail);
+    subject.brief = false;
+    record.add(body == Body::wheel ? "wheel" : "rail", subject);
+  }
+  return record;
+}
+
 }  // namespace treadmark::app

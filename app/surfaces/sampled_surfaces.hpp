@@ -7,6 +7,7 @@
 
 #include "treadmark/app/surfaces/sample_body.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/backends/conformance/promises.hpp"
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
@@ -64,6 +65,14 @@ SampledRegions sampled_regions(const io::CaseFile& file);
 /// What has to be sampled for one of the cases: as for all of them, but of a body in a representation that is made for
 /// one place (Backend::one_place) only what this case needs.
 SampledRegions regions_of(const io::WheelRailCase& input, const SampledRegions& all);
+
+/// The wheel or rail of a case, which the store holds from then on, as it is held to promises in brief. region: what is
+/// sampled of it. Errors: those of the store.
+conformance::Subject seen_body(const io::WheelRailCase& input, SurfaceStore& store, Body body, const Region& region);
+
+/// Wheel and rail of the first case of a file, held to every promise that needs no formula. Errors: those of the store;
+/// Error(configuration) without such a case.
+conformance::Record hold_case(const io::CaseFile& file);
 
 /// Errors: Error(configuration) for a representation that is made for one place, where what says takes in many.
 void refuse_one_place(const io::SurfaceSource& source, const char* what);

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/backends/assembly/renamed_surface.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
@@ -47,6 +48,8 @@ void add_backends(py::module_& module) {
     for (const std::string_view name : backend_names()) names.emplace_back(name);
     return names;
   });
+  module.def("load_plugins", [](const Strings& files) { app::load_plugins(files); });
+  module.def("plugins_of_environment", [] { return app::plugins_of_environment(); });
   module.def("register_backend",
              [](const std::string& name, const std::string& summary, double order, const py::function& make) {
                Backend row;

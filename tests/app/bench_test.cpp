@@ -17,6 +17,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/conformance/wrong_backends.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
 #include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/parts.hpp"
@@ -56,14 +57,11 @@ TEST(BenchSchema, IsMadeOfItsRows) {
 }
 
 /// A surface with an error that no height of its own gives away.
-class Wrong final : public Surface {
+class Wrong final : public treadmark::testing::WrongSurface {
  public:
   enum class Fault { raised, slopes, hole, grids, grids_a_little };
-  Wrong(std::shared_ptr<const Surface> right, Fault fault) : right_(std::move(right)), fault_(fault) {}
-  std::string_view backend() const override { return "wrong"; }
-  Facing facing() const override { return right_->facing(); }
-  Box3 bounds() const override { return right_->bounds(); }
-  std::size_t memory_bytes() const override { return right_->memory_bytes(); }
+  Wrong(std::shared_ptr<const Surface> other, Fault fault)
+      : WrongSurface(std::move(other), "wrong", 1.0, 1.0), fault_(fault) {}
 
  private:
   void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
@@ -80,14 +78,7 @@ class Wrong final : public Surface {
       for (const auto& values : {out.z, out.dzdx, out.dzdy})
         if (!values.empty()) values[g.index(g.nx / 2, g.ny / 2)] = NAN;
   }
-  void do_locate(const Pose& X_SP, std::span<const Vec2> points, std::span<SurfacePoint> out) const override {
-    right_->locate(X_SP, points, out);
-  }
-  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle) const override {
-    return right_->height_bounds(X_SP, rectangle);
-  }
 
-  std::shared_ptr<const Surface> right_;
   Fault fault_;
 };
 

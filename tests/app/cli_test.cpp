@@ -136,7 +136,7 @@ TEST(CommandLine, ListsAndSchema) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
   EXPECT_EQ(run_program({"list", "verbs"}).out,
-            "run\ncheck\ngeometry\n" + verb("table", "vehicle") + "compare\ndiff\nbench\nmeasure\n" +
+            "run\ncheck\ngeometry\n" + verb("table", "vehicle") + "compare\ndiff\nbench\nconform\nmeasure\n" +
                 verb("import", "scans") + verb("scan", "scans") + "convert\ntrace\n" + verb("simulate", "vehicle") +
                 verb("assess", "vehicle") + verb("stability", "vehicle") + verb("track", "vehicle") +
                 verb("fmu", "fmu") + verb("evolve", "vehicle") + verb("sweep", "vehicle") + verb("report", "report") +

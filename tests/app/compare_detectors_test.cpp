@@ -4,13 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <string>
 
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/tests/consumer/project/fine_grid.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app {
@@ -29,39 +29,17 @@ discretisation.ds_mm = 0.5
 wheelset.y_mm = [0, 4]
 )";
 
-/// Every point of a grid with half of the usual steps; counts how often it is asked.
-class FineGrid final : public detection::Detector {
- public:
-  static inline int asked = 0;
-  FineGrid(const detection::BodyPair& bodies, detection::SearchSettings settings) {
-    Grid2& g = settings.grid_T;
-    g.nx = 2 * g.nx - 1, g.ny = 2 * g.ny - 1, g.dx *= 0.5, g.dy *= 0.5;
-    inner_ = detection::detector_of("full_grid").make(bodies, settings);
-  }
-  double least_gap() override { return inner_->least_gap(); }
-  detection::SearchResult at(double wheel_dz) override {
-    ++asked;
-    return inner_->at(wheel_dz);
-  }
-
- private:
-  std::unique_ptr<detection::Detector> inner_;
-};
-
 io::CaseFile read(const std::string& more = "") {
   const treadmark::testing::TemporaryFolder folder;
   return io::read_any_case(folder.write("case.toml", more + kTwoDetectors), {});
 }
 
 TEST(CompareDetectors, AgreeOnTheSameCaseAlsoWithOneFromOutside) {
-  detection::register_detector({"fine-grid", "of a test", [](const auto& bodies, const auto& settings) {
-                                  return std::make_unique<FineGrid>(bodies, settings);
-                                }});
+  register_fine_grid();
   CompareSettings settings;
   settings.detectors = {"grid", "full_grid", "locus", "fine-grid"};
   const io::Comparison found = compare_cases(read(), settings);
   ASSERT_EQ(found.candidates.size(), 5u) << "and the truth";
-  EXPECT_GT(FineGrid::asked, 0);
   for (const io::ComparisonCandidate& c : found.candidates) {
     EXPECT_EQ(c.failure, "") << c.name;
     ASSERT_EQ(c.rows.size(), 2u);

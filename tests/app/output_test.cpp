@@ -53,6 +53,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
       {"compare", {{toml, "--backends", "spline", "--resolutions", "4"}}},
       {"diff", {{out, out}, "hdf5"}},
       {"bench", {{toml, "--backends", "spline", "--resolutions", "4", "--seconds-per-measure", "0.001"}}},
+      {"conform", {{toml}}},
       {"geometry", {{"--wheel", "S1002", "--rail", "60E1", "--gauge-mm", "1435", "--cant", "1:40"}}},
       {"convert", {{rail, path("rail.csv")}}},
       {"trace", {{rail, "--section-mm", "0"}}},

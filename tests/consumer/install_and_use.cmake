@@ -27,6 +27,13 @@ run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" "-DCM
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DPUBLIC_HEADERS=${public_headers}" "-DCMAKE_CXX_FLAGS=${FLAGS}")
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/consumer")
+# The same as a plug-in of the installed program.
+if(NOT SANITIZE)
+  file(GLOB_RECURSE program "${WORK}/prefix/bin/treadmark")
+  file(WRITE "${WORK}/case.toml" "rail.shape.standard = '60E1'\nrail.backend = 'chebyshev'\nwheel.shape.standard = 'S1002'\ntrack.cant = '1:40'\n\
+wheelset.vertical_force_N = 8e4\ndiscretisation = { dx_mm = 1, ds_mm = 1, detector = 'fine-grid' }\n")
+  run("${program}" --plugin "${WORK}/build/chebyshev.so" run "${WORK}/case.toml")
+endif()
 
 # In C: with CMake, and with pkg-config where that is.
 run("${CMAKE_COMMAND}" -S "${SOURCE}/../c_project" -B "${WORK}/build_c" -G "${GENERATOR}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix"

@@ -16,7 +16,7 @@ from ._records import CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Gr
 from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, LimitCheck, Measure, Measured, SecondContact, ShiftLimit, geometry,
                         measure, measure_files, measures_to_pandas, profiles)
 from ._solving import Pair, PatchSolver, Problem, Solution, State, hertz, settings
-from ._surfaces import Evaluated, Line, Located, Surface, backends, register_backend
+from ._surfaces import Evaluated, Line, Located, Surface, backends, load_plugins, register_backend
 from ._tables import ForceTable, TableError
 from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, Mode, Position, ScanImport, Simulation,
                      Stability, Sweep, SweepRun, Track, Value, assess, bench, check, compare, evolve, import_scan, read_bench, read_comparison,

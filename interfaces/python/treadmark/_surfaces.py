@@ -330,3 +330,14 @@ def register_backend(name: str, representation: Callable[..., Any], summary: str
 def backends() -> list[str]:
     """Names of all representations that this process has."""
     return _treadmark.backend_names()
+
+
+@checked
+def load_plugins(*files: Path) -> list[str]:
+    """Loads plug-ins (.so), as ``--plugin`` of the program; without files those that the variable ``TREADMARK_PLUGINS`` names. Their backends and
+    detectors are choices by name from then on, in this process. Gives the names of the new representations. Errors: MissingFileError; InputError
+    for what is no plug-in, was built for another Treadmark, or has a name that is taken.
+    """
+    known = backends()
+    _treadmark.load_plugins([str(pathlib.Path(file)) for file in files] if files else _treadmark.plugins_of_environment())
+    return [name for name in backends() if name not in known]

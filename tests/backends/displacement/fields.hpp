@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "treadmark/backends/conformance/shapes.hpp"
 #include "treadmark/backends/displacement/offset_field.hpp"
 
 namespace treadmark::testing {
@@ -76,22 +77,8 @@ inline Pose pose(const Vec3& origin, double roll, double yaw, double pitch) {
   return {origin, rotation({roll, yaw, pitch})};
 }
 
-/// Level, rolled, yawed and steep planes near a wheel of radius R, two of them from behind the flange.
-inline std::vector<Pose> wheel_planes(double R) {
-  const auto at = [R](double theta, double y, double out, double roll, double yaw, double pitch) {
-    const double r = R + out;
-    return pose({r * std::sin(theta), y, r * std::cos(theta)}, roll, yaw, pitch);
-  };
-  return {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0),       at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0),
-          at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3),   at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01),
-          at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0), at(0.0, -0.045, 0.02, 0.9, 0.0, 0.0),
-          at(0.0, -0.045, 0.02, 0.9, 1.4, 0.0)};
-}
-inline std::vector<Pose> rail_planes() {
-  return {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0),    pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
-          pose({0.1, -0.02, 0.003}, -0.45, 0.03, -0.02), pose({0.0, 0.005, 0.001}, 0.02, -0.4, 0.1),
-          pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0),    pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
-}
+using conformance::rail_planes;
+using conformance::wheel_planes;
 
 inline bool same(double a, double b, double tolerance) {
   return (std::isnan(a) && std::isnan(b)) || std::fabs(a - b) <= tolerance;

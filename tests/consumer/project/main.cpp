@@ -2,21 +2,21 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "chebyshev_backend.hpp"
+#include "fine_grid.hpp"
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
+#include "treadmark/backends/conformance/promises.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/report.hpp"
-#include "treadmark/detection/detector.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/results/summary.hpp"
 
@@ -38,31 +38,6 @@ void core_and_io() {
   result.number = 7;
   result.status = Status::no_contact;
   expect(io::summary(result).rfind("case 7: no_contact", 0) == 0, "the summary of an empty case");
-}
-
-/// The backend's squat against its formula, dip = depth/4 (1 + cos)(1 + cos), and an undamaged rail and wheel.
-void heights() {
-  SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
-  const auto plain = create_surface(rail);
-  rail.defects.squats.push_back({});
-  Squat& squat = rail.defects.squats.front();
-  squat.length = 0.03, squat.width = 0.024, squat.depth = 0.4e-3, squat.x_center = 0.31, squat.y_center = 0.004;
-  const auto surface = create_surface(rail, "chebyshev");
-  expect(surface->backend() == "chebyshev", "the surface names its backend");
-  const double turn = 4.0 * std::acos(0.0);
-  for (double x = 0.28; x < 0.34; x += 0.00131)
-    for (double y = -0.012; y < 0.02; y += 0.00093) {
-      const double dx = x - 0.31, dy = y - 0.004;
-      const double dip = std::fabs(dx) < 0.015 && std::fabs(dy) < 0.012
-                             ? 0.1e-3 * (1.0 + std::cos(turn * dx / 0.03)) * (1.0 + std::cos(turn * dy / 0.024))
-                             : 0.0;
-      const double error = height_at(*surface, {}, {x, y}) - height_at(*plain, {}, {x, y}) - dip;
-      expect(std::fabs(error) < 3e-7, "the squat is that of the formula");
-    }
-  expect(std::isnan(height_at(*surface, {}, {0.3, 0.05})), "beside the rail there is nothing");
-  const SurfaceSpec wheel{Body::wheel, 0.46, StandardProfile{"S1002"}, {}};
-  const double z = height_at(*create_surface(wheel), {}, {0.02, 0.01});
-  expect(std::fabs(height_at(*create_surface(wheel, "chebyshev"), {}, {0.02, 0.01}) - z) < 1e-12, "an undamaged wheel");
 }
 
 /// The wheel with a flat on the rail with a squat that the benchmark is made of, compared, timed, and asked for by key.
@@ -131,29 +106,9 @@ ds_mm = 1.0
   expect(used && run.cases.front().status == Status::ok, "rail.backend in a case file");
 }
 
-/// Every point of a grid with half of the usual steps.
-class FineGrid final : public detection::Detector {
- public:
-  FineGrid(const detection::BodyPair& bodies, detection::SearchSettings settings) {
-    Grid2& grid = settings.grid_T;
-    grid.nx = 2 * grid.nx - 1, grid.ny = 2 * grid.ny - 1, grid.dx *= 0.5, grid.dy *= 0.5;
-    search_ = detection::detector_of("full_grid").make(bodies, settings);
-  }
-  double least_gap() override { return search_->least_gap(); }
-  detection::SearchResult at(double wheel_dz) override { return search_->at(wheel_dz); }
-
- private:
-  std::unique_ptr<detection::Detector> search_;
-};
-
-std::unique_ptr<detection::Detector> fine_grid(const detection::BodyPair& bodies,
-                                               const detection::SearchSettings& settings) {
-  return std::make_unique<FineGrid>(bodies, settings);
-}
-
 /// The same case by a built-in detector and by one of this program.
 void detectors() {
-  detection::register_detector({"fine-grid", "every point of a grid twice as fine", fine_grid});
+  register_fine_grid();
   app::CompareSettings compare;
   compare.detectors = {"grid", "fine-grid"};
   const io::Comparison comparison = app::compare_cases(app::bench_case(), compare);
@@ -186,7 +141,8 @@ int main() {
     register_chebyshev();
     refused(register_chebyshev, "exists already");
     expect(backend_names().back() == "chebyshev", "new backends come last");
-    heights();
+    const conformance::Record record = conformance::hold_backend("chebyshev", 0.5e-3);
+    expect(record.kept(), record.text().c_str());
     cases();
     detectors();
   } catch (const std::exception& error) {

@@ -1,86 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/tests/conformance/subjects.hpp"
+#include "treadmark/backends/conformance/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
-#include <ostream>
+#include <utility>
 
-#include "treadmark/backends/create.hpp"
-#include "treadmark/backends/registry.hpp"
-#include "treadmark/tests/consumer/project/chebyshev_backend.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/to_whole.hpp"
 
-namespace treadmark::testing {
-
-// Where the promises come from. analytic: closed form, rounding only; the published joints of S1002 are steps of up to
-// 0.12 um. spline: a cubic spline rounds off the jumps of curvature between the arcs: up to 77/m over a spacing h =
-// 0.25 mm, that is about 77 h^2/12 = 0.4 um and 77 h/5 = 4 mrad; slices are fitted at h = 0.5 mm. nurbs, mesh: the same
-// at 0.5 mm. mesh-flat: h^2/(8 r) and h/r on the arc of r = 12 mm. offset: exact where nothing is damaged. The ends of
-// the fresh flat turn by k = 44 mrad: facets and bilinear offsets cut up to k h/4 = 5.4 um off there, splines up to
-// about k h/8 = 2.7 um. chords: h^2/(8 r) = 2.6 um and h/(2 r) on the arc of r = 12 mm, and splines along. prismatic:
-// as spline at 0.5 mm, against the shape that has the section in the middle of the region everywhere. chebyshev: as
-// offset; its waves near the joints of curvature die away slowly.
-std::vector<Contestant> contestants() {
-  [[maybe_unused]] static const bool registered = (register_chebyshev(), true);
-  return {
-#define TREADMARK_CONTESTANT(backend, resolution, constant, damaged) {backend, resolution, constant, damaged},
-#include "treadmark/tests/conformance/contestants.def"
-#undef TREADMARK_CONTESTANT
-  };
-}
+namespace treadmark::conformance {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPi = std::numbers::pi;
 
 Pose pose(const Vec3& origin, double roll, double yaw, double pitch) { return {origin, rotation({roll, yaw, pitch})}; }
 
 Shape rail_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
-  Shape s;
-  s.name = std::move(name);
-  s.spec = std::move(spec);
-  s.outside = [z, y_min, y_max](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : z(p.y()) - p.z(); };
-  s.y_min = y_min;
-  s.y_max = y_max;
-  s.r_low = -0.03;
-  s.r_high = 0.05;
-  s.u_min = -0.15;
-  s.u_max = 0.45;
-  s.planes = {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0),    pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
-              pose({0.1, -0.02, 0.003}, -0.45, 0.03, -0.02), pose({0.0, 0.005, 0.001}, 0.02, -0.4, 0.1),
-              pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0),    pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
-  return s;
+  const auto outside = [=](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : z(p.y()) - p.z(); };
+  return {std::move(name), std::move(spec), outside, y_min, y_max, -0.03, 0.05, -0.15, 0.45, rail_planes()};
 }
 
 Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z,
                   std::function<double(double, double)> depth, double y_min, double y_max) {
   const double R = spec.nominal_radius;
-  Shape s;
-  s.name = std::move(name);
-  s.spec = std::move(spec);
-  s.outside = [=](const Vec3& p) {
+  const auto outside = [=](const Vec3& p) {
     if (p.y() < y_min || p.y() > y_max) return kNaN;
     return std::hypot(p.x(), p.z()) - R - z(p.y()) + depth(std::atan2(p.x(), p.z()), p.y());
   };
-  s.y_min = y_min;
-  s.y_max = y_max;
-  s.r_low = -0.05;
-  s.r_high = 0.06;
-  s.u_min = -0.15;
-  s.u_max = 0.42;
-  const auto at = [R](double theta, double y, double out, double roll, double yaw, double pitch) {
-    const double r = R + out;
-    return pose({r * std::sin(theta), y, r * std::cos(theta)}, roll, yaw, pitch);
-  };
-  s.planes = {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0), at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0),
-              at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3), at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01),
-              at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0),
-              // from behind the flange, which hides its root; rows run across the fold in the last one
-              at(0.0, -0.045, 0.02, 0.9, 0.0, 0.0), at(0.0, -0.045, 0.02, 0.9, 1.4, 0.0)};
-  return s;
+  return {std::move(name), std::move(spec), outside, y_min, y_max, -0.05, 0.06, -0.15, 0.42, wheel_planes(R)};
 }
 
 /// The profile turned about an axle at z = radius; planes stand on the roller as they would on the rail, at some angle
@@ -203,6 +150,10 @@ std::vector<Shape> shapes() {
   std::vector<Shape> all;
   const auto no_depth = [](double, double) { return 0.0; };
   const auto s1002 = [](double y) { return 1e-3 * s1002_mm(1e3 * y); };
+  const auto rail_60e1 = [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); };
+  const auto z_barrel = [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); };
+  const double y_barrel = 0.08 * std::sin(0.6);
+  const ArcChain barrel{-y_barrel, 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
 
   {
     ArcChain two_arcs;  // R300 towards the field, R60 towards the gauge, crown at 0
@@ -217,32 +168,19 @@ std::vector<Shape> shapes() {
     all.push_back(
         rail_shape("two_arc_rail", {Body::rail, 0.0, two_arcs, {}}, z, two_arcs.start_y, 0.3 * std::sin(0.1)));
   }
-  all.push_back(rail_shape(
-      "rail_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}},
-      [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
+  all.push_back(
+      rail_shape("rail_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}}, rail_60e1, -37.05e-3, 37.05e-3));
   all.push_back(two_part_shape());
-  all.push_back(roller_shape(
-      "roller_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, 0.5},
-      [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
+  all.push_back(
+      roller_shape("roller_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, 0.5}, rail_60e1, -37.05e-3, 37.05e-3));
+  all.push_back(roller_shape("barrel_roller", {Body::rail, 0.0, barrel, {}, 0.2}, z_barrel, -y_barrel, y_barrel));
+  all.push_back(ring_shape("barrel_ring", {Body::rail, 0.0, barrel, {}, -0.6}, z_barrel, -y_barrel, y_barrel));
+  all.push_back(
+      ring_shape("ring_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, -0.7}, rail_60e1, -37.05e-3, 37.05e-3));
   {
-    ArcChain barrel{-0.08 * std::sin(0.6), 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
-    all.push_back(roller_shape(
-        "barrel_roller", {Body::rail, 0.0, barrel, {}, 0.2},
-        [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
-  }
-  {
-    ArcChain barrel{-0.08 * std::sin(0.6), 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
-    all.push_back(ring_shape(
-        "barrel_ring", {Body::rail, 0.0, barrel, {}, -0.6},
-        [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
-    all.push_back(ring_shape(
-        "ring_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, -0.7},
-        [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
-  }
-  {
-    ArcChain barrel{-0.05 * std::sin(0.8), -0.05 * (1.0 - std::cos(0.8)), 0.8, {{0.05 * 1.6, -1.0 / 0.05}}};
+    const ArcChain round{-0.05 * std::sin(0.8), -0.05 * (1.0 - std::cos(0.8)), 0.8, {{0.05 * 1.6, -1.0 / 0.05}}};
     all.push_back(wheel_shape(
-        "barrel_wheel", {Body::wheel, 0.3, barrel, {}}, [](double y) { return std::sqrt(0.05 * 0.05 - y * y) - 0.05; },
+        "barrel_wheel", {Body::wheel, 0.3, round, {}}, [](double y) { return std::sqrt(0.05 * 0.05 - y * y) - 0.05; },
         no_depth, -0.05 * std::sin(0.8), 0.05 * std::sin(0.8)));
   }
   all.push_back(
@@ -266,6 +204,7 @@ std::vector<Shape> shapes() {
     all.push_back(wheel_shape(
         "fresh_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {cut}}}, s1002,
         [](double theta, double) { return chord_test_depth(theta, 0.46); }, -0.07, 0.06));
+    all.back().kinks = 0.05;
   }
   {
     Defects defects;
@@ -286,33 +225,16 @@ std::vector<Shape> shapes() {
     squat.y_center = 0.004;
     Defects defects;
     defects.squats = {squat};
-    Shape shape = rail_shape(
-        "squat_rail", {Body::rail, 0.0, StandardProfile{"60E1"}, defects},
-        [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3);
-    shape.outside = [](const Vec3& p) {
-      if (std::fabs(p.y()) > 37.05e-3) return kNaN;
+    Shape shape =
+        rail_shape("squat_rail", {Body::rail, 0.0, StandardProfile{"60E1"}, defects}, rail_60e1, -37.05e-3, 37.05e-3);
+    shape.outside = [plain = shape.outside](const Vec3& p) {
       const double x = p.x() - 0.31, y = p.y() - 0.004;
-      double dip = 0.0;
-      if (std::fabs(x) < 0.015 && std::fabs(y) < 0.012)
-        dip = 0.1e-3 * (1.0 + std::cos(2.0 * kPi * x / 0.03)) * (1.0 + std::cos(2.0 * kPi * y / 0.024));
-      return 1e-3 * rail_60e1_mm(1e3 * p.y()) + dip - p.z();
+      if (std::fabs(x) >= 0.015 || std::fabs(y) >= 0.012) return plain(p);
+      return plain(p) + 0.1e-3 * (1.0 + std::cos(2.0 * kPi * x / 0.03)) * (1.0 + std::cos(2.0 * kPi * y / 0.024));
     };
     all.push_back(shape);
   }
   return all;
-}
-
-std::shared_ptr<const Surface> Subject::make() const {
-  // building may take a while and is repeated by many tests: keep what was built
-  static std::vector<std::pair<std::string, std::shared_ptr<const Surface>>> built;
-  const std::string key = contestant.backend + shape.name;
-  for (const auto& [name, surface] : built)
-    if (name == key) return surface;
-  Representation wanted{contestant.backend, contestant.resolution, {}};
-  wanted.region.u_min = shape.u_min;
-  wanted.region.u_max = shape.u_max;
-  built.emplace_back(key, represent(shape.natural ? shape.natural() : create_natural(shape.spec), wanted).surface);
-  return built.back().second;
 }
 
 namespace {
@@ -335,16 +257,15 @@ Shape with_one_section(Shape s) {
 
 }  // namespace
 
-std::vector<Subject> subjects() {
-  std::vector<Subject> all;
-  for (const Contestant& contestant : contestants())
-    for (const Shape& shape : shapes())
-      all.push_back({backend_of(contestant.backend).one_place ? with_one_section(shape) : shape, contestant});
-  return all;
+Shape shape_for(const Backend& backend, Shape shape) {
+  return backend.one_place ? with_one_section(std::move(shape)) : shape;
 }
 
-std::ostream& operator<<(std::ostream& out, const Subject& s) {
-  return out << s.contestant.backend << '_' << s.shape.name;
+std::shared_ptr<const Surface> represented(const Shape& shape, const std::string& backend, double resolution) {
+  Representation wanted{backend, resolution, {}};
+  wanted.region.u_min = shape.u_min;
+  wanted.region.u_max = shape.u_max;
+  return represent(shape.natural ? shape.natural() : create_natural(shape.spec), wanted).surface;
 }
 
 Vec3 gradient(const Shape& shape, const Vec3& p) {
@@ -362,7 +283,7 @@ BruteHit brute_force(const Shape& shape, const Pose& X, double x, double y) {
   // from the outermost end inwards in fine steps: along -z of the plane for a wheel, along +z for a rail
   constexpr double kStep = 1e-4;
   const double from = wheel ? shape.r_high : shape.r_low, step = wheel ? -kStep : kStep;
-  const int n = static_cast<int>((shape.r_high - shape.r_low) / kStep);
+  const int n = to_whole<int>((shape.r_high - shape.r_low) / kStep);
   const auto f = [&](double t) { return shape.outside(X.apply({x, y, t})); };
   double before = f(from);
   for (int i = 1; i <= n; ++i) {
@@ -382,4 +303,4 @@ BruteHit brute_force(const Shape& shape, const Pose& X, double x, double y) {
   return {kNaN, 0.0, kNaN};
 }
 
-}  // namespace treadmark::testing
+}  // namespace treadmark::conformance

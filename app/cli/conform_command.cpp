@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+struct ConformOptions {
+  std::string what;
+  double resolution_mm = 0.0;
+  std::vector<std::string> overrides;
+};
+
+int conform_command(const ConformOptions& options, const CommonOptions& common) {
+  const ThreadLimit limit(common.threads);
+  const CancellationScope scope(&interrupted());
+  const bool is_file = options.what.find_first_of("./") != std::string::npos;
+  const conformance::Record record = with_progress(common.quiet, [&](const Progress& progress) {
+    return is_file ? app::hold_case(io::read_any_case(options.what, options.overrides))
+                   : conformance::hold_backend(options.what, 1e-3 * options.resolution_mm, progress);
+  });
+  print(record.text());
+  return record.kept() && !interrupted() ? kOk : kFailed;
+}
+
+}  // namespace
+
+Command add_conform(CLI::App& verb) {
+  auto options = std::make_shared<ConformOptions>();
+  verb.add_option("WHAT", options->what, "A backend, with shapes of known formulas; or a case file, for its surfaces")
+      ->required()
+      ->type_name(kBackendName);
+  verb.add_option("--resolution", options->resolution_mm, "Spacing of a backend's data [mm], default its own");
+  add_overrides(verb, options->overrides);
+  return command(options, conform_command);
+}
+
+}  // namespace treadmark::cli
