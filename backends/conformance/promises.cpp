@@ -131,18 +131,18 @@ Finding name(const Subject& s) {
 Finding heights(const Subject& s) {
   constexpr double kGrazing = 0.1;  // a line that only grazes the surface may miss it
   const Shape& shape = *s.shape;
-  Tally tally(s);
+  Tally lines(s), distances(s);
   over_grid(s, coarse_grid(s), [&](const Place& at, const Pose& X, const Fields& f, std::size_t i) {
     const double z = f.z[i], sign = is_wheel(s) ? 1.0 : -1.0;
     const BruteHit hit = brute_force(shape, X, at.x, at.y);
     if (!std::isnan(hit.z) && hit.slant > kGrazing && !near_end(s, hit.y))
-      tally.add(sign * (hit.z - z) * hit.slant / s.tolerance.height, at, "the height", z, hit.z);
+      lines.add(sign * (hit.z - z) * hit.slant / s.tolerance.height, at, "the height", z, hit.z);
     const Vec3 p = X.apply({at.x, at.y, z});
     if (!seen(s, z, p)) return;
     const double distance = std::fabs(shape.outside(p)) / gradient(shape, p).norm();
-    tally.add(distance / s.tolerance.height, at, "the distance from the shape [m]", distance, 0.0);
+    distances.add(distance / s.tolerance.height, at, "the distance from the shape [m]", distance, 0.0);
   });
-  return tally.finding();
+  return worse(lines.finding(), distances.finding(), lines.count());
 }
 
 Finding normals(const Subject& s) {
@@ -305,6 +305,7 @@ Finding bounds_of(const Subject& s) {
   const int trials = many ? (s.brief ? 4 : 60) : (s.brief ? 24 : 400), n = s.brief ? 6 : many ? 8 : 12;
   const double near = s.brief ? 0.3 : 1.0;  // in brief most of what is looked at should be there
   Tally inside(s), close(s);
+  std::size_t covered = 0;  // rectangles
   for (int trial = 0; trial < trials; ++trial) {
     Pose X = s.planes[static_cast<std::size_t>(trial) % s.planes.size()];
     if (!many || trial % 3 != 0) {
@@ -333,12 +334,16 @@ Finding bounds_of(const Subject& s) {
         inside.add(b.empty ? kInfinity : beyond / rounding(s, 1e-10), at, "a height at a bound", z, bound);
       }
       // and they are of use: towards the other body, those of a small rectangle are of its size
+      if (everywhere) ++covered;
       if (!everywhere || s.brief || size >= (many ? 4e-3 : 2e-3) || z_max - z_min >= 2.0 * size) continue;
       const double excess = is_wheel(s) ? b.z_max - z_max : z_min - b.z_min;
       close.add(excess / (3.0 * size + 1e-4), at, "from heights of a small rectangle to their bound [m]", excess, 0.0);
     }
   }
-  return worse(inside.finding(), close.finding(0.1), s.brief ? inside.count() : close.count());
+  constexpr std::size_t kFewest = 21;
+  if (!s.brief && close.count() < (s.shape != nullptr ? kFewest : 1))
+    return {kInfinity, fmt::format("only {} small rectangles are wholly on it", close.count()), close.count()};
+  return worse(inside.finding(), close.finding(0.1), many ? inside.count() : covered);
 }
 
 Finding located(const Subject& s) {
@@ -413,8 +418,9 @@ Finding parameters(const Subject& s) {
 Finding curvatures(const Subject& s) {
   // what is interpolated linearly has no curvature of its own, and chords may be as short as the differences
   const bool facets = s.creases == Creases::facets;
-  if (s.creases == Creases::cells && (s.brief || (s.shape != nullptr && s.shape->varies))) return {};
-  if (s.creases == Creases::chords && s.brief) return {};
+  if (s.creases == Creases::cells && (s.brief || (s.shape != nullptr && s.shape->varies)))
+    return {.compared = kNotAsked};
+  if (s.creases == Creases::chords && s.brief) return {.compared = kNotAsked};
   constexpr double kStep = 5e-5;  // [m] the noise of 1e-16 m heights in the second difference is 4e-8 1/m
   const double side = is_wheel(s) ? 1.0 : -1.0;
   Tally tally(s);
@@ -445,17 +451,17 @@ Finding curvatures(const Subject& s) {
 
 constexpr Promise kPromises[] = {
     {"name", "it tells its backend, which way it faces and what it takes", 3, false, true, name},
-    {"heights", "lines along the plane's normal meet the shape, where they meet it first", 1000, true, false, heights},
-    {"normals", "slopes give the normals of the shape", 100, true, false, normals},
-    {"slopes", "slopes are those of the heights", 1000, false, true, slopes},
+    {"heights", "lines along the plane's normal meet the shape, where they meet it first", 1001, true, false, heights},
+    {"normals", "slopes give the normals of the shape", 1001, true, false, normals},
+    {"slopes", "slopes are those of the heights", 1001, false, true, slopes},
     {"points", "heights of points are those of grids, and the same are missing", 5000, false, true, points},
     {"tiles", "a grid in tiles has the heights of the whole", 20000, false, false, tiles},
     {"threads", "any number of threads gives the same bits", 20000, false, false, threads},
     {"misses", "beside the profile there is nothing", 50, false, true, misses},
     {"sections", "what it calls one profile is one", 2, true, false, sections},
     {"moved", "planes moved in themselves or along their normal give the same heights", 5000, false, false, moved},
-    {"bounds", "bounds hold every height, those of small rectangles closely", 21, false, true, bounds_of<false>},
-    {"many-bounds", "so do bounds of many rectangles at once", 21, false, true, bounds_of<true>},
+    {"bounds", "bounds hold every height, those of small rectangles closely", 51, false, true, bounds_of<false>},
+    {"many-bounds", "so do bounds of many rectangles at once", 2001, false, true, bounds_of<true>},
     {"locate", "located points lie where the heights are, normals point outwards", 1000, false, true, located},
     {"parameters", "parameters of located points lead back to them", 31, false, false, parameters},
     {"curvatures", "principal curvatures are those of the heights", 51, false, true, curvatures},
@@ -466,7 +472,10 @@ constexpr Promise kPromises[] = {
 std::span<const Promise> promises() { return kPromises; }
 
 Finding hold(const Promise& promise, const Subject& subject) try {
-  return promise.worst(subject);
+  const Finding found = promise.worst(subject);
+  const std::size_t least = subject.brief || subject.shape == nullptr ? 0 : promise.least;
+  if (!found.kept() || found.compared >= least) return found;
+  return {kInfinity, fmt::format("only {} of {} numbers could be compared", found.compared, least), found.compared};
 } catch (const Error& error) {
   return {kInfinity, fmt::format("it fails: {}", error.what()), 0};
 }

@@ -36,6 +36,9 @@ struct Subject {
   bool brief = false;  ///< few points, of which some may be wrong: milliseconds, and nobody is blamed for grazing lines
 };
 
+/// As Finding::compared: of such a surface this is not asked.
+inline constexpr std::size_t kNotAsked = static_cast<std::size_t>(-1);
+
 /// How a promise was kept.
 struct Finding {
   double worst = 0.0;        ///< the worst violation over what is allowed: above 1 the promise is broken
@@ -47,11 +50,11 @@ struct Finding {
 
 /// One thing that every surface promises.
 struct Promise {
-  const char* name;                  ///< one word
-  const char* says;                  ///< what is promised
-  std::size_t least;                 ///< on each of shapes() so much is compared at least
-  bool of_shape;                     ///< judged by Subject::shape
-  bool in_brief;                     ///< part of the short form
+  const char* name;   ///< one word
+  const char* says;   ///< what is promised
+  std::size_t least;  ///< of a surface with a shape so much must be there to be compared, unless in brief
+  bool of_shape;      ///< judged by Subject::shape
+  bool in_brief;      ///< part of the short form
   Finding (*worst)(const Subject&);  ///< the worst violation that is found; deterministic
 };
 
