@@ -188,6 +188,8 @@ io::RepresentedBody body_of(const std::vector<io::SurfaceUse>& uses, std::string
   return out;
 }
 
+void add_note(std::string& note, const std::string& more) { note += (note.empty() || more.empty() ? "" : "; ") + more; }
+
 io::ComparisonCandidate candidate_of(const Choice& choice, const io::RunResult& run,
                                      const io::ComparisonCandidate* truth) {
   io::ComparisonCandidate c;
@@ -299,8 +301,8 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
       failed.failure = e.what();
       out.candidates.push_back(std::move(failed));
     }
-    out.candidates.back().wheel.note += wheel_breaks;
-    out.candidates.back().rail.note += rail_breaks;
+    add_note(out.candidates.back().wheel.note, wheel_breaks);
+    add_note(out.candidates.back().rail.note, rail_breaks);
     done += file.cases.size();
     if (!come_up_again) store.forget_sampled();
   }

@@ -10,8 +10,10 @@
 #include <filesystem>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/standard_case.hpp"
+#include "treadmark/tests/support/file_content.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
@@ -45,6 +47,34 @@ TEST(Plugins, AreChoicesOfEveryVerb) {
     const ProgramResult r = with(kChebyshev, words);
     EXPECT_EQ(r.status, 0) << words[0] << r.err;
     EXPECT_THAT(r.out, AllOf(HasSubstr("chebyshev"), Not(HasSubstr("failed:")), Not(HasSubstr("breaks")))) << words[0];
+  }
+}
+
+TEST(Plugins, AreInCasesThatAreConvertedInReportsAndInStudies) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("case.toml", standard_case("1")).string(), written = file + ".again.toml",
+                    results = (folder.path() / "results").string(), page = results + ".html";
+  const Words chosen{"--set", "rail.backend=chebyshev"}, convert{"convert", file, written, chosen[0], chosen[1]};
+  EXPECT_THAT(run_program(convert).err, HasSubstr("chebyshev"));
+  EXPECT_EQ(with(kChebyshev, convert).err, "");
+  const ProgramResult run = with(kChebyshev, {"run", written, "-o", results});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("chebyshev"));
+  if (has_part("report")) {
+    EXPECT_EQ(with(kChebyshev, {"report", results, "-o", page}).status, 0);
+    EXPECT_THAT(content_of(page), HasSubstr("chebyshev"));
+  }
+  if (has_part("vehicle")) {
+    const std::string studied = results + ".study";
+    const std::string study = folder
+                                  .write("study.toml",
+                                         "[study]\nbase = 'case.toml'\n[[study.vary]]\n"
+                                         "key = 'rail.backend'\nvalues = ['spline', 'chebyshev']\n")
+                                  .string();
+    const ProgramResult swept = with(kChebyshev, {"sweep", study, "-o", studied});
+    EXPECT_EQ(swept.status, 0) << swept.err;
+    EXPECT_THAT(content_of(studied + "/sweep.csv"), HasSubstr("chebyshev"));
+    EXPECT_NE(run_program({"sweep", study, "-o", studied + "-without"}).status, 0);
   }
 }
 
