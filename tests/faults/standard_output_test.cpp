@@ -28,6 +28,7 @@ const std::vector<OutputRow> kPrinting{
     {"compare", "", "", "compare $case.toml --resolutions 8 --bodies rail --backends spline", nullptr, 0},
     {"diff", "hdf5", "run $case.toml -o $first", "diff $first $first", nullptr, 0},
     {"bench", "", "", "bench $case.toml --resolutions 4 --backends spline --seconds-per-measure 0.001", nullptr, 0},
+    {"conform", "", "", "conform $case.toml", nullptr, 0},
     {"convert", "", "", "convert $rail.prr @rail.prr", nullptr, 0},
     {"scan", "scans", "", "scan $rail.prr -o @scan.xyz --range-mm -20 20 --points 300", nullptr, 0},
     {"import_settings", "scans", "", "import --list-settings", nullptr, 0},
