@@ -31,16 +31,25 @@ struct GraphSearch {
   /// The end of the heights over a rectangle: sign 1: not below the greatest, -1: not above the least; NaN: none.
   double end(const Rectangle& r, double sign) const {
     constexpr double kNear = 1.1, kRounding = 1e-9;  // [m]
+    const double length = r.x_max - r.x_min, width = r.y_max - r.y_min, radius = 0.5 * std::hypot(length, width);
     const double x = 0.5 * (r.x_min + r.x_max), y = 0.5 * (r.y_min + r.y_max);
-    const double radius = 0.5 * std::hypot(r.x_max - r.x_min, r.y_max - r.y_min);
-    // along the middle, from a ball that holds the surface on: t = sign z falls
     const Rectangle& d = g.domain;
     const Vec3 least(wheel ? -g.high : d.x_min, d.y_min, wheel ? -g.high : g.low);
     const Vec3 most(wheel ? g.high : d.x_max, d.y_max, g.high);
-    const double ball = radius + 0.5 * (most - least).norm();
-    const double middle = sign * X_SP.rotation.col(2).dot(0.5 * (least + most) - X_SP.apply({x, y, 0.0}));
-    if (!std::isfinite(middle + ball)) return sign * kInfinity;
-    for (double t = middle + ball; t >= middle - ball;) {
+    // where the rectangle, moved along its normal, meets a box that holds the surface: t = sign z falls
+    const Vec3 middle = X_SP.apply({x, y, 0.0}), along = sign * X_SP.rotation.col(2);
+    double from = kInfinity, to = -kInfinity;
+    for (int k = 0; k < 3; ++k) {
+      const double across = std::fabs(X_SP.rotation(k, 0)) * length + std::fabs(X_SP.rotation(k, 1)) * width;
+      const double half = 0.5 * across + kRounding;
+      const double first = least[k] - half - middle[k], last = most[k] + half - middle[k];
+      if (along[k] == 0.0 && (first > 0.0 || last < 0.0)) return kNaN;
+      if (along[k] == 0.0) continue;
+      from = std::min(from, std::max(first / along[k], last / along[k]));
+      to = std::max(to, std::min(first / along[k], last / along[k]));
+    }
+    if (!std::isfinite(from - to)) return sign * kInfinity;
+    for (double t = from; t >= to;) {
       const double free = clearance(X_SP.apply({x, y, sign * t}));
       if (!(free > kNear * radius + kRounding)) return sign * t;
       t -= std::sqrt((free - radius) * (free + radius));

@@ -22,7 +22,7 @@ SteepestGraph wavy(bool wheel) {
   return {r, {0.0, 0.0, -0.036, 0.036}, 0.449, 0.4602, std::hypot(0.12 + 1.6, 0.012 / 0.449)};
 }
 
-constexpr double kFine = 5e-5;  // [m]
+constexpr double kFine = 1e-4;  // [m]
 
 /// The first change of sign along a line from outside, in fine steps.
 double first_hit(bool wheel, const SteepestGraph& g, const Pose& X, double x, double y) {
