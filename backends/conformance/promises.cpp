@@ -410,7 +410,7 @@ Finding parameters(const Subject& s) {
     const double off = std::fabs(shape.curvature_1 - p.curvature_1) + std::fabs(shape.curvature_2 - p.curvature_2);
     bends.add(off / ((exact ? 2e-3 : 2e-2) * scale), at, "the greater curvature", p.curvature_1, shape.curvature_1);
   }
-  const Finding found = worse(places.finding(), {}, bends.count());
+  Finding found = worse(places.finding(), {}, bends.count());
   if (!exact && s.creases != Creases::none) return found;
   return worse(worse(found, turns.finding(exact ? 0.0 : 0.25), 0), bends.finding(1.0 / 6.0), bends.count());
 }
@@ -472,7 +472,7 @@ constexpr Promise kPromises[] = {
 std::span<const Promise> promises() { return kPromises; }
 
 Finding hold(const Promise& promise, const Subject& subject) try {
-  const Finding found = promise.worst(subject);
+  Finding found = promise.worst(subject);
   const std::size_t least = subject.brief || subject.shape == nullptr ? 0 : promise.least;
   if (!found.kept() || found.compared >= least) return found;
   return {kInfinity, fmt::format("only {} of {} numbers could be compared", found.compared, least), found.compared};
