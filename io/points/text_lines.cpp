@@ -69,6 +69,7 @@ std::string plain_signs(std::string_view line) {
                                                                      {"\xE2\x80\xAF", ' '},    // narrow one
                                                                      {"\xE2\x80\x89", ' '},    // thin space
                                                                      {"\xE2\x80\x87", ' '}}};  // as wide as a digit
+  if (ranges::none_of(line, [](char c) { return static_cast<unsigned char>(c) >= 0x80 || c == '('; })) return {};
   std::string plain;
   bool changed = false;
   for (std::size_t k = 0; k < line.size();) {
@@ -95,9 +96,11 @@ bool is_void_word(std::string_view word) {
                                                    "none", "nil",     "void",   "inf",    "-inf",   "-nan",
                                                    "miss", "#value!", "#wert!", "nodata", "invalid"};
   if (word.size() >= 2 && word.front() == '"' && word.back() == '"') word = word.substr(1, word.size() - 2);
-  const std::string plain = profiles::lower(word);
-  if (ranges::find(kVoid, plain) != kVoid.end()) return true;
-  if (ranges::all_of(plain, [](char c) { return c == '-' || c == '*' || c == '?' || c == '.'; })) return true;
+  if (ranges::none_of(word, [](char c) { return c >= '0' && c <= '9'; })) {
+    const std::string plain = profiles::lower(word);
+    if (ranges::find(kVoid, plain) != kVoid.end()) return true;
+    if (ranges::all_of(plain, [](char c) { return c == '-' || c == '*' || c == '?' || c == '.'; })) return true;
+  }
   double value = 0.0;
   return parse_number(word, true, value) && !std::isfinite(value);
 }

@@ -58,6 +58,10 @@ class VoidMarks {
     return size >= kHuge || is_power(size) || is_nines(size);
   }
   static bool is_nines(double size) {
+    constexpr double kFewestNines = 0.998;  // of the next power of ten; most numbers need not be written out
+    double power = 10.0;
+    while (power <= size) power *= 10.0;
+    if (size < kFewestNines * power) return false;
     const std::string digits = fmt::format("{:.10g}", size);
     const auto nines = ranges::count(digits, '9');
     // thousands of an instrument that counts in quarters
