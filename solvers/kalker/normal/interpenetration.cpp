@@ -47,4 +47,51 @@ void half_space_displacement(NormalOperatorCache& operators, const ContactProble
     for (int ix = box.x0; ix < box.x1; ++ix) displacement[grid.index(ix, iy)] = field[local(ix, iy)];
 }
 
+bool sum_half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,
+                                 std::span<const double> pressure, std::span<const std::size_t> elements,
+                                 std::span<double> displacement) {
+  constexpr std::size_t kMost = 4'000'000;  // pairs of elements
+  const Grid2& grid = problem.grid;
+  if (elements.size() * box.size() > kMost) return false;
+  const auto width = static_cast<std::size_t>(grid.nx);
+  ElementBox around = box;
+  for (const std::size_t i : elements) around.include(static_cast<int>(i % width), static_cast<int>(i / width));
+  const InfluenceTable* table = operators.half_spaces(around.nx(), around.ny());
+  if (table == nullptr) return false;
+
+  // Coefficients of a row at offsets from 1 - nx to nx - 1, so that each sum runs through them and the pressures side
+  // by side.
+  const int reach = around.nx(), length = 2 * reach - 1;
+  std::vector<double> rows(static_cast<std::size_t>(length) * static_cast<std::size_t>(around.ny()));
+  for (int diy = 0; diy < around.ny(); ++diy)
+    for (int dix = 1 - reach; dix < reach; ++dix)
+      rows[static_cast<std::size_t>(diy * length + dix + reach - 1)] = (*table)(dix, diy);
+  struct Loaded {
+    int iy, begin, end;
+  };
+  std::vector<Loaded> loaded;
+  for (int iy = box.y0; iy < box.y1; ++iy) {
+    Loaded row{iy, box.x0, box.x1};
+    while (row.begin < row.end && !(pressure[grid.index(row.begin, iy)] > 0.0)) ++row.begin;
+    while (row.begin < row.end && !(pressure[grid.index(row.end - 1, iy)] > 0.0)) --row.end;
+    if (row.begin < row.end) loaded.push_back(row);
+  }
+  const double shear_modulus = combine(problem.material).shear_modulus;
+  for (const std::size_t i : elements) {
+    const int ix = static_cast<int>(i % width), iy = static_cast<int>(i / width);
+    double sum[4] = {};
+    for (const Loaded& row : loaded) {
+      const double* p = pressure.data() + grid.index(row.begin, row.iy);
+      const double* c = rows.data() + std::abs(iy - row.iy) * length + (row.begin - ix + reach - 1);
+      const int count = row.end - row.begin;
+      int k = 0;
+      for (; k + 4 <= count; k += 4)
+        for (int lane = 0; lane < 4; ++lane) sum[lane] += p[k + lane] * c[k + lane];
+      for (; k < count; ++k) sum[0] += p[k] * c[k];
+    }
+    displacement[i] = ((sum[0] + sum[1]) + (sum[2] + sum[3])) / shear_modulus;
+  }
+  return true;
+}
+
 }  // namespace treadmark::kalker

@@ -91,4 +91,11 @@ struct Outline {
 void half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,
                              std::span<const double> pressure, std::span<double> displacement);
 
+/// The same of single elements outside a box, by the pressures inside it, summed element by element, which costs less
+/// than coefficients for a box around all of them. elements: places in the grid. Of the problem whose operators were
+/// asked for last. False, and nothing is done: they are many, or coefficients are not those of half-spaces.
+bool sum_half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,
+                                 std::span<const double> pressure, std::span<const std::size_t> elements,
+                                 std::span<double> displacement);
+
 }  // namespace treadmark::kalker

@@ -48,6 +48,12 @@ NormalOperator NormalOperatorCache::get(int nx, int ny, int first_row, const Con
   return {known->second, choice.rows(problem.grid, first_row, ny)};
 }
 
+const InfluenceTable* NormalOperatorCache::half_spaces(int nx, int ny) {
+  if (kernel_ || !table_) return nullptr;
+  table_->grow(nx, ny);
+  return &*table_;
+}
+
 std::shared_ptr<NormalInfluence> NormalOperatorCache::make(int nx, int ny) {
   const double dx = table_->dx(), dy = table_->dy();
   auto made =

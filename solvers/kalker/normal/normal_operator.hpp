@@ -54,6 +54,10 @@ class NormalOperatorCache {
   /// and thin sheet.
   NormalOperator get(int nx, int ny, int first_row, const ContactProblem& problem);
 
+  /// C [m] of half-spaces at offsets |dix| < nx, |diy| < ny, of the problem that get() was called for last; none where
+  /// its coefficients are others.
+  const InfluenceTable* half_spaces(int nx, int ny);
+
  private:
   std::shared_ptr<NormalInfluence> make(int nx, int ny);
 

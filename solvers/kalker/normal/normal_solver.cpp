@@ -255,18 +255,23 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
       paste(grid, solution.displacement_n, box, cg.u);
       break;
     }
-    whole.include(box);
-    whole = rounded(whole, grid);
-    half_space_displacement(operators, problem, whole, pressure, solution.displacement_n);
-    ++cg.products;
-    const double limit = cg.approach - cg.negligible_overlap(problem.settings.eps);
-    ElementBox overlapping;
+    std::vector<std::size_t> beside;
     for (int iy = whole.y0; iy < whole.y1; ++iy)
-      for (int ix = whole.x0; ix < whole.x1; ++ix) {
-        const std::size_t i = grid.index(ix, iy);
-        if (gap[i] + solution.displacement_n[i] < limit && !box.contains(ElementBox{ix, iy, ix + 1, iy + 1}))
-          overlapping.include(ix, iy);
-      }
+      for (int ix = whole.x0; ix < whole.x1; ++ix)
+        if (gap[grid.index(ix, iy)] < cg.approach && !box.contains(ElementBox{ix, iy, ix + 1, iy + 1}))
+          beside.push_back(grid.index(ix, iy));
+    paste(grid, solution.displacement_n, box, cg.u);
+    if (!sum_half_space_displacement(operators, problem, box, pressure, beside, solution.displacement_n)) {
+      whole.include(box);
+      half_space_displacement(operators, problem, rounded(whole, grid), pressure, solution.displacement_n);
+      ++cg.products;
+    }
+    const double limit = cg.approach - cg.negligible_overlap(problem.settings.eps);
+    const auto width = static_cast<std::size_t>(grid.nx);
+    ElementBox overlapping;
+    for (const std::size_t i : beside)
+      if (gap[i] + solution.displacement_n[i] < limit)
+        overlapping.include(static_cast<int>(i % width), static_cast<int>(i / width));
     if (overlapping.empty()) break;
     overlapping.include(box);
     box = rounded(overlapping, grid);

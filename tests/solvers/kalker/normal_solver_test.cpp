@@ -168,6 +168,21 @@ TEST(NormalSolver, TwoRegionsShareTheLoad) {
   EXPECT_NEAR(solution.approach, one.approach + by_the_other, 3e-3 * one.approach);
 }
 
+// Beside the contact, where the bodies would lie in each other: outside the box in which pressures are sought.
+TEST(NormalSolver, DisplacesWhatWouldInterpenetrate) {
+  OwnedProblem owned = two_balls(0.0);
+  owned.problem.normal_force = 8e3;
+  const ContactSolution solution = solve(owned.problem);
+  const auto u = direct_displacement(owned.problem.grid, solution.pressure);
+  int beside = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    if (!(owned.gap[i] < solution.approach)) continue;
+    EXPECT_NEAR(solution.displacement_n[i], u[i], 1e-9 * solution.approach) << i;
+    beside += solution.pressure[i] > 0.0 ? 0 : 1;
+  }
+  EXPECT_GT(beside, solution.elements_contact / 2);
+}
+
 TEST(NormalSolver, FindsASecondRegionOutsideTheFirstBox) {
   // The second ball touches only after most of the load is on the first one, far outside the first estimate.
   OwnedProblem owned = two_balls(30e-6);
