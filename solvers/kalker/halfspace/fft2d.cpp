@@ -17,10 +17,12 @@
 
 namespace treadmark::kalker {
 
-namespace {
+std::mutex& fft_planning() {
+  static std::mutex planning;
+  return planning;
+}
 
-/// Held while a plan is made or destroyed: libraries let only transforms run in parallel.
-std::mutex planning;
+namespace {
 
 struct KeptPlan {
   std::shared_ptr<const FftPlan> plan;
@@ -36,7 +38,7 @@ std::map<std::array<int, 3>, KeptPlan>& kept_plans() {
 std::shared_ptr<const FftPlan> destroyed_alone(std::shared_ptr<const FftPlan> plan) {
   const FftPlan* where = plan.get();
   return {where, [plan = std::move(plan)](const FftPlan*) mutable {
-            const std::lock_guard lock(planning);
+            const std::lock_guard lock(fft_planning());
             plan.reset();
           }};
 }
@@ -45,7 +47,7 @@ std::shared_ptr<const FftPlan> destroyed_alone(std::shared_ptr<const FftPlan> pl
 std::shared_ptr<const FftPlan> shared_plan(int nx, int ny, int active_rows) {
   static std::uint64_t asked = 0;
   std::shared_ptr<const FftPlan> dropped;  // outlives the lock
-  const std::lock_guard lock(planning);
+  const std::lock_guard lock(fft_planning());
   auto& plans = kept_plans();
   KeptPlan& kept = plans[{nx, ny, active_rows}];
   kept.asked = ++asked;
@@ -73,7 +75,7 @@ bool has_only_small_factors(int n) {
 }  // namespace
 
 std::size_t fft_plans() {
-  const std::lock_guard lock(planning);
+  const std::lock_guard lock(fft_planning());
   return kept_plans().size();
 }
 
@@ -86,7 +88,7 @@ RealFft2d::RealFft2d(int nx, int ny, int active_rows) : nx_(nx), ny_(ny), active
                     std::to_string(active_rows) + " active rows",
                 {}, "nx must be even and positive, 1 <= active_rows <= ny");
   plan_ = shared_plan(nx, ny, active_rows);
-  by_columns_ = has_parts(active_rows, nx, ny);
+  large_ = has_parts(active_rows, nx, ny);
 }
 
 namespace {
@@ -183,83 +185,101 @@ std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_
 
 void RealFft2d::multiply(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const {
   check_sizes(load.size() <= kMostFields && (store.empty() || store.size() == load.size()));
-  by_columns_ ? multiply_in_parts(load, factor, store) : multiply_whole(load, factor, store);
+  lines_are_columns() ? multiply_columns(load, factor, store) : multiply_rows(load, factor, store);
 }
 
 void RealFft2d::lines_of(const LoadRows& load, const Line& take) const { multiply({&load, 1}, take, {}); }
 
-void RealFft2d::multiply_whole(std::span<const LoadRows> load, const Line& factor,
-                               std::span<const StoreRows> store) const {
+/// A single row.
+void RealFft2d::multiply_rows(std::span<const LoadRows> load, const Line& factor,
+                              std::span<const StoreRows> store) const {
   double* real = kept_memory<double, kRealRows>(real_size());
-  Complex* memory = kept_memory<Complex, kSpectra>(load.size() * (spectrum_size() + 4));
-  // every spectrum begins at a cache line
-  const std::size_t apart = (spectrum_size() + 3) / 4 * 4;
+  const std::size_t apart = (spectrum_size() + 3) / 4 * 4;  // every spectrum begins at a cache line
+  Complex* memory = kept_memory<Complex, kSpectra>(load.size() * apart);
   std::array<Complex*, kMostFields> spectra{};
   for (std::size_t f = 0; f < load.size(); ++f) {
     spectra[f] = memory + f * apart;
-    load[f](0, active_rows_, real);
+    load[f](0, 1, real);
     plan_->rows_forward(real, spectra[f]);
-    std::fill(spectra[f] + rows_size(), spectra[f] + spectrum_size(), Complex());
-    plan_->columns_forward(spectra[f]);
   }
-  for (int line = 0; line < ny_; ++line) {
-    std::array<Complex*, kMostFields> values{};
-    for (std::size_t f = 0; f < load.size(); ++f) values[f] = spectra[f] + place(0, line);
-    factor(line, values.data());
-  }
+  factor(0, spectra.data());
   for (std::size_t f = 0; f < store.size(); ++f) {
-    plan_->columns_inverse(spectra[f]);
     plan_->rows_inverse(spectra[f], real);
-    store[f](0, active_rows_, real);
+    store[f](0, 1, real);
   }
+}
+
+void RealFft2d::rows_forward(const LoadRows& load, Complex* rows) const {
+  const std::size_t width = static_cast<std::size_t>(nx_ / 2 + 1);
+  if (!large_) {
+    double* real = kept_memory<double, kRealRows>(real_size());
+    load(0, active_rows_, real);
+    return plan_->rows_forward(real, rows);
+  }
+  const int of_rows = rows_of_part(active_rows_, nx_, ny_);
+  for_parts(active_rows_, of_rows, [&](int first, int count) {
+    double* real = kept_memory<double, kRealRows>(product(of_rows, nx_));
+    load(first, count, real);
+    plan_->part_of_rows_forward(count, real, rows + static_cast<std::size_t>(first) * width);
+  });
+}
+
+void RealFft2d::rows_inverse(Complex* rows, const StoreRows& store) const {
+  const std::size_t width = static_cast<std::size_t>(nx_ / 2 + 1);
+  if (!large_) {
+    double* real = kept_memory<double, kRealRows>(real_size());
+    plan_->rows_inverse(rows, real);
+    return store(0, active_rows_, real);
+  }
+  const int of_rows = rows_of_part(active_rows_, nx_, ny_);
+  for_parts(active_rows_, of_rows, [&](int first, int count) {
+    double* real = kept_memory<double, kRealRows>(product(of_rows, nx_));
+    plan_->part_of_rows_inverse(count, rows + static_cast<std::size_t>(first) * width, real);
+    store(first, count, real);
+  });
 }
 
 /// What is zero before and not wanted after the transform along columns, the rows that are not active, exists for a few
 /// columns at a time only.
-void RealFft2d::multiply_in_parts(std::span<const LoadRows> load, const Line& factor,
-                                  std::span<const StoreRows> store) const {
-  const int width = nx_ / 2 + 1, of_rows = rows_of_part(active_rows_, nx_, ny_), of_columns = columns_of_part(nx_, ny_);
-  const std::size_t apart = (rows_size() + 3) / 4 * 4;
+void RealFft2d::multiply_columns(std::span<const LoadRows> load, const Line& factor,
+                                 std::span<const StoreRows> store) const {
+  const int width = nx_ / 2 + 1, of_columns = columns_of_part(active_rows_, nx_, ny_);
+  const std::size_t apart = (rows_size() + 3) / 4 * 4, size = (product(of_columns, ny_) + 3) / 4 * 4;
+  const auto length = static_cast<std::size_t>(ny_), active = static_cast<std::size_t>(active_rows_);
   Complex* rows = kept_memory<Complex, kSpectra>(load.size() * apart);
-  for (std::size_t f = 0; f < load.size(); ++f)
-    for_parts(active_rows_, of_rows, [&](int first, int count) {
-      double* real = kept_memory<double, kRealRows>(product(of_rows, nx_));
-      load[f](first, count, real);
-      plan_->part_of_rows_forward(count, real, rows + f * apart + product(first, width));
-    });
-  for_parts(width, of_columns, [&](int first, int count) {
-    const std::size_t size = (product(count, ny_) + 3) / 4 * 4;
-    Complex* memory = kept_memory<Complex, kColumns>((1 + load.size()) * ((product(of_columns, ny_) + 3) / 4 * 4));
+  for (std::size_t f = 0; f < load.size(); ++f) rows_forward(load[f], rows + f * apart);
+  const auto part = [&](int first, int count) {
+    Complex* memory = kept_memory<Complex, kColumns>((1 + load.size()) * size);
     Complex* before = memory;  // a field's columns, which its spectrum has not seen or has seen already
+    const auto columns = static_cast<std::size_t>(count);
     std::array<Complex*, kMostFields> values{};
     for (std::size_t f = 0; f < load.size(); ++f) {
       values[f] = memory + (f + 1) * size;
       const Complex* from = rows + f * apart + first;
-      for (int iy = 0; iy < active_rows_; ++iy, from += width)
-        for (int k = 0; k < count; ++k) before[product(k, ny_) + static_cast<std::size_t>(iy)] = from[k];
-      for (int k = 0; k < count; ++k)
-        std::fill(before + product(k, ny_) + static_cast<std::size_t>(active_rows_), before + product(k + 1, ny_),
-                  Complex());
+      for (std::size_t iy = 0; iy < active; ++iy, from += width)
+        for (std::size_t k = 0; k < columns; ++k) before[k * length + iy] = from[k];
+      for (std::size_t k = 0; k < columns; ++k)
+        std::fill(before + k * length + active, before + (k + 1) * length, Complex());
+      if (!large_) std::fill(before + columns * length, before + product(of_columns, ny_), Complex());
       plan_->part_of_columns_forward(count, before, values[f]);
     }
-    for (int k = 0; k < count; ++k) {
+    for (std::size_t k = 0; k < columns; ++k) {
       std::array<Complex*, kMostFields> line{};
-      for (std::size_t f = 0; f < load.size(); ++f) line[f] = values[f] + product(k, ny_);
-      factor(first + k, line.data());
+      for (std::size_t f = 0; f < load.size(); ++f) line[f] = values[f] + k * length;
+      factor(first + static_cast<int>(k), line.data());
     }
     for (std::size_t f = 0; f < store.size(); ++f) {
       plan_->part_of_columns_inverse(count, values[f], before);
       Complex* to = rows + f * apart + first;
-      for (int iy = 0; iy < active_rows_; ++iy, to += width)
-        for (int k = 0; k < count; ++k) to[k] = before[product(k, ny_) + static_cast<std::size_t>(iy)];
+      for (std::size_t iy = 0; iy < active; ++iy, to += width)
+        for (std::size_t k = 0; k < columns; ++k) to[k] = before[k * length + iy];
     }
-  });
-  for (std::size_t f = 0; f < store.size(); ++f)
-    for_parts(active_rows_, of_rows, [&](int first, int count) {
-      double* real = kept_memory<double, kRealRows>(product(of_rows, nx_));
-      plan_->part_of_rows_inverse(count, rows + f * apart + product(first, width), real);
-      store[f](first, count, real);
-    });
+  };
+  if (large_)
+    for_parts(width, of_columns, part);
+  else
+    for (int first = 0; first < width; first += of_columns) part(first, std::min(of_columns, width - first));
+  for (std::size_t f = 0; f < store.size(); ++f) rows_inverse(rows + f * apart, store[f]);
 }
 
 int good_fft_size(int n) {

@@ -53,15 +53,15 @@ class RealFft2d {
   /// A line of the spectrum, of each of the fields: called once for each, on any thread.
   using Line = std::function<void(int line, std::complex<double>* const* values)>;
 
-  /// Lines in which whole spectra pass by: rows (one a ky, of nx/2+1 numbers) of small transforms, columns (one a kx,
-  /// of ny numbers) of large ones, which then never exist as a whole and go through the cache but once.
-  bool lines_are_columns() const { return by_columns_; }
-  int lines() const { return by_columns_ ? nx_ / 2 + 1 : ny_; }
-  int line_length() const { return by_columns_ ? ny_ : nx_ / 2 + 1; }
+  /// Lines in which whole spectra pass by: columns (one a kx, of ny numbers), few at a time, so that the whole never
+  /// exists; of a single row that row.
+  bool lines_are_columns() const { return ny_ > 1; }
+  int lines() const { return lines_are_columns() ? nx_ / 2 + 1 : ny_; }
+  int line_length() const { return lines_are_columns() ? ny_ : nx_ / 2 + 1; }
   /// Place of a number in an array of all lines.
   std::size_t place(int kx, int ky) const {
-    return static_cast<std::size_t>(by_columns_ ? kx : ky) * static_cast<std::size_t>(line_length()) +
-           static_cast<std::size_t>(by_columns_ ? ky : kx);
+    return static_cast<std::size_t>(lines_are_columns() ? kx : ky) * static_cast<std::size_t>(line_length()) +
+           static_cast<std::size_t>(lines_are_columns() ? ky : kx);
   }
 
   /// Fields, at most kMostFields, transformed, changed line by line and transformed back.
@@ -71,11 +71,13 @@ class RealFft2d {
   void lines_of(const LoadRows& load, const Line& take) const;
 
  private:
-  void multiply_whole(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const;
-  void multiply_in_parts(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const;
+  void multiply_rows(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const;
+  void multiply_columns(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const;
+  void rows_forward(const LoadRows& load, std::complex<double>* rows) const;
+  void rows_inverse(std::complex<double>* rows, const StoreRows& store) const;
 
   int nx_, ny_, active_rows_;
-  bool by_columns_ = false;
+  bool large_ = false;
   std::shared_ptr<const FftPlan> plan_;
 };
 

@@ -6,6 +6,7 @@
 #include <complex>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <vector>
 
@@ -23,10 +24,12 @@ class FftPlan {
   virtual void columns_forward(std::complex<double>* spectrum) const = 0;
   virtual void columns_inverse(std::complex<double>* spectrum) const = 0;
 
-  /// Of a large transform (has_parts) so many rows or columns, as many as rows_of_part or columns_of_part say or what
-  /// is left over at the end. Columns are arrays of ny numbers one after the other; `from` is overwritten.
+  /// Of a large transform (has_parts) so many rows, as many as rows_of_part says or what is left over at the end.
   virtual void part_of_rows_forward(int rows, double* real, std::complex<double>* spectrum) const = 0;
   virtual void part_of_rows_inverse(int rows, std::complex<double>* spectrum, double* real) const = 0;
+  /// So many columns, as many as columns_of_part says or what is left over at the end: arrays of ny numbers one after
+  /// the other. `from` is overwritten. Both have room for as many as columns_of_part says, and what stands there beyond
+  /// `columns` may be transformed as well.
   virtual void part_of_columns_forward(int columns, std::complex<double>* from, std::complex<double>* to) const = 0;
   virtual void part_of_columns_inverse(int columns, std::complex<double>* from, std::complex<double>* to) const = 0;
 };
@@ -38,16 +41,20 @@ inline int lines_of_fft_block(int lines, int nx, int ny) {
   return (nx / 2 + 1) * ny >= kLarge ? std::min(lines, kBlock) : lines;
 }
 
-/// Columns of a large transform that go through the cache together: few enough to stay there, and at least as many as
-/// fill a cache line.
-inline int columns_of_part(int nx, int ny) {
-  constexpr int kFewest = 4, kNumbers = 4096;
-  return std::min(nx / 2 + 1, std::max(kFewest, kNumbers / ny));
-}
 inline int rows_of_part(int active_rows, int nx, int ny) { return lines_of_fft_block(active_rows, nx, ny); }
 inline bool has_parts(int active_rows, int nx, int ny) {
   return ny > 1 && rows_of_part(active_rows, nx, ny) < active_rows;
 }
+
+/// Columns that are transformed side by side. Of large transforms few enough to stay in the cache together, and at
+/// least as many as fill a cache line; of small ones always as many, so that all of a length share plans.
+inline int columns_of_part(int active_rows, int nx, int ny) {
+  constexpr int kFewest = 4, kNumbers = 4096, kOfSmall = 8;
+  return has_parts(active_rows, nx, ny) ? std::min(nx / 2 + 1, std::max(kFewest, kNumbers / ny)) : kOfSmall;
+}
+
+/// Held while a plan is made or destroyed: libraries let only transforms run in parallel.
+std::mutex& fft_planning();
 
 /// By FFTW where it is compiled in, else by our own transforms. Calls are serialised by the caller.
 std::shared_ptr<const FftPlan> make_fft_plan(int nx, int ny, int active_rows);

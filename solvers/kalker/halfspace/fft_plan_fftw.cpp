@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <new>
 #include <type_traits>
 
@@ -19,7 +20,7 @@ namespace {
 
 fftw_complex* raw(std::complex<double>* p) { return reinterpret_cast<fftw_complex*>(p); }
 
-enum class Lines { rows_forward, rows_inverse, columns_forward, columns_inverse, part_forward, part_inverse };
+enum class Lines { columns_forward, columns_inverse, part_forward, part_inverse };
 
 /// Plans of lines of one length, distance and number, as long as anyone has them: making one takes as long as dozens of
 /// transforms by it. Made and destroyed by one thread at a time.
@@ -36,9 +37,6 @@ SharedPlan shared_lines(Lines kind, int length, int distance, int lines, const M
   return plan;
 }
 
-/// Rows of a small transform go in blocks of so many, whatever their number, for which there are few plans.
-constexpr int kFewRows = 4;
-
 /// A plan for a number of lines and one for what is left over where lines are not a multiple of it.
 class BlockPlan {
  public:
@@ -50,8 +48,8 @@ class BlockPlan {
     if (lines % of_block != 0) rest_ = shared_lines(kind, length, distance, lines % of_block, make);
   }
 
-  /// For a block or for what is left over.
-  fftw_plan of(int lines) const { return (lines == of_block_ ? whole_ : rest_).get(); }
+  /// For a block or for what is left over, where that has a plan of its own.
+  fftw_plan of(int lines) const { return (lines == of_block_ || !rest_ ? whole_ : rest_).get(); }
 
   /// execute(plan, first line)
   template <class Execute>
@@ -62,8 +60,7 @@ class BlockPlan {
       const int first = static_cast<int>(b) * of_block_;
       execute((first + of_block_ <= lines_ ? whole_ : rest_).get(), static_cast<std::ptrdiff_t>(first));
     };
-    if (of_block_ > kFewRows) return parallel_for(blocks, block);
-    for (std::size_t b = 0; b < blocks; ++b) block(b);
+    blocks > 1 ? parallel_for(blocks, block) : block(0);
   }
 
  private:
@@ -71,39 +68,24 @@ class BlockPlan {
   SharedPlan whole_, rest_;
 };
 
-/// FFTW_ESTIMATE chooses algorithms without timing, hence repeatably.
+/// Columns by FFTW. Rows of real numbers by our own transforms, four at a time: FFTW, which does them one by one, takes
+/// from a third more instructions to twice as many. FFTW_ESTIMATE chooses algorithms without timing, hence
+/// repeatably.
 class FftwPlan final : public FftPlan {
  public:
-  FftwPlan(int nx, int ny, int active_rows) : nx_(nx), columns_(nx / 2 + 1) {
-    const int columns = columns_;
-    AlignedVector<double> real(static_cast<std::size_t>(nx) * static_cast<std::size_t>(active_rows));
-    AlignedVector<std::complex<double>> spectrum(static_cast<std::size_t>(columns) * static_cast<std::size_t>(ny));
-    constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
-    const int at_once = lines_of_fft_block(active_rows, nx, ny);
-    const int rows_of_block = has_parts(active_rows, nx, ny) ? at_once : std::min(at_once, kFewRows);
-    rows_forward_ = {Lines::rows_forward, nx, columns, active_rows, rows_of_block, [&](int rows) {
-                       return fftw_plan_many_dft_r2c(1, &nx, rows, real.data(), nullptr, 1, nx, raw(spectrum.data()),
-                                                     nullptr, 1, columns, kFlags);
-                     }};
-    rows_inverse_ = {Lines::rows_inverse, nx, columns, active_rows, rows_of_block, [&](int rows) {
-                       return fftw_plan_many_dft_c2r(1, &nx, rows, raw(spectrum.data()), nullptr, 1, columns,
-                                                     real.data(), nullptr, 1, nx, kFlags);
-                     }};
+  FftwPlan(int nx, int ny, int active_rows)
+      : nx_(nx),
+        ny_(ny),
+        columns_(nx / 2 + 1),
+        rows_(make_lanes_fft_plan(nx, has_parts(active_rows, nx, ny) ? ny : 1, active_rows)) {
     if (ny == 1) return;
-    const auto column_plan = [&](int sign) {
-      const Lines kind = sign == FFTW_FORWARD ? Lines::columns_forward : Lines::columns_inverse;
-      return BlockPlan(kind, ny, columns, columns, lines_of_fft_block(columns, nx, ny), [&](int lines) {
-        fftw_complex* data = raw(spectrum.data());
-        return fftw_plan_many_dft(1, &ny, lines, data, nullptr, columns, 1, data, nullptr, columns, 1, sign, kFlags);
-      });
-    };
-    columns_forward_ = column_plan(FFTW_FORWARD);
-    columns_inverse_ = column_plan(FFTW_BACKWARD);
-    if (!has_parts(active_rows, nx, ny)) return;
+    const int of_part = columns_of_part(active_rows, nx, ny);
+    AlignedVector<std::complex<double>> lines_of_part(2 * static_cast<std::size_t>(of_part) *
+                                                      static_cast<std::size_t>(ny));
     const auto part_plan = [&](int sign) {
       const Lines kind = sign == FFTW_FORWARD ? Lines::part_forward : Lines::part_inverse;
-      return BlockPlan(kind, ny, 1, columns, columns_of_part(nx, ny), [&](int lines) {
-        fftw_complex* from = raw(spectrum.data());
+      return BlockPlan(kind, ny, 1, has_parts(active_rows, nx, ny) ? columns_ : of_part, of_part, [&](int lines) {
+        fftw_complex* from = raw(lines_of_part.data());
         return fftw_plan_many_dft(1, &ny, lines, from, nullptr, 1, ny, from + lines * ny, nullptr, 1, ny, sign, kFlags);
       });
     };
@@ -112,23 +94,19 @@ class FftwPlan final : public FftPlan {
   }
 
   void rows_forward(double* real, std::complex<double>* spectrum) const override {
-    rows_forward_.run([&](fftw_plan plan, std::ptrdiff_t first) {
-      fftw_execute_dft_r2c(plan, real + first * nx_, raw(spectrum + first * columns_));
-    });
+    rows_->rows_forward(real, spectrum);
   }
   void rows_inverse(std::complex<double>* spectrum, double* real) const override {
-    rows_inverse_.run([&](fftw_plan plan, std::ptrdiff_t first) {
-      fftw_execute_dft_c2r(plan, raw(spectrum + first * columns_), real + first * nx_);
-    });
+    rows_->rows_inverse(spectrum, real);
   }
-  void columns_forward(std::complex<double>* spectrum) const override { execute(columns_forward_, spectrum); }
-  void columns_inverse(std::complex<double>* spectrum) const override { execute(columns_inverse_, spectrum); }
+  void columns_forward(std::complex<double>* spectrum) const override { execute(columns().forward, spectrum); }
+  void columns_inverse(std::complex<double>* spectrum) const override { execute(columns().inverse, spectrum); }
 
   void part_of_rows_forward(int rows, double* real, std::complex<double>* spectrum) const override {
-    fftw_execute_dft_r2c(rows_forward_.of(rows), real, raw(spectrum));
+    rows_->part_of_rows_forward(rows, real, spectrum);
   }
   void part_of_rows_inverse(int rows, std::complex<double>* spectrum, double* real) const override {
-    fftw_execute_dft_c2r(rows_inverse_.of(rows), raw(spectrum), real);
+    rows_->part_of_rows_inverse(rows, spectrum, real);
   }
   void part_of_columns_forward(int columns, std::complex<double>* from, std::complex<double>* to) const override {
     fftw_execute_dft(part_forward_.of(columns), raw(from), raw(to));
@@ -138,14 +116,40 @@ class FftwPlan final : public FftPlan {
   }
 
  private:
+  struct ColumnPlans {
+    BlockPlan forward, inverse;
+  };
+  /// Of spectra that lie row by row: few are ever asked for.
+  const ColumnPlans& columns() const {
+    std::call_once(columns_made_, [this] {
+      if (ny_ == 1) return;
+      AlignedVector<std::complex<double>> spectrum(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(ny_));
+      const std::lock_guard lock(fft_planning());
+      const auto made = [&](Lines kind, int sign) {
+        return BlockPlan(kind, ny_, columns_, columns_, lines_of_fft_block(columns_, nx_, ny_), [&](int lines) {
+          fftw_complex* data = raw(spectrum.data());
+          return fftw_plan_many_dft(1, &ny_, lines, data, nullptr, columns_, 1, data, nullptr, columns_, 1, sign,
+                                    kFlags);
+        });
+      };
+      column_plans_ = {made(Lines::columns_forward, FFTW_FORWARD), made(Lines::columns_inverse, FFTW_BACKWARD)};
+    });
+    return column_plans_;
+  }
+
   static void execute(const BlockPlan& plans, std::complex<double>* spectrum) {
     plans.run([&](fftw_plan plan, std::ptrdiff_t first) {
       fftw_execute_dft(plan, raw(spectrum + first), raw(spectrum + first));
     });
   }
 
-  int nx_, columns_;
-  BlockPlan rows_forward_, columns_forward_, rows_inverse_, columns_inverse_, part_forward_, part_inverse_;
+  static constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
+
+  int nx_, ny_, columns_;
+  std::shared_ptr<const FftPlan> rows_;
+  BlockPlan part_forward_, part_inverse_;
+  mutable std::once_flag columns_made_;
+  mutable ColumnPlans column_plans_;
 };
 
 }  // namespace
