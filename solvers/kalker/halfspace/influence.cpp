@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
@@ -56,18 +57,37 @@ double influence(Component component, double X, double Y, double dx, double dy, 
 InfluenceTable::InfluenceTable(Component component, double dx, double dy, double poisson)
     : component_(component), dx_(dx), dy_(dy), poisson_(poisson), odd_(component == Component::xy) {}
 
-void InfluenceTable::grow(int nx, int ny) {
-  const int new_nx = std::max(nx, nx_), new_ny = std::max(ny, ny_);
-  if (new_nx == nx_ && new_ny == ny_) return;
-  std::vector<double> values;
+namespace {
+
+/// Values of a table that grows from old_nx x old_ny: those it has, or fresh ones.
+template <class Value, class Known, class Fresh>
+void grow_table(std::vector<Value>& values, int& nx, int& ny, int wanted_nx, int wanted_ny, const Known& known,
+                const Fresh& fresh) {
+  const int new_nx = std::max(wanted_nx, nx), new_ny = std::max(wanted_ny, ny);
+  if (new_nx == nx && new_ny == ny) return;
+  std::vector<Value> grown;
   const auto width = static_cast<std::size_t>(new_nx);
-  fill_by_blocks(values, width * static_cast<std::size_t>(new_ny), [&](std::size_t i) {
+  fill_by_blocks(grown, width * static_cast<std::size_t>(new_ny), [&](std::size_t i) {
     const int ix = static_cast<int>(i % width), iy = static_cast<int>(i / width);
-    return ix < nx_ && iy < ny_ ? (*this)(ix, iy) : influence(component_, ix * dx_, iy * dy_, dx_, dy_, poisson_);
+    return ix < nx && iy < ny ? known(ix, iy) : fresh(ix, iy);
   });
-  values_ = std::move(values);
-  nx_ = new_nx;
-  ny_ = new_ny;
+  values = std::move(grown);
+  nx = new_nx;
+  ny = new_ny;
+}
+
+}  // namespace
+
+void InfluenceTable::grow(int nx, int ny) {
+  grow_table(
+      values_, nx_, ny_, nx, ny, [this](int ix, int iy) { return (*this)(ix, iy); },
+      [this](int ix, int iy) { return influence(component_, ix * dx_, iy * dy_, dx_, dy_, poisson_); });
+}
+
+void UncoupledTable::grow(int nx, int ny) {
+  grow_table(
+      values_, nx_, ny_, nx, ny, [this](int ix, int iy) { return at(ix, iy); },
+      [this](int ix, int iy) { return influence(ix * dx_, iy * dy_, dx_, dy_, poisson_); });
 }
 
 }  // namespace treadmark::kalker

@@ -53,4 +53,22 @@ class InfluenceTable {
   std::vector<double> values_;
 };
 
+/// All components at whole element offsets >= 0, kept for reuse as they are asked for. Not thread-safe.
+class UncoupledTable {
+ public:
+  UncoupledTable(double dx, double dy, double poisson) : dx_(dx), dy_(dy), poisson_(poisson) {}
+
+  bool is_for(double dx, double dy, double poisson) const { return dx_ == dx && dy_ == dy && poisson_ == poisson; }
+  /// Makes offsets 0 <= ix < nx, 0 <= iy < ny available; what is known already is kept.
+  void grow(int nx, int ny);
+  const UncoupledCoefficients& at(int ix, int iy) const {
+    return values_[static_cast<std::size_t>(ix) + static_cast<std::size_t>(nx_) * static_cast<std::size_t>(iy)];
+  }
+
+ private:
+  double dx_, dy_, poisson_;
+  int nx_ = 0, ny_ = 0;
+  std::vector<UncoupledCoefficients> values_;
+};
+
 }  // namespace treadmark::kalker

@@ -28,8 +28,8 @@ static_assert(sizeof(ComplianceBlock) == 3 * sizeof(double) && offsetof(Complian
 
 }  // namespace
 
-Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx, key.ny) {
-  tabulate();
+Compliance::Compliance(const ComplianceKey& key, UncoupledTable* known) : key_(key), transform_(key.nx, key.ny) {
+  tabulate(known);
   const int px = transform_.padded_nx();
   // What is even and odd in both directions: all of a symmetric kernel, and a fair stand-in for others in the
   // preconditioner.
@@ -56,17 +56,22 @@ Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx,
   for (const std::complex<double>& step : step_) step_back_.push_back(std::conj(step));
 }
 
-void Compliance::tabulate() {
+void Compliance::tabulate(UncoupledTable* known) {
   const int tx = transform_.padded_nx() / 2 + 1, ty = transform_.padded_ny() / 2 + 1;
   const double g = key_.shear_modulus;
   std::optional<BlockTable> blocks;
-  if (key_.kernel != nullptr) blocks.emplace(tx, ty, key_.dx, key_.dy, key_.kernel);
+  std::optional<UncoupledTable> own_table;
+  if (key_.kernel != nullptr)
+    blocks.emplace(tx, ty, key_.dx, key_.dy, key_.kernel);
+  else
+    (known != nullptr ? *known : own_table.emplace(key_.dx, key_.dy, key_.poisson)).grow(tx, ty);
+  const UncoupledTable* half_spaces = known != nullptr ? known : own_table ? &*own_table : nullptr;
   const auto entry = [&](int ix, int iy) -> Entry {
     if (blocks) {
       const InfluenceBlock b = blocks->at(ix, iy);
       return {b.xx / g, b.xy / g, b.yx / g, b.yy / g};
     }
-    const UncoupledCoefficients c = influence(ix * key_.dx, iy * key_.dy, key_.dx, key_.dy, key_.poisson);
+    const UncoupledCoefficients& c = half_spaces->at(ix, iy);
     return {c.xx / g, c.xy / g, c.xy / g, c.yy / g};
   };
   const int first_x = symmetric() ? 0 : 1 - tx, first_y = symmetric() ? 0 : 1 - ty;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/solvers/kalker/halfspace/block_table.hpp"
+#include "treadmark/solvers/kalker/halfspace/influence.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
 #include "treadmark/solvers/kalker/halfspace/turned_product.hpp"
 
@@ -61,7 +62,8 @@ struct ComplianceKey {
 /// are nx * ny values each [Pa], [m]. Not thread-safe: work arrays are members.
 class Compliance {
  public:
-  explicit Compliance(const ComplianceKey& key);
+  /// known: coefficients of elements of this size, which others may use too; without, its own.
+  explicit Compliance(const ComplianceKey& key, UncoupledTable* known = nullptr);
   Compliance(const Compliance&) = delete;
   Compliance& operator=(const Compliance&) = delete;
 
@@ -86,7 +88,7 @@ class Compliance {
  private:
   using Block = ComplianceBlock;
   bool symmetric() const { return key_.kernel == nullptr || key_.kernel->symmetric(); }
-  void tabulate();
+  void tabulate(UncoupledTable* known);
   Entry wide_at(int dix, int diy) const;
   InfluenceBlock half_space_at(int dix, int diy);
   void apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px,

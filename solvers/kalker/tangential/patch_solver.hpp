@@ -25,13 +25,23 @@ class ComplianceCache {
         boxes_.splice(boxes_.begin(), boxes_, it);
         return boxes_.front();
       }
-    boxes_.emplace_front(key);
+    boxes_.emplace_front(key, key.kernel == nullptr ? &coefficients_of(key) : nullptr);
     if (boxes_.size() > kCapacity) boxes_.pop_back();
     return boxes_.front();
   }
 
  private:
+  static constexpr std::size_t kMostTables = 4;  ///< a grid, those of its start values, and that of a refinement
+
+  UncoupledTable& coefficients_of(const ComplianceKey& key) {
+    for (UncoupledTable& table : tables_)
+      if (table.is_for(key.dx, key.dy, key.poisson)) return table;
+    if (tables_.size() >= kMostTables) tables_.pop_back();
+    return tables_.emplace_front(key.dx, key.dy, key.poisson);
+  }
+
   std::list<Compliance> boxes_;
+  std::list<UncoupledTable> tables_;
 };
 
 /// What a patch has to go by, per element of the patch.
