@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -157,16 +158,36 @@ double hermite(double t, double a, double b, double slope_a, double slope_b) {
   return a + t * (slope_a + t * (3.0 * rise - 2.0 * slope_a - slope_b + t * (slope_a + slope_b - 2.0 * rise)));
 }
 
-double bicubic(const Mesh& mesh, const FacetPlace& p) {
-  const auto n = [&](int k, int j) { return mesh.at(k, j).z(); };
-  const auto along = [&](int k, int j) { return slope([&](int i) { return n(i, j); }, k, mesh.rows); };
+/// Slopes at the corners, per facet: along the wheel, across, and of one along the other.
+struct Slopes {
+  explicit Slopes(const Mesh& m) : columns(m.columns) {
+    const std::size_t size = m.corners.size();
+    along.resize(size), across.resize(size), mixed.resize(size);
+    const auto each = [&](std::vector<double>& to, const auto& value) {
+      for (int k = 0; k < m.rows; ++k)
+        for (int j = 0; j < m.columns; ++j) to[at(k, j)] = value(k, j);
+    };
+    each(along, [&](int k, int j) { return slope([&](int i) { return m.at(i, j).z(); }, k, m.rows); });
+    each(across, [&](int k, int j) { return slope([&](int i) { return m.at(k, i).z(); }, j, m.columns); });
+    each(mixed, [&](int k, int j) { return slope([&](int i) { return along[at(k, i)]; }, j, m.columns); });
+  }
+  std::size_t at(int k, int j) const {
+    return static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j);
+  }
+
+  int columns;
+  std::vector<double> along, across, mixed;
+};
+
+double bicubic(const Mesh& mesh, const Slopes& slopes, const FacetPlace& p) {
   std::array<double, 2> value{}, by_v{};
   for (const int i : {0, 1}) {
     const int j = p.j + i;
-    value[static_cast<std::size_t>(i)] = hermite(p.u, n(p.k, j), n(p.k + 1, j), along(p.k, j), along(p.k + 1, j));
-    const auto across = [&](int k) { return slope([&](int m) { return n(k, m); }, j, mesh.columns); };
-    const auto mixed = [&](int k) { return slope([&](int m) { return along(k, m); }, j, mesh.columns); };
-    by_v[static_cast<std::size_t>(i)] = hermite(p.u, across(p.k), across(p.k + 1), mixed(p.k), mixed(p.k + 1));
+    const std::size_t a = slopes.at(p.k, j), b = slopes.at(p.k + 1, j);
+    value[static_cast<std::size_t>(i)] =
+        hermite(p.u, mesh.at(p.k, j).z(), mesh.at(p.k + 1, j).z(), slopes.along[a], slopes.along[b]);
+    by_v[static_cast<std::size_t>(i)] =
+        hermite(p.u, slopes.across[a], slopes.across[b], slopes.mixed[a], slopes.mixed[b]);
   }
   return hermite(p.v, value[0], value[1], by_v[0], by_v[1]);
 }
@@ -218,6 +239,8 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
   ranges::fill(wheel_n, kNaN);
   if (mesh.rows < 2 || mesh.columns < 2) return;
   const auto corner = [&](int k, int j) -> const Vec3& { return mesh.at(k, j); };
+  std::optional<Slopes> slopes;
+  if (!round) slopes.emplace(mesh);
   const int middle = mesh.rows / 2;
   const bool folded = turns_back(mesh, middle);
   const double start_a =
@@ -242,7 +265,7 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
         if (folded || !find_facet(corner, mesh.rows, mesh.columns, g.x(ix), s, a_try, b_try, place)) continue;
       }
       a = a_try, b = b_try;
-      wheel_n[g.index(ix, iy)] = round ? bilinear(mesh, place) : bicubic(mesh, place);
+      wheel_n[g.index(ix, iy)] = slopes ? bicubic(mesh, *slopes, place) : bilinear(mesh, place);
     }
   }
 }
