@@ -90,7 +90,7 @@ std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, c
 // Cells of a section, cut already, that points of one line may lie over, and how far each reaches along it.
 struct CellReaches {
   std::vector<int> cell;
-  std::vector<double> low, high;
+  std::vector<double> low, high, reach;
   bool rising = false, falling = false;  ///< the section goes one way
 
   // Those from which on, in either direction, cells do not end before `first`, and from which on they begin behind
@@ -106,15 +106,20 @@ struct CellReaches {
 
   template <class Geometry>
   void find(const SliceSection<Geometry>& section, const std::vector<CellRun>& runs) {
-    cell.clear(), low.clear(), high.clear();
+    cell.clear(), low.clear(), high.clear(), reach.clear();
+    bool monotonic = true;
     for (const CellRun& run : runs)
       for (int k = run.first; k < run.last; ++k) {
         const SectionPoint a = section.start_of(k), b = section.end_of(k);
-        const double reach = std::max(std::abs(a.ds), std::abs(b.ds));  // of a cubic beyond its ends
+        const double rise = b.s - a.s;
         cell.push_back(k);
-        low.push_back(std::min(a.s, b.s) - reach);
-        high.push_back(std::max(a.s, b.s) + reach);
+        low.push_back(std::min(a.s, b.s));
+        high.push_back(std::max(a.s, b.s));
+        reach.push_back(std::max(std::abs(a.ds), std::abs(b.ds)));
+        monotonic = monotonic && a.ds * rise >= 0.0 && b.ds * rise >= 0.0 && reach.back() <= 3.0 * std::abs(rise);
       }
+    // Beyond its ends goes only a cubic that turns (Fritsch and Carlson 1980).
+    for (std::size_t i = 0; i < cell.size() && !monotonic; ++i) low[i] -= reach[i], high[i] += reach[i];
     rising = ranges::is_sorted(low) && ranges::is_sorted(high);
     falling = !rising && ranges::is_sorted(low, std::greater<>()) && ranges::is_sorted(high, std::greater<>());
   }
