@@ -197,7 +197,7 @@ std::optional<double> PairStep::normal_load(const Patch& patch, double load) con
 }
 
 /// Pressures of a patch at its approach, or under a vertical load where it can be given.
-void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
+void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load, double eps) {
   PatchSolution& s = patch.solution;
   {
     const Stopwatch watch(times_.normal_s);
@@ -205,6 +205,7 @@ void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
     kalker::ContactProblem problem = contact_problem(patch);
     const std::optional<double> force = load ? normal_load(patch, *load) : std::nullopt;
     problem.force_prescribed = force.has_value(), problem.normal_force = force.value_or(0.0);
+    if (force) problem.settings.eps = std::max(problem.settings.eps, eps);
     s.contact = solver(i, patch).solve_normal(problem);
     carries_load_ = force && s.contact.status == Status::ok;
   }
@@ -221,7 +222,7 @@ void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
 
 void PairStep::carry(double load) { press(0, patches_.front(), load); }
 
-void PairStep::evaluate(double z, std::optional<double> load) {
+void PairStep::evaluate(double z, std::optional<double> load, double eps) {
   placement_ = start_;
   const double dz = z - start_z_;
   lower(dz), z_ = z;
@@ -263,7 +264,7 @@ void PairStep::evaluate(double z, std::optional<double> load) {
       continue;
     }
     move(patch);
-    press(patches_.size(), patch, located.size() == 1 ? load : std::nullopt);
+    press(patches_.size(), patch, located.size() == 1 ? load : std::nullopt, eps);
     if (patch.solution.contact.status != Status::no_contact) patches_.push_back(std::move(patch));
   }
 }
