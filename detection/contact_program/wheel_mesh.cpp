@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -160,7 +159,8 @@ double hermite(double t, double a, double b, double slope_a, double slope_b) {
 
 /// Slopes at the corners, per facet: along the wheel, across, and of one along the other.
 struct Slopes {
-  explicit Slopes(const Mesh& m) : columns(m.columns) {
+  void find(const Mesh& m) {
+    columns = m.columns;
     const std::size_t size = m.corners.size();
     along.resize(size), across.resize(size), mixed.resize(size);
     const auto each = [&](std::vector<double>& to, const auto& value) {
@@ -175,7 +175,7 @@ struct Slopes {
     return static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j);
   }
 
-  int columns;
+  int columns = 0;
   std::vector<double> along, across, mixed;
 };
 
@@ -239,8 +239,8 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
   ranges::fill(wheel_n, kNaN);
   if (mesh.rows < 2 || mesh.columns < 2) return;
   const auto corner = [&](int k, int j) -> const Vec3& { return mesh.at(k, j); };
-  std::optional<Slopes> slopes;
-  if (!round) slopes.emplace(mesh);
+  Slopes slopes;
+  if (!round) slopes.find(mesh);
   const int middle = mesh.rows / 2;
   const bool folded = turns_back(mesh, middle);
   const double start_a =
@@ -265,7 +265,7 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
         if (folded || !find_facet(corner, mesh.rows, mesh.columns, g.x(ix), s, a_try, b_try, place)) continue;
       }
       a = a_try, b = b_try;
-      wheel_n[g.index(ix, iy)] = slopes ? bicubic(mesh, *slopes, place) : bilinear(mesh, place);
+      wheel_n[g.index(ix, iy)] = round ? bilinear(mesh, place) : bicubic(mesh, slopes, place);
     }
   }
 }
