@@ -13,6 +13,7 @@
 
 #include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/run_parts.hpp"
+#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -194,8 +195,8 @@ SolvedList::SolvedList(io::ListedCases given, SurfaceStore& store, const ListOpt
   head_.geometry_sha256 = store.hashes();
   if (rows) head_.geometry_sha256.emplace_back(rows->file().string(), rows->sha256());
 
-  std::string identity =
-      fmt::format("{} {}\n{}\n{}\n{}", head_.version, head_.git, head_.input_sha256, options.json, files);
+  std::string identity = fmt::format("{} {}\n{}{}\n{}\n{}", head_.version, head_.git, plugin_identity(),
+                                     head_.input_sha256, options.json, files);
   for (const std::string& setting : options.settings) identity += setting + '\n';
   for (const auto& [file, hash] : head_.geometry_sha256) identity += file + ' ' + hash + '\n';
   for (const io::ListedNumber& number : numbers_) identity += number.name + '\n';

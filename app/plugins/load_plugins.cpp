@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <mutex>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,8 +26,7 @@ namespace fs = std::filesystem;
 
 struct LoadedPlugins {
   std::mutex mutex;
-  std::vector<std::string> files;
-  std::string identity;
+  std::vector<std::pair<std::string, std::string>> files;  ///< and their hashes
 } loaded;
 
 [[noreturn]] void refuse_plugin(const std::string& file, const std::string& why, const std::string& advice) {
@@ -72,16 +72,16 @@ void load_plugins(const std::vector<std::string>& names) {
   const std::lock_guard lock(loaded.mutex);
   for (const std::string& name : names) {
     const std::string file = plugin_file(name);
-    if (ranges::count(loaded.files, file) > 0) continue;
+    if (ranges::any_of(loaded.files, [&](const auto& known) { return known.first == file; })) continue;
     try {
       const PluginRows rows = rows_of_plugin(file);
+      std::string hash = io::sha256_file(file);
       for (const Backend& row : rows.backends) register_backend(row);
       for (const detection::DetectorRow& row : rows.detectors) detection::register_detector(row);
+      loaded.files.emplace_back(file, std::move(hash));
     } catch (const Error& error) {
       refuse_plugin(file, error.message(), error.advice());
     }
-    loaded.files.push_back(file);
-    loaded.identity += fmt::format("plug-in {}\n", io::sha256_file(file));
   }
 }
 
@@ -94,21 +94,22 @@ std::vector<std::string> plugins_of_environment() {
     std::error_code failed;
     for (fs::directory_iterator one(name, failed), end; !failed && one != end; one.increment(failed))
       if (one->path().extension() == ".so") here.push_back(one->path().string());
-    if (!name.empty() && !fs::is_directory(name, failed)) here = {name};
+    if (failed && !name.empty()) here = {name};  // a file; or load_plugins says what is wrong with it
     ranges::sort(here);
     files.insert(files.end(), here.begin(), here.end());
   }
   return files;
 }
 
-std::vector<std::string> loaded_plugins() {
+std::vector<std::pair<std::string, std::string>> loaded_plugins() {
   const std::lock_guard lock(loaded.mutex);
   return loaded.files;
 }
 
 std::string plugin_identity() {
-  const std::lock_guard lock(loaded.mutex);
-  return loaded.identity;
+  std::string text;
+  for (const auto& [file, hash] : loaded_plugins()) text += fmt::format("plug-in {}\n", hash);
+  return text;
 }
 
 }  // namespace treadmark::app

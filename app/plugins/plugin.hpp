@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "treadmark/backends/registry.hpp"
@@ -57,8 +58,8 @@ void load_plugins(const std::vector<std::string>& names);
 /// Files that $TREADMARK_PLUGINS names, with colons between them; of a folder all that end with .so.
 std::vector<std::string> plugins_of_environment();
 
-/// The files of those that are loaded, in their order.
-std::vector<std::string> loaded_plugins();
+/// The files of those that are loaded, each with its hash, in their order.
+std::vector<std::pair<std::string, std::string>> loaded_plugins();
 
 /// A line with the hash of each, for what is kept under a name of all that it depends on; empty without plug-ins.
 std::string plugin_identity();

@@ -3,6 +3,7 @@
 
 #include "treadmark/app/simulation/result_head.hpp"
 
+#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -76,7 +77,11 @@ class Hashes {
 
   void add(const io::NamedFile& file) { hashes_.emplace_back(file.path.filename().string(), file.sha256); }
 
-  FileHashes take() { return std::move(hashes_); }
+  FileHashes take() {
+    for (const auto& [file, hash] : loaded_plugins())
+      hashes_.emplace_back(std::filesystem::path(file).filename().string(), hash);
+    return std::move(hashes_);
+  }
 
  private:
   std::vector<std::filesystem::path> seen_;

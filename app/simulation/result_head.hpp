@@ -20,8 +20,8 @@ io::SimulationResult result_head(const io::CaseFile& file, const SimulationOptio
 using FileHashes = std::vector<std::pair<std::string, std::string>>;
 
 /// (name without folders, SHA-256) of every file beside the input file that results depend on: shapes of rails and
-/// wheels, tables, vehicle and track. Errors: Error(input_data) for files that cannot be read, with the place that
-/// names a shape. Thread-safe.
+/// wheels, tables, vehicle and track, plug-ins that are loaded. Errors: Error(input_data) for files that cannot be
+/// read, with the place that names a shape. Thread-safe.
 FileHashes input_hashes(const io::SimulationFile& file);
 FileHashes input_hashes(const io::CaseFile& file);
 

@@ -53,7 +53,7 @@ std::string sweep_call(const SlurmRequest& request, const std::string& own) {
   std::string text = fmt::format("exec {} --quiet --threads \"${{SLURM_CPUS_PER_TASK:-1}}\" sweep {} -o {} {}",
                                  shell_word(request.program.string()), shell_word(request.study.string()),
                                  shell_word(request.folder.string()), own);
-  for (const std::string& plugin : loaded_plugins()) text += " --plugin " + shell_word(plugin);
+  for (const auto& [plugin, hash] : loaded_plugins()) text += " --plugin " + shell_word(plugin);
   for (const std::string& setting : request.settings) text += " --set " + shell_word(setting);
   return text + '\n';
 }

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/plugins/plugin.hpp"
 #include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -33,8 +32,7 @@ std::string label_of(const io::StudyFile& study, const io::StudyRun& run) {
 }
 
 std::string study_identity(const io::StudyFile& study, const io::RunRange& runs) {
-  std::string text = fmt::format("treadmark {} {}\n{}base {}\n", version(), git_revision(), plugin_identity(),
-                                 io::sha256_file(study.base));
+  std::string text = fmt::format("treadmark {} {}\nbase {}\n", version(), git_revision(), io::sha256_file(study.base));
   for (const io::StudyRun& run : study.runs) {
     if (!runs.has(run)) continue;
     text += fmt::format("run {}\n", run.number);

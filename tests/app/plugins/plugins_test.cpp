@@ -116,7 +116,8 @@ TEST(Plugins, WhatCannotBeLoadedIsRefused) {
 TEST(Plugins, AreLoadedByProgramsToo) {
   app::load_plugins({kWrong, kWrong});
   EXPECT_EQ(backends().back()->name, "narrow");
-  EXPECT_EQ(app::loaded_plugins(), Words{std::filesystem::canonical(kWrong)});
+  ASSERT_EQ(app::loaded_plugins().size(), 1u);
+  EXPECT_EQ(app::loaded_plugins().front().first, std::filesystem::canonical(kWrong).string());
   EXPECT_THAT(app::plugin_identity(), HasSubstr("plug-in "));
   EXPECT_THROW(app::load_plugins({kFolder + "/foreign.so"}), Error);
 }
