@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
@@ -20,6 +23,13 @@ int conform_command(const ConformOptions& options, const CommonOptions& common) 
   const ThreadLimit limit(common.threads);
   const CancellationScope scope(&interrupted());
   const bool is_file = options.what.find_first_of("./") != std::string::npos;
+  if (is_file && options.resolution_mm > 0.0)
+    throw Error(ErrorKind::configuration, "--resolution is for a backend, and this is a case file", {options.what},
+                "write --set rail.resolution_mm=... or --set wheel.resolution_mm=...");
+  if (!is_file && !options.overrides.empty())
+    throw Error(ErrorKind::configuration,
+                fmt::format("--set is for a case file, and '{}' is taken for a backend", options.what), {},
+                "a case file has an extension");
   const conformance::Record record = with_progress(common.quiet, [&](const Progress& progress) {
     return is_file ? app::hold_case(io::read_any_case(options.what, options.overrides))
                    : conformance::hold_backend(options.what, 1e-3 * options.resolution_mm, progress);
@@ -35,7 +45,9 @@ Command add_conform(CLI::App& verb) {
   verb.add_option("WHAT", options->what, "A backend, with shapes of known formulas; or a case file, for its surfaces")
       ->required()
       ->type_name(kBackendName);
-  verb.add_option("--resolution", options->resolution_mm, "Spacing of a backend's data [mm], default its own");
+  verb.add_option("--resolution", options->resolution_mm, "Spacing of a backend's data [mm], default its own")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
   add_overrides(verb, options->overrides);
   return command(options, conform_command);
 }

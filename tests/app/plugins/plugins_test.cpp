@@ -138,7 +138,14 @@ TEST(Conform, IsAskedByConformBenchAndCompare) {
   const ProgramResult kept = run_program({"conform", file});
   EXPECT_EQ(kept.status, 0) << kept.out << kept.err;
   EXPECT_THAT(kept.out, HasSubstr("kept by 2 of 2"));
-  EXPECT_THAT(run_program({"conform", "spilne"}).err, HasSubstr("did you mean 'spline'?"));
+  for (const auto& [words, said] : {std::pair{Words{"conform", "spilne"}, "did you mean 'spline'?"},
+                                    {{"conform", file, "--resolution", "1"}, "--resolution is for a backend"},
+                                    {{"conform", "spline", "--resolution=-1"}, "--resolution"},
+                                    {{"conform", "spline", "--set", "wheelset.y_mm=1"}, "--set is for a case file"}}) {
+    const ProgramResult r = run_program(words);
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_THAT(r.err, HasSubstr(said));
+  }
 }
 
 }  // namespace
