@@ -3,6 +3,8 @@
 
 #include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 
+#include <cstdlib>
+
 namespace treadmark::kalker {
 
 Interpenetration::Interpenetration(const Grid2& grid, std::span<const double> gap, double approach)

@@ -29,12 +29,12 @@ class NormalSolver {
   NormalSolver(NormalSolver&&) noexcept;
   NormalSolver& operator=(NormalSolver&&) noexcept;
 
-  /// Out: pressure, displacement_n (in the box of elements that interpenetrate, else 0), state (adhesion = in contact),
-  /// approach, force_n, max_pressure, status and the report `normal`, whose residual is the estimated error of the
-  /// pressures relative to their rms; settings.eps is the accuracy asked for. The other fields are emptied.
-  /// normal_model elliptic, parabolic or semi_double_elliptic: pressures from problem.hertz, about the origin of the
-  /// grid's axes; kpec, analyn: approximate ones at a prescribed approach (virtual_penetration.hpp). No element in
-  /// contact: Status::no_contact. Errors: Error(configuration) for inconsistent input.
+  /// Out: pressure, displacement_n (of what is in contact or interpenetrates; elsewhere it may be 0), state (adhesion =
+  /// in contact), approach, force_n, max_pressure, status and the report `normal`, whose residual is the estimated
+  /// error of the pressures relative to their rms; settings.eps is the accuracy asked for. The other fields are
+  /// emptied. normal_model elliptic, parabolic or semi_double_elliptic: pressures from problem.hertz, about the origin
+  /// of the grid's axes; kpec, analyn: approximate ones at a prescribed approach (virtual_penetration.hpp). No element
+  /// in contact: Status::no_contact. Errors: Error(configuration) for inconsistent input.
   void solve(const ContactProblem& problem, ContactSolution& solution);
 
   /// Change of the pressures with the approach [Pa/m], the contact area staying as it is: their sum times the cell area

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -67,6 +68,51 @@ TEST_P(Fft2dShapes, MatchesTheDefinitionAndInverts) {
 INSTANTIATE_TEST_SUITE_P(Sizes, Fft2dShapes,
                          ::testing::Values(Shape{2, 1, 1}, Shape{4, 3, 3}, Shape{14, 15, 15}, Shape{30, 28, 13},
                                            Shape{16, 1, 1}, Shape{6, 22, 9}));
+
+// Rows and columns of numbers that are no multiples of those that are transformed together; the last one in parts.
+TEST(Fft2d, MultipliesFieldsLineByLine) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  for (const Shape& shape :
+       {Shape{2, 1, 1}, {16, 1, 1}, {4, 2, 1}, {4, 3, 3}, {14, 15, 15}, {18, 22, 9}, {30, 28, 13}, {270, 315, 301}}) {
+    const RealFft2d fft(shape.nx, shape.ny, shape.active_rows);
+    const auto symbol = [&](int kx, int ky) {
+      return 1.0 + 0.3 * std::cos(kTurn * kx / fft.nx()) + 0.2 * std::cos(kTurn * ky / fft.ny());
+    };
+    // what becomes of each field is the other one, multiplied
+    const std::array fields{random_field(fft.real_size(), 5), random_field(fft.real_size(), 6)};
+    std::array<AlignedVector<double>, 2> found, expected;
+    std::array<RealFft2d::LoadRows, 2> load;
+    std::array<RealFft2d::StoreRows, 2> store;
+    for (std::size_t f = 0; f < 2; ++f) {
+      AlignedVector<double> work = fields[1 - f];
+      AlignedVector<Complex> spectrum(fft.spectrum_size());
+      fft.forward(work, spectrum);
+      for (int ky = 0; ky < fft.ny(); ++ky)
+        for (int kx = 0; kx <= fft.nx() / 2; ++kx)
+          spectrum[static_cast<std::size_t>(kx + (fft.nx() / 2 + 1) * ky)] *= symbol(kx, ky);
+      expected[f].resize(fft.real_size()), found[f].resize(fft.real_size());
+      fft.inverse(spectrum, expected[f]);
+      load[f] = [&fft, from = fields[f].data()](int first, int count, double* rows) {
+        std::copy_n(from + first * fft.nx(), count * fft.nx(), rows);
+      };
+      store[f] = [&fft, to = found[f].data()](int first, int count, const double* rows) {
+        std::copy_n(rows, count * fft.nx(), to + first * fft.nx());
+      };
+    }
+    const RealFft2d::Line factor = [&](int line, Complex* const* values) {
+      for (int k = 0; k < fft.line_length(); ++k) {
+        const double by = fft.lines_are_columns() ? symbol(line, k) : symbol(k, line);
+        const Complex first = values[0][k];
+        values[0][k] = by * values[1][k], values[1][k] = by * first;
+      }
+    };
+    fft.multiply(load, factor, store);
+    const double size = static_cast<double>(fft.nx()) * fft.ny();
+    for (std::size_t f = 0; f < 2; ++f)
+      for (std::size_t i = 0; i < found[f].size(); ++i)
+        ASSERT_NEAR(found[f][i] / size, expected[f][i] / size, kFft2dRounding) << shape.nx << " x " << shape.ny;
+  }
+}
 
 TEST(Fft2d, UnalignedArraysGiveTheSameResult) {
   const RealFft2d fft(12, 10);

@@ -91,6 +91,19 @@ TEST(Compliance, ProductsAreSumsOverElements) {
     }
 }
 
+TEST(Compliance, CoefficientsThatOthersAskedForAreTheSame) {
+  UncoupledTable known(1e-3, 0.7e-3, 0.3);
+  for (const auto& [nx, ny] : {std::pair{8, 5}, {3, 20}, {12, 1}}) {  // the table grows in either direction, and both
+    const ComplianceKey key{nx, ny, 1e-3, 0.7e-3, 0.3, 80e9, 2e-15, nullptr};
+    const Compliance shared(key, &known), alone(key);
+    for (int dix = -nx; dix <= nx; ++dix)
+      for (int diy = 1 - ny; diy < ny; ++diy) {
+        const Compliance::Entry a = shared.at(dix, diy), b = alone.at(dix, diy);
+        EXPECT_TRUE(a.xx == b.xx && a.xy == b.xy && a.yx == b.yx && a.yy == b.yy) << dix << ' ' << diy;
+      }
+  }
+}
+
 TEST(ElementTraction, MinimisesWithinTheCircle) {
   std::mt19937 generator(9);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
