@@ -16,14 +16,16 @@ namespace {
 Pose pose(const Vec3& origin, double roll, double yaw, double pitch) { return {origin, rotation({roll, yaw, pitch})}; }
 
 Shape rail_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
-  const auto outside = [=](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : z(p.y()) - p.z(); };
+  const auto outside = [=, z = std::move(z)](const Vec3& p) {
+    return p.y() < y_min || p.y() > y_max ? kNaN : z(p.y()) - p.z();
+  };
   return {std::move(name), std::move(spec), outside, y_min, y_max, -0.03, 0.05, -0.15, 0.45, rail_planes()};
 }
 
 Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z,
                   std::function<double(double, double)> depth, double y_min, double y_max) {
   const double R = spec.nominal_radius;
-  const auto outside = [=](const Vec3& p) {
+  const auto outside = [=, z = std::move(z), depth = std::move(depth)](const Vec3& p) {
     if (p.y() < y_min || p.y() > y_max) return kNaN;
     return std::hypot(p.x(), p.z()) - R - z(p.y()) + depth(std::atan2(p.x(), p.z()), p.y());
   };
@@ -35,7 +37,7 @@ Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(doubl
 Shape roller_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
   const double R = spec.roller_radius;
   Shape s = rail_shape(std::move(name), std::move(spec), z, y_min, y_max);
-  s.outside = [=](const Vec3& p) {
+  s.outside = [=, z = std::move(z)](const Vec3& p) {
     return p.y() < y_min || p.y() > y_max ? kNaN : std::hypot(p.x(), p.z() - R) - (R - z(p.y()));
   };
   s.u_min = -0.35 * R;
@@ -54,7 +56,7 @@ Shape roller_shape(std::string name, SurfaceSpec spec, std::function<double(doub
 Shape ring_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
   const double R = -spec.roller_radius;
   Shape s = rail_shape(std::move(name), std::move(spec), z, y_min, y_max);
-  s.outside = [=](const Vec3& p) {
+  s.outside = [=, z = std::move(z)](const Vec3& p) {
     return p.y() < y_min || p.y() > y_max ? kNaN : R + z(p.y()) - std::hypot(p.x(), p.z() + R);
   };
   s.u_min = -0.12;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -86,7 +87,8 @@ class FftwPlan final : public FftPlan {
       const Lines kind = sign == FFTW_FORWARD ? Lines::part_forward : Lines::part_inverse;
       return BlockPlan(kind, ny, 1, has_parts(active_rows, nx, ny) ? columns_ : of_part, of_part, [&](int lines) {
         fftw_complex* from = raw(lines_of_part.data());
-        return fftw_plan_many_dft(1, &ny, lines, from, nullptr, 1, ny, from + lines * ny, nullptr, 1, ny, sign, kFlags);
+        return fftw_plan_many_dft(1, &ny, lines, from, nullptr, 1, ny, from + std::ptrdiff_t{lines} * ny, nullptr, 1,
+                                  ny, sign, kFlags);
       });
     };
     part_forward_ = part_plan(FFTW_FORWARD);

@@ -3,6 +3,7 @@
 
 #include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 
+#include <cstddef>
 #include <cstdlib>
 
 namespace treadmark::kalker {
@@ -84,7 +85,8 @@ bool sum_half_space_displacement(NormalOperatorCache& operators, const ContactPr
     double sum[4] = {};
     for (const Loaded& row : loaded) {
       const double* p = pressure.data() + grid.index(row.begin, row.iy);
-      const double* c = rows.data() + std::abs(iy - row.iy) * length + (row.begin - ix + reach - 1);
+      const std::ptrdiff_t apart = std::abs(iy - row.iy);
+      const double* c = rows.data() + apart * length + (row.begin - ix + reach - 1);
       const int count = row.end - row.begin;
       int k = 0;
       for (; k + 4 <= count; k += 4)
