@@ -24,7 +24,8 @@ TEST(SurfaceDoubts, LinesGiveThemBack) {
   std::vector<std::string> lines = to_lines(doubts);
   for (const std::string& line : lines) {
     EXPECT_TRUE(line.starts_with(kSurfaceDoubt)) << line;
-    if (line.find("xxx") == std::string::npos) EXPECT_LE(line.size(), 200u) << line;
+    const bool one_long_word = line.find("xxx") != std::string::npos;
+    EXPECT_TRUE(one_long_word || line.size() <= 200) << line;
   }
   EXPECT_EQ(doubts_of_lines(lines), doubts);
   lines.insert(lines.begin() + 1, {"surface-errors 1 2 1 0 0 1 0 250.5 3 -4", "other words", ""});
