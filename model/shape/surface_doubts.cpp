@@ -67,12 +67,14 @@ std::vector<SurfaceDoubt> doubts_of_lines(std::span<const std::string> lines) {
     const std::string_view key = take_word(rest);
     while (!rest.empty() && rest.back() == ' ') rest.remove_suffix(1);
     if (key == kSurfaceDoubt) {
-      const std::size_t colon = rest.find(": ");
-      SurfaceDoubt& doubt = out.emplace_back();
-      doubt.name = colon == std::string_view::npos ? "import" : std::string(rest.substr(0, colon));
-      doubt.text = colon == std::string_view::npos ? std::string(rest) : std::string(rest.substr(colon + 2));
+      const std::string_view all = rest, name = take_word(rest);
+      if (name.ends_with(':'))
+        out.push_back({std::string(name.substr(0, name.size() - 1)), std::string(rest)});
+      else
+        out.push_back({"import", std::string(all)});
     } else if (key == kGoesOn && !out.empty()) {
-      out.back().text.append(" ").append(rest);
+      std::string& text = out.back().text;
+      text.append(text.empty() ? "" : " ").append(rest);
     } else if (key == kNames) {
       while (!rest.empty())
         out.push_back({std::string(take_word(rest)), "the import of the scan warned of it; its report says more"});

@@ -126,7 +126,8 @@ TEST_F(CaseTableFile, OverridesHoldForEveryRow) {
 TEST_F(CaseTableFile, RefusesWithThePlace) {
   EXPECT_THAT(refusal("wheelset.y_mm\n0\nfar\n"), HasSubstr("places.csv:3: "));
   EXPECT_THAT(refusal("wheelset.y_mm\n0\nnan\n"), HasSubstr("places.csv:3: "));
-  EXPECT_THAT(refusal("wheelset.y_mm,friction.coefficient\n0,0.3\n1\n"), HasSubstr("places.csv:3: 1 cells where"));
+  EXPECT_THAT(refusal("wheelset.y_mm,friction.coefficient\n0,0.3\n1\n"),
+              HasSubstr("places.csv:3: cells of the row: 1, columns of the table: 2"));
   EXPECT_THAT(refusal("wheelset.y_mm,friction.coefficient\n0,\n"), HasSubstr("friction.coefficient is empty"));
   EXPECT_THAT(refusal("wheelset.y_mm,friction.coefficient\n0,-1\n"), HasSubstr("places.csv:2: "));
   EXPECT_THAT(refusal("wheelset.y\n0\n"), HasSubstr("places.csv:1: "));
