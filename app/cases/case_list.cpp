@@ -198,7 +198,7 @@ SolvedList::SolvedList(io::ListedCases given, SurfaceStore& store, const ListOpt
   std::string identity = fmt::format("{} {}\n{}{}\n{}\n{}", head_.version, head_.git, plugin_identity(),
                                      head_.input_sha256, options.json, files);
   for (const std::string& setting : options.settings) identity += setting + '\n';
-  for (const auto& [file, hash] : head_.geometry_sha256) identity += file + ' ' + hash + '\n';
+  for (const auto& [file, hash] : head_.geometry_sha256) identity += fmt::format("{} {}\n", file, hash);
   for (const io::ListedNumber& number : numbers_) identity += number.name + '\n';
   log_ = std::make_unique<io::PartLog>(options.kept, identity);
 

@@ -2,7 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cases/wheelrail_case.hpp"
 
+#include <variant>
+
 #include "treadmark/app/cases/wheelrail_result.hpp"
+#include "treadmark/backends/create.hpp"
+#include "treadmark/detection/detector.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -88,6 +92,21 @@ const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file) {
   for (const io::Case& c : file.cases)
     if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) return input;
   return nullptr;
+}
+
+void require_registered(const io::CaseFile& file) {
+  const auto require = [](const io::SurfaceSource& source) {
+    if (!source.backend.empty()) require_backend(source.backend);
+  };
+  for (const io::Case& one : file.cases) {
+    const auto* c = std::get_if<io::WheelRailCase>(&one.content);
+    if (c == nullptr) continue;
+    for (const io::SurfaceSource* body : {&c->wheel, &c->rail}) {
+      require(*body);
+      for (const io::SurfaceSource& part : body->parts) require(part);
+    }
+    if (!c->discretisation.detector.empty()) detection::detector_of(c->discretisation.detector);
+  }
 }
 
 }  // namespace treadmark::app

@@ -20,4 +20,7 @@ FrictionLaw friction_of(const io::WheelRailCase& input, double contact_angle);
 /// The first case of a wheel on a rail in a file; null if there is none.
 const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file);
 
+/// Errors: Error(configuration) for a backend or detector of a case that is not registered, which readers do not ask.
+void require_registered(const io::CaseFile& file);
+
 }  // namespace treadmark::app

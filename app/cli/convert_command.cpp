@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/surfaces/contact_files.hpp"
 #include "treadmark/app/surfaces/convert_profile.hpp"
@@ -73,6 +74,7 @@ io::CaseFile read_cases(const ConvertOptions& options) {
 int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
   const std::filesystem::path output = options.output;
   io::CaseFile file = read_cases(options);
+  app::require_registered(file);
   print_notes(file.notes, common.quiet);
   std::string text;
   if (io::extension_of(output) == ".inp") {

@@ -266,11 +266,11 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
       };
     std::string wheel_breaks, rail_breaks;
     try {
-      const CancellationScope scope(progress.stop);
       const io::CaseFile represented = with(cases, choice);
       const io::WheelRailCase& one = *first_wheelrail_case(represented);
       const SampledRegions about = regions_of(one, regions);
       if (choice.detector.empty()) {
+        const CancellationScope scope(progress.stop);  // not of what follows: what is solved is kept
         wheel_breaks = conformance::broken_promise(seen_body(one, store, Body::wheel, about.wheel));
         rail_breaks = conformance::broken_promise(seen_body(one, store, Body::rail, about.rail));
       }

@@ -202,14 +202,14 @@ class Iteration {
   /// first elements lie by a guess and need tell no more than where to lay the next ones. Nothing where the height has
   /// to be sought, from z on; evaluated: the step stands there.
   std::optional<bool> iterate_under_load(const ForceBalance::Target& target, double& z, bool& evaluated) {
-    constexpr double kDeeper = 2.0, kRough = 1e-3;
+    constexpr double kDeeper = 2.0, kRough = 2e-4;
     constexpr int kMost = 16;
     const double touching = step_.touching_z();
     double laid = z, moves = 1.0;  // moves: of the height found, by a move of its elements
     bool lay = true, rough = !known_, shares_known = step_.knows_earlier_shares();
     // Elements lie at the height found, or so little beside that those that lie there would find the same.
     const auto settled = [&] {
-      constexpr double kThere = 4.0, kSame = 0.3, kLittle = 3e-4;
+      constexpr double kThere = 4.0, kSame = 0.3, kLittle = 8e-5;
       const double beside = std::abs(z - laid), depth = z - touching;
       return beside <= kThere * eps_ * depth || (beside <= kLittle * depth && moves * beside <= kSame * eps_ * depth);
     };

@@ -163,6 +163,18 @@ TEST(ConvertedCases, RefusedOnesLeaveNothing) {
   EXPECT_FALSE(fs::exists(input.folder() / "out_rail_1.prr"));
 }
 
+TEST(ConvertedCases, NamesThatNobodyHasRegisteredAreRefused) {
+  SampleInput input;
+  input.write("case.toml", standard_case("1.0"));
+  const fs::path file = input.folder() / "case.toml", out = input.folder() / "again.toml";
+  for (const char* setting : {"wheel.backend=splines", "rail.backend=splines", "discretisation.detector=sight"}) {
+    const ProgramResult r = run_program({"convert", file.string(), out.string(), "--set", setting});
+    EXPECT_EQ(r.status, 2) << setting;
+    EXPECT_THAT(r.err, HasSubstr(std::string(setting).substr(std::string(setting).find('=') + 1)));
+    EXPECT_FALSE(fs::exists(out));
+  }
+}
+
 /// A ball on a plane that rolls with spin; digit: E.
 double lateral_force(int digit) {
   const std::string text = " 3 MODULE\n 203100\n 002202" + std::to_string(digit) +

@@ -59,7 +59,7 @@ TEST(Plugins, AreInCasesThatAreConvertedInReportsAndInStudies) {
   EXPECT_EQ(with(kChebyshev, convert).err, "");
   const ProgramResult run = with(kChebyshev, {"run", written, "-o", results});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("chebyshev"));
+  EXPECT_THAT(run.err, HasSubstr("rail as chebyshev"));
   if (has_part("report")) {
     EXPECT_EQ(with(kChebyshev, {"report", results, "-o", page}).status, 0);
     EXPECT_THAT(content_of(page), HasSubstr("chebyshev"));
