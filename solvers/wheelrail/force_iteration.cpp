@@ -80,12 +80,11 @@ class Iteration {
     return false;
   }
 
-  /// Tractions as accurately as the vertical force wants them at first. finest: what the pressures are good for.
-  bool estimate_shares(double finest = 0.0) {
+  /// Tractions as accurately as the vertical force wants them at first.
+  bool estimate_shares() {
     if (p_.longitudinal_force) return solve_tangential();
     constexpr double kLoosest = 1e-2, kPart = 0.3;
-    step_.solve_tangential(out_.pitch_rate,
-                           std::clamp(kPart * eps_ / step_.friction_share(), std::max(eps_, finest), kLoosest));
+    step_.solve_tangential(out_.pitch_rate, std::clamp(kPart * eps_ / step_.friction_share(), eps_, kLoosest));
     return true;
   }
 
@@ -188,60 +187,34 @@ class Iteration {
     }
   }
 
-  /// Where a contact that stands at z carries its target after its tractions have changed.
-  double balanced(const ForceBalance::Target& target, double z) const {
-    constexpr double kHertz = 1.5;
-    const double depth = z - step_.touching_z(), wanted = target.at(z), carried = step_.force_T().z();
-    if (!(depth > 0.0 && wanted > 0.0 && carried > 0.0)) return z;
-    const double stiffness = kHertz * wanted / depth;
-    return z + depth * (std::pow(wanted / carried, 1.0 / kHertz) - 1.0) * stiffness / (stiffness + target.spring);
-  }
-
   /// One patch: its normal problem finds the height with the pressures. Elements are laid again, and what lies under
-  /// them is measured again, until the height stays as it is to the accuracy of forces. Where nothing is known, the
-  /// first elements lie by a guess and need tell no more than where to lay the next ones. Nothing where the height has
-  /// to be sought, from z on; evaluated: the step stands there.
+  /// them is measured again, until the height stays as it is to the accuracy of forces. Nothing where the height has to
+  /// be sought, from z on; evaluated: the step stands there.
   std::optional<bool> iterate_under_load(const ForceBalance::Target& target, double& z, bool& evaluated) {
-    constexpr double kDeeper = 2.0, kRough = 2e-4;
+    constexpr double kDeeper = 2.0;
     constexpr int kMost = 16;
-    const double touching = step_.touching_z();
-    double laid = z, moves = 1.0;  // moves: of the height found, by a move of its elements
-    bool lay = true, rough = !known_, shares_known = step_.knows_earlier_shares();
-    // Elements lie at the height found, or so little beside that those that lie there would find the same.
-    const auto settled = [&] {
-      constexpr double kThere = 4.0, kSame = 0.3, kLittle = 8e-5;
-      const double beside = std::abs(z - laid), depth = z - touching;
-      return beside <= kThere * eps_ * depth || (beside <= kLittle * depth && moves * beside <= kSame * eps_ * depth);
-    };
+    const double touching = step_.touching_z(), still = 4.0 * eps_;
+    double laid = z;
+    bool lay = true, shares_known = step_.knows_earlier_shares();
     for (int i = 0; i < std::min(kMost, p_.max_force_iterations); ++i) {
       check_cancelled();
-      const double before = laid;
       if (lay)
-        step_.evaluate(laid = z, target.at(z), rough ? kRough : 0.0);
+        step_.evaluate(laid = z, target.at(z));
       else
         step_.carry(target.at(z));
       evaluated = lay && !step_.carries_load();
       if (!step_.carries_load()) return std::nullopt;
       z = step_.z();
       out_.iterations.emplace_back(z, step_.force_T().z());
-      if (lay && i > 0 && laid != before) moves = std::abs(z - laid) / std::abs(laid - before);
+      lay = shares_known && std::abs(z - laid) > still * (z - touching);
       // Under far too large a load few elements sink in far too deep.
       z = std::min(z, touching + kDeeper * (laid - touching));
-      const bool guessed = std::exchange(rough, false), estimate = !std::exchange(shares_known, true);
-      if (estimate) {
-        if (!estimate_shares(guessed ? kRough : 0.0)) return false;
-        z = balanced(target, z);
-      }
-      lay = !settled();
-      if (lay || guessed || estimate) continue;
-      if (!solve_tangential()) return false;
+      if (lay) continue;
+      if (!(shares_known ? solve_tangential() : estimate_shares())) return false;
+      if (!std::exchange(shares_known, true)) continue;
       out_.z = z;
       out_.iterations.emplace_back(z, step_.force_T().z());
-      if (std::abs(step_.force_T().z() - target.at(z)) > eps_ * std::abs(target.at(z))) {
-        z = balanced(target, z);
-        lay = !settled();
-        continue;
-      }
+      if (std::abs(step_.force_T().z() - target.at(z)) > eps_ * std::abs(target.at(z))) continue;
       keep_stiffness(target, z);
       return true;
     }

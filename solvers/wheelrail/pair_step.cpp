@@ -197,7 +197,7 @@ std::optional<double> PairStep::normal_load(const Patch& patch, double load) con
 }
 
 /// Pressures of a patch at its approach, or under a vertical load where it can be given.
-void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load, double eps) {
+void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
   PatchSolution& s = patch.solution;
   {
     const Stopwatch watch(times_.normal_s);
@@ -205,7 +205,6 @@ void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load, do
     kalker::ContactProblem problem = contact_problem(patch);
     const std::optional<double> force = load ? normal_load(patch, *load) : std::nullopt;
     problem.force_prescribed = force.has_value(), problem.normal_force = force.value_or(0.0);
-    if (force) problem.settings.eps = std::max(problem.settings.eps, eps);
     s.contact = solver(i, patch).solve_normal(problem);
     carries_load_ = force && s.contact.status == Status::ok;
   }
@@ -222,7 +221,7 @@ void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load, do
 
 void PairStep::carry(double load) { press(0, patches_.front(), load); }
 
-void PairStep::evaluate(double z, std::optional<double> load, double eps) {
+void PairStep::evaluate(double z, std::optional<double> load) {
   placement_ = start_;
   const double dz = z - start_z_;
   lower(dz), z_ = z;
@@ -264,7 +263,7 @@ void PairStep::evaluate(double z, std::optional<double> load, double eps) {
       continue;
     }
     move(patch);
-    press(patches_.size(), patch, located.size() == 1 ? load : std::nullopt, eps);
+    press(patches_.size(), patch, located.size() == 1 ? load : std::nullopt);
     if (patch.solution.contact.status != Status::no_contact) patches_.push_back(std::move(patch));
   }
 }

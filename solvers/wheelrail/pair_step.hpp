@@ -46,9 +46,8 @@ class PairStep {
   /// Chooses elements by the contact of the last evaluate(). False: they stay.
   bool learn_elements();
   /// Patches and pressures with the wheelset at height z over the undeflected rail. One patch on a plane is solved
-  /// under the load, if given: force_T() has this vertical part [N], on elements that were laid for height z. eps:
-  /// relative accuracy of pressures under a load where less than that of the problem will do.
-  void evaluate(double z, std::optional<double> load = {}, double eps = 0.0);
+  /// under the load, if given: force_T() has this vertical part [N], on elements that were laid for height z.
+  void evaluate(double z, std::optional<double> load = {});
   /// Whether the last evaluate() found pressures under its load; then all but the elements' place is that of z().
   bool carries_load() const { return carries_load_; }
   double z() const { return z_; }
@@ -113,7 +112,7 @@ class PairStep {
   double deepest() const;
   void move(Patch& patch) const;
   std::optional<double> normal_load(const Patch& patch, double load) const;
-  void press(std::size_t i, Patch& patch, std::optional<double> load, double eps = 0.0);
+  void press(std::size_t i, Patch& patch, std::optional<double> load);
   void lower(double dz);
   kalker::ContactProblem contact_problem(const Patch& patch) const;
   kalker::ContactSolver& solver(std::size_t i, const Patch& patch);
