@@ -7,6 +7,7 @@
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/detection/detector.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -107,6 +108,12 @@ void require_registered(const io::CaseFile& file) {
     }
     if (!c->discretisation.detector.empty()) detection::detector_of(c->discretisation.detector);
   }
+}
+
+io::CaseFile read_case_file(const std::string& file, const std::vector<std::string>& overrides) {
+  io::CaseFile out = io::read_any_case(file, overrides);
+  require_registered(out);
+  return out;
 }
 
 }  // namespace treadmark::app

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
@@ -20,7 +23,10 @@ FrictionLaw friction_of(const io::WheelRailCase& input, double contact_angle);
 /// The first case of a wheel on a rail in a file; null if there is none.
 const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file);
 
-/// Errors: Error(configuration) for a backend or detector of a case that is not registered, which readers do not ask.
+/// Errors: Error(configuration) for backends and detectors of wheels on rails that are not registered, which readers do
+/// not know.
 void require_registered(const io::CaseFile& file);
+/// io::read_any_case with require_registered. Errors: theirs.
+io::CaseFile read_case_file(const std::string& file, const std::vector<std::string>& overrides);
 
 }  // namespace treadmark::app

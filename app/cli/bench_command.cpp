@@ -8,11 +8,11 @@
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
 #include "treadmark/app/bench/pages/bench_page.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 
 namespace treadmark::cli {
@@ -49,7 +49,7 @@ std::vector<std::string> echo(const BenchOptions& options) {
 }
 
 io::CaseFile case_of(const BenchOptions& options) {
-  if (!options.case_file.empty()) return io::read_any_case(options.case_file, options.overrides);
+  if (!options.case_file.empty()) return app::read_case_file(options.case_file, options.overrides);
   io::CaseFile file = app::bench_case();
   io::apply_overrides(file, options.overrides);
   return file;

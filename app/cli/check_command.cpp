@@ -12,6 +12,7 @@
 #include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/position_picture.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/surfaces/pages/check_page.hpp"
@@ -22,7 +23,6 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
-#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
 #include "treadmark/report/pictures/section_picture.hpp"
@@ -93,7 +93,7 @@ void check_geometry_file(const CheckOptions& options, CheckedInput& input) {
 
 /// pictures: the folder for them; empty: none.
 void check_case_file(const CheckOptions& options, const std::filesystem::path& pictures, CheckedInput& input) {
-  const io::CaseFile file = io::read_any_case(input.file, options.overrides);
+  const io::CaseFile file = app::read_case_file(input.file, options.overrides);
   const std::vector<app::CaseGeometry> cases = app::check_geometry(file);
   print_notes(file.notes, false);
   input.notes = file.notes;

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/output_files.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/compare/pages/compare_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_table.hpp"
 
@@ -80,7 +80,7 @@ int exit_status(const io::Comparison& result) {
 int compare_command(const CompareOptions& options, const CommonOptions& common) {
   const ThreadLimit limit(common.threads);
   catch_interrupt();
-  const io::CaseFile file = io::read_any_case(options.case_file, options.overrides);
+  const io::CaseFile file = app::read_case_file(options.case_file, options.overrides);
   const auto compared = std::make_shared<io::Comparison>(with_progress(common.quiet, [&](const Progress& progress) {
     return app::compare_cases(file, settings_of(options), progress);
   }));

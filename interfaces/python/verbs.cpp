@@ -12,6 +12,7 @@
 #include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/position_picture.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
@@ -203,7 +204,7 @@ io::CaseFile cases_of(const Source& source) {
   if (io::is_simulation_file(source.file))
     throw Error(ErrorKind::configuration, "this is a simulation", {source.file.string(), 0, 0},
                 "use treadmark.simulate");
-  return io::read_any_case(source.file, source.overrides);
+  return app::read_case_file(source.file, source.overrides);
 }
 
 void add_verbs(py::module_& module) {

@@ -163,16 +163,19 @@ TEST(ConvertedCases, RefusedOnesLeaveNothing) {
   EXPECT_FALSE(fs::exists(input.folder() / "out_rail_1.prr"));
 }
 
-TEST(ConvertedCases, NamesThatNobodyHasRegisteredAreRefused) {
+TEST(CaseFiles, NamesThatNobodyHasRegisteredAreRefusedByEveryVerb) {
   SampleInput input;
   input.write("case.toml", standard_case("1.0"));
-  const fs::path file = input.folder() / "case.toml", out = input.folder() / "again.toml";
-  for (const char* setting : {"wheel.backend=splines", "rail.backend=splines", "discretisation.detector=sight"}) {
-    const ProgramResult r = run_program({"convert", file.string(), out.string(), "--set", setting});
-    EXPECT_EQ(r.status, 2) << setting;
-    EXPECT_THAT(r.err, HasSubstr(std::string(setting).substr(std::string(setting).find('=') + 1)));
-    EXPECT_FALSE(fs::exists(out));
-  }
+  const std::string file = (input.folder() / "case.toml").string(), out = (input.folder() / "again.toml").string();
+  for (const char* setting : {"wheel.backend=splines", "rail.backend=splines", "discretisation.detector=sight"})
+    for (const char* verb : {"run", "check", "compare", "bench", "conform", "convert"}) {
+      std::vector<std::string> words{verb, file, "--set", setting};
+      if (words[0] == "convert") words.insert(words.begin() + 2, out);
+      const ProgramResult r = run_program(words);
+      EXPECT_EQ(r.status, 2) << verb << ' ' << setting;
+      EXPECT_THAT(r.err, HasSubstr(std::string(setting).substr(std::string(setting).find('=') + 1))) << verb;
+    }
+  EXPECT_FALSE(fs::exists(out));
 }
 
 /// A ball on a plane that rolls with spin; digit: E.
