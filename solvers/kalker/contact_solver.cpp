@@ -285,4 +285,15 @@ ContactSolution ContactSolver::solve(const ContactProblem& problem) {
   return solution;
 }
 
+Gradient ContactSolver::gradient(const ContactProblem& problem, const ContactSolution& solution, Quantity quantity) {
+  if (solution.pressure.size() != problem.grid.size())
+    throw Error(ErrorKind::configuration, "derivatives need the solution of the same problem", {}, "solve it first");
+  if (problem.regime != Regime::frictionless && workspace_->tangential.couples(problem))
+    throw Error(ErrorKind::configuration, "pressures that depend on tractions have no derivatives by the gap");
+  if (problem.regime != Regime::frictionless && quantity == Quantity::elastic_energy)
+    throw Error(ErrorKind::configuration, "the elastic energy of tractions has no derivatives by the gap");
+  const FieldWeights weights = weights_of(problem, solution, quantity);
+  return workspace_->normal.gradient_by_gap(problem, solution, weights.pressure, weights.approach);
+}
+
 }  // namespace treadmark::kalker

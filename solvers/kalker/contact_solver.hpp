@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "treadmark/solvers/kalker/contact_gradient.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/history/contact_history.hpp"
 
@@ -34,6 +35,11 @@ class ContactSolver {
   /// Both. Every solution keeps the invariants of solvers/kalker/invariants.hpp, or has Status::failed and a message
   /// that names the one it breaks. Errors: Error(configuration) also for magnitudes beyond model/magnitudes.hpp.
   ContactSolution solve(const ContactProblem& problem);
+
+  /// Derivatives of a number of a solution of this problem by the gap and by the prescribed force or approach, by one
+  /// linear system (README.md of normal/). The history stays as it is. Errors: Error(configuration) where pressures are
+  /// approximate or depend on tractions, and as NormalSolver::gradient_by_gap.
+  Gradient gradient(const ContactProblem& problem, const ContactSolution& solution, Quantity quantity);
 
   /// Forgets the last solution and the history (not the coefficients).
   void reset();

@@ -54,6 +54,12 @@ class NormalOperatorCache {
   /// and thin sheet.
   NormalOperator get(int nx, int ny, int first_row, const ContactProblem& problem);
 
+  /// Whether pressure on one element moves another one as much as the other way round.
+  bool symmetric(const ContactProblem& problem) {
+    const KernelChoice choice = kernels_.get(problem);
+    return !choice.inclination && choice.kernel->symmetric();
+  }
+
   /// C [m] of half-spaces at offsets |dix| < nx, |diy| < ny, of the problem that get() was called for last; none where
   /// its coefficients are others.
   const InfluenceTable* half_spaces(int nx, int ny);

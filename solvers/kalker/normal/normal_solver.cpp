@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <optional>
 #include <string>
 
 #include "treadmark/core/byte_archive.hpp"
@@ -145,6 +147,8 @@ struct NormalSolver::Workspace {
   void solve_full_or_recall(const ContactProblem& problem, ContactSolution& solution);
   void first_pressure(const ContactProblem& problem, const CombinedMaterial& material,
                       std::vector<double>& pressure) const;
+  PressureOnArea on_contact(const ContactProblem& problem, const ContactSolution& solution, std::span<const double> f,
+                            std::optional<double> sum, std::vector<double>& q);
 };
 
 bool NormalSolver::Workspace::take_last(const Grid2& grid, std::vector<double>& pressure) const {
@@ -320,18 +324,61 @@ void NormalSolver::start_from(NormalStart start) {
   workspace_->last_pressure = std::move(start.pressure);
 }
 
-std::vector<double> NormalSolver::pressure_by_approach(const ContactProblem& problem, const ContactSolution& solution) {
+/// Pressures that stay within the contact of a solution: A q = f - c there. q: a field of the grid's size.
+PressureOnArea NormalSolver::Workspace::on_contact(const ContactProblem& problem, const ContactSolution& solution,
+                                                   std::span<const double> f, std::optional<double> sum,
+                                                   std::vector<double>& q) {
   const Grid2& grid = problem.grid;
   if (solution.pressure.size() != grid.size())
     refuse("the pressures belong to another grid", "solve the problem first");
-  std::vector<double> out(grid.size(), 0.0), inside(grid.size(), 0.0);
+  q.assign(grid.size(), 0.0);
+  std::vector<double> inside(grid.size(), 0.0);
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = solution.pressure[i] > 0.0 ? 1.0 : 0.0;
   const ElementBox whole = bounding_box(grid, [&](std::size_t i) { return inside[i] > 0.0; });
-  if (whole.empty()) return out;
+  if (whole.empty()) return {};
   const ElementBox box = rounded(whole, grid);
-  const NormalOperator op = workspace_->operators.get(box.nx(), box.ny(), box.y0, problem);
+  const NormalOperator op = operators.get(box.nx(), box.ny(), box.y0, problem);
+  const AlignedVector<double> area = cut(grid, inside, box);
+  AlignedVector<double> right = f.empty() ? area : cut(grid, f, box);
+  for (std::size_t i = 0; i < right.size(); ++i) right[i] *= area[i];
   constexpr double kAccuracy = 1e-8;
-  paste(grid, out, box, pressure_of_unit_approach(op, cut(grid, inside, box), kAccuracy));
+  PressureOnArea found = pressure_on_area(op, area, right, sum, kAccuracy);
+  paste(grid, q, box, found.q);
+  return found;
+}
+
+std::vector<double> NormalSolver::pressure_by_approach(const ContactProblem& problem, const ContactSolution& solution) {
+  std::vector<double> out;
+  workspace_->on_contact(problem, solution, {}, {}, out);
+  return out;
+}
+
+Gradient NormalSolver::gradient_by_gap(const ContactProblem& problem, const ContactSolution& solution,
+                                       std::span<const double> by_pressure, double by_approach) {
+  if (by_pressure.size() != problem.grid.size())
+    refuse("there are " + std::to_string(by_pressure.size()) + " derivatives by the pressure of " +
+           std::to_string(problem.grid.size()) + " elements");
+  if (problem.normal_model != NormalModel::full)
+    refuse("approximate pressures have no derivatives by the gap", "use the full normal problem");
+  if (problem.sub_patches.count > 1) refuse("parts that share an influence have no derivatives by the gap");
+  if (!workspace_->operators.symmetric(problem))
+    refuse("coefficients of influence that are not symmetric have no derivatives by the gap");
+  Gradient out;
+  const std::optional<double> sum = problem.force_prescribed ? std::optional(-by_approach) : std::nullopt;
+  const PressureOnArea found = workspace_->on_contact(problem, solution, by_pressure, sum, out.by_gap);
+  out.report.iterations = found.iterations;
+  out.report.residual = found.residual;
+  if (found.q.empty()) {
+    out.report.status = Status::no_contact;
+    return out;
+  }
+  if (!found.converged) {
+    out.report.status = Status::not_converged;
+    out.report.message = "derivatives by the gap did not reach their accuracy";
+  }
+  out.by_load = problem.force_prescribed ? found.shift / problem.grid.cell_area()
+                                         : by_approach + std::accumulate(out.by_gap.begin(), out.by_gap.end(), 0.0);
+  for (double& value : out.by_gap) value = -value;
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "treadmark/core/byte_archive.hpp"
+#include "treadmark/solvers/kalker/contact_gradient.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {
@@ -40,6 +41,13 @@ class NormalSolver {
   /// Change of the pressures with the approach [Pa/m], the contact area staying as it is: their sum times the cell area
   /// is the normal stiffness. Errors: Error(configuration) for a solution of another grid.
   std::vector<double> pressure_by_approach(const ContactProblem& problem, const ContactSolution& solution);
+
+  /// Derivatives, by the gap of every element and by what is prescribed, of a number of which those by pressures
+  /// [unit/Pa] and by the approach [unit/m] are given; elements in contact stay in it and others out of it. One linear
+  /// system of the contact's elements. Errors: Error(configuration) for a solution of another grid, approximate
+  /// pressures, parts that share an influence, and coefficients of influence that are not symmetric.
+  Gradient gradient_by_gap(const ContactProblem& problem, const ContactSolution& solution,
+                           std::span<const double> by_pressure, double by_approach);
 
   /// Forgets the last pressures (not the coefficients).
   void reset();
