@@ -290,10 +290,15 @@ Gradient ContactSolver::gradient(const ContactProblem& problem, const ContactSol
     throw Error(ErrorKind::configuration, "derivatives need the solution of the same problem", {}, "solve it first");
   if (problem.regime != Regime::frictionless && workspace_->tangential.couples(problem))
     throw Error(ErrorKind::configuration, "pressures that depend on tractions have no derivatives by the gap");
-  if (problem.regime != Regime::frictionless && quantity == Quantity::elastic_energy)
-    throw Error(ErrorKind::configuration, "the elastic energy of tractions has no derivatives by the gap");
-  const FieldWeights weights = weights_of(problem, solution, quantity);
-  return workspace_->normal.gradient_by_gap(problem, solution, weights.pressure, weights.approach);
+  FieldWeights weights = weights_of(problem, solution, quantity);
+  Gradient tangential;
+  if (!(weights.traction_x.empty() && weights.traction_y.empty()))
+    tangential = workspace_->tangential.gradient(problem, solution, weights);
+  Gradient out = workspace_->normal.gradient_by_gap(problem, solution, weights.pressure, weights.approach);
+  out.by_creepage = tangential.by_creepage;
+  out.report.iterations += tangential.report.iterations;
+  if (out.report.status == Status::ok && tangential.report.status != Status::ok) out.report = tangential.report;
+  return out;
 }
 
 }  // namespace treadmark::kalker

@@ -36,9 +36,11 @@ class ContactSolver {
   /// that names the one it breaks. Errors: Error(configuration) also for magnitudes beyond model/magnitudes.hpp.
   ContactSolution solve(const ContactProblem& problem);
 
-  /// Derivatives of a number of a solution of this problem by the gap and by the prescribed force or approach, by one
-  /// linear system (README.md of normal/). The history stays as it is. Errors: Error(configuration) where pressures are
-  /// approximate or depend on tractions, and as NormalSolver::gradient_by_gap.
+  /// Derivatives of a number of a solution of this problem by the gap, the prescribed force or approach and the
+  /// creepages, by one linear system of pressures (README.md of normal/), and one of tractions where the number depends
+  /// on them. The history stays as it is. Errors: Error(configuration) where pressures are approximate or depend on
+  /// tractions, where tractions are approximate, their layer yields, their friction depends on anything or their force
+  /// is prescribed, and as NormalSolver::gradient_by_gap.
   Gradient gradient(const ContactProblem& problem, const ContactSolution& solution, Quantity quantity);
 
   /// Forgets the last solution and the history (not the coefficients).

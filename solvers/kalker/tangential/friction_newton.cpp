@@ -231,8 +231,9 @@ Field2 FrictionNewton::sensitivity(const FrictionProblem& problem, const Frictio
     for (std::size_t k = 0; k < 2 * n; ++k) rhs[k] += caused[k];
   }
   for (double& value : rhs) value = -value;
-  solve_linear(
+  const GmresResult inner = solve_linear(
       problem, rhs, change, [tolerance](double size) { return tolerance * size; }, max_inner);
+  sensitivity_products_ += inner.iterations;
   for (std::size_t k = 0; k < known.size(); ++k) change[k] += known[k];
   return change;
 }

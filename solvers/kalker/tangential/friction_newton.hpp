@@ -32,6 +32,8 @@ class FrictionNewton {
   /// areas as in the state.
   Field2 sensitivity(const FrictionProblem& problem, const FrictionState& state, const Field2& rigid_slip_change,
                      std::span<const double> bound_change, double tolerance, int max_inner);
+  /// Products with A of all sensitivities so far.
+  int sensitivity_products() const { return sensitivity_products_; }
 
  private:
   /// The linear system of a step, for the present state.
@@ -47,6 +49,7 @@ class FrictionNewton {
   std::vector<double> damping_;    ///< stiffness relative to the diagonal
   Field2 field_, image_;
   Gmres gmres_;
+  int sensitivity_products_ = 0;
 };
 
 }  // namespace treadmark::kalker

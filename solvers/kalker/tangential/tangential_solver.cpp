@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/model/contact/theories.hpp"
+#include "treadmark/solvers/kalker/tangential/backward_change.hpp"
 #include "treadmark/solvers/kalker/tangential/creepage_search.hpp"
 #include "treadmark/solvers/kalker/tangential/previous_instant.hpp"
 
@@ -328,6 +330,70 @@ Sensitivities TangentialSolver::sensitivities(const ContactProblem& problem, con
   for (const double p : more_pressure) out.by_approach[0] += p * area;
   out.by_approach[1] = tangential[0];
   out.by_approach[2] = tangential[1];
+  return out;
+}
+
+Gradient TangentialSolver::gradient(const ContactProblem& problem, const ContactSolution& solution,
+                                    FieldWeights& weights) {
+  const KernelChoice kernel = workspace_->kernels.get(problem);
+  if (problem.tangential_model != TangentialModel::full || !friction_of(problem).constant() ||
+      problem.material.layer_yield > 0.0 || problem.fx_relative || problem.fy_relative || kernel.coupled ||
+      !kernel.kernel->symmetric())
+    refuse_problem("tractions of this problem have no derivatives by the gap",
+                   "use the full theory, Coulomb's friction, given creepages and equal elastic bodies");
+  if (solution.traction_x.size() != problem.grid.size())
+    refuse_problem("derivatives need the solution of the same problem", "solve it first");
+  const RollingStep step = rolling_step(problem);
+  const Patch patch = make_patch(problem.grid, step.transport, solution.state);
+  const std::size_t n = patch.cell.size();
+  Gradient out;
+  if (n == 0) {
+    out.report.status = Status::no_contact;
+    return out;
+  }
+  Compliance& compliance = workspace_->cache.get(compliance_key(patch, problem.material, kernel.unusual()));
+  const double diagonal = PatchOperator(patch, compliance).diagonal();
+  const auto at = [](const std::vector<double>& field, std::size_t i) { return field.empty() ? 0.0 : field[i]; };
+  FrictionState state;
+  for (Field2* field : {&state.traction, &state.slip, &state.direction}) field->assign(2 * n, 0.0);
+  std::vector<double> bound(n);
+  Field2 by_traction(2 * n), by_slip(2 * n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t from = patch.grid_index(static_cast<int>(i));
+    const double px = solution.traction_x[from], py = solution.traction_y[from], size = std::hypot(px, py);
+    const double sx = step.distance * solution.slip_x[from], sy = step.distance * solution.slip_y[from];
+    bound[i] = solution.friction[from] * solution.pressure[from];
+    state.traction[i] = px, state.traction[n + i] = py;
+    state.slipping.push_back(solution.state[from] == ElementState::slip);
+    state.excess.push_back(state.slipping[i] ? std::hypot(sx, sy) / diagonal : 0.0);
+    if (state.slipping[i]) {
+      state.slip[i] = sx, state.slip[n + i] = sy;
+      if (size > 0.0) state.direction[i] = px / size, state.direction[n + i] = py / size;
+    }
+    by_traction[i] = at(weights.traction_x, from), by_traction[n + i] = at(weights.traction_y, from);
+    by_slip[i] = at(weights.slip_x, from) / step.distance, by_slip[n + i] = at(weights.slip_y, from) / step.distance;
+  }
+  const BackwardChange back = backward_change(patch, compliance, std::move(bound), std::move(state),
+                                              std::move(by_traction), std::move(by_slip));
+  out.report.iterations = back.products;
+  out.report.residual = back.residual;
+  if (!back.converged) {
+    out.report.status = Status::not_converged;
+    out.report.message = "derivatives by tractions did not reach their accuracy";
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t to = patch.grid_index(static_cast<int>(i));
+    weights.pressure[to] += solution.friction[to] * back.by_bound[i];
+  }
+  const KnownSlip known =
+      patch_conditions(problem, patch, step, kernel, solution.pressure, {}, workspace_->operators).known_slip;
+  for (std::size_t k = 0; k < 3; ++k) {
+    Creepage unit;
+    unit.spin_x = solution.creepage.spin_x, unit.spin_y = solution.creepage.spin_y;
+    (k == 0 ? unit.xi : k == 1 ? unit.eta : unit.phi) = 1.0;
+    const Field2 slip = known.rigid(unit);
+    out.by_creepage[k] = std::inner_product(slip.begin(), slip.end(), back.by_rigid_slip.begin(), 0.0);
+  }
   return out;
 }
 

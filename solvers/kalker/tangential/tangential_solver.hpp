@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "treadmark/core/byte_archive.hpp"
+#include "treadmark/solvers/kalker/contact_gradient.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/history/contact_history.hpp"
 
@@ -49,6 +50,11 @@ class TangentialSolver {
   /// [Pa/m]. Errors: Error(configuration) without a solution of this problem.
   Sensitivities sensitivities(const ContactProblem& problem, const ContactSolution& solution,
                               const ContactHistory& previous, std::span<const double> pressure_by_approach);
+
+  /// Derivatives of a number of a solution by creepages, from those by tractions and slip; what pressures do to it as
+  /// the bound of tractions is added to weights.pressure. Adhesion and slip areas and the instant before stay. Errors:
+  /// Error(configuration) for what ContactSolver::gradient refuses of tractions.
+  Gradient gradient(const ContactProblem& problem, const ContactSolution& solution, FieldWeights& weights);
 
   /// Whether tangential tractions and normal displacements have to do with each other (dissimilar bodies, curved
   /// contact).

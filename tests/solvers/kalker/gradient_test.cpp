@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -45,6 +47,14 @@ double value_of(const ContactSolution& s, Quantity quantity) {
       return s.moment_x / s.force_n;
     case Quantity::elastic_energy:
       return s.elastic_energy;
+    case Quantity::force_x:
+      return s.force_x;
+    case Quantity::force_y:
+      return s.force_y;
+    case Quantity::moment_n:
+      return s.moment_n;
+    case Quantity::frictional_power:
+      return s.frictional_power;
   }
   return std::nan("");
 }
@@ -87,25 +97,24 @@ OwnedProblem rough() {
   return owned;
 }
 
-/// The number with the gap moved along a direction, the states of all elements as they were; central difference over
-/// the longest step that allows it.
-double difference(const OwnedProblem& owned, const ContactSolution& at, Quantity quantity,
-                  const std::vector<double>& direction) {
-  OwnedProblem moved(owned);
-  for (double step = 1e-7; step > 1e-11; step *= 0.5) {
-    const auto solved = [&](double length) {
-      for (std::size_t i = 0; i < moved.gap.size(); ++i) moved.gap[i] = owned.gap[i] + length * direction[i];
-      return ContactSolver().solve(moved.problem);
-    };
+/// By central differences of the solutions at lengths about 0, over the longest steps that leave the states of all
+/// elements as they are; what is left of the square of the step cancels between two of them.
+template <class Solved>
+double difference(const Solved& solved, const ContactSolution& at, Quantity quantity, double longest) {
+  const auto over = [&](double step) -> std::optional<double> {
     const ContactSolution more = solved(step), less = solved(-step);
     const auto highest = [](const ContactSolution& s) {
       return std::max_element(s.pressure.begin(), s.pressure.end()) - s.pressure.begin();
     };
     if (more.status != Status::ok || less.status != Status::ok || more.state != at.state || less.state != at.state ||
         highest(more) != highest(at) || highest(less) != highest(at))
-      continue;
+      return std::nullopt;
     return (value_of(more, quantity) - value_of(less, quantity)) / (2.0 * step);
-  }
+  };
+  constexpr int kHalvings = 14;
+  for (int k = 0; k < kHalvings; ++k, longest *= 0.5)
+    if (const auto wide = over(longest))
+      if (const auto narrow = over(0.5 * longest)) return (4.0 * *narrow - *wide) / 3.0;
   ADD_FAILURE() << "no step leaves the contact as it is";
   return std::nan("");
 }
@@ -114,23 +123,40 @@ void expect_differences(OwnedProblem owned, std::span<const Quantity> quantities
   owned.problem.settings.eps = kExact;
   ContactSolver solver;
   const ContactSolution at = solver.solve(owned.problem);
-  ASSERT_EQ(at.status, Status::ok) << name << ": " << at.normal.message;
+  ASSERT_EQ(at.status, Status::ok) << name << ": " << at.normal.message << at.tangential.message;
+  const bool rolls = owned.problem.regime != Regime::frictionless;
+  ASSERT_TRUE(!rolls || (at.elements_slip > 30 && at.elements_adhesion > 30)) << name;
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < at.pressure.size(); ++i)
     if (at.pressure[i] > 0.0) inside.push_back(i);
   std::mt19937 generator(11);
   std::shuffle(inside.begin(), inside.end(), generator);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  constexpr double kLongest = 1e-7;  // [m]
+  const auto moved = [&](const std::vector<double>& direction) {
+    return [&owned, direction](double length) {
+      OwnedProblem other(owned);
+      for (std::size_t i = 0; i < other.gap.size(); ++i) other.gap[i] += length * direction[i];
+      return ContactSolver().solve(other.problem);
+    };
+  };
+  // of a number that is given with the problem
+  const auto varied = [&](const auto& member) {
+    return [&owned, member](double change) {
+      OwnedProblem other(owned);
+      member(other.problem) += change;
+      return ContactSolver().solve(other.problem);
+    };
+  };
   for (const Quantity quantity : quantities) {
     const Gradient gradient = solver.gradient(owned.problem, at, quantity);
-    ASSERT_EQ(gradient.report.status, Status::ok);
+    ASSERT_EQ(gradient.report.status, Status::ok) << gradient.report.residual;
     const std::string what = name + (owned.problem.force_prescribed ? ", force, " : ", approach, ") +
                              std::to_string(static_cast<int>(quantity));
     double largest = 0.0;
     for (const double d : gradient.by_gap) largest = std::max(largest, std::abs(d));
     // what is prescribed does not change, but for rounding of sums
-    const bool given = quantity == (owned.problem.force_prescribed ? Quantity::force_n : Quantity::approach);
-    if (given) {
+    if (quantity == (owned.problem.force_prescribed ? Quantity::force_n : Quantity::approach)) {
       EXPECT_LE(largest, 1e-6) << what;
       EXPECT_NEAR(gradient.by_load, 1.0, 1e-12) << what;
       continue;
@@ -138,7 +164,8 @@ void expect_differences(OwnedProblem owned, std::span<const Quantity> quantities
     for (std::size_t k = 0; k < 10; ++k) {
       std::vector<double> direction(at.pressure.size());
       direction[inside[k]] = 1.0;
-      EXPECT_NEAR(gradient.by_gap[inside[k]], difference(owned, at, quantity, direction), kSameDerivative * largest)
+      EXPECT_NEAR(gradient.by_gap[inside[k]], difference(moved(direction), at, quantity, kLongest),
+                  kSameDerivative * largest)
           << what << ", element " << inside[k];
     }
     std::vector<double> direction(at.pressure.size());
@@ -148,19 +175,21 @@ void expect_differences(OwnedProblem owned, std::span<const Quantity> quantities
       expected += gradient.by_gap[i] * direction[i];
       size += std::abs(gradient.by_gap[i] * direction[i]);
     }
-    EXPECT_NEAR(expected, difference(owned, at, quantity, direction), kSameDerivative * size) << what;
+    EXPECT_NEAR(expected, difference(moved(direction), at, quantity, kLongest), kSameDerivative * size) << what;
 
-    OwnedProblem loaded(owned);
-    double& load = owned.problem.force_prescribed ? loaded.problem.normal_force : loaded.problem.approach;
-    const double before = load, step = 1e-6 * before;
-    load = before + step;
-    const ContactSolution more = ContactSolver().solve(loaded.problem);
-    load = before - step;
-    const ContactSolution less = ContactSolver().solve(loaded.problem);
-    ASSERT_TRUE(more.state == at.state && less.state == at.state) << what;
-    const double by_load = (value_of(more, quantity) - value_of(less, quantity)) / (2.0 * step);
-    const double scale = std::max(std::abs(by_load), std::abs(value_of(at, quantity)) / before);
-    EXPECT_NEAR(gradient.by_load, by_load, kSameDerivative * scale) << what;
+    const auto expect_number = [&](double derivative, double before, const auto& member) {
+      const double by = difference(varied(member), at, quantity, 1e-3 * before);
+      const double scale = std::max(std::abs(by), std::abs(value_of(at, quantity) / before));
+      EXPECT_NEAR(derivative, by, kSameDerivative * scale) << what;
+    };
+    expect_number(gradient.by_load, owned.problem.force_prescribed ? owned.problem.normal_force : at.approach,
+                  [](ContactProblem& p) -> double& { return p.force_prescribed ? p.normal_force : p.approach; });
+    const Creepage& c = owned.problem.creepage;
+    if (rolls) expect_number(gradient.by_creepage[0], c.xi, [](ContactProblem& p) -> double& { return p.creepage.xi; });
+    if (rolls)
+      expect_number(gradient.by_creepage[1], c.eta, [](ContactProblem& p) -> double& { return p.creepage.eta; });
+    if (rolls)
+      expect_number(gradient.by_creepage[2], c.phi, [](ContactProblem& p) -> double& { return p.creepage.phi; });
   }
 }
 
@@ -171,6 +200,27 @@ TEST(Gradient, IsThatOfCentralDifferences) {
   expect_differences(at_approach(line()), kOfPressures, "line");
   expect_differences(rough(), kOfPressures, "rough");
   expect_differences(at_approach(rough()), kOfPressures, "rough");
+}
+
+OwnedProblem rolling(OwnedProblem owned, Regime regime, double chi) {
+  ContactProblem& p = owned.problem;
+  p.regime = regime;
+  p.rolling.chi = chi;
+  p.rolling.step = p.grid.dx;
+  const double length = regime == Regime::steady ? 1.0 : 4e-3;
+  p.creepage = {-6e-4 * length, 4e-4 * length, 0.2 * length, 1e-4, -2e-4};
+  return owned;
+}
+
+TEST(Gradient, OfTractionsIsThatOfCentralDifferences) {
+  constexpr Quantity kOfTractions[] = {Quantity::force_x, Quantity::force_y, Quantity::moment_n,
+                                       Quantity::frictional_power, Quantity::elastic_energy};
+  expect_differences(rolling(ellipse(), Regime::steady, 0.0), kOfTractions, "forward");
+  expect_differences(rolling(at_approach(ellipse()), Regime::steady, std::numbers::pi), kOfTractions, "backward");
+  expect_differences(rolling(ellipse(), Regime::shift, 0.0), kOfTractions, "shift");
+  OwnedProblem layered = rolling(ellipse(), Regime::steady, 0.0);
+  layered.problem.material.layer_flexibility = 1e-15;
+  expect_differences(layered, kOfTractions, "layer");
 }
 
 /// Two balls of radius R, Hertz 1882: F = 4/3 e* sqrt(R) d^1.5, p = 2/pi e* sqrt(d/R), U = 2/5 F d.
@@ -265,6 +315,18 @@ TEST(Gradient, RefusesWhatItDoesNotHold) {
   refused([](ContactProblem& p) { ++p.grid.nx; });
   refused([](ContactProblem& p) { p.material.creep_ratio_1 = 0.5, p.material.relaxation_time_1 = 0.01; });
   refused([](ContactProblem& p) { p.regime = Regime::steady, p.material.shear_modulus_2 *= 0.1; });
+
+  const OwnedProblem rolls = rolling(owned, Regime::steady, 0.0);
+  const ContactSolution tractions = solver.solve(rolls.problem);
+  const auto refused_of_tractions = [&](const std::function<void(ContactProblem&)>& change) {
+    ContactProblem other = rolls.problem;
+    change(other);
+    EXPECT_THROW(solver.gradient(other, tractions, Quantity::force_x), Error);
+  };
+  refused_of_tractions([](ContactProblem& p) { p.tangential_model = TangentialModel::fastsim; });
+  refused_of_tractions([](ContactProblem& p) { p.material.layer_yield = 1e8; });
+  refused_of_tractions([](ContactProblem& p) { p.fx_relative = 0.3; });
+  refused_of_tractions([](ContactProblem& p) { p.friction.kind = FrictionLaw::Kind::temperature; });
 }
 
 }  // namespace
