@@ -24,7 +24,7 @@ void flip(Pose& pose) {
 }
 
 template <class T>
-void reverse_rows(std::vector<T>& field, const Grid2& g) {
+void reverse_all_rows(std::vector<T>& field, const Grid2& g) {
   if (field.size() != g.size()) return;
   for (int low = 0, high = g.ny - 1; low < high; ++low, --high)
     std::swap_ranges(field.begin() + static_cast<std::ptrdiff_t>(g.index(0, low)),
@@ -33,7 +33,7 @@ void reverse_rows(std::vector<T>& field, const Grid2& g) {
 }
 
 void reverse_rows_and_sign(std::vector<double>& field, const Grid2& g) {
-  reverse_rows(field, g);
+  reverse_all_rows(field, g);
   for (double& value : field) value = -value;
 }
 
@@ -77,10 +77,10 @@ void flip(PatchSolution& p) {
   kalker::ContactSolution& c = p.contact;
   for (auto* field : {&p.distance, &c.pressure, &c.traction_x, &c.displacement_n, &c.displacement_x, &c.slip_x,
                       &c.friction, &c.plastic_x, &c.yield_stress, &c.temperature_1, &c.temperature_2, &p.extra_slip_x})
-    reverse_rows(*field, p.grid);
+    reverse_all_rows(*field, p.grid);
   for (auto* field : {&c.traction_y, &c.displacement_y, &c.slip_y, &c.plastic_y, &p.extra_slip_y})
     reverse_rows_and_sign(*field, p.grid);
-  reverse_rows(c.state, p.grid);
+  reverse_all_rows(c.state, p.grid);
   c.creepage.eta = -c.creepage.eta;
   c.creepage.phi = -c.creepage.phi;
   c.creepage.spin_y = -c.creepage.spin_y;
@@ -98,6 +98,8 @@ void flip(PatchSolution& p) {
 }
 
 }  // namespace
+
+void reverse_rows(std::vector<double>& field, const Grid2& grid) { reverse_all_rows(field, grid); }
 
 Problem mirrored(Problem p) {
   p.side = p.side == Side::left ? Side::right : Side::left;

@@ -14,4 +14,7 @@ Problem mirrored(Problem problem);
 /// sign, element rows change order.
 PairSolution mirrored(PairSolution solution);
 
+/// A field of a grid with its rows in the other order.
+void reverse_rows(std::vector<double>& field, const Grid2& grid);
+
 }  // namespace treadmark::wheelrail

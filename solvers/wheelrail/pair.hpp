@@ -21,6 +21,7 @@
 #include "treadmark/solvers/wheelrail/contact_shape.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 #include "treadmark/solvers/wheelrail/loads.hpp"
+#include "treadmark/solvers/wheelrail/pair_gradient.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -111,6 +112,12 @@ class Pair {
   /// Memory does not grow with count. Throws Cancelled after a stop request, of progress or of the scope that holds.
   void solve_many(std::size_t count, const std::function<Problem(std::size_t)>& problem,
                   const std::function<void(std::size_t, PairSolution&&)>& take, const Progress& progress = {}) const;
+
+  /// Derivatives of a number of a solution of this problem by the gaps of its patches. Costs a linear system for the
+  /// number and, with a vertical force that is given, one for each patch. The history stays as it is. Errors:
+  /// Error(configuration) for a solution that is not ok, rails on springs, a longitudinal force that is given, curved
+  /// contact, and as kalker::ContactSolver::gradient.
+  PairGradient gradient(const Problem& problem, const PairSolution& solution, const PairQuantity& quantity);
 
   /// Forgets the history: the bodies come together from rest.
   void reset();

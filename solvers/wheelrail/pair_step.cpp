@@ -109,23 +109,15 @@ kalker::ContactSolver& PairStep::solver(std::size_t i, const Patch& patch) {
   return solvers_[i];
 }
 
-kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
-  const Problem& p = problem_;
-  const PatchSolution& s = patch.solution;
+kalker::ContactProblem contact_problem_of(const Problem& p, const PatchSolution& s) {
   kalker::ContactProblem c;
   c.grid = s.grid;
-  c.gap = patch.gap;
-  c.sub_patches = patch.parts;
   c.material = p.material;
   c.friction = friction_at(p.friction_inclination, p.friction_laws, s.frame.angle, p.friction);
   c.normal_model = p.normal_model;
   c.tangential_model = p.tangential_model;
   c.fastsim = p.fastsim;
   c.influence = p.influence;
-  if (p.reference_surface == ReferenceSurface::curved) {
-    c.influence = influence_on(*patch.reference, s.grid, p.influence);
-    c.friction_of_row = friction_on(*patch.reference, s.frame.angle, p);
-  }
   c.extra_slip_x = s.extra_slip_x;
   c.extra_slip_y = s.extra_slip_y;
   c.thermal = p.thermal;
@@ -139,11 +131,24 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
   c.rolling.step = p.regime == kalker::Regime::shift ? 1.0 : p.discretisation.dq_relative * s.grid.dx;
   c.rolling.usual_step = p.discretisation.usual_dq_relative * s.grid.dx;
   c.settings = p.solver;
+  // A wheel that stands still does not creep.
+  if (!(s.kinematics.velocity > 0.0)) c.regime = kalker::Regime::frictionless;
+  return c;
+}
+
+kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
+  const Problem& p = problem_;
+  const PatchSolution& s = patch.solution;
+  kalker::ContactProblem c = contact_problem_of(p, s);
+  c.gap = patch.gap;
+  c.sub_patches = patch.parts;
+  if (p.reference_surface == ReferenceSurface::curved) {
+    c.influence = influence_on(*patch.reference, s.grid, p.influence);
+    c.friction_of_row = friction_on(*patch.reference, s.frame.angle, p);
+  }
   c.history = patch.history ? (p.history == kalker::HistoryUse::normal_only ? kalker::HistoryUse::normal_only
                                                                             : kalker::HistoryUse::keep_going)
                             : kalker::HistoryUse::start;
-  // A wheel that stands still does not creep.
-  if (!(s.kinematics.velocity > 0.0)) c.regime = kalker::Regime::frictionless;
   return c;
 }
 

@@ -139,6 +139,10 @@ class PairStep {
   std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };
 
+/// What is given of a patch that lies where it does, but for its gap, parts, history and what follows from rows of
+/// elements.
+kalker::ContactProblem contact_problem_of(const Problem& problem, const PatchSolution& patch);
+
 /// The part of a patch that each element belongs to, the nearest one, and how much the parts feel of each other.
 /// places: where the elements lie on the rail, in T [m].
 kalker::SubPatches sub_patches(const Discretisation& discretisation, const detection::ContactPatch& region,
