@@ -100,6 +100,7 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
         [this, i] { return simulation_->reactions()[i].check_force; });
   add_energies();
   add_bodies();
+  add_elements();
   if (vehicle.line) add_line(file.irregularities.has_value());
   add_running(watched);
   add_accelerations(file.history);
@@ -206,6 +207,29 @@ void HistoryRecord::add_bodies() {
         [this, at] { return simulation_->state().q[at]; });
     add(c.name + "_rate_" + unit + "_s", unit + "/s", "its rate", [this, at] { return simulation_->state().v[at]; });
   }
+}
+
+/// Forces of dry friction and dampers, against the displacement of the second body.
+void HistoryRecord::add_elements() {
+  constexpr const char* kWords[] = {"x", "y", "z", "roll", "pitch", "yaw"};
+  const vehicle::ForceElements& elements = vehicle_.system.elements;
+  const auto force = [this](int column) { return [this, column] { return simulation_->element_force()[column]; }; };
+  for (const vehicle::DryFriction& f : elements.frictions)
+    for (int d = 0; d < f.directions; ++d) {
+      const int column = f.first + d;
+      const std::string name = fmt::format(
+          "friction.{}.{}", f.name, kWords[static_cast<int>(elements.columns[static_cast<std::size_t>(column)].freedom)]);
+      add(name + "_N", "N", "dry friction, against the displacement; of a rotation at its arm", force(column));
+      add(name + "_slid_m", "m", "how far it has slid since the reference configuration",
+          [this, column] { return simulation_->element_memory()[column]; });
+    }
+  for (const vehicle::DamperCurve& damper : elements.dampers)
+    add(fmt::format("damper.{}_N", damper.name), "N", "force of the damper, against the rate",
+        [this, &damper, &column = elements.columns[static_cast<std::size_t>(damper.column)]] {
+          double linear = 0.0;
+          for (const auto& [c, factor] : column.direction) linear += damper.linear * factor * simulation_->state().v[c];
+          return linear + simulation_->element_force()[damper.column];
+        });
 }
 
 /// What running tests and wear ask of the wheels.

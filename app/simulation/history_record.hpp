@@ -52,6 +52,7 @@ class HistoryRecord {
   void add_bodies();
   void add_line(bool irregular);
   void add_energies();
+  void add_elements();
   void add_running(std::size_t watched);
   void add_accelerations(const io::HistoryRequest& request);
   void keep_only(const io::HistoryRequest& request);

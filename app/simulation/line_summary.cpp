@@ -113,7 +113,8 @@ std::vector<std::string> line_summary(const io::SimulationFile& file) {
 }
 
 bool has_line(const io::SimulationFile& file) {
-  return file.layout || file.irregularities || !file.torques.empty() || file.settings.profile.time.size() > 1;
+  return file.layout || file.irregularities || !file.torques.empty() || !file.forces.empty() ||
+         !file.spring_motions.empty() || !file.rail_shifts.empty() || file.settings.profile.time.size() > 1;
 }
 
 std::shared_ptr<const vehicle::LineEffects> build_line(const io::SimulationFile& file, const vehicle::Multibody& system,
@@ -125,6 +126,9 @@ std::shared_ptr<const vehicle::LineEffects> build_line(const io::SimulationFile&
   setup.gravity = file.settings.gravity;
   setup.speed = file.settings.profile;
   setup.torques = file.torques;
+  setup.forces = file.forces;
+  setup.spring_motions = file.spring_motions;
+  setup.rail_shifts = file.rail_shifts;
   if (file.layout) {
     setup.path = std::make_shared<const vehicle::TrackPath>(rounded(*file.layout, kRounding));
     setup.base = file.layout->cant_base;

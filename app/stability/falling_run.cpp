@@ -57,6 +57,9 @@ io::SimulationFile file_of(io::SimulationFile file, const FallingRequest& reques
   file.irregularities = lateral_wave(front + kWaveBegins, request.wave_height, request.wave_length);
   file.irregularity_file.reset();
   file.torques.clear();
+  file.forces.clear();
+  file.spring_motions.clear();
+  file.rail_shifts.clear();
   file.assessment.reset();
   file.fields = {};
   file.history = {};

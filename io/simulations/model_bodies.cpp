@@ -23,22 +23,10 @@ bool is_part_name(std::string_view text) {
 }
 
 std::array<bool, kFreedoms> free_directions(const TableOf<BodySpec>& part) {
-  const CaseValue& list = part.need(&BodySpec::free);
-  const std::string path = part.path_of(&BodySpec::free);
-  const std::vector<std::string> words = part.words(part.key(&BodySpec::free));
-  if (words.empty())
-    part.refuse(&BodySpec::free, fmt::format("{} is empty", path),
+  const std::array<bool, kFreedoms> free = directions_of(part, part.key(&BodySpec::free));
+  if (std::find(free.begin(), free.end(), true) == free.end())
+    part.refuse(&BodySpec::free, fmt::format("{} is empty", part.path_of(&BodySpec::free)),
                 "leave the body out, and connect with \"ground\" instead");
-  std::array<bool, kFreedoms> free{};
-  const std::vector<std::string> known(kFreedomWords.begin(), kFreedomWords.end());
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const SourcePosition& where = list.list()[i].where;
-    check_name(fmt::format("the direction in {}", path), words[i], known, where);
-    bool& direction =
-        free.at(static_cast<std::size_t>(std::find(known.begin(), known.end(), words[i]) - known.begin()));
-    if (direction) throw Error(ErrorKind::configuration, fmt::format("{} names '{}' twice", path, words[i]), where);
-    direction = true;
-  }
   return free;
 }
 
@@ -81,6 +69,21 @@ void add_bodies(const CaseValue& table, std::vector<BodySpec>& bodies) {
 }
 
 }  // namespace
+
+std::array<bool, kFreedoms> directions_of(const TableReader& part, std::string_view key) {
+  std::array<bool, kFreedoms> named{};
+  const std::vector<std::string> words = part.words(key), known(kFreedomWords.begin(), kFreedomWords.end());
+  const std::string path = part.path_of(key);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const SourcePosition& where = part.need(key).list()[i].where;
+    check_name(fmt::format("the direction in {}", path), words[i], known, where);
+    bool& direction =
+        named.at(static_cast<std::size_t>(std::find(known.begin(), known.end(), words[i]) - known.begin()));
+    if (direction) throw Error(ErrorKind::configuration, fmt::format("{} names '{}' twice", path, words[i]), where);
+    direction = true;
+  }
+  return named;
+}
 
 std::string_view freedom_word(int freedom) { return kFreedomWords.at(static_cast<std::size_t>(freedom)); }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -82,18 +83,85 @@ void check_spring(const TableOf<SpringSpec>& part, const SpringSpec& spring) {
                               freedom_word(static_cast<int>(i))));
 }
 
-void check_characteristic(const TableOf<BumpStopSpec>& part, const BumpStopSpec& stop) {
-  using B = BumpStopSpec;
-  const auto fail = [&](std::vector<double> B::*list, const std::string& what) {
+/// Two lists of points of a curve.
+template <class Part>
+void check_curve(const TableOf<Part>& part, const Part& spec, std::vector<double> Part::*at, std::string_view points) {
+  const std::vector<double>&x = spec.*at, &f = spec.force;
+  const auto fail = [&](std::vector<double> Part::*list, const std::string& what) {
     part.refuse(list, fmt::format("{} {}", part.path_of(list), what));
   };
+  if (x.size() < 2) fail(at, "needs at least 2 values");
+  if (x.size() != f.size()) fail(&Part::force, fmt::format("has {} values for {} {}", f.size(), x.size(), points));
+  if (std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()) != x.end()) fail(at, "must increase");
+}
+
+void check_stop(const TableOf<BumpStopSpec>& part, const BumpStopSpec& stop) {
+  using B = BumpStopSpec;
+  check_curve(part, stop, &B::displacement, "displacements");
   const auto &d = stop.displacement, &f = stop.force;
-  if (d.size() < 2) fail(&B::displacement, "needs at least 2 values");
-  if (d.size() != f.size()) fail(&B::force, fmt::format("has {} values for {} displacements", f.size(), d.size()));
-  if (std::adjacent_find(d.begin(), d.end(), std::greater_equal<>()) != d.end())
-    fail(&B::displacement, "must increase");
-  if (std::adjacent_find(f.begin(), f.end(), std::greater<>()) != f.end()) fail(&B::force, "must not decrease");
-  if (f.front() != 0.0) fail(&B::force, "must start from 0");
+  if (stop.odd) {
+    if (d.front() < 0.0)
+      part.refuse(&B::displacement, fmt::format("{} begins below 0", part.path_of(&B::displacement)),
+                  "odd = false for a force that differs by its sign");
+    if (f.front() != 0.0) part.refuse(&B::force, fmt::format("{} must start from 0", part.path_of(&B::force)));
+    return;
+  }
+  const auto rest = std::find(d.begin(), d.end(), 0.0);
+  if (rest == d.end() || f[static_cast<std::size_t>(rest - d.begin())] != 0.0)
+    part.refuse(&B::displacement,
+                fmt::format("{} and {} must have force 0 at displacement 0", part.path_of(&B::displacement),
+                            part.path_of(&B::force)),
+                "springs bear the weights of a vehicle at rest");
+}
+
+void check_damper(const TableOf<DamperCurveSpec>& part, const DamperCurveSpec& damper) {
+  using D = DamperCurveSpec;
+  check_curve(part, damper, &D::velocity, "velocities");
+  if (damper.velocity.front() != 0.0)
+    part.refuse(&D::velocity, fmt::format("{} must start from 0", part.path_of(&D::velocity)));
+  const auto &f = damper.force;
+  if (f.front() != 0.0) part.refuse(&D::force, fmt::format("{} must start from 0", part.path_of(&D::force)));
+  if (std::adjacent_find(f.begin(), f.end(), std::greater<>()) != f.end())
+    part.refuse(&D::force, fmt::format("{} must not decrease", part.path_of(&D::force)));
+  if (damper.series_stiffness > 0.0 && std::adjacent_find(f.begin(), f.end(), std::greater_equal<>()) != f.end())
+    part.refuse(&D::force, fmt::format("{} must increase where there is a spring in series", part.path_of(&D::force)));
+}
+
+void check_friction(const TableOf<DryFrictionSpec>& part, const DryFrictionSpec& friction) {
+  using F = DryFrictionSpec;
+  const auto turns = std::count(friction.directions.begin() + 3, friction.directions.end(), true),
+             ways = std::count(friction.directions.begin(), friction.directions.end(), true);
+  const std::string path = part.path_of(&F::directions);
+  if (ways < 1 || ways > 2 || (turns > 0 && ways > 1))
+    part.refuse(&F::directions, fmt::format("{} are neither one or two of x, y, z nor one rotation", path));
+  if (turns > 0) part.need(&F::arm);
+  if (turns == 0 && part.find(&F::arm) != nullptr)
+    part.refuse(&F::arm, fmt::format("{} belongs to rotations", part.path_of(&F::arm)));
+  if (ways > 1 && friction.coefficient_back)
+    part.refuse(&F::coefficient_back,
+                fmt::format("{} belongs to friction in one direction", part.path_of(&F::coefficient_back)));
+  if (!(friction.normal_force > 0.0) && part.find(&F::load_of) == nullptr)
+    part.fail(fmt::format("{}: nothing presses it", part.path()), "give normal_force_N, or load_of");
+}
+
+/// The springs and stops that load_of names, one a place.
+std::vector<std::string> loads_of(const TableOf<DryFrictionSpec>& part, std::size_t places,
+                                  const std::vector<std::string>& known) {
+  using F = DryFrictionSpec;
+  std::vector<std::string> loads;
+  for (const std::string& name : part.words(part.key(&F::load_of))) {
+    const auto is_known = [&](const std::string& n) { return std::find(known.begin(), known.end(), n) != known.end(); };
+    if (is_known(name)) loads.push_back(name);
+    std::size_t number = 1;
+    while (!is_known(name) && is_known(fmt::format("{}{}", name, number)))
+      loads.push_back(fmt::format("{}{}", name, number++));
+    if (!is_known(name) && number == 1) check_name(part.path_of(&F::load_of), name, known, part.need(&F::load_of).where);
+  }
+  if (loads.size() == 1) loads.resize(places, loads.front());
+  if (loads.size() != places)
+    part.refuse(&F::load_of, fmt::format("{} names {} loads for {} places", part.path_of(&F::load_of), loads.size(),
+                                         places));
+  return loads;
 }
 
 /// What all parts that connect bodies begin with.
@@ -110,32 +178,78 @@ TableReader part_table(const CaseValue& table, const std::string& list, const Ta
   return {table.table(), table.where, list + '.' + name, keys};
 }
 
+/// The keys of a part that connects bodies.
+template <class Part>
+struct PartKeys {
+  std::string list, kind;  ///< name of the list of tables, and what its parts are in messages
+  const TableKeys& all;
+  const KeyTable<Places>& places;
+  const KeyTable<Part>& own;
+};
+
+/// check: TableOf<Part>, Part& ->; completes and checks what the keys cannot say. each: TableOf<Part>, std::span<Part>
+/// ->, of the parts at all places of a table.
+template <class Part, class Check, class Each>
+std::vector<Part> read_parts(const TableReader& document, const std::vector<BodySpec>& bodies,
+                             const PartKeys<Part>& keys, Check check, Each each) {
+  std::vector<Part> parts;
+  std::string name;
+  for (const CaseValue* one : document.tables(keys.list)) {
+    const TableReader table = part_table(*one, keys.list, keys.all, name);
+    Part part = named_part(table, name, keys.own);
+    const TableOf own(table, keys.own);
+    check(own, part);
+    const std::size_t before = parts.size();
+    add_at(read_places(TableOf(table, keys.places), bodies), part, parts);
+    each(own, std::span(parts).subspan(before));
+  }
+  check_names(parts, keys.kind);
+  return parts;
+}
+
+constexpr auto kNothingMore = [](const auto&, auto) {};
+
 }  // namespace
 
 std::vector<SpringSpec> read_springs(const TableReader& document, const std::vector<BodySpec>& bodies) {
-  std::vector<SpringSpec> springs;
-  std::string name;
-  for (const CaseValue* one : document.tables("springs")) {
-    const TableReader table = part_table(*one, "springs", spring_table_keys(), name);
-    const SpringSpec spring = named_part(table, name, spring_keys());
-    check_spring(TableOf(table, spring_keys()), spring);
-    add_at(read_places(TableOf(table, spring_place_keys()), bodies), spring, springs);
-  }
-  check_names(springs, "springs");
-  return springs;
+  return read_parts<SpringSpec>(document, bodies,
+                                {"springs", "springs", spring_table_keys(), spring_place_keys(), spring_keys()},
+                                check_spring, kNothingMore);
 }
 
 std::vector<BumpStopSpec> read_bump_stops(const TableReader& document, const std::vector<BodySpec>& bodies) {
-  std::vector<BumpStopSpec> stops;
-  std::string name;
-  for (const CaseValue* one : document.tables("bump_stops")) {
-    const TableReader table = part_table(*one, "bump_stops", bump_stop_table_keys(), name);
-    const BumpStopSpec stop = named_part(table, name, bump_stop_keys());
-    check_characteristic(TableOf(table, bump_stop_keys()), stop);
-    add_at(read_places(TableOf(table, bump_stop_place_keys()), bodies), stop, stops);
-  }
-  check_names(stops, "bump stops");
-  return stops;
+  return read_parts<BumpStopSpec>(
+      document, bodies,
+      {"bump_stops", "bump stops", bump_stop_table_keys(), bump_stop_place_keys(), bump_stop_keys()}, check_stop,
+      kNothingMore);
+}
+
+std::vector<DamperCurveSpec> read_damper_curves(const TableReader& document, const std::vector<BodySpec>& bodies) {
+  return read_parts<DamperCurveSpec>(
+      document, bodies,
+      {"damper_curves", "dampers", damper_curve_table_keys(), damper_curve_place_keys(), damper_curve_keys()},
+      check_damper, kNothingMore);
+}
+
+std::vector<DryFrictionSpec> read_frictions(const TableReader& document, const std::vector<BodySpec>& bodies,
+                                            const std::vector<SpringSpec>& springs,
+                                            const std::vector<BumpStopSpec>& stops) {
+  using F = DryFrictionSpec;
+  std::vector<std::string> known;
+  known.reserve(springs.size() + stops.size());
+  for (const SpringSpec& s : springs) known.push_back(s.name);
+  for (const BumpStopSpec& s : stops) known.push_back(s.name);
+  return read_parts<F>(
+      document, bodies, {"frictions", "frictions", friction_table_keys(), friction_place_keys(), friction_keys()},
+      [](const TableOf<F>& part, F& friction) {
+        friction.directions = directions_of(part, part.key(&F::directions));
+        check_friction(part, friction);
+      },
+      [&](const TableOf<F>& part, std::span<F> all) {
+        if (part.find(&F::load_of) == nullptr) return;
+        const std::vector<std::string> loads = loads_of(part, all.size(), known);
+        for (std::size_t i = 0; i < all.size(); ++i) all[i].load_of = loads[i];
+      });
 }
 
 }  // namespace treadmark::io

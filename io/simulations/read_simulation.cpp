@@ -200,6 +200,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
   read_history(simulation, result);
   result.torques = read_torques(simulation, result.vehicle);
+  read_motions(simulation, result);
   contact = with_rail(std::move(contact), simulation);
   read_contact(contact, result);
   // The patches of a wheel lie on one raster while it rolls.

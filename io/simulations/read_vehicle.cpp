@@ -127,7 +127,14 @@ void check_vehicle(const VehicleModel& vehicle) {
   // Wheels on two rails hold x, y and pitch by creep forces, z and roll by normal ones.
   Foundation wheels{"the wheelsets", {}, {true, true, true, true, true, false}};
   for (const WheelsetSpec& wheelset : vehicle.wheelsets) wheels.bodies.push_back(wheelset.body);
-  check_held(vehicle.bodies, vehicle.springs, wheels);
+  std::vector<SpringSpec> holding = vehicle.springs;
+  holding.reserve(holding.size() + vehicle.frictions.size());
+  for (const DryFrictionSpec& f : vehicle.frictions) {
+    SpringSpec& sticking = holding.emplace_back(SpringSpec{f.name, f.body_a, f.body_b, f.position, {}, {}, {}, {}});
+    for (std::size_t d = 0; d < kFreedoms; ++d)
+      if (f.directions.at(d)) sticking.stiffness.at(d) = f.stiffness * (d < 3 ? 1.0 : f.arm * f.arm);
+  }
+  check_held(vehicle.bodies, holding, wheels);
 }
 
 void take_rails(const TableOf<ModelHead>& table, const std::vector<std::string>& rails, TrackModel& track) {
@@ -158,10 +165,14 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
   vehicle.bodies = read_bodies(document);
   vehicle.springs = read_springs(document, vehicle.bodies);
   vehicle.bump_stops = read_bump_stops(document, vehicle.bodies);
+  vehicle.damper_curves = read_damper_curves(document, vehicle.bodies);
+  vehicle.frictions = read_frictions(document, vehicle.bodies, vehicle.springs, vehicle.bump_stops);
   vehicle.wheelsets = read_wheelsets(document, vehicle.bodies);
   check_vehicle(vehicle);
   scale_model(vehicle, head);
   scale_axles(vehicle, head);
+  for (DamperCurveSpec& damper : vehicle.damper_curves) scale(damper_curve_keys(), damper, head);
+  if (!(head.damping > 0.0)) vehicle.damper_curves.clear();
   return vehicle;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -45,9 +46,17 @@ std::vector<BodySpec> read_bodies(const TableReader& document);
 /// bodies: those that can be connected, beside the ground.
 std::vector<SpringSpec> read_springs(const TableReader& document, const std::vector<BodySpec>& bodies);
 std::vector<BumpStopSpec> read_bump_stops(const TableReader& document, const std::vector<BodySpec>& bodies);
+std::vector<DamperCurveSpec> read_damper_curves(const TableReader& document, const std::vector<BodySpec>& bodies);
+/// springs and stops: whose loads may press them.
+std::vector<DryFrictionSpec> read_frictions(const TableReader& document, const std::vector<BodySpec>& bodies,
+                                            const std::vector<SpringSpec>& springs,
+                                            const std::vector<BumpStopSpec>& stops);
 std::vector<FlexibleAxle> read_axles(const TableReader& document);
 
 std::vector<std::string> names_of(const std::vector<BodySpec>& bodies);
+
+/// Directions that a list of words names. Refuses unknown words and the same one twice.
+std::array<bool, kFreedoms> directions_of(const TableReader& part, std::string_view key);
 
 /// Names of parts start with a letter and go on with letters, digits, '_' and '-'.
 std::string part_name(const TableReader& part);

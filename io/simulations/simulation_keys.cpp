@@ -65,6 +65,12 @@ const KeyTable<SimulationFile>& simulation_keys() {
     list.table("speed_profile", KeyType::table, "speeds behind the start; without it the speed is constant",
                speed_profile_keys().infos, setting(&S::profile));
     list.table("torques", KeyType::table_list, "motors and brakes on axles", torque_keys().infos, &F::torques);
+    list.table("forces", KeyType::table_list, "from outside on bodies: wind, couplers, a push", force_keys().infos,
+               &F::forces);
+    list.table("spring_motions", KeyType::table_list, "ground ends of springs that move: actuators, shakers",
+               spring_motion_keys().infos, &F::spring_motions);
+    list.table("rail_shifts", KeyType::table_list, "rails that move in time below wheels", rail_shift_keys().infos,
+               &F::rail_shifts);
     list.number("distance_m", kPositive, "travelled in all; this or the next one is required", setting(&S::distance),
                 kNoDefault, "say how far, distance_m, or how long, duration_s");
     list.number("duration_s", kPositive, "of the whole simulation", setting(&S::duration), kNoDefault);
@@ -172,6 +178,73 @@ const KeyTable<AxleTorque>& torque_keys() {
                      "at these times, positive in traction; straight lines between, constant before and behind",
                      &T::torque, kNeeded);
     list.text("reaction", "body that holds motor or brake, or \"ground\"", &T::reaction, kNeeded);
+  });
+  return keys;
+}
+
+namespace {
+
+/// time_s and a list of displacements.
+template <class Root>
+void add_motion(KeyRows<Root>& list, const std::string& displacement) {
+  list.number_list("time_s", kNotNegative, "increasing", &Root::time, kNeeded);
+  list.number_list(displacement, kAnyNumber,
+                   "at these times; a smooth curve between, which does not overshoot, constant before and behind",
+                   &Root::displacement, kNeeded);
+}
+
+}  // namespace
+
+const KeyTable<BodyForce>& force_keys() {
+  using B = BodyForce;
+  static const auto keys = key_table<B>([](auto& list) {
+    list.text("body", "of the vehicle", &B::body, kNeeded);
+    list.value(key_info("at_m", KeyType::triple,
+                        "where it acts, of the vehicle at rest; without it at the centre of mass"),
+               &B::point)
+        .read_by([](B& force, const CaseValue& value) {
+          const std::vector<double> at = numbers_of(value, 1.0);
+          force.point = Vec3(at[0], at[1], at[2]);
+        });
+    list.choice("direction",
+                {{"x", Freedom::x},
+                 {"y", Freedom::y},
+                 {"z", Freedom::z},
+                 {"roll", Freedom::roll},
+                 {"pitch", Freedom::pitch},
+                 {"yaw", Freedom::yaw}},
+                "of the force, or of a moment", &B::direction, kNeeded);
+    list.number_list("time_s", kNotNegative, "increasing", &B::time, kNeeded);
+    list.number_list("force_N", kAnyNumber, "at these times; straight lines between, constant before and behind",
+                     &B::force, kNoDefault);
+    list.number_list("moment_N_m", kAnyNumber, "the same of a moment", &B::force, kNoDefault);
+  });
+  return keys;
+}
+
+const KeyTable<SpringMotion>& spring_motion_keys() {
+  using M = SpringMotion;
+  static const auto keys = key_table<M>([](auto& list) {
+    list.text("spring", "one that connects a body with \"ground\"; with several equal ones its number, too", &M::spring,
+              kNeeded);
+    list.choice("direction", {{"x", Freedom::x}, {"y", Freedom::y}, {"z", Freedom::z}}, "of the motion", &M::direction,
+                kNeeded);
+    add_motion(list, "displacement_mm");
+  });
+  return keys;
+}
+
+const KeyTable<RailShift>& rail_shift_keys() {
+  using R = RailShift;
+  static const auto keys = key_table<R>([](auto& list) {
+    list.value(key_info("wheelset", KeyType::integer, "below which one, 1 = leading; without it below all",
+                        {{}, 1.0, 1e6}),
+               &R::wheelset)
+        .read_by([](R& shift, const CaseValue& value) { shift.wheelset = static_cast<int>(value.integer()) - 1; });
+    list.value(key_info("side", KeyType::text, "\"left\" or \"right\"; without it both rails"), &R::left);
+    list.choice("direction", {{"y", Freedom::y}, {"z", Freedom::z}}, "of the motion, y to the right, z down",
+                &R::direction, kNeeded);
+    add_motion(list, "displacement_mm");
   });
   return keys;
 }

@@ -20,6 +20,9 @@ auto setting(Value SimulationSettings::*member) {
 const KeyTable<SimulationFile>& simulation_keys();
 const KeyTable<SpeedProfile>& speed_profile_keys();
 const KeyTable<AxleTorque>& torque_keys();
+const KeyTable<BodyForce>& force_keys();
+const KeyTable<SpringMotion>& spring_motion_keys();
+const KeyTable<RailShift>& rail_shift_keys();
 const KeyTable<FieldRequests>& field_keys();
 const KeyTable<WheelContactInput>& wheel_keys();
 const KeyTable<CheckRailInput>& check_rail_keys();

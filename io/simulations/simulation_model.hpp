@@ -134,6 +134,9 @@ struct SimulationFile {
   std::optional<SurfaceSource> left_rail, right_rail;  ///< instead of `contact.rail`, which is none of them if both are
   std::optional<SurfaceSource> table_rail;             ///< of one section, below tables on rails that vary
   std::vector<AxleTorque> torques;                     ///< motors and brakes
+  std::vector<BodyForce> forces;                       ///< from outside
+  std::vector<SpringMotion> spring_motions;
+  std::vector<RailShift> rail_shifts;
   std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
   std::vector<CheckRailInput> check_rails;
   std::vector<std::string> notes;  ///< information on what was read or assumed

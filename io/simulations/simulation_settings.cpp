@@ -129,6 +129,53 @@ std::vector<AxleTorque> read_torques(const SimulationTable& simulation, const Ve
   return torques;
 }
 
+void read_motions(const SimulationTable& simulation, SimulationFile& out) {
+  const auto read_list = [&](auto list, const auto& keys, auto check) {
+    for (const CaseValue* one : simulation.tables(list)) {
+      const TableOf table(*one, simulation.path_of(list), keys);
+      auto& part = (out.*list).emplace_back(table.read());
+      part.where = one->where;
+      check(table, part);
+    }
+  };
+  const auto check_motion = [](const auto& table, const auto& part) {
+    using Part = std::remove_cvref_t<decltype(part)>;
+    check_points(table, part, &Part::time, &Part::displacement);
+    if (part.time.size() < 2) table.refuse(&Part::time, fmt::format("{} needs two times", table.path_of(&Part::time)));
+  };
+  read_list(&SimulationFile::forces, force_keys(), [&](const TableOf<BodyForce>& table, const BodyForce& force) {
+    using B = BodyForce;
+    check_name(table.path_of(&B::body), force.body, names_of(out.vehicle.bodies), table.need(&B::body).where);
+    const bool moment = static_cast<int>(force.direction) >= 3;
+    if (table.key(&B::force) != (moment ? "moment_N_m" : "force_N") || table.find(&B::force) == nullptr)
+      table.fail(fmt::format("{}: {} must be given along with this direction", table.path(),
+                             moment ? "moment_N_m" : "force_N"));
+    check_points(table, force, &B::time, &B::force);
+    if (moment && force.point) table.refuse(&B::point, "a moment acts at no point");
+  });
+  read_list(&SimulationFile::spring_motions, spring_motion_keys(),
+            [&](const TableOf<SpringMotion>& table, const SpringMotion& motion) {
+              using M = SpringMotion;
+              std::vector<std::string> grounded;
+              for (const SpringSpec& s : out.vehicle.springs)
+                if (s.body_a == kGround || s.body_b == kGround) grounded.push_back(s.name);
+              check_name(table.path_of(&M::spring) + ": the spring on the ground", motion.spring, grounded,
+                         table.need(&M::spring).where);
+              check_motion(table, motion);
+            });
+  read_list(&SimulationFile::rail_shifts, rail_shift_keys(), [&](const TableOf<RailShift>& table, RailShift& shift) {
+    using R = RailShift;
+    if (const CaseValue* side = table.checked_if(table.key(&R::left))) {
+      check_name(table.path_of(&R::left), side->text(), std::vector<std::string>{"left", "right"}, side->where);
+      shift.left = side->text() == "left";
+    }
+    if (shift.wheelset && static_cast<std::size_t>(*shift.wheelset) >= out.vehicle.wheelsets.size())
+      table.refuse(&R::wheelset, fmt::format("{} = {}, but the vehicle has {}", table.path_of(&R::wheelset),
+                                             *shift.wheelset + 1, out.vehicle.wheelsets.size()));
+    check_motion(table, shift);
+  });
+}
+
 std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, std::size_t wheelsets) {
   std::vector<WheelContactInput> wheels(2 * wheelsets);
   for (std::size_t i = 0; i < wheels.size(); ++i) {

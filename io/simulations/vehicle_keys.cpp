@@ -33,6 +33,12 @@ TableKeys connecting(const KeyTable<Places>& places, const TableKeys& own) {
   return keys;
 }
 
+template <class Root>
+void add_direction(KeyRows<Root>& list) {
+  list.choice("direction", {{"x", Freedom::x}, {"y", Freedom::y}, {"z", Freedom::z}},
+              "of the displacement, the second body against the first", &Root::direction, kNeeded);
+}
+
 void add_oscillator(KeyRows<AxleMode>& list) {
   list.number("frequency_Hz", kPositive, "of the free wheelset at rest", &AxleMode::frequency, kNeeded);
   list.number("damping_ratio", {{}, 0.0, 1.0}, "over critical damping", &AxleMode::damping_ratio);
@@ -46,6 +52,8 @@ const TableKeys& vehicle_tables() {
       needed(table_key("bodies", KeyType::table_list, "rigid bodies", body_keys().infos)),
       table_key("springs", KeyType::table_list, "springs and dampers between them", spring_table_keys()),
       table_key("bump_stops", KeyType::table_list, "springs with a characteristic", bump_stop_table_keys()),
+      table_key("damper_curves", KeyType::table_list, "dampers with a characteristic", damper_curve_table_keys()),
+      table_key("frictions", KeyType::table_list, "dry friction that sticks and slides", friction_table_keys()),
       needed(table_key("wheelsets", KeyType::table_list, "bodies that run on the rails, the leading one first",
                        wheelset_keys().infos)),
       table_key("axles", KeyType::table_list, "how wheelsets bend and twist", axle_keys().infos)};
@@ -130,10 +138,14 @@ const KeyTable<Places>& bump_stop_place_keys() {
 const KeyTable<BumpStopSpec>& bump_stop_keys() {
   using B = BumpStopSpec;
   static const auto keys = key_table<B>([](auto& list) {
-    list.choice("direction", {{"x", Freedom::x}, {"y", Freedom::y}, {"z", Freedom::z}},
-                "of the displacement, the second body against the first", &B::direction, kNeeded);
-    list.number_list("displacement_mm", kNotNegative, "increasing; the force is odd", &B::displacement, kNeeded);
-    list.number_list("force_N", kNotNegative, "from 0, not decreasing; linear between, continued by the last slope",
+    add_direction(list);
+    list.flag("odd",
+              "the force is the same the other way; false: displacements of both signs, with force 0 at displacement 0",
+              &B::odd);
+    list.number_list("displacement_mm", kAnyNumber, "increasing", &B::displacement, kNeeded);
+    list.number_list("force_N", kAnyNumber,
+                     "at them, against the displacement, from 0 where it is odd; linear between, continued by the last "
+                     "slopes",
                      &B::force, kNeeded);
   });
   return keys;
@@ -141,6 +153,70 @@ const KeyTable<BumpStopSpec>& bump_stop_keys() {
 
 const TableKeys& bump_stop_table_keys() {
   static const TableKeys keys = connecting(bump_stop_place_keys(), bump_stop_keys().infos);
+  return keys;
+}
+
+const KeyTable<Places>& damper_curve_place_keys() {
+  static const KeyTable<Places> keys = places_of("damper");
+  return keys;
+}
+
+const KeyTable<DamperCurveSpec>& damper_curve_keys() {
+  using D = DamperCurveSpec;
+  static const auto keys = key_table<D>([](auto& list) {
+    add_direction(list);
+    list.number_list("velocity_m_s", kNotNegative, "increasing from 0; the force is odd", &D::velocity, kNeeded);
+    list.number_list("force_N", kNotNegative,
+                     "from 0, not decreasing; linear between, continued by the last slope; scaled as damping",
+                     &D::force, kNeeded | kByDamping)
+        .key.numbers = [](D& damper) { return std::span<double>(damper.force); };
+    list.number("series_stiffness_N_per_m", kNotNegative,
+                "of a spring in series, 0 = rigid; with it the force must increase", &D::series_stiffness,
+                kByStiffness);
+  });
+  return keys;
+}
+
+const TableKeys& damper_curve_table_keys() {
+  static const TableKeys keys = connecting(damper_curve_place_keys(), damper_curve_keys().infos);
+  return keys;
+}
+
+const KeyTable<Places>& friction_place_keys() {
+  static const KeyTable<Places> keys = places_of("friction");
+  return keys;
+}
+
+const KeyTable<DryFrictionSpec>& friction_keys() {
+  using F = DryFrictionSpec;
+  static const auto keys = key_table<F>([](auto& list) {
+    list.value(key_info("directions", KeyType::text_list,
+                        "one or two of \"x\", \"y\", \"z\", in which it slides at a time, or one rotation"),
+               &F::directions, kNeeded, "one or two of \"x\", \"y\", \"z\", or \"roll\", \"pitch\" or \"yaw\"");
+    list.number("arm_mm", kPositive, "of a rotation (required there): where friction acts", &F::arm, kNoDefault);
+    list.number("stiffness_N_per_m", kPositive, "while it sticks; of a rotation at its arm", &F::stiffness, kNeeded);
+    list.number("damping_N_s_per_m", kNotNegative,
+                "beside that stiffness: what has come to rest swings on it, and with static_ratio may break loose again",
+                &F::damping);
+    list.number("coefficient", kNotNegative, "bound of the force over the normal force while it slides",
+                &F::coefficient, kNeeded);
+    list.number("coefficient_back", kNotNegative,
+                "of one direction: while the second body slides back against the first; without it the same",
+                &F::coefficient_back);
+    list.number("static_ratio", {{}, 1.0, 10.0}, "bound while it sticks over that while it slides", &F::static_ratio);
+    list.number("normal_force_N", kNotNegative, "constant part of the normal force", &F::normal_force);
+    list.value(key_info("load_of", KeyType::text_list,
+                        "springs whose vertical load, or bump stops whose force, is part of the normal force: one for "
+                        "all places, or one for each; a name of several equal ones stands for them one after the "
+                        "other"),
+               &F::load_of);
+    list.number("load_share", kPositive, "normal force over that load", &F::load_share);
+  });
+  return keys;
+}
+
+const TableKeys& friction_table_keys() {
+  static const TableKeys keys = connecting(friction_place_keys(), friction_keys().infos);
   return keys;
 }
 

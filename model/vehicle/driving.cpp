@@ -50,4 +50,6 @@ double highest_speed(const SpeedProfile& p) { return *std::max_element(p.speed.b
 
 double torque_at(const AxleTorque& t, double time) { return BrokenLine(t.time, t.torque).held_at(time); }
 
+double force_at(const BodyForce& f, double time) { return BrokenLine(f.time, f.force).held_at(time); }
+
 }  // namespace treadmark

@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/vehicle/vehicle_model.hpp"
 
 namespace treadmark {
 
@@ -43,5 +45,36 @@ struct AxleTorque {
 
 /// [N m]
 double torque_at(const AxleTorque& torque, double time);
+
+/// A force from outside on a point of a body.
+struct BodyForce {
+  std::string body;
+  std::optional<Vec3> point;             ///< of the vehicle at rest [m]; none: the centre of mass
+  Freedom direction = Freedom::y;        ///< a moment about a rotation's axis
+  std::vector<double> time;              ///< increasing [s]
+  std::vector<double> force;             ///< at these times [N], [N m]; linear between, constant beyond
+  SourcePosition where;
+};
+/// [N], [N m]
+double force_at(const BodyForce& force, double time);
+
+/// The ground end of a spring that is moved.
+struct SpringMotion {
+  std::string spring;
+  Freedom direction = Freedom::y;
+  std::vector<double> time;          ///< increasing, two at least [s]
+  std::vector<double> displacement;  ///< at these times [m], [rad]; a smooth curve between, at rest beyond
+  SourcePosition where;
+};
+
+/// Rails below wheels that are moved.
+struct RailShift {
+  std::optional<int> wheelset;    ///< from 0; none: all
+  std::optional<bool> left;       ///< none: both rails
+  Freedom direction = Freedom::z;  ///< y or z
+  std::vector<double> time;          ///< increasing, two at least [s]
+  std::vector<double> displacement;  ///< at these times [m]; a smooth curve between, at rest beyond
+  SourcePosition where;
+};
 
 }  // namespace treadmark

@@ -48,13 +48,43 @@ struct SpringSpec {
   SourcePosition where;
 };
 
-/// A force that depends on a relative displacement along one axis, body b against body a; odd.
+/// A force that depends on a relative displacement along one axis, body b against body a.
 struct BumpStopSpec {
   std::string name, body_a, body_b;
   Vec3 position = Vec3::Zero();      ///< [m]
   Freedom direction = Freedom::y;    ///< x, y or z
-  std::vector<double> displacement;  ///< increasing from >= 0 [m]
-  std::vector<double> force;         ///< at them [N]; linear between, continued by the last slope
+  std::vector<double> displacement;  ///< increasing, from >= 0 where it is odd [m]
+  std::vector<double> force;         ///< at them [N]; linear between, continued by the last slopes
+  SourcePosition where;
+  bool odd = true;  ///< the other way the same; else displacements of both signs, no force at 0
+};
+
+/// A force that depends on the rate of a relative displacement along one axis, body b against body a; odd.
+struct DamperCurveSpec {
+  std::string name, body_a, body_b;
+  Vec3 position = Vec3::Zero();    ///< [m]
+  Freedom direction = Freedom::z;  ///< x, y or z
+  std::vector<double> velocity;    ///< increasing from 0 [m/s]
+  std::vector<double> force;       ///< at them, from 0, increasing [N]; linear between, continued by the last slope
+  double series_stiffness = 0.0;   ///< of a spring in series [N/m]; 0 = none (rigid)
+  SourcePosition where;
+};
+
+/// Dry friction between the points of two bodies that coincide at rest, in one direction or in two at a time. It sticks
+/// as a spring does until its force reaches the bound and slides at this bound then.
+struct DryFrictionSpec {
+  std::string name, body_a, body_b;
+  Vec3 position = Vec3::Zero();              ///< [m]
+  std::array<bool, kFreedoms> directions{};  ///< one or two of x, y, z, or one rotation
+  double arm = 0.0;                          ///< of a rotation: at which the force acts [m]
+  double stiffness = 0.0;                    ///< while it sticks, at this arm [N/m]; > 0
+  double damping = 0.0;                      ///< beside the stiffness [N s/m]
+  double coefficient = 0.0;                  ///< bound over the normal force while it slides
+  std::optional<double> coefficient_back;    ///< of one direction, the other way; none: the same
+  double static_ratio = 1.0;                 ///< bound while it sticks over that while it slides; >= 1
+  double normal_force = 0.0;                 ///< constant part of it [N]; >= 0
+  std::string load_of;     ///< spring whose vertical load, or bump stop whose force, adds to it; empty: none
+  double load_share = 1.0; ///< of that load
   SourcePosition where;
 };
 
@@ -72,6 +102,8 @@ struct VehicleModel {
   std::vector<SpringSpec> springs;
   std::vector<BumpStopSpec> bump_stops;
   std::vector<WheelsetSpec> wheelsets;  ///< leading one first
+  std::vector<DamperCurveSpec> damper_curves = {};
+  std::vector<DryFrictionSpec> frictions = {};
 };
 
 /// The track below one wheelset, moving along with it; there is one of its own for every wheelset. x = 0 below the

@@ -54,14 +54,18 @@ PairVector slope(const VehicleOnTrack& vehicle, std::size_t i, const PairMotion&
   return (force_at(vehicle, i, high) - force_at(vehicle, i, low)) / (2.0 * step);
 }
 
-/// Stiffness of springs and, where they act, bump stops.
+/// Stiffness of springs and, where they act, bump stops and dry friction.
 Matrix stiffness_of_springs(const VehicleOnTrack& vehicle, const SystemState& state,
                             const std::optional<LineState>& line) {
   Matrix stiffness = vehicle.system.stiffness;
   for (std::size_t i = 0; i < vehicle.system.characteristics.size(); ++i) {
     const CharacteristicForce& c = vehicle.system.characteristics[i];
     const double offset = line ? line->stop_offsets[i] : 0.0;
-    stiffness += characteristic(c, c.direction.dot(state.q) + offset).stiffness * c.direction * c.direction.transpose();
+    stiffness += value_at(c.curve, c.direction.dot(state.q) + offset).slope * c.direction * c.direction.transpose();
+  }
+  if (const ForceElements& elements = vehicle.system.elements; elements.size() > 0) {
+    const Matrix directions = elements.directions(stiffness.rows());
+    stiffness += directions.transpose() * vehicle.resting_elements(state, line).stiffness * directions;
   }
   return stiffness;
 }
@@ -188,6 +192,8 @@ class Balance {
     Vector r = system_.weight - system_.stiffness * state.q - system_.damping * state.v;
     r += vehicle_.other_forces(state, line_);
     if (line_) r += line_->force;
+    if (const ForceElements& elements = system_.elements; elements.size() > 0)
+      r += elements.on_coordinates(vehicle_.resting_elements(state, line_).force, system_.size());
     return r;
   }
 
@@ -260,7 +266,12 @@ PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const Syste
 }
 
 LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness) {
-  LinearSystem system{stiffness_of_springs(vehicle, state, vehicle.line_state(state.time)), vehicle.system.damping};
+  const std::optional<LineState> line = vehicle.line_state(state.time);
+  LinearSystem system{stiffness_of_springs(vehicle, state, line), vehicle.system.damping};
+  if (const ForceElements& elements = vehicle.system.elements; elements.size() > 0) {
+    const Matrix directions = elements.directions(system.damping.rows());
+    system.damping += directions.transpose() * vehicle.resting_elements(state, line).damping * directions;
+  }
   std::vector<PairTangent> tangents(vehicle.wheels.size());
   for_each_wheel(vehicle, [&](std::size_t i) { tangents[i] = linearised(vehicle, i, state, coarseness); });
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {

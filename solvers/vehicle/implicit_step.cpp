@@ -13,6 +13,8 @@
 namespace treadmark::vehicle {
 namespace {
 
+constexpr double kElementTolerance = 1e-9;  // of the static wheel load
+
 double largest_force(const PairVector& f) {
   double most = 0.0;
   for (int c = 0; c < kPairCoordinates; ++c) {
@@ -30,6 +32,9 @@ struct ImplicitStep::Factors {
   Eigen::PartialPivLU<Matrix> lu;
   Matrix by_touched;     ///< accelerations for unit forces at the touched coordinates
   Matrix among_touched;  ///< those of the touched coordinates
+  // Accelerations for unit forces along the columns of force elements: all, those of touched coordinates and of columns.
+  Matrix by_elements, elements_at_touched, among_elements;
+  Matrix touched_at_elements;  ///< of the columns for unit forces at the touched coordinates
 };
 
 ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& settings)
@@ -60,6 +65,12 @@ Motion ImplicitStep::start(const SystemState& state, const std::vector<ContactRe
   const std::optional<LineState> line = vehicle_.line_state(state.time);
   m.unbalanced = s.weight - s.stiffness * state.q - s.damping * state.v + vehicle_.other_forces(state, line);
   if (line) m.unbalanced += line->force;
+  if (s.elements.size() > 0) {
+    ElementResponse at_rest = vehicle_.resting_elements(state, line);
+    m.unbalanced += s.elements.on_coordinates(at_rest.force, s.size());
+    m.element_force = std::move(at_rest.force);
+    m.element_memory = std::move(at_rest.memory);
+  }
   for (std::size_t i = 0; i < reactions.size(); ++i) {
     m.contact_force.push_back(generalised_force(reactions[i], vehicle_.motion(i, state)));
     m.unbalanced += vehicle_.maps[i].transpose() * m.contact_force.back();
@@ -87,6 +98,13 @@ const ImplicitStep::Factors& ImplicitStep::factors(double h) {
   for (std::size_t i = 0; i < touched_.size(); ++i) unit(touched_[i], static_cast<Eigen::Index>(i)) = 1.0;
   fresh->by_touched = fresh->lu.solve(unit);
   fresh->among_touched = fresh->by_touched(touched_, Eigen::all);
+  if (s.elements.size() > 0) {
+    const Matrix directions = s.elements.directions(s.size());
+    fresh->by_elements = fresh->lu.solve(directions.transpose());
+    fresh->elements_at_touched = fresh->by_elements(touched_, Eigen::all);
+    fresh->among_elements = directions * fresh->by_elements;
+    fresh->touched_at_elements = directions * fresh->by_touched;
+  }
   factors_ = std::move(fresh);
   return *factors_;
 }
@@ -109,6 +127,18 @@ Step ImplicitStep::take(const Motion& from, double h) {
   const std::optional<LineState> line = vehicle_.line_state(from.state.time + h);
   const Vector load = line ? Vector(s.weight + line->force) : s.weight;
   const Vector known = (1.0 + alpha_) * (load - s.damping * v_known - s.stiffness * q_known) - alpha_ * from.unbalanced;
+
+  const ForceElements& elements = s.elements;
+  ElementStep element_step;
+  if (elements.size() > 0) {
+    element_step.displacement = elements.of(q_known);
+    element_step.rate = elements.of(v_known);
+    if (line) element_step.displacement += line->element_stretch, element_step.rate += line->element_rate;
+    element_step.of_displacement = of_q;
+    element_step.of_rate = of_v;
+    element_step.tolerance = kElementTolerance * force_scale_;
+  }
+  ElementResponse response;
 
   Step step;
   Vector a = predicted_acceleration(from, h);
@@ -140,8 +170,22 @@ Step ImplicitStep::take(const Motion& from, double h) {
     // system at P.
     const Vector free = f.lu.solve(right) - a;
     const Matrix small = Matrix::Identity(give.rows(), give.rows()) + f.among_touched * give;
-    const Vector change_touched = small.partialPivLu().solve(free(touched_));
-    const Vector change = free - f.by_touched * (give * change_touched);
+    const Eigen::PartialPivLU<Matrix> small_lu(small);
+    const Vector change_touched = small_lu.solve(free(touched_));
+    Vector change = free - f.by_touched * (give * change_touched);
+    if (elements.size() > 0) {
+      const Matrix by_contacts = give * small_lu.solve(f.elements_at_touched);
+      element_step.free = elements.of(a + change);
+      element_step.flexibility = (1.0 + alpha_) * (f.among_elements - f.touched_at_elements * by_contacts);
+      element_step.guess = elements.of(a);
+      std::optional<ElementResponse> settled = settle(elements, element_step, from.element_memory);
+      if (!settled) {
+        step.why_not = "forces of dry friction and dampers did not settle within a step";
+        return step;
+      }
+      response = std::move(*settled);
+      change -= (1.0 + alpha_) * (f.by_elements * response.force - f.by_touched * (by_contacts * response.force));
+    }
     a += change;
 
     double most = 0.0;
@@ -167,6 +211,11 @@ Step ImplicitStep::take(const Motion& from, double h) {
     end.step_before = h;
     end.contact_force = std::move(forces);
     end.unbalanced = load - s.stiffness * end.state.q - s.damping * end.state.v + stops;
+    if (elements.size() > 0) {
+      end.unbalanced += elements.on_coordinates(response.force, s.size());
+      end.element_force = std::move(response.force);
+      end.element_memory = std::move(response.memory);
+    }
     for (std::size_t i = 0; i < wheels; ++i) end.unbalanced += vehicle_.maps[i].transpose() * end.contact_force[i];
     for (Eigen::Index i = 0; i < a.size(); ++i)
       if (s.mass[i] > 0.0)

@@ -16,6 +16,7 @@ struct Motion {
   double step_before = 0.0;               ///< length of the last step [s]; 0 = none
   Vector unbalanced;                      ///< f - C v - K q with all forces: M q'' at this time
   std::vector<PairVector> contact_force;  ///< generalised, of each wheel
+  Vector element_force, element_memory;   ///< of the force elements
 };
 
 struct StepSettings {
@@ -37,7 +38,7 @@ struct Step {
 /// One step of the scheme of Hilber, Hughes and Taylor (1977), of second order and unconditionally stable for linear
 /// systems, with the error estimate of Zienkiewicz and Xie (1991). Contacts are linearised by their tangents about a
 /// predicted state; they are evaluated again until the forces of the linearised contact differ little from those of the
-/// last evaluation. Coordinates without mass need a damper. Not thread-safe; keeps the factorised system of the last
+/// last evaluation. Force elements are solved as they are beside every linearisation of the contacts. Coordinates without mass need a damper. Not thread-safe; keeps the factorised system of the last
 /// step length.
 class ImplicitStep {
  public:

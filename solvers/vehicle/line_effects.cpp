@@ -54,7 +54,8 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
       links_(system.links),
       stretches_(system.stretches),
       leanings_(system.leanings),
-      wheelsets_(system.wheelsets) {
+      wheelsets_(system.wheelsets),
+      columns_(system.elements.columns) {
   for (const CharacteristicForce& c : system.characteristics) stops_.emplace_back(c.link, c.freedom);
   for (const AxleTorque& torque : setup_.torques) {
     const auto fail = [&](std::string message) {
@@ -72,6 +73,7 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
     }
     torque_on_.emplace_back(axle, reaction);
   }
+  place_motions();
   if (setup_.path) check_curves();
 }
 
@@ -99,6 +101,28 @@ void LineEffects::check_curves() const {
   }
 }
 
+/// Forces from outside, springs and rails that are moved.
+void LineEffects::place_motions() {
+  const auto fail = [](std::string message, const SourcePosition& where) {
+    throw Error(ErrorKind::configuration, std::move(message), where);
+  };
+  for (const BodyForce& f : setup_.forces) {
+    const auto body = ranges::find(bodies_, f.body, &Multibody::Body::name);
+    if (body == bodies_.end()) fail(fmt::format("there is no body '{}' for a force to act on", f.body), f.where);
+    force_on_.emplace_back(static_cast<std::size_t>(body - bodies_.begin()),
+                           f.point ? Vec3(*f.point - body->position) : Vec3(Vec3::Zero()));
+  }
+  for (const SpringMotion& m : setup_.spring_motions) {
+    const auto link = ranges::find(links_, m.spring, &Multibody::Link::spring);
+    if (link == links_.end()) fail(fmt::format("there is no spring '{}' to move", m.spring), m.where);
+    if ((link->a < 0) == (link->b < 0))
+      fail(fmt::format("spring '{}' cannot be moved, it does not end at \"ground\"", m.spring), m.where);
+    moved_.push_back({static_cast<std::size_t>(link - links_.begin()), link->a < 0 ? -1.0 : 1.0,
+                      LimitedSpline(m.time, m.displacement)});
+  }
+  for (const RailShift& shift : setup_.rail_shifts) shifts_.emplace_back(shift.time, shift.displacement);
+}
+
 LineEffects::Frame LineEffects::frame(double x, const Travel& travel) const {
   return Frame(setup_.path->at(setup_.start + travel.distance + x));
 }
@@ -118,11 +142,23 @@ LineState LineEffects::state(double time) const {
   out.spring = out.damper = out.spring_rate = out.force = Vector::Zero(size_);
   out.stop_offsets.assign(stops_.size(), 0.0);
   add_inertia(out, now);
-  if (setup_.path) add_links(out, now);
+  out.element_stretch = out.element_rate = Vector::Zero(static_cast<Eigen::Index>(columns_.size()));
+  if (setup_.path || !moved_.empty()) add_links(out, now, clock(time));
   for (std::size_t i = 0; i < torque_on_.size(); ++i) {
     const double torque = torque_at(setup_.torques[i], clock(time));
     out.force[torque_on_[i].first] -= torque;
     if (torque_on_[i].second >= 0) out.force[torque_on_[i].second] += torque;
+  }
+  for (std::size_t i = 0; i < force_on_.size(); ++i) {
+    const BodyForce& f = setup_.forces[i];
+    const auto& [body, arm] = force_on_[i];
+    const int d = static_cast<int>(f.direction);
+    const double value = force_at(f, clock(time));
+    const Vec3 linear = d < 3 ? Vec3(value * Vec3::Unit(d)) : Vec3(Vec3::Zero());
+    Vec3 moment = d < 3 ? Vec3(arm.cross(linear)) : Vec3(value * Vec3::Unit(d - 3));
+    // Axle boxes, which the point of a wheelset is on, do not turn with the axle.
+    if (d < 3 && bodies_[body].wheelset >= 0) moment.y() = 0.0;
+    add(out.force, bodies_[body].coordinate, linear, moment);
   }
   out.force += out.spring + out.damper;
   return out;
@@ -155,7 +191,7 @@ void LineEffects::add_inertia(LineState& out, const Travel& travel) const {
   }
 }
 
-void LineEffects::add_links(LineState& out, const Travel& travel) const {
+void LineEffects::add_links(LineState& out, const Travel& travel, double time) const {
   std::vector<std::array<double, kFreedoms>> stretch(links_.size()), rate(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Multibody::Link& link = links_[i];
@@ -163,7 +199,7 @@ void LineEffects::add_links(LineState& out, const Travel& travel) const {
       return body >= 0 ? bodies_[static_cast<std::size_t>(body)].position.x() : link.point.x();
     };
     const double xa = place_of(link.a), xb = place_of(link.b);
-    if (xa == xb) continue;
+    if (!setup_.path || xa == xb) continue;
     const Frame here = frame(link.point.x(), travel), at_a = frame(xa, travel), at_b = frame(xb, travel);
     const auto arm = [&](double x) { return Vec3(link.point.x() - x, link.point.y(), link.point.z()); };
     const Mat3 to_here = here.X_LT.rotation.transpose();
@@ -189,6 +225,12 @@ void LineEffects::add_links(LineState& out, const Travel& travel) const {
     };
     add_preload(link.a, a, -1.0);
     add_preload(link.b, b, 1.0);
+  }
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    const auto freedom = static_cast<std::size_t>(setup_.spring_motions[i].direction);
+    const Along at = moved_[i].motion.at(time);
+    stretch[moved_[i].link][freedom] += moved_[i].sign * at.value;
+    rate[moved_[i].link][freedom] += moved_[i].sign * (setup_.stays ? 0.0 : at.first);
   }
   for (const Multibody::Stretch& s : stretches_) {
     const auto link = static_cast<std::size_t>(s.link), freedom = static_cast<std::size_t>(s.freedom);
@@ -217,6 +259,13 @@ void LineEffects::add_links(LineState& out, const Travel& travel) const {
   for (std::size_t i = 0; i < stops_.size(); ++i)
     out.stop_offsets[i] =
         stretch[static_cast<std::size_t>(stops_[i].first)][static_cast<std::size_t>(stops_[i].second)];
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const ElementColumn& c = columns_[i];
+    if (c.link < 0) continue;
+    const auto link = static_cast<std::size_t>(c.link), freedom = static_cast<std::size_t>(c.freedom);
+    out.element_stretch[static_cast<Eigen::Index>(i)] = c.arm * stretch[link][freedom];
+    out.element_rate[static_cast<Eigen::Index>(i)] = c.arm * rate[link][freedom];
+  }
 }
 
 WheelOnLine LineEffects::wheel(std::size_t wheelset, wheelrail::Side side, double time) const {
@@ -243,6 +292,15 @@ WheelOnLine LineEffects::wheel(std::size_t wheelset, wheelrail::Side side, doubl
   }
   out.rail = {y.value,         z.value,         cross.value / setup_.base,
               speed * y.first, speed * z.first, speed * cross.first / setup_.base};
+  for (std::size_t i = 0; i < shifts_.size(); ++i) {
+    const RailShift& shift = setup_.rail_shifts[i];
+    if (shift.wheelset && static_cast<std::size_t>(*shift.wheelset) != wheelset) continue;
+    if (shift.left && *shift.left != left) continue;
+    const Along at = shifts_[i].at(clock(time));
+    const double speed_of = setup_.stays ? 0.0 : at.first;
+    (shift.direction == Freedom::y ? out.rail.y : out.rail.z) += at.value;
+    (shift.direction == Freedom::y ? out.rail.vy : out.rail.vz) += speed_of;
+  }
   out.rail_yaw = y.first;
   out.curvature += y.second;
   return out;

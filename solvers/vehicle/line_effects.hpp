@@ -7,6 +7,7 @@
 
 #include "treadmark/model/vehicle/driving.hpp"
 #include "treadmark/solvers/vehicle/irregularities.hpp"
+#include "treadmark/solvers/vehicle/limited_spline.hpp"
 #include "treadmark/solvers/vehicle/multibody.hpp"
 #include "treadmark/solvers/vehicle/track_path.hpp"
 
@@ -22,6 +23,9 @@ struct LineSetup {
   double gravity = 9.81;         ///< [m/s2]
   SpeedProfile speed;
   std::vector<AxleTorque> torques;
+  std::vector<BodyForce> forces;
+  std::vector<SpringMotion> spring_motions;
+  std::vector<RailShift> rail_shifts;
   bool stays = false;  ///< runs, but stays at its place: the line never changes
 };
 
@@ -33,6 +37,7 @@ struct LineState {
   double spring_energy = 0.0;        ///< sum of k u^2/2 of the stretches u by the line [J]
   double damper_power = 0.0;         ///< sum of c u'^2 [W]
   std::vector<double> stop_offsets;  ///< stretches of the bump stops by the line [m]
+  Vector element_stretch, element_rate;  ///< of the columns of Multibody::elements by the line [m], [m/s]
 };
 
 /// What the line does at one wheel. The frame is that of the path below the axle.
@@ -47,12 +52,13 @@ struct WheelOnLine {
 /// A line under a vehicle as a function of time. Every body of the vehicle moves little about the path frame below it:
 /// forces of inertia and gravity in these frames, springs and dampers stretched because frames of connected bodies
 /// differ (exactly, by their poses), their preloads that turn along, gyroscopic moments of the wheelsets, torques on
-/// axles. docs/layout.md has the theory. Immutable; safe to use from several threads.
+/// axles, forces from outside, motions of the ground ends of springs and of rails. docs/layout.md has the theory.
+/// Immutable; safe to use from several threads.
 class LineEffects {
  public:
   /// Errors: Error(configuration) where frames of connected bodies differ by more than kLargestAngle somewhere on the
-  /// path, the gauge differs by more than kLargestWidening from that of the rails at rest, or for torques of wheelsets
-  /// or bodies that are not there.
+  /// path, the gauge differs by more than kLargestWidening from that of the rails at rest, or for torques, forces and
+  /// motions of what is not there.
   LineEffects(const Multibody& system, LineSetup setup);
 
   /// At a time >= 0 [s].
@@ -81,8 +87,9 @@ class LineEffects {
   double clock(double time) const { return setup_.stays ? 0.0 : time; }
   Frame frame(double x, const Travel& travel) const;
   void add_inertia(LineState& out, const Travel& travel) const;
-  void add_links(LineState& out, const Travel& travel) const;
+  void add_links(LineState& out, const Travel& travel, double time) const;
   void check_curves() const;
+  void place_motions();
 
   LineSetup setup_;
   Eigen::Index size_ = 0;
@@ -92,6 +99,15 @@ class LineEffects {
   std::vector<Multibody::Leaning> leanings_;
   std::vector<std::pair<int, Freedom>> stops_;  ///< link and direction
   std::vector<Multibody::Wheelset> wheelsets_;
+  std::vector<ElementColumn> columns_;
+  std::vector<std::pair<std::size_t, Vec3>> force_on_;  ///< body and point against its centre of mass [m]
+  struct MovedLink {
+    std::size_t link;
+    double sign;  ///< of the stretch by the motion
+    LimitedSpline motion;
+  };
+  std::vector<MovedLink> moved_;
+  std::vector<LimitedSpline> shifts_;
   std::vector<std::pair<int, int>> torque_on_;  ///< coordinates of the axle's and the reaction's pitch; -1: none
 };
 

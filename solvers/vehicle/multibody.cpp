@@ -67,6 +67,8 @@ class Assembly {
       system_.bodies.push_back({b.spec.name, b.spec.mass, b.spec.inertia, b.spec.position, b.coordinate, -1});
     for (const SpringSpec& spring : vehicle.springs) add_spring(spring, "", Vec3::Zero());
     for (const BumpStopSpec& stop : vehicle.bump_stops) add_stop(stop);
+    for (const DamperCurveSpec& damper : vehicle.damper_curves) add_damper_curve(damper);
+    for (const DryFrictionSpec& friction : vehicle.frictions) add_friction(friction);
     for (std::size_t i = 0; i < vehicle.wheelsets.size(); ++i) add_wheelset(vehicle.wheelsets[i], track, i);
     finish();
   }
@@ -221,7 +223,7 @@ class Assembly {
 
   void add_spring(const SpringSpec& spring, const std::string& suffix, const Vec3& offset) {
     const Vec3 point = spring.position + offset;
-    const int link = suffix.empty() ? add_link(spring.body_a, spring.body_b, point) : -1;
+    const int link = suffix.empty() ? add_link(spring.body_a, spring.body_b, point, spring.name) : -1;
     for (int f = 0; f < kFreedoms; ++f) {
       const auto i = static_cast<std::size_t>(f);
       const double k = spring.stiffness[i], c = spring.damping[i], series = spring.damper_stiffness[i];
@@ -238,13 +240,19 @@ class Assembly {
         continue;
       }
       // Spring to the damper's inner end, which the damper ties to body a.
-      const int inner =
-          add_coordinate(-1, static_cast<Freedom>(f), spring.name + suffix + ".damper_" + kFreedomNames[i], 0.0);
-      Direction stretched = direction;
-      stretched.emplace_back(inner, -1.0);
-      terms_.push_back({stretched, series, false, link, static_cast<Freedom>(f)});
-      terms_.push_back({{{inner, 1.0}}, c, true, -1, static_cast<Freedom>(f)});
+      add_in_series(direction, series, c, spring.name + suffix, link, static_cast<Freedom>(f));
     }
+  }
+
+  /// The coordinate of the inner end.
+  int add_in_series(Direction direction, double stiffness, double damping, const std::string& name, int link,
+                    Freedom freedom) {
+    const int inner =
+        add_coordinate(-1, freedom, name + ".damper_" + kFreedomNames[static_cast<std::size_t>(freedom)], 0.0);
+    direction.emplace_back(inner, -1.0);
+    terms_.push_back({std::move(direction), stiffness, false, link, freedom});
+    terms_.push_back({{{inner, 1.0}}, damping, true, -1, freedom});
+    return inner;
   }
 
   void add_stop(const BumpStopSpec& stop) {
@@ -253,13 +261,101 @@ class Assembly {
          add_link(stop.body_a, stop.body_b, stop.position)});
   }
 
+  void add_damper_curve(const DamperCurveSpec& damper) {
+    Direction direction = relative(damper.body_a, damper.body_b, "", damper.where, damper.position,
+                                   static_cast<int>(damper.direction));
+    int link = add_link(damper.body_a, damper.body_b, damper.position);
+    DamperCurve curve{damper.name, system_.elements.size(), {damper.velocity, damper.force}, 0.0};
+    if (damper.series_stiffness > 0.0) {
+      // The inner end, which has no mass, needs a linear damper: as much as there is at all speeds.
+      curve.linear = least_slope(curve.whole);
+      if (!(curve.linear > 0.0))
+        throw Error(ErrorKind::configuration,
+                    fmt::format("the force of damper '{}' with a spring in series must increase", damper.name),
+                    damper.where);
+      const int inner =
+          add_in_series(std::move(direction), damper.series_stiffness, curve.linear, damper.name, link, damper.direction);
+      direction = {{inner, 1.0}};
+      link = -1;
+    }
+    system_.elements.columns.push_back({std::move(direction), link, damper.direction});
+    system_.elements.dampers.push_back(std::move(curve));
+  }
+
+  static double least_slope(const ForceCurve& curve) {
+    double least = value_at(curve, 0.0).slope;
+    for (std::size_t i = 0; i + 1 < curve.at.size(); ++i)
+      least = std::min(least, (curve.force[i + 1] - curve.force[i]) / (curve.at[i + 1] - curve.at[i]));
+    return least;
+  }
+
+  void add_friction(const DryFrictionSpec& spec) {
+    ForceElements& elements = system_.elements;
+    DryFriction friction{spec.name,
+                         elements.size(),
+                         0,
+                         spec.stiffness,
+                         spec.damping,
+                         {spec.coefficient, spec.coefficient_back.value_or(spec.coefficient)},
+                         spec.static_ratio,
+                         spec.normal_force};
+    const int link = add_link(spec.body_a, spec.body_b, spec.position);
+    for (int f = 0; f < kFreedoms; ++f) {
+      if (!spec.directions[static_cast<std::size_t>(f)]) continue;
+      ElementColumn column{relative(spec.body_a, spec.body_b, "", spec.where, spec.position, f), link,
+                           static_cast<Freedom>(f), f < kRotations ? 1.0 : spec.arm};
+      for (auto& [c, factor] : column.direction) factor *= column.arm;
+      elements.columns.push_back(std::move(column));
+      ++friction.directions;
+    }
+    if (!(spec.stiffness > 0.0) || friction.directions < 1 || friction.directions > 2)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("friction '{}' needs one or two directions and a positive stiffness", spec.name),
+                  spec.where);
+    elements.frictions.push_back(std::move(friction));
+    if (!spec.load_of.empty()) loads_.push_back({elements.frictions.size() - 1, &spec});
+  }
+
+  /// What presses frictions: known once springs bear their preloads.
+  void add_loads() {
+    for (const Load& load : loads_) {
+      DryFriction& friction = system_.elements.frictions[load.friction];
+      const DryFrictionSpec& spec = *load.spec;
+      const auto fail = [&](std::string_view what) {
+        throw Error(ErrorKind::configuration, fmt::format("friction '{}': {} '{}'", spec.name, what, spec.load_of),
+                    spec.where, "load_of names a spring that bears a load at rest, or a bump stop");
+      };
+      friction.load = system_.elements.size();
+      const auto spring = std::find_if(system_.links.begin(), system_.links.end(),
+                                       [&](const Multibody::Link& l) { return l.spring == spec.load_of; });
+      if (spring == system_.links.end()) {
+        const auto stop = std::find_if(stops_.begin(), stops_.end(),
+                                       [&](const Stop& s) { return s.spec->name == spec.load_of; });
+        if (stop == stops_.end()) fail("there is no spring or bump stop");
+        friction.by_load = spec.load_share;
+        friction.stop = ForceCurve{stop->spec->displacement, stop->spec->force, stop->spec->odd};
+        system_.elements.columns.push_back({stop->direction, stop->link, stop->spec->direction});
+        continue;
+      }
+      const int link = static_cast<int>(spring - system_.links.begin());
+      const auto term = std::find_if(terms_.begin(), terms_.end(), [&](const Term& t) {
+        return !t.damper && t.link == link && t.freedom == Freedom::z;
+      });
+      if (term == terms_.end() || spring->preload == 0.0) fail("nothing lies on spring");
+      // The force on b along z is preload - stiffness * stretch.
+      friction.normal_force += spec.load_share * std::abs(spring->preload);
+      friction.by_load = -std::copysign(spec.load_share * term->value, spring->preload);
+      system_.elements.columns.push_back({term->direction, link, Freedom::z});
+    }
+  }
+
   /// Errors about names come from who looks for its bodies next.
-  int add_link(const std::string& a, const std::string& b, const Vec3& point) {
+  int add_link(const std::string& a, const std::string& b, const Vec3& point, const std::string& spring = {}) {
     const auto index = [&](const std::string& name) {
       const auto found = by_name_.find(name);
       return found == by_name_.end() ? -1 : static_cast<int>(found->second);
     };
-    system_.links.push_back({index(a), index(b), point, 0.0});
+    system_.links.push_back({index(a), index(b), point, 0.0, spring});
     return static_cast<int>(system_.links.size()) - 1;
   }
 
@@ -306,8 +402,10 @@ class Assembly {
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (!w.elastic.empty()) couple_bending(w);
     for (const auto& [direction, stop, link] : stops_)
-      system_.characteristics.push_back({spread(direction), stop->displacement, stop->force, link, stop->direction});
+      system_.characteristics.push_back(
+          {spread(direction), {stop->displacement, stop->force, stop->odd}, link, stop->direction});
     balance_weight();
+    add_loads();
     for (std::size_t link = 0; link < system_.links.size(); ++link) let_lean(link);
   }
 
@@ -447,6 +545,11 @@ class Assembly {
   std::map<std::string, std::size_t> by_name_;
   std::vector<Term> terms_;
   std::vector<Stop> stops_;
+  struct Load {
+    std::size_t friction;
+    const DryFrictionSpec* spec;
+  };
+  std::vector<Load> loads_;
 };
 
 }  // namespace
@@ -456,28 +559,14 @@ Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>&
   return Assembly(vehicle, track, speed, gravity).take();
 }
 
-CharacteristicValue characteristic(const CharacteristicForce& c, double displacement) {
-  const double u = std::abs(displacement), sign = displacement < 0.0 ? -1.0 : 1.0;
-  CharacteristicValue value;
-  for (std::size_t i = 0; i + 1 < c.displacement.size(); ++i) {
-    const double low = c.displacement[i], high = i + 2 < c.displacement.size() ? std::min(u, c.displacement[i + 1]) : u;
-    if (u <= low) break;
-    const double slope = (c.force[i + 1] - c.force[i]) / (c.displacement[i + 1] - low);
-    value.energy += (high - low) * (c.force[i] + 0.5 * slope * (high - low));
-    value.force = sign * (c.force[i] + slope * (high - low));
-    value.stiffness = slope;
-  }
-  return value;
-}
-
 Vector characteristic_forces(const Multibody& system, const Vector& q, double* energy,
                              const std::vector<double>* offsets) {
   Vector forces = Vector::Zero(q.size());
   for (std::size_t i = 0; i < system.characteristics.size(); ++i) {
     const CharacteristicForce& c = system.characteristics[i];
-    const CharacteristicValue value = characteristic(c, c.direction.dot(q) + (offsets ? offsets->at(i) : 0.0));
+    const CurveValue value = value_at(c.curve, c.direction.dot(q) + (offsets ? offsets->at(i) : 0.0));
     forces -= value.force * c.direction;
-    if (energy) *energy += value.energy;
+    if (energy) *energy += value.integral;
   }
   return forces;
 }

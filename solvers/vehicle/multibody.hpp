@@ -8,6 +8,7 @@
 
 #include "treadmark/model/vehicle/vehicle_model.hpp"
 #include "treadmark/solvers/vehicle/contact_element.hpp"
+#include "treadmark/solvers/vehicle/force_elements.hpp"
 
 namespace treadmark::vehicle {
 
@@ -48,13 +49,13 @@ struct Coordinate {
 /// A force with a characteristic between two bodies.
 struct CharacteristicForce {
   Vector direction;  ///< relative displacement by the coordinates
-  std::vector<double> displacement, force;
+  ForceCurve curve;
   int link = -1;  ///< in Multibody::links
   Freedom freedom = Freedom::x;
 };
 
 /// Equations of motion of vehicle and track about their reference configuration, which travels at constant speed:
-///   M q'' + C q' + K q = f + forces of bump stops and contacts.
+///   M q'' + C q' + K q = f + forces of bump stops, force elements and contacts.
 /// K q = f holds for a vehicle whose wheelsets cannot move: springs bear their preloads. K contains what these do as
 /// bodies lean and move aside (the second order of their potential); weights act at the centres of mass. C contains the
 /// gyroscopic coupling of the wheelsets' roll and yaw, that of bending wheelsets included. Immutable.
@@ -65,6 +66,7 @@ struct Multibody {
   Matrix dissipation;         ///< symmetric part of C: q' . D q' is the power of the dampers
   Vector weight;              ///< f: what wheelsets carry beyond the preloads of their springs
   std::vector<CharacteristicForce> characteristics;
+  ForceElements elements;
   std::vector<double> wheelset_load;  ///< vertical load of each wheelset on its two rails [N]
 
   struct Wheelset {
@@ -99,6 +101,7 @@ struct Multibody {
     int a = -1, b = -1;  ///< in bodies; -1: ground
     Vec3 point = Vec3::Zero();
     double preload = 0.0;  ///< force of its springs on b along z, of a vehicle at rest [N]
+    std::string spring = {};  ///< which one it is; empty: none, or below the rails
   };
   /// One spring or damper of a link: what stretches it by the coordinates.
   struct Stretch {
@@ -126,13 +129,6 @@ struct Multibody {
 
 /// speed [m/s], gravity [m/s2]. Errors: Error(configuration) with the place of the body or spring that makes no sense.
 Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>& track, double speed, double gravity);
-
-/// Force of a characteristic at a displacement (odd, linear between its points, continued by the last slope) and its
-/// stiffness.
-struct CharacteristicValue {
-  double force = 0.0, stiffness = 0.0, energy = 0.0;
-};
-CharacteristicValue characteristic(const CharacteristicForce& c, double displacement);
 
 /// Generalised force of all characteristics on the bodies, and their energy [J]. offsets: added to their displacements
 /// [m], one each; null: none.

@@ -17,7 +17,7 @@ namespace {
 constexpr double kSafety = 0.9, kLeastFactor = 0.2, kMostFactor = 2.0;
 /// Step lengths change only where it is worth a new factorisation.
 constexpr double kWorthShortening = 0.95, kWorthGrowing = 1.25;
-constexpr std::uint32_t kStateFormat = 5;
+constexpr std::uint32_t kStateFormat = 6;
 
 double step_factor(double error, double tolerance) {
   if (!(error > 0.0)) return kMostFactor;
@@ -25,8 +25,15 @@ double step_factor(double error, double tolerance) {
   return factor > kWorthShortening && factor < kWorthGrowing ? 1.0 : factor;
 }
 
-EnergyBalance energy_of(const Multibody& s, const SystemState& state, const std::vector<ContactReaction>& reactions,
+double energy_of_elements(const Multibody& s, const Motion& motion, const std::optional<LineState>& line) {
+  Vector displacement = s.elements.of(motion.state.q);
+  if (line) displacement += line->element_stretch;
+  return s.elements.energy(displacement, motion.element_memory);
+}
+
+EnergyBalance energy_of(const Multibody& s, const Motion& motion, const std::vector<ContactReaction>& reactions,
                         const std::optional<LineState>& line) {
+  const SystemState& state = motion.state;
   EnergyBalance e;
   e.mechanical = 0.5 * state.v.dot(s.mass.cwiseProduct(state.v)) + 0.5 * state.q.dot(s.stiffness * state.q) -
                  s.weight.dot(state.q);
@@ -34,6 +41,7 @@ EnergyBalance energy_of(const Multibody& s, const SystemState& state, const std:
   double stops = 0.0;
   characteristic_forces(s, state.q, &stops, line ? &line->stop_offsets : nullptr);
   e.mechanical += stops;
+  if (s.elements.size() > 0) e.mechanical += energy_of_elements(s, motion, line);
   for (const ContactReaction& r : reactions) e.elastic += r.elastic_energy;
   return e;
 }
@@ -45,7 +53,7 @@ double work_on_stops(const Multibody& s, const Vector& q, const LineState& at, c
   for (std::size_t i = 0; i < s.characteristics.size(); ++i) {
     const CharacteristicForce& c = s.characteristics[i];
     work +=
-        characteristic(c, c.direction.dot(q) + at.stop_offsets[i]).force * (to.stop_offsets[i] - from.stop_offsets[i]);
+        value_at(c.curve, c.direction.dot(q) + at.stop_offsets[i]).force * (to.stop_offsets[i] - from.stop_offsets[i]);
   }
   return work;
 }
@@ -117,7 +125,7 @@ Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const S
   motion_ = scheme_.start(start, reactions_);
   next_step_ = std::min(settings.first_step, settings.max_step);
   line_ = vehicle_->line_state(start.time);
-  energy_ = energy_at_start_ = energy_of(vehicle_->system, start, reactions_, line_);
+  energy_ = energy_at_start_ = energy_of(vehicle_->system, motion_, reactions_, line_);
 }
 
 double Simulation::longest_step() const {
@@ -181,12 +189,19 @@ void Simulation::accept(Step step) {
   const double h = to.time - from.time;
   const Vector moved = to.q - from.q;
   std::optional<LineState> line = vehicle.line_state(to.time);
-  EnergyBalance e = energy_of(vehicle.system, to, step.reactions, line);
+  EnergyBalance e = energy_of(vehicle.system, step.end, step.reactions, line);
   double dampers = moved.dot(vehicle.system.dissipation * moved) / h;
   if (line) {
     const LineWork w = line_work(vehicle.system, from, *line_, to, *line);
     dampers += w.dampers;
     e.line = energy_.line + w.work;
+  }
+  if (const ForceElements& elements = vehicle.system.elements; elements.size() > 0) {
+    const Vector force = 0.5 * (motion_.element_force + step.end.element_force);
+    const double by_line = line ? force.dot(line->element_stretch - line_->element_stretch) : 0.0;
+    e.line += by_line;
+    dampers += force.dot(elements.of(moved)) + by_line -
+               (energy_of_elements(vehicle.system, step.end, line) - energy_of_elements(vehicle.system, motion_, line_));
   }
   e.dampers = energy_.dampers + dampers;
   e.contact_work = energy_.contact_work;
@@ -263,7 +278,8 @@ void Simulation::take_step() {
 void Simulation::save(ByteWriter& out) const {
   out.put(kStateFormat);
   out.put(motion_.state.time);
-  for (const Vector* v : {&motion_.state.q, &motion_.state.v, &motion_.a, &motion_.a_before, &motion_.unbalanced})
+  for (const Vector* v : {&motion_.state.q, &motion_.state.v, &motion_.a, &motion_.a_before, &motion_.unbalanced,
+                          &motion_.element_force, &motion_.element_memory})
     put(out, *v);
   out.put(motion_.step_before);
   out.put(next_step_);
@@ -287,6 +303,8 @@ void Simulation::restore(ByteReader& in) {
   Motion m;
   in.get(m.state.time);
   for (Vector* v : {&m.state.q, &m.state.v, &m.a, &m.a_before, &m.unbalanced}) get(in, *v, n);
+  get(in, m.element_force, motion_.element_force.size());
+  get(in, m.element_memory, motion_.element_memory.size());
   in.get(m.step_before);
   in.get(next_step_);
   for (std::size_t i = 0; i < vehicle_->wheels.size(); ++i) {

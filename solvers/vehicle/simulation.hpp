@@ -28,8 +28,8 @@ struct ContactEvent {
 
 /// Energy since the start [J]. Mechanical + dampers = start + work of the contacts + work of the line + numerical.
 struct EnergyBalance {
-  double mechanical = 0.0;    ///< kinetic, of springs, of bump stops, of weights
-  double dampers = 0.0;       ///< dissipated
+  double mechanical = 0.0;    ///< kinetic, of springs, of bump stops, of sticking friction, of weights
+  double dampers = 0.0;       ///< dissipated, by dry friction of the vehicle too
   double contact_work = 0.0;  ///< of the contact forces on the motion about the reference configuration
   double drive = 0.0;         ///< work of the reference configuration, as it travels, on the contacts
   double line = 0.0;          ///< on the vehicle, as it bends and turns; of torques on axles. 0 without a line
@@ -70,6 +70,9 @@ class Simulation {
   const SystemState& state() const { return motion_.state; }
   /// Of all coordinates after the last step, of the scheme.
   const Vector& acceleration() const { return motion_.a; }
+  /// Of the columns of Multibody::elements after the last step: forces [N], what they remember.
+  const Vector& element_force() const { return motion_.element_force; }
+  const Vector& element_memory() const { return motion_.element_memory; }
   /// Of all wheels after the last step, in the order of VehicleOnTrack::wheels.
   const std::vector<ContactReaction>& reactions() const { return reactions_; }
   /// Since the start, in the order of time.

@@ -104,6 +104,14 @@ Vector VehicleOnTrack::other_forces(const SystemState& state, const std::optiona
   return forces;
 }
 
+ElementResponse VehicleOnTrack::resting_elements(const SystemState& state,
+                                                 const std::optional<LineState>& at_line) const {
+  const ForceElements& elements = system.elements;
+  Vector displacement = elements.of(state.q), rate = elements.of(state.v);
+  if (at_line) displacement += at_line->element_stretch, rate += at_line->element_rate;
+  return respond(elements, displacement, rate, elements.fresh_memory());
+}
+
 double VehicleOnTrack::radius(std::size_t i) const {
   return system.wheelsets[static_cast<std::size_t>(wheels[i].wheelset)].nominal_radius;
 }

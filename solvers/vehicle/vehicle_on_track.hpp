@@ -52,6 +52,8 @@ struct VehicleOnTrack {
   /// Generalised forces that are not linear in the state: bump stops, and wheelsets that turn faster than at the start.
   /// at_line: at the same time.
   Vector other_forces(const SystemState& state, const std::optional<LineState>& at_line) const;
+  /// Force elements in a state that they have come to from the reference configuration, along straight ways.
+  ElementResponse resting_elements(const SystemState& state, const std::optional<LineState>& at_line) const;
   /// Nominal radius of a wheel [m].
   double radius(std::size_t wheel) const;
   /// Tangent of a wheel's reaction at a motion.

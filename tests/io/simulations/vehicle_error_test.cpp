@@ -103,14 +103,46 @@ INSTANTIATE_TEST_SUITE_P(
     BumpStops, VehicleError,
     ::testing::Values(Wrong{"displacement_mm = [25, 30]", "displacement_mm = [30, 30]",
                             "v.toml:30:19: bump_stops.stop.displacement_mm must increase"},
-                      Wrong{"displacement_mm = [25, 30]", "displacement_mm = [-1, 30]", "must be at least 0"},
+                      Wrong{"displacement_mm = [25, 30]", "displacement_mm = [-1, 30]",
+                            "v.toml:30:19: bump_stops.stop.displacement_mm begins below 0"},
+                      Wrong{"displacement_mm = [25, 30]", "odd = false\ndisplacement_mm = [-5, 30]",
+                            "must have force 0 at displacement 0"},
                       Wrong{"displacement_mm = [25, 30]", "displacement_mm = [25]", "needs at least 2 values"},
                       Wrong{"force_N = [0, 600]", "force_N = [0, 600, 700]",
                             "bump_stops.stop.force_N has 3 values for 2 displacements"},
                       Wrong{"force_N = [0, 600]", "force_N = [10, 600]", "force_N must start from 0"},
-                      Wrong{"displacement_mm = [25, 30]\nforce_N = [0, 600]",
-                            "displacement_mm = [25, 30, 40]\nforce_N = [0, 600, 500]", "force_N must not decrease"},
                       Wrong{"direction = \"y\"", "direction = \"yaw\"", "is not one of \"x\", \"y\", \"z\""}));
+
+const std::string kPlace = "between = [\"axle\", \"mass\"]\nat_m = [[0, -1, -0.46], [0, 1, -0.46]]\n";
+Wrong added(const std::string& part, std::string expected) {
+  return {"[[bump_stops]]", part + "[[bump_stops]]", std::move(expected)};
+}
+Wrong damper(const std::string& keys, std::string expected) {
+  return added("[[damper_curves]]\nname = \"d\"\n" + kPlace + "direction = \"z\"\n" + keys + '\n', std::move(expected));
+}
+Wrong friction(const std::string& keys, std::string expected) {
+  return added("[[frictions]]\nname = \"f\"\n" + kPlace + "stiffness_N_per_m = 1e6\n" + keys + '\n',
+               std::move(expected));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Elements, VehicleError,
+    ::testing::Values(
+        damper("velocity_m_s = [0.1, 0.2]\nforce_N = [0, 1]", "damper_curves.d.velocity_m_s must start from 0"),
+        damper("velocity_m_s = [0, 0.2]\nforce_N = [1, 2]", "damper_curves.d.force_N must start from 0"),
+        damper("velocity_m_s = [0, 0.2, 0.3]\nforce_N = [0, 2, 1]", "damper_curves.d.force_N must not decrease"),
+        damper("velocity_m_s = [0, 0.2, 0.3]\nforce_N = [0, 2, 2]\nseries_stiffness_N_per_m = 1e6",
+               "must increase where there is a spring in series"),
+        friction("coefficient = 0.3\ndirections = [\"z\"]", "frictions.f: nothing presses it"),
+        friction("coefficient = 0.3\nnormal_force_N = 1\ndirections = [\"x\", \"y\", \"z\"]",
+                 "neither one or two of x, y, z nor one rotation"),
+        friction("coefficient = 0.3\nnormal_force_N = 1\ndirections = [\"yaw\"]", "frictions.f.arm_mm is missing"),
+        friction("coefficient = 0.3\nnormal_force_N = 1\ndirections = [\"z\"]\narm_mm = 3", "belongs to rotations"),
+        friction("coefficient = 0.3\ncoefficient_back = 0.2\nnormal_force_N = 1\ndirections = [\"y\", \"z\"]",
+                 "belongs to friction in one direction"),
+        friction("coefficient = 0.3\nload_of = [\"primry\"]\ndirections = [\"z\"]", "'primry' is not known"),
+        friction("coefficient = 0.3\nload_of = [\"primary1\", \"primary2\", \"stop\"]\ndirections = [\"z\"]",
+                 "frictions.f.load_of names 3 loads for 2 places")));
 
 INSTANTIATE_TEST_SUITE_P(
     Wheelsets, VehicleError,

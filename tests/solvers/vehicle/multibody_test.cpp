@@ -228,15 +228,15 @@ TEST(Multibody, RailsMoveTheirProfileOrigin) {
 }
 
 TEST(Multibody, CharacteristicsAreOddAndHaveAPotential) {
-  const CharacteristicForce c{Vector::Ones(1), {0.025, 0.03, 0.035}, {0.0, 600.0, 1760.0}};
-  EXPECT_DOUBLE_EQ(characteristic(c, 0.02).force, 0.0);
-  EXPECT_NEAR(characteristic(c, 0.0275).force, 300.0, 1e-9);
-  EXPECT_NEAR(characteristic(c, -0.0325).force, -1180.0, 1e-9);
-  EXPECT_NEAR(characteristic(c, 0.04).force, 2920.0, 1e-9);
+  const ForceCurve c{{0.025, 0.03, 0.035}, {0.0, 600.0, 1760.0}};
+  EXPECT_DOUBLE_EQ(value_at(c, 0.02).force, 0.0);
+  EXPECT_NEAR(value_at(c, 0.0275).force, 300.0, 1e-9);
+  EXPECT_NEAR(value_at(c, -0.0325).force, -1180.0, 1e-9);
+  EXPECT_NEAR(value_at(c, 0.04).force, 2920.0, 1e-9);
   for (const double u : {0.026, 0.031, 0.037, -0.033}) {
     const double h = 1e-7;
-    EXPECT_NEAR((characteristic(c, u + h).energy - characteristic(c, u - h).energy) / (2 * h),
-                characteristic(c, u).force, 1e-3);
+    EXPECT_NEAR((value_at(c, u + h).integral - value_at(c, u - h).integral) / (2 * h),
+                value_at(c, u).force, 1e-3);
   }
 }
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "treadmark/model/vehicle/vehicle_model.hpp"
+
+namespace treadmark::vehicle {
+
+/// A force through points, linear between them, continued by the first and the last slope.
+struct ForceCurve {
+  std::vector<double> at, force;  ///< at: increasing, displacements [m] or rates [m/s]; force [N]
+  bool odd = true;                ///< at: from >= 0; the same for the other sign
+};
+struct CurveValue {
+  double force = 0.0, slope = 0.0;
+  double integral = 0.0;  ///< from 0: the energy of a spring [J]
+};
+CurveValue value_at(const ForceCurve& curve, double at);
+
+/// A relative displacement on which elements depend: a column.
+struct ElementColumn {
+  std::vector<std::pair<int, double>> direction;  ///< coordinates and factors
+  int link = -1;                                  ///< in Multibody::links; -1: a line does not stretch it
+  Freedom freedom = Freedom::x;
+  double arm = 1.0;  ///< of rotations: displacement by the angle [m]
+};
+
+/// DryFrictionSpec by columns.
+struct DryFriction {
+  std::string name;
+  int first = 0, directions = 1;  ///< columns
+  double stiffness = 0.0;         ///< while it sticks [N/m]
+  double damping = 0.0;           ///< then [N s/m]
+  std::array<double, 2> coefficient{};  ///< sliding forwards and back
+  double static_ratio = 1.0;
+  double normal_force = 0.0;       ///< where the load's column is not displaced [N]
+  int load = -1;                   ///< column on whose displacement it depends; -1: none
+  double by_load = 0.0;            ///< by that displacement [N/m], or share of the size of `stop`
+  std::optional<ForceCurve> stop;  ///< force by that displacement
+};
+
+/// The force of a damper that a linear one, which stands in Multibody::damping, is not.
+struct DamperCurve {
+  std::string name;
+  int column = 0;
+  ForceCurve whole;     ///< by the rate
+  double linear = 0.0;  ///< [N s/m]
+};
+
+/// Forces that are neither linear nor functions of displacements alone. Immutable; what they remember stands outside.
+struct ForceElements {
+  std::vector<ElementColumn> columns;
+  std::vector<DryFriction> frictions;
+  std::vector<DamperCurve> dampers;
+
+  int size() const { return static_cast<int>(columns.size()); }
+  /// Memory in the reference configuration: how far each column of friction has slid [m], then whether each friction
+  /// slides.
+  Eigen::VectorXd fresh_memory() const;
+  /// Displacements (rates) of the columns by those of the coordinates.
+  Eigen::VectorXd of(const Eigen::VectorXd& coordinates) const;
+  /// The same of all columns as a matrix: its rows are columns' directions.
+  Eigen::MatrixXd directions(Eigen::Index coordinates) const;
+  /// Generalised force on the coordinates of forces that resist the columns' displacements.
+  Eigen::VectorXd on_coordinates(const Eigen::VectorXd& force, Eigen::Index coordinates) const;
+  /// Energy that the springs of friction hold at displacements of the columns [J].
+  double energy(const Eigen::VectorXd& displacement, const Eigen::VectorXd& memory) const;
+};
+
+/// Of all columns.
+struct ElementResponse {
+  Eigen::VectorXd force;               ///< against the displacements [N]
+  Eigen::MatrixXd stiffness, damping;  ///< its derivatives by displacements and rates
+  Eigen::VectorXd memory;
+};
+
+/// At displacements [m] and rates [m/s] of the columns, from what was remembered before.
+ElementResponse respond(const ForceElements& elements, const Eigen::VectorXd& displacement, const Eigen::VectorXd& rate,
+                        const Eigen::VectorXd& memory);
+
+/// A time step as the elements see it: displacement + of_displacement * y, rate + of_rate * y, where accelerations
+/// y = free - flexibility * force.
+struct ElementStep {
+  Eigen::VectorXd displacement, rate;
+  double of_displacement = 0.0, of_rate = 0.0;
+  Eigen::VectorXd free;
+  Eigen::MatrixXd flexibility;
+  Eigen::VectorXd guess;   ///< of y
+  double tolerance = 0.0;  ///< of forces [N]
+};
+/// Response that agrees with the accelerations which it makes, by Newton's method. None: they were not found; they are
+/// there in a short enough step.
+std::optional<ElementResponse> settle(const ForceElements& elements, const ElementStep& step,
+                                      const Eigen::VectorXd& memory);
+
+}  // namespace treadmark::vehicle
