@@ -217,8 +217,9 @@ void HistoryRecord::add_elements() {
   for (const vehicle::DryFriction& f : elements.frictions)
     for (int d = 0; d < f.directions; ++d) {
       const int column = f.first + d;
-      const std::string name = fmt::format(
-          "friction.{}.{}", f.name, kWords[static_cast<int>(elements.columns[static_cast<std::size_t>(column)].freedom)]);
+      const std::string name =
+          fmt::format("friction.{}.{}", f.name,
+                      kWords[static_cast<int>(elements.columns[static_cast<std::size_t>(column)].freedom)]);
       add(name + "_N", "N", "dry friction, against the displacement; of a rotation at its arm", force(column));
       add(name + "_slid_m", "m", "how far it has slid since the reference configuration",
           [this, column] { return simulation_->element_memory()[column]; });

@@ -19,7 +19,8 @@ struct Foundation {
 
 /// Checks that springs hold every body in every direction in which it is free: a chain of springs must connect it with
 /// the foundation, and the stiffness matrix of all of them at rest must not have a mechanism. Dampers and bump stops
-/// hold nothing, dry friction holds as the spring as which it sticks. Errors: Error(configuration) at the body, which is named.
+/// hold nothing, dry friction holds as the spring as which it sticks. Errors: Error(configuration) at the body, which
+/// is named.
 void check_held(const std::vector<BodySpec>& bodies, const std::vector<SpringSpec>& springs,
                 const Foundation& foundation);
 

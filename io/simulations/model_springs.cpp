@@ -119,7 +119,7 @@ void check_damper(const TableOf<DamperCurveSpec>& part, const DamperCurveSpec& d
   check_curve(part, damper, &D::velocity, "velocities");
   if (damper.velocity.front() != 0.0)
     part.refuse(&D::velocity, fmt::format("{} must start from 0", part.path_of(&D::velocity)));
-  const auto &f = damper.force;
+  const auto& f = damper.force;
   if (f.front() != 0.0) part.refuse(&D::force, fmt::format("{} must start from 0", part.path_of(&D::force)));
   if (std::adjacent_find(f.begin(), f.end(), std::greater<>()) != f.end())
     part.refuse(&D::force, fmt::format("{} must not decrease", part.path_of(&D::force)));
@@ -155,12 +155,13 @@ std::vector<std::string> loads_of(const TableOf<DryFrictionSpec>& part, std::siz
     std::size_t number = 1;
     while (!is_known(name) && is_known(fmt::format("{}{}", name, number)))
       loads.push_back(fmt::format("{}{}", name, number++));
-    if (!is_known(name) && number == 1) check_name(part.path_of(&F::load_of), name, known, part.need(&F::load_of).where);
+    if (!is_known(name) && number == 1)
+      check_name(part.path_of(&F::load_of), name, known, part.need(&F::load_of).where);
   }
   if (loads.size() == 1) loads.resize(places, loads.front());
   if (loads.size() != places)
-    part.refuse(&F::load_of, fmt::format("{} names {} loads for {} places", part.path_of(&F::load_of), loads.size(),
-                                         places));
+    part.refuse(&F::load_of,
+                fmt::format("{} names {} loads for {} places", part.path_of(&F::load_of), loads.size(), places));
   return loads;
 }
 
@@ -219,9 +220,8 @@ std::vector<SpringSpec> read_springs(const TableReader& document, const std::vec
 
 std::vector<BumpStopSpec> read_bump_stops(const TableReader& document, const std::vector<BodySpec>& bodies) {
   return read_parts<BumpStopSpec>(
-      document, bodies,
-      {"bump_stops", "bump stops", bump_stop_table_keys(), bump_stop_place_keys(), bump_stop_keys()}, check_stop,
-      kNothingMore);
+      document, bodies, {"bump_stops", "bump stops", bump_stop_table_keys(), bump_stop_place_keys(), bump_stop_keys()},
+      check_stop, kNothingMore);
 }
 
 std::vector<DamperCurveSpec> read_damper_curves(const TableReader& document, const std::vector<BodySpec>& bodies) {

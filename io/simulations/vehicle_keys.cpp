@@ -195,9 +195,10 @@ const KeyTable<DryFrictionSpec>& friction_keys() {
                &F::directions, kNeeded, "one or two of \"x\", \"y\", \"z\", or \"roll\", \"pitch\" or \"yaw\"");
     list.number("arm_mm", kPositive, "of a rotation (required there): where friction acts", &F::arm, kNoDefault);
     list.number("stiffness_N_per_m", kPositive, "while it sticks; of a rotation at its arm", &F::stiffness, kNeeded);
-    list.number("damping_N_s_per_m", kNotNegative,
-                "beside that stiffness: what has come to rest swings on it, and with static_ratio may break loose again",
-                &F::damping);
+    list.number(
+        "damping_N_s_per_m", kNotNegative,
+        "beside that stiffness: what has come to rest swings on it, and with static_ratio may break loose again",
+        &F::damping);
     list.number("coefficient", kNotNegative, "bound of the force over the normal force while it slides",
                 &F::coefficient, kNeeded);
     list.number("coefficient_back", kNotNegative,

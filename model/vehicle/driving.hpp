@@ -49,10 +49,10 @@ double torque_at(const AxleTorque& torque, double time);
 /// A force from outside on a point of a body.
 struct BodyForce {
   std::string body;
-  std::optional<Vec3> point;             ///< of the vehicle at rest [m]; none: the centre of mass
-  Freedom direction = Freedom::y;        ///< a moment about a rotation's axis
-  std::vector<double> time;              ///< increasing [s]
-  std::vector<double> force;             ///< at these times [N], [N m]; linear between, constant beyond
+  std::optional<Vec3> point;       ///< of the vehicle at rest [m]; none: the centre of mass
+  Freedom direction = Freedom::y;  ///< a moment about a rotation's axis
+  std::vector<double> time;        ///< increasing [s]
+  std::vector<double> force;       ///< at these times [N], [N m]; linear between, constant beyond
   SourcePosition where;
 };
 /// [N], [N m]
@@ -69,9 +69,9 @@ struct SpringMotion {
 
 /// Rails below wheels that are moved.
 struct RailShift {
-  std::optional<int> wheelset;    ///< from 0; none: all
-  std::optional<bool> left;       ///< none: both rails
-  Freedom direction = Freedom::z;  ///< y or z
+  std::optional<int> wheelset;       ///< from 0; none: all
+  std::optional<bool> left;          ///< none: both rails
+  Freedom direction = Freedom::z;    ///< y or z
   std::vector<double> time;          ///< increasing, two at least [s]
   std::vector<double> displacement;  ///< at these times [m]; a smooth curve between, at rest beyond
   SourcePosition where;

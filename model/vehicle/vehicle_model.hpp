@@ -83,8 +83,8 @@ struct DryFrictionSpec {
   std::optional<double> coefficient_back;    ///< of one direction, the other way; none: the same
   double static_ratio = 1.0;                 ///< bound while it sticks over that while it slides; >= 1
   double normal_force = 0.0;                 ///< constant part of it [N]; >= 0
-  std::string load_of;     ///< spring whose vertical load, or bump stop whose force, adds to it; empty: none
-  double load_share = 1.0; ///< of that load
+  std::string load_of;      ///< spring whose vertical load, or bump stop whose force, adds to it; empty: none
+  double load_share = 1.0;  ///< of that load
   SourcePosition where;
 };
 

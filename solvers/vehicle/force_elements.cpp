@@ -74,8 +74,7 @@ void add_friction(const DryFriction& f, Index number, const Vector& displacement
   const Vector along = trial / size;
   r.force(columns) = bound * along;
   if (f.directions > 1) {
-    const Matrix across =
-        bound / size * (Matrix::Identity(f.directions, f.directions) - along * along.transpose());
+    const Matrix across = bound / size * (Matrix::Identity(f.directions, f.directions) - along * along.transpose());
     r.stiffness(columns, columns) += f.stiffness * across;
     r.damping(columns, columns) += f.damping * across;
   }

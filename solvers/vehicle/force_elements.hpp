@@ -36,15 +36,15 @@ struct ElementColumn {
 /// DryFrictionSpec by columns.
 struct DryFriction {
   std::string name;
-  int first = 0, directions = 1;  ///< columns
-  double stiffness = 0.0;         ///< while it sticks [N/m]
-  double damping = 0.0;           ///< then [N s/m]
+  int first = 0, directions = 1;        ///< columns
+  double stiffness = 0.0;               ///< while it sticks [N/m]
+  double damping = 0.0;                 ///< then [N s/m]
   std::array<double, 2> coefficient{};  ///< sliding forwards and back
   double static_ratio = 1.0;
   double normal_force = 0.0;       ///< where the load's column is not displaced [N]
   int load = -1;                   ///< column on whose displacement it depends; -1: none
   double by_load = 0.0;            ///< by that displacement [N/m], or share of the size of `stop`
-  std::optional<ForceCurve> stop;  ///< force by that displacement
+  std::optional<ForceCurve> stop = {};  ///< force by that displacement
 };
 
 /// The force of a damper that a linear one, which stands in Multibody::damping, is not.

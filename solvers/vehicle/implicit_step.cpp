@@ -32,7 +32,8 @@ struct ImplicitStep::Factors {
   Eigen::PartialPivLU<Matrix> lu;
   Matrix by_touched;     ///< accelerations for unit forces at the touched coordinates
   Matrix among_touched;  ///< those of the touched coordinates
-  // Accelerations for unit forces along the columns of force elements: all, those of touched coordinates and of columns.
+  // Accelerations for unit forces along the columns of force elements: all, those of touched coordinates and of
+  // columns.
   Matrix by_elements, elements_at_touched, among_elements;
   Matrix touched_at_elements;  ///< of the columns for unit forces at the touched coordinates
 };

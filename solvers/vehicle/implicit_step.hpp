@@ -38,8 +38,8 @@ struct Step {
 /// One step of the scheme of Hilber, Hughes and Taylor (1977), of second order and unconditionally stable for linear
 /// systems, with the error estimate of Zienkiewicz and Xie (1991). Contacts are linearised by their tangents about a
 /// predicted state; they are evaluated again until the forces of the linearised contact differ little from those of the
-/// last evaluation. Force elements are solved as they are beside every linearisation of the contacts. Coordinates without mass need a damper. Not thread-safe; keeps the factorised system of the last
-/// step length.
+/// last evaluation. Force elements are solved as they are beside every linearisation of the contacts. Coordinates
+/// without mass need a damper. Not thread-safe; keeps the factorised system of the last step length.
 class ImplicitStep {
  public:
   ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& settings);

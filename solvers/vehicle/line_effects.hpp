@@ -31,12 +31,12 @@ struct LineSetup {
 
 /// What the line does to all coordinates at one time.
 struct LineState {
-  Vector force;                      ///< generalised, of everything [N], [N m]
-  Vector spring, damper;             ///< of this what springs and dampers do that the line stretches
-  Vector spring_rate;                ///< rate of the former [N/s]
-  double spring_energy = 0.0;        ///< sum of k u^2/2 of the stretches u by the line [J]
-  double damper_power = 0.0;         ///< sum of c u'^2 [W]
-  std::vector<double> stop_offsets;  ///< stretches of the bump stops by the line [m]
+  Vector force;                          ///< generalised, of everything [N], [N m]
+  Vector spring, damper;                 ///< of this what springs and dampers do that the line stretches
+  Vector spring_rate;                    ///< rate of the former [N/s]
+  double spring_energy = 0.0;            ///< sum of k u^2/2 of the stretches u by the line [J]
+  double damper_power = 0.0;             ///< sum of c u'^2 [W]
+  std::vector<double> stop_offsets;      ///< stretches of the bump stops by the line [m]
   Vector element_stretch, element_rate;  ///< of the columns of Multibody::elements by the line [m], [m/s]
 };
 

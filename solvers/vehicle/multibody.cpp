@@ -262,8 +262,8 @@ class Assembly {
   }
 
   void add_damper_curve(const DamperCurveSpec& damper) {
-    Direction direction = relative(damper.body_a, damper.body_b, "", damper.where, damper.position,
-                                   static_cast<int>(damper.direction));
+    Direction direction =
+        relative(damper.body_a, damper.body_b, "", damper.where, damper.position, static_cast<int>(damper.direction));
     int link = add_link(damper.body_a, damper.body_b, damper.position);
     DamperCurve curve{damper.name, system_.elements.size(), {damper.velocity, damper.force}, 0.0};
     if (damper.series_stiffness > 0.0) {
@@ -273,8 +273,8 @@ class Assembly {
         throw Error(ErrorKind::configuration,
                     fmt::format("the force of damper '{}' with a spring in series must increase", damper.name),
                     damper.where);
-      const int inner =
-          add_in_series(std::move(direction), damper.series_stiffness, curve.linear, damper.name, link, damper.direction);
+      const int inner = add_in_series(std::move(direction), damper.series_stiffness, curve.linear, damper.name, link,
+                                      damper.direction);
       direction = {{inner, 1.0}};
       link = -1;
     }
@@ -291,14 +291,10 @@ class Assembly {
 
   void add_friction(const DryFrictionSpec& spec) {
     ForceElements& elements = system_.elements;
-    DryFriction friction{spec.name,
-                         elements.size(),
-                         0,
-                         spec.stiffness,
-                         spec.damping,
-                         {spec.coefficient, spec.coefficient_back.value_or(spec.coefficient)},
-                         spec.static_ratio,
-                         spec.normal_force};
+    DryFriction friction{
+        spec.name,         elements.size(),  0,
+        spec.stiffness,    spec.damping,     {spec.coefficient, spec.coefficient_back.value_or(spec.coefficient)},
+        spec.static_ratio, spec.normal_force};
     const int link = add_link(spec.body_a, spec.body_b, spec.position);
     for (int f = 0; f < kFreedoms; ++f) {
       if (!spec.directions[static_cast<std::size_t>(f)]) continue;
@@ -329,8 +325,8 @@ class Assembly {
       const auto spring = std::find_if(system_.links.begin(), system_.links.end(),
                                        [&](const Multibody::Link& l) { return l.spring == spec.load_of; });
       if (spring == system_.links.end()) {
-        const auto stop = std::find_if(stops_.begin(), stops_.end(),
-                                       [&](const Stop& s) { return s.spec->name == spec.load_of; });
+        const auto stop =
+            std::find_if(stops_.begin(), stops_.end(), [&](const Stop& s) { return s.spec->name == spec.load_of; });
         if (stop == stops_.end()) fail("there is no spring or bump stop");
         friction.by_load = spec.load_share;
         friction.stop = ForceCurve{stop->spec->displacement, stop->spec->force, stop->spec->odd};

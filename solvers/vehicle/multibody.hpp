@@ -100,7 +100,7 @@ struct Multibody {
   struct Link {
     int a = -1, b = -1;  ///< in bodies; -1: ground
     Vec3 point = Vec3::Zero();
-    double preload = 0.0;  ///< force of its springs on b along z, of a vehicle at rest [N]
+    double preload = 0.0;     ///< force of its springs on b along z, of a vehicle at rest [N]
     std::string spring = {};  ///< which one it is; empty: none, or below the rails
   };
   /// One spring or damper of a link: what stretches it by the coordinates.

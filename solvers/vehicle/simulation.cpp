@@ -200,8 +200,9 @@ void Simulation::accept(Step step) {
     const Vector force = 0.5 * (motion_.element_force + step.end.element_force);
     const double by_line = line ? force.dot(line->element_stretch - line_->element_stretch) : 0.0;
     e.line += by_line;
-    dampers += force.dot(elements.of(moved)) + by_line -
-               (energy_of_elements(vehicle.system, step.end, line) - energy_of_elements(vehicle.system, motion_, line_));
+    dampers +=
+        force.dot(elements.of(moved)) + by_line -
+        (energy_of_elements(vehicle.system, step.end, line) - energy_of_elements(vehicle.system, motion_, line_));
   }
   e.dampers = energy_.dampers + dampers;
   e.contact_work = energy_.contact_work;

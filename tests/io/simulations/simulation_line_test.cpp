@@ -268,6 +268,65 @@ TEST_F(SimulationLine, SpeedsAndTorquesThatMakeNoSenseAreRefused) {
   EXPECT_THAT(refused("torque_N_m", "torque_Nm"), HasSubstr("torque_N_m"));
 }
 
+const std::string kFromOutside = R"(
+[[simulation.forces]]
+body = "mass"
+at_m = [0.5, 0, -2]
+direction = "z"
+time_s = [0, 1]
+force_N = [0, 500]
+
+[[simulation.forces]]
+body = "axle"
+direction = "yaw"
+time_s = [0]
+moment_N_m = [70]
+
+[[simulation.rail_shifts]]
+wheelset = 1
+side = "left"
+direction = "z"
+time_s = [0, 1]
+displacement_mm = [0, 5]
+)";
+
+TEST_F(SimulationLine, WhatActsFromOutsideIsRead) {
+  const SimulationFile file = parse(kFromOutside);
+  ASSERT_EQ(file.forces.size(), 2u);
+  EXPECT_EQ(file.forces[0].point, Vec3(0.5, 0.0, -2.0));
+  EXPECT_EQ(force_at(file.forces[0], 0.5), 250.0);
+  EXPECT_FALSE(file.forces[1].point);
+  EXPECT_EQ(file.forces[1].direction, Freedom::yaw);
+  EXPECT_EQ(force_at(file.forces[1], 9.0), 70.0);
+  ASSERT_EQ(file.rail_shifts.size(), 1u);
+  EXPECT_EQ(file.rail_shifts[0].wheelset, 0);
+  EXPECT_EQ(file.rail_shifts[0].left, true);
+  EXPECT_NEAR(file.rail_shifts[0].displacement[1], 5e-3, 1e-18);
+  const auto refused = [&](const std::string& good, const std::string& bad) {
+    std::string text = kFromOutside;
+    text.replace(text.find(good), good.size(), bad);
+    try {
+      parse(text);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refused("\"mass\"", "\"mas\""), HasSubstr("did you mean 'mass'"));
+  EXPECT_THAT(refused("force_N = [0, 500]", "moment_N_m = [0, 500]"), HasSubstr("force_N must be given"));
+  EXPECT_THAT(refused("moment_N_m = [70]", ""), HasSubstr("moment_N_m must be given"));
+  EXPECT_THAT(refused("force_N = [0, 500]", "force_N = [0]"), HasSubstr("has 2 values"));
+  EXPECT_THAT(refused("wheelset = 1", "wheelset = 3"), HasSubstr("the vehicle has 1"));
+  EXPECT_THAT(refused("\"left\"", "\"lft\""), HasSubstr("did you mean 'left'"));
+  EXPECT_THAT(refused("time_s = [0, 1]\ndisplacement_mm = [0, 5]", "time_s = [0]\ndisplacement_mm = [0]"),
+              HasSubstr("needs two times"));
+  EXPECT_THAT(refused("[[simulation.rail_shifts]]",
+                      "[[simulation.spring_motions]]\nspring = \"primary1\"\n"
+                      "direction = \"z\"\ntime_s = [0, 1]\ndisplacement_mm = [0, 1]\n"
+                      "[[simulation.rail_shifts]]"),
+              HasSubstr("the spring on the ground 'primary1' is not known"));
+}
+
 TEST_F(SimulationLine, TheSchemaKnowsTheTables) {
   const auto schema = nlohmann::json::parse(simulation_file_schema());
   const auto& layout = schema.at("properties").at("layout").at("properties");

@@ -59,6 +59,67 @@ TEST(VehicleFile, ReadsPartsInSIUnits) {
   EXPECT_DOUBLE_EQ(vehicle.wheelsets[0].nominal_radius, 0.46);
 }
 
+TEST(VehicleFile, DryFrictionIsPressedByWhatItNames) {
+  const std::string text = samples::with(kVehicle, "[[bump_stops]]", R"([[frictions]]
+name = "leaf"
+between = ["axle", "mass"]
+at_m = [[0, -1, -0.46], [0, 1, -0.46]]
+directions = ["y", "z"]
+stiffness_N_per_m = 2e7
+damping_N_s_per_m = 1e4
+coefficient = 0.3
+static_ratio = 1.2
+normal_force_N = 100
+load_of = ["primary"]
+load_share = 0.5
+
+[[frictions]]
+name = "pivot"
+between = ["axle", "mass"]
+at_m = [[0, 0, -0.6]]
+directions = ["yaw"]
+arm_mm = 120
+stiffness_N_per_m = 1e7
+coefficient = 0.1
+coefficient_back = 0.2
+load_of = ["stop"]
+
+[[damper_curves]]
+name = "yaw"
+between = ["axle", "mass"]
+at_m = [[0, 1.3, -0.6]]
+direction = "x"
+velocity_m_s = [0, 0.01, 0.2]
+force_N = [0, 10e3, 12e3]
+series_stiffness_N_per_m = 6e6
+
+[[bump_stops]])");
+  const VehicleModel vehicle = parse_vehicle_text(text, "v.toml", std::vector{parse_override("scale_damping=2")});
+  ASSERT_EQ(vehicle.frictions.size(), 3u);
+  const DryFrictionSpec &leaf = vehicle.frictions[1], &pivot = vehicle.frictions[2];
+  EXPECT_EQ(leaf.name, "leaf2");
+  EXPECT_EQ(leaf.position, Vec3(0.0, 1.0, -0.46));
+  EXPECT_EQ(leaf.directions, (std::array<bool, 6>{false, true, true, false, false, false}));
+  EXPECT_EQ(leaf.stiffness, 2e7);
+  EXPECT_EQ(leaf.damping, 1e4);
+  EXPECT_EQ(leaf.coefficient, 0.3);
+  EXPECT_FALSE(leaf.coefficient_back);
+  EXPECT_EQ(leaf.static_ratio, 1.2);
+  EXPECT_EQ(leaf.normal_force, 100.0);
+  EXPECT_EQ(vehicle.frictions[0].load_of, "primary1");
+  EXPECT_EQ(leaf.load_of, "primary2");
+  EXPECT_EQ(leaf.load_share, 0.5);
+  EXPECT_EQ(pivot.name, "pivot");
+  EXPECT_NEAR(pivot.arm, 0.12, 1e-15);
+  EXPECT_EQ(pivot.coefficient_back, 0.2);
+  EXPECT_EQ(pivot.load_of, "stop");
+  ASSERT_EQ(vehicle.damper_curves.size(), 1u);
+  EXPECT_EQ(vehicle.damper_curves[0].velocity, (std::vector{0.0, 0.01, 0.2}));
+  EXPECT_EQ(vehicle.damper_curves[0].force, (std::vector{0.0, 20e3, 24e3}));  // scaled
+  EXPECT_EQ(vehicle.damper_curves[0].series_stiffness, 6e6);
+  EXPECT_TRUE(parse_vehicle_text(text, "v.toml", std::vector{parse_override("scale_damping=0")}).damper_curves.empty());
+}
+
 TEST(VehicleFile, RotationalValuesAreTheLastThree) {
   const std::string text = samples::with(
       kVehicle, "damping_N_s_per_m = [0, 0, 4e3]",

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -20,8 +22,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kRail = 9e10;     // of Hertz' springs [N/m^1.5]
-constexpr double kSpeedOn = 20.0;  // [m/s]
+constexpr double kRail = 9e10;                         // of Hertz' springs [N/m^1.5]
+constexpr double kSpeedOn = 20.0;                      // [m/s]
 constexpr double kMassOfSlider = 1000.0, kPull = 1e5;  // [kg], [N/m]
 
 /// A wheelset below a mass, and beside them a body that slides along x and hangs on the ground by a spring.
@@ -156,8 +158,8 @@ TEST(DryFriction, TangentsAreDerivatives) {
   EXPECT_LT(slid, 55);
 }
 
-/// A spring's end that goes on at constant speed pulls a body that sticks and slips, in closed form: it sticks until the
-/// spring is as strong as friction at rest, then swings about the spring's stretch under sliding friction.
+/// A spring's end that goes on at constant speed pulls a body that sticks and slips, in closed form: it sticks until
+/// the spring is as strong as friction at rest, then swings about the spring's stretch under sliding friction.
 struct StickSlip {
   double speed = 0.05, sliding = 3000.0, ratio = 1.5;  // [m/s], [N]
   double omega() const { return std::sqrt(kPull / kMassOfSlider); }
@@ -236,9 +238,11 @@ TEST(DryFriction, GoesOnFromASavedStateToTheLastBit) {
 
 constexpr double kLeaf = 2e6, kOnLeaf = 9000.0 * kGravity;  // of wheel_on_mass [N/m], [N]
 
+constexpr double kLeafDamping = 1e5;  // of a linear damper beside it [N s/m]
+
 /// The mass on a leaf spring, whose friction is a share of its load.
 VehicleModel on_leaf_spring(double share) {
-  VehicleModel model = wheel_on_mass(1800.0, 9000.0, kLeaf, 1e3);
+  VehicleModel model = wheel_on_mass(1800.0, 9000.0, kLeaf, kLeafDamping);
   DryFrictionSpec f = rubbing("mass", "wheelset", {0, 0, -0.46}, Freedom::z);
   f.load_of = model.springs[0].name;
   f.coefficient = share;
@@ -258,7 +262,7 @@ BodyForce on_mass(std::vector<double> time, std::vector<double> force) {
 }
 
 TEST(DryFriction, LeafSpringLosesTheAreaOfItsLoop) {
-  constexpr double kShare = 0.08, kForce = 30e3, kPeriod = 2.0;
+  constexpr double kShare = 0.08, kForce = 30e3, kPeriod = 4.0;
   const VehicleOnTrack v = on_line(on_leaf_spring(kShare), [&](LineSetup& setup) {
     std::vector<double> time, force;
     for (int i = 0; i <= 4; ++i) {
@@ -270,7 +274,7 @@ TEST(DryFriction, LeafSpringLosesTheAreaOfItsLoop) {
     setup.forces = {on_mass(time, force)};
   });
   const int mass = place_of(v.system, "mass.z"), set = place_of(v.system, "wheelset.z");
-  Simulation s(v, at_rest(v), steps_of(4.25 * kPeriod, 5e-4));
+  Simulation s(v, at_rest(v), steps_of(4.25 * kPeriod, 1e-3));
   // Over one loop: how far the spring goes in and out, and what is lost.
   double in = -1.0, out = 1.0, before = 0.0, linear = 0.0;
   while (!s.finished()) {
@@ -284,8 +288,8 @@ TEST(DryFriction, LeafSpringLosesTheAreaOfItsLoop) {
     const double compressed = s.state().q[mass] - s.state().q[set], moved = compressed - (q[mass] - q[set]);
     in = std::max(in, compressed);
     out = std::min(out, compressed);
-    linear += 1e3 * moved * moved / (s.state().time - then);
-    EXPECT_GE(s.energy().dampers, taken - 1e-6);
+    linear += kLeafDamping * moved * moved / (s.state().time - then);
+    EXPECT_GE(s.energy().dampers, taken - 1e-4);
   }
   // Friction is share (P + k u) in and out, but for what its own spring takes up where the motion turns.
   const double area = 2.0 * kShare * (kOnLeaf * (in - out) + 0.5 * kLeaf * (in * in - out * out));
@@ -307,7 +311,7 @@ TEST(DryFriction, BalancesAsByHand) {
   while (!s.finished()) s.advance();
   const double u = (kMore - kShare * kOnLeaf) / (kLeaf * (1.0 + kShare));
   EXPECT_NEAR((s.state().q[mass] - s.state().q[set]) / u, 1.0, 0.005);
-  EXPECT_NEAR(s.element_force()[0] / (kShare * (kOnLeaf + kLeaf * u)), 1.0, 0.005);
+  EXPECT_NEAR(-s.element_force()[0] / (kShare * (kOnLeaf + kLeaf * u)), 1.0, 0.005);
   double load = 0.0;
   for (const ContactReaction& r : s.reactions()) load += r.on_rail.force.z();
   EXPECT_NEAR(load / ((1800.0 + 9000.0) * kGravity + kMore), 1.0, 1e-4);
@@ -316,6 +320,7 @@ TEST(DryFriction, BalancesAsByHand) {
 
 TEST(DryFriction, WedgesHoldMoreOneWay) {
   VehicleModel model = with_slider();
+  model.springs.back().damping[0] = 2.0 * std::sqrt(kPull * kMassOfSlider);
   DryFrictionSpec f = rubbing(kGround, "slider", {3, 0, -1}, Freedom::x);
   f.normal_force = 1e4;
   f.coefficient = 0.4;

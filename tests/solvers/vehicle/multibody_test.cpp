@@ -235,8 +235,7 @@ TEST(Multibody, CharacteristicsAreOddAndHaveAPotential) {
   EXPECT_NEAR(value_at(c, 0.04).force, 2920.0, 1e-9);
   for (const double u : {0.026, 0.031, 0.037, -0.033}) {
     const double h = 1e-7;
-    EXPECT_NEAR((value_at(c, u + h).integral - value_at(c, u - h).integral) / (2 * h),
-                value_at(c, u).force, 1e-3);
+    EXPECT_NEAR((value_at(c, u + h).integral - value_at(c, u - h).integral) / (2 * h), value_at(c, u).force, 1e-3);
   }
 }
 
