@@ -11,6 +11,7 @@ Command add_assess(CLI::App& verb) { return add_left_out(verb); }
 Command add_sweep(CLI::App& verb) { return add_left_out(verb); }
 Command add_evolve(CLI::App& verb) { return add_left_out(verb); }
 Command add_stability(CLI::App& verb) { return add_left_out(verb); }
+Command add_response(CLI::App& verb) { return add_left_out(verb); }
 Command add_track(CLI::App& verb) { return add_left_out(verb); }
 Command add_table(CLI::App& verb) { return add_left_out(verb); }
 

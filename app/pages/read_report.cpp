@@ -97,6 +97,7 @@ constexpr KindRow kKinds[] = {
     {"geometry.json", "the geometry of a wheelset on its track", plain},
     {"track.json", "how a track gives way", plain},
     {"stability.json", "the stability of a vehicle", plain},
+    {"response.json", "the response of a vehicle", plain},
     {"assessment.json", "an assessment", plain}};
 
 fs::path Found::store() const { return folder / row->file; }

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/stability/straight_vehicle.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
-#include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -24,19 +24,6 @@ std::vector<double> speeds_of(const StabilityRequest& r) {
   return speeds;
 }
 
-void require_linear(const io::SimulationFile& file) {
-  for (const io::WheelContactInput& wheel : file.wheels)
-    if (wheel.model == io::ContactModelInput::full)
-      throw Error(
-          ErrorKind::configuration,
-          fmt::format("wheel {} has full contact, whose elements make forces jump: eigenvalues need derivatives",
-                      wheel_name(wheel)),
-          {}, "give it contact = \"table\", or all of them: --set simulation.wheels=[]");
-  if (file.flexible_track)
-    throw Error(ErrorKind::configuration, "the eigenvalues of a vehicle on rails that bend are not known", {},
-                "take a lumped track: treadmark track --fit makes one");
-}
-
 }  // namespace
 
 StabilityRun run_stability(const StabilityRequest& request, const Progress& progress) {
@@ -45,12 +32,10 @@ StabilityRun run_stability(const StabilityRequest& request, const Progress& prog
   vehicle::StabilitySettings settings;
   settings.speeds = speeds_of(request);
   settings.speed_tolerance = request.tolerance;
-  io::SimulationFile file = io::read_simulation_file(request.file, request.overrides);
+  io::SimulationFile file = straight_vehicle(request.file, request.overrides);
   run.title = file.title.empty() ? file.vehicle.name : file.title;
   run.notes = file.notes;
-  require_linear(file);
   file.layout.reset();
-  file.irregularities.reset();
   SurfaceStore store;
   ContactTables tables(request.cache);
   {

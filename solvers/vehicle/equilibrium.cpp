@@ -252,11 +252,12 @@ void step_over_jumps(const Balance& balance, double coarseness, double share, do
 
 }  // namespace
 
-PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const SystemState& state, double coarseness) {
+PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const SystemState& state, double coarseness,
+                       bool all) {
   const PairMotion m = vehicle.motion(i, state);
   PairTangent t;
   for (int c = 0; c < kPairCoordinates; ++c) {
-    if (vehicle.maps[i].row(c).isZero(0.0)) continue;
+    if (!all && vehicle.maps[i].row(c).isZero(0.0)) continue;
     t.stiffness.col(c) = -slope(vehicle, i, m, coarseness * kSteps[c],
                                 [c](PairMotion& changed, double by) { displace(changed, c, by); });
     t.damping.col(c) = -slope(vehicle, i, m, coarseness * kRateSteps[c] * vehicle.speed,

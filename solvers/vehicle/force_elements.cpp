@@ -10,8 +10,6 @@
 namespace treadmark::vehicle {
 namespace {
 
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
 using Index = Eigen::Index;
 
 CurveValue value_of_odd(const ForceCurve& c, double at) {

@@ -14,6 +14,9 @@
 
 namespace treadmark::vehicle {
 
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
 /// A force through points, linear between them, continued by the first and the last slope.
 struct ForceCurve {
   std::vector<double> at, force;  ///< at: increasing, displacements [m] or rates [m/s]; force [N]
@@ -41,9 +44,9 @@ struct DryFriction {
   double damping = 0.0;                 ///< then [N s/m]
   std::array<double, 2> coefficient{};  ///< sliding forwards and back
   double static_ratio = 1.0;
-  double normal_force = 0.0;       ///< where the load's column is not displaced [N]
-  int load = -1;                   ///< column on whose displacement it depends; -1: none
-  double by_load = 0.0;            ///< by that displacement [N/m], or share of the size of `stop`
+  double normal_force = 0.0;            ///< where the load's column is not displaced [N]
+  int load = -1;                        ///< column on whose displacement it depends; -1: none
+  double by_load = 0.0;                 ///< by that displacement [N/m], or share of the size of `stop`
   std::optional<ForceCurve> stop = {};  ///< force by that displacement
 };
 
@@ -64,41 +67,40 @@ struct ForceElements {
   int size() const { return static_cast<int>(columns.size()); }
   /// Memory in the reference configuration: how far each column of friction has slid [m], then whether each friction
   /// slides.
-  Eigen::VectorXd fresh_memory() const;
+  Vector fresh_memory() const;
   /// Displacements (rates) of the columns by those of the coordinates.
-  Eigen::VectorXd of(const Eigen::VectorXd& coordinates) const;
+  Vector of(const Vector& coordinates) const;
   /// The same of all columns as a matrix: its rows are columns' directions.
-  Eigen::MatrixXd directions(Eigen::Index coordinates) const;
+  Matrix directions(Eigen::Index coordinates) const;
   /// Generalised force on the coordinates of forces that resist the columns' displacements.
-  Eigen::VectorXd on_coordinates(const Eigen::VectorXd& force, Eigen::Index coordinates) const;
+  Vector on_coordinates(const Vector& force, Eigen::Index coordinates) const;
   /// Energy that the springs of friction hold at displacements of the columns [J].
-  double energy(const Eigen::VectorXd& displacement, const Eigen::VectorXd& memory) const;
+  double energy(const Vector& displacement, const Vector& memory) const;
 };
 
 /// Of all columns.
 struct ElementResponse {
-  Eigen::VectorXd force;               ///< against the displacements [N]
-  Eigen::MatrixXd stiffness, damping;  ///< its derivatives by displacements and rates
-  Eigen::VectorXd memory;
+  Vector force;               ///< against the displacements [N]
+  Matrix stiffness, damping;  ///< its derivatives by displacements and rates
+  Vector memory;
 };
 
 /// At displacements [m] and rates [m/s] of the columns, from what was remembered before.
-ElementResponse respond(const ForceElements& elements, const Eigen::VectorXd& displacement, const Eigen::VectorXd& rate,
-                        const Eigen::VectorXd& memory);
+ElementResponse respond(const ForceElements& elements, const Vector& displacement, const Vector& rate,
+                        const Vector& memory);
 
 /// A time step as the elements see it: displacement + of_displacement * y, rate + of_rate * y, where accelerations
 /// y = free - flexibility * force.
 struct ElementStep {
-  Eigen::VectorXd displacement, rate;
+  Vector displacement, rate;
   double of_displacement = 0.0, of_rate = 0.0;
-  Eigen::VectorXd free;
-  Eigen::MatrixXd flexibility;
-  Eigen::VectorXd guess;   ///< of y
+  Vector free;
+  Matrix flexibility;
+  Vector guess;            ///< of y
   double tolerance = 0.0;  ///< of forces [N]
 };
 /// Response that agrees with the accelerations which it makes, by Newton's method. None: they were not found; they are
 /// there in a short enough step.
-std::optional<ElementResponse> settle(const ForceElements& elements, const ElementStep& step,
-                                      const Eigen::VectorXd& memory);
+std::optional<ElementResponse> settle(const ForceElements& elements, const ElementStep& step, const Vector& memory);
 
 }  // namespace treadmark::vehicle

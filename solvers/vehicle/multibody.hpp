@@ -33,9 +33,6 @@ struct PairTangent {
 PairTangent pair_tangent(const ContactReaction& reaction, const PairMotion& motion, const Vec3& rail_marker,
                          double radius);
 
-using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
-
 /// One coordinate of the whole system.
 struct Coordinate {
   int body = -1;  ///< -1: inner end of a damper that has a spring in series; without mass

@@ -166,7 +166,7 @@ TEST_F(BadInput, WhatHasNoEndIsNotRead) {
                                      {"bench", name},
                                      {"diff", name, name}});
     if (has_part("vehicle"))
-      for (const char* verb : {"simulate", "evolve", "stability", "track", "sweep", "table"})
+      for (const char* verb : {"simulate", "evolve", "stability", "response", "track", "sweep", "table"})
         commands.push_back({verb, name, "-o", out});
     if (has_part("vehicle")) commands.push_back({"assess", name});
     if (has_part("scans")) commands.push_back({"scan", name, "-o", out + ".xyz", "--body", "rail"});

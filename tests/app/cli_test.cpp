@@ -138,9 +138,9 @@ TEST(CommandLine, ListsAndSchema) {
   EXPECT_EQ(run_program({"list", "verbs"}).out,
             "run\ncheck\ngeometry\n" + verb("table", "vehicle") + "compare\ndiff\nbench\nconform\nmeasure\n" +
                 verb("import", "scans") + verb("scan", "scans") + "convert\ntrace\n" + verb("simulate", "vehicle") +
-                verb("assess", "vehicle") + verb("stability", "vehicle") + verb("track", "vehicle") +
-                verb("fmu", "fmu") + verb("evolve", "vehicle") + verb("sweep", "vehicle") + verb("report", "report") +
-                verb("plot", "report") + "new\nlist\nschema\ncompletion\nman\n");
+                verb("assess", "vehicle") + verb("stability", "vehicle") + verb("response", "vehicle") +
+                verb("track", "vehicle") + verb("fmu", "fmu") + verb("evolve", "vehicle") + verb("sweep", "vehicle") +
+                verb("report", "report") + verb("plot", "report") + "new\nlist\nschema\ncompletion\nman\n");
 }
 
 TEST(CommandLine, HelpFitsATerminalAndHasExamples) {

@@ -145,6 +145,7 @@ TEST_F(Mistakes, FilesThatAreNotThereAreLookedForBesideTheirName) {
       expect({"sweep", name, "-o", "@/x"}, 2, {near});
       expect({"evolve", name, "-o", "@/x"}, 2, {near});
       expect({"stability", name}, 2, {near});
+      expect({"response", name}, 2, {near});
       expect({"track", name}, 2, {near});
     }
     write("sim.toml", "[simulation]\nvehicle = \"My.toml\"\nspeed_m_s = 1\ndistance_m = 1\n");

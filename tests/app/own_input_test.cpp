@@ -61,6 +61,7 @@ TEST(OwnInput, IsNoOutputOfAnyVerb) {
       {"sweep", {{"@"}, "vehicle"}},
       {"evolve", {{"@"}, "vehicle"}},
       {"stability", {{"@"}, "vehicle"}},
+      {"response", {{"@"}, "vehicle"}},
       {"track", {{"@"}, "vehicle"}},
       {"table", {{"@"}, "vehicle"}},
       {"fmu", {{"@"}, "fmu"}},

@@ -26,8 +26,8 @@ bool is_of_set(const std::string& path) { return path.find(".slcw-") != path.npo
 /// Written last and removed first: where it stands, the other files of its folder are of the same making.
 bool is_last(const std::string& path) {
   const std::string name = path.substr(path.rfind('/') + 1);
-  constexpr std::string_view kLast[] = {"result.json", "compare.json",    "bench.json",    "simulation.h5",
-                                        "track.json",  "assessment.json", "stability.json"};
+  constexpr std::string_view kLast[] = {"result.json", "compare.json",    "bench.json",     "simulation.h5",
+                                        "track.json",  "assessment.json", "stability.json", "response.json"};
   return path.size() > name.size() && ranges::find(kLast, name) != std::end(kLast);
 }
 

@@ -64,6 +64,10 @@ depths_mm = [3]
   "stability " TREADMARK_SOURCE_DIR                          \
   "/examples/flat-at-speed.toml --set simulation.wheels=[] " \
   "--set simulation.vehicle=vehicles/single-wheelset.toml --from 20 --count 2"
+#define RESPONSE                                             \
+  "response " TREADMARK_SOURCE_DIR                           \
+  "/examples/flat-at-speed.toml --set simulation.wheels=[] " \
+  "--set simulation.vehicle=vehicles/single-wheelset.toml"
 #define TABLE                                                                            \
   "table $case.toml --lateral-range-mm 1 --step-mm 1 --element-mm 2 --roll-intervals 0 " \
   "--yaw-intervals 0 --creep-forces linear --check-points 1"
@@ -120,6 +124,7 @@ const std::vector<OutputRow> kRows{
     {"evolve", "vehicle hdf5 openvdb", "", "evolve $short-evolution.toml -o @evolve --json @evolve.json", nullptr, 0,
      true},
     {"stability", "vehicle", "", STABILITY " --to 30 -o @stability", STABILITY " --to 25 -o @stability", 3},
+    {"response", "vehicle", "", RESPONSE " --count 3 -o @response", RESPONSE " --count 4 -o @response", 3},
     {"table", "vehicle", "", TABLE " -o @table.json --json @told.json", nullptr, 0},
     {"track", "vehicle", "", TRACK " --fit 1 --count 20", TRACK " --fit 1 --count 30", 2},
 };

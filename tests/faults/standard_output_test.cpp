@@ -42,6 +42,10 @@ const std::vector<OutputRow> kPrinting{
      "stability " TREADMARK_SOURCE_DIR "/examples/flat-at-speed.toml --from 20 --to 30 --count 2 --set "
      "simulation.wheels=[] --set simulation.vehicle=vehicles/single-wheelset.toml",
      nullptr, 0},
+    {"response", "vehicle", "",
+     "response " TREADMARK_SOURCE_DIR "/examples/flat-at-speed.toml --count 2 --set simulation.wheels=[] --set "
+     "simulation.vehicle=vehicles/single-wheelset.toml",
+     nullptr, 0},
     {"track", "vehicle", "", "track " TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml --count 20", nullptr, 0},
     {"list", "", "", "list verbs", nullptr, 0},
     {"schema", "", "", "schema", nullptr, 0},

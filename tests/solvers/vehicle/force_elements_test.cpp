@@ -44,7 +44,7 @@ DryFrictionSpec rubbing(std::string a, std::string b, Vec3 position, Freedom dir
   return f;
 }
 
-VehicleOnTrack on_line(const VehicleModel& model, const std::function<void(LineSetup&)>& change) {
+VehicleOnTrack with_line(const VehicleModel& model, const std::function<void(LineSetup&)>& change) {
   VehicleOnTrack v = on_hertz_springs(model, {}, kSpeedOn, kRail);
   LineSetup setup;
   setup.gravity = kGravity;
@@ -179,7 +179,7 @@ VehicleOnTrack stick_slip(const StickSlip& of) {
   f.stiffness = 1e3 * kPull;
   f.damping = 0.6 * std::sqrt(f.stiffness * kMassOfSlider);
   model.frictions = {f};
-  return on_line(model, [&](LineSetup& setup) {
+  return with_line(model, [&](LineSetup& setup) {
     SpringMotion m;
     m.spring = std::string(kGround) + "-slider";
     m.direction = Freedom::x;
@@ -263,7 +263,7 @@ BodyForce on_mass(std::vector<double> time, std::vector<double> force) {
 
 TEST(DryFriction, LeafSpringLosesTheAreaOfItsLoop) {
   constexpr double kShare = 0.08, kForce = 30e3, kPeriod = 4.0;
-  const VehicleOnTrack v = on_line(on_leaf_spring(kShare), [&](LineSetup& setup) {
+  const VehicleOnTrack v = with_line(on_leaf_spring(kShare), [&](LineSetup& setup) {
     std::vector<double> time, force;
     for (int i = 0; i <= 4; ++i) {
       time.push_back(kPeriod * (i + 0.25));
@@ -303,7 +303,7 @@ TEST(DryFriction, LeafSpringLosesTheAreaOfItsLoop) {
 TEST(DryFriction, BalancesAsByHand) {
   // A load that is laid on slowly compresses spring and friction, which grows along with the load.
   constexpr double kShare = 0.08, kMore = 20e3;
-  const VehicleOnTrack v = on_line(on_leaf_spring(kShare), [&](LineSetup& setup) {
+  const VehicleOnTrack v = with_line(on_leaf_spring(kShare), [&](LineSetup& setup) {
     setup.forces = {on_mass({0.0, 4.0}, {0.0, kMore})};
   });
   const int mass = place_of(v.system, "mass.z"), set = place_of(v.system, "wheelset.z");
@@ -328,7 +328,7 @@ TEST(DryFriction, WedgesHoldMoreOneWay) {
   f.stiffness = 1e3 * kPull;
   f.damping = 1e5;
   model.frictions = {f};
-  const VehicleOnTrack v = on_line(model, [&](LineSetup& setup) {
+  const VehicleOnTrack v = with_line(model, [&](LineSetup& setup) {
     BodyForce push;
     push.body = "slider";
     push.direction = Freedom::x;
@@ -460,7 +460,7 @@ TEST(DamperCurve, ALinearOneIsALinearDamper) {
 }
 
 TEST(RailShift, LiftsWhatStandsOnTheRails) {
-  const VehicleOnTrack v = on_line(wheel_on_mass(1800.0, 9000.0, 2e6, 1e5), [&](LineSetup& setup) {
+  const VehicleOnTrack v = with_line(wheel_on_mass(1800.0, 9000.0, 2e6, 1e5), [&](LineSetup& setup) {
     RailShift shift;
     shift.time = {0.0, 2.0};
     shift.displacement = {0.0, -0.01};
@@ -479,7 +479,7 @@ TEST(BodyForce, ActsAtItsPoint) {
   model.springs = {spring("mass", "wheelset", {0, -1, -0.46}, {0, 3e5, 1e6, 0, 0, 0}),
                    spring("mass", "wheelset", {0, 1, -0.46}, {0, 3e5, 1e6, 0, 0, 0})};
   constexpr double kAbove = 0.7, kForce = 5e3;
-  const VehicleOnTrack v = on_line(model, [&](LineSetup& setup) {
+  const VehicleOnTrack v = with_line(model, [&](LineSetup& setup) {
     BodyForce wind = on_mass({0.0}, {kForce});
     wind.direction = Freedom::y;
     wind.point = Vec3(0.0, 0.0, -1.0 - kAbove);

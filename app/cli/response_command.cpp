@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <string>
+
+#include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/pages/plain_page.hpp"
+#include "treadmark/app/stability/response_run.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+struct ResponseOptions {
+  app::ResponseRequest request;
+  std::string file, json_file, folder, report_file;  ///< empty = none; JSON "-" = stdout
+};
+
+int response_command(const ResponseOptions& options, const CommonOptions& common) {
+  const ThreadLimit limit(common.threads);
+  app::ResponseRequest request = options.request;
+  request.file = options.file;
+  request.cache = io::ContentCache::from_environment();
+  const app::ResponseRun run =
+      with_progress(common.quiet, [&](const Progress& progress) { return app::run_response(request, progress); });
+  print_notes(run.notes, common.quiet);
+  const auto json = [&] { return app::response_json(run); };
+  write_json_file(options.json_file, json);
+  if (!options.folder.empty()) app::write_response_folder(options.folder, run);
+  write_report_file(options.report_file, [&] {
+    return app::pages::plain_page("response", "the response of a vehicle", json(),
+                                  {{"response", "Transfer functions", report::PictureView{app::response_svg(run)}}});
+  });
+  print_results(options.json_file, json, [&] { return app::response_table(run); });
+  return kOk;
+}
+
+}  // namespace
+
+Command add_response(CLI::App& verb) {
+  auto options = std::make_shared<ResponseOptions>();
+  app::ResponseRequest& request = options->request;
+  verb.add_option("FILE", options->file, "Simulation file (.toml)")->required();
+  const auto add_frequency = [&](const char* name, double& value, const char* text) {
+    verb.add_option(name, value, text)->check(CLI::Range(1e-3, 1e5))->capture_default_str()->type_name("HZ");
+  };
+  add_frequency("--from", request.from, "Lowest frequency [Hz]");
+  add_frequency("--to", request.to, "Highest frequency [Hz]");
+  verb.add_option("--count", request.count, "Frequencies, by equal ratios")
+      ->check(CLI::Range(2, 100000))
+      ->capture_default_str();
+  verb.add_option("--inputs", request.inputs,
+                  "What shakes: longitudinal_level, alignment, cross_level, gauge, ws1_left.vertical_force ...; * for "
+                  "any letters")
+      ->delimiter(',')
+      ->type_name("NAMES");
+  verb.add_option("--channels", request.channels, "What responds, by the names of a history: ws1_*.Q_N,car.z_m")
+      ->delimiter(',')
+      ->type_name("NAMES");
+  verb.add_option("--json", options->json_file, "Write the numbers here; - for standard output instead of the text")
+      ->check(is_output())
+      ->type_name("FILE");
+  verb.add_option("-o,--output", options->folder, "Folder for response.json, response.csv and response.svg")
+      ->check(is_output())
+      ->type_name("FOLDER");
+  add_report_file(verb, options->report_file);
+  add_overrides(verb, request.overrides, "simulation.speed_m_s=40");
+  return command(options, response_command);
+}
+
+}  // namespace treadmark::cli

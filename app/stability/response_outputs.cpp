@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/app/stability/response_run.hpp"
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/io/tables/csv_of.hpp"
+#include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/text_of.hpp"
+#include "treadmark/report/pictures/chart.hpp"
+
+namespace treadmark {
+namespace {
+
+constexpr double kDegree = 180.0 / kPi;
+
+/// Of one curve at one frequency.
+struct ResponseRow {
+  std::string input, channel, unit;
+  double frequency = 0.0;  ///< [Hz]
+  std::complex<double> value;
+};
+using R = const ResponseRow&;
+using access::of;
+
+constexpr Column<ResponseRow> kResponse[] = {
+    {"input", unit::kOne, "", of<&ResponseRow::input>(), "", kInTable, "input"},
+    {"channel", unit::kOne, "", of<&ResponseRow::channel>(), "", kInTable, "channel"},
+    {"frequency_Hz", {"Hz"}, "", of<&ResponseRow::frequency>(), "", kInTable, "f"},
+    {"real", unit::kOne, "", {[](R r) { return r.value.real(); }}},
+    {"imaginary", unit::kOne, "", {[](R r) { return r.value.imag(); }}},
+    {"magnitude", unit::kOne, "", {[](R r) { return std::abs(r.value); }}, "", kInTable, "magnitude"},
+    {"phase_deg", {"deg"}, "", {[](R r) { return kDegree * std::arg(r.value); }}, "", kInTable, "phase"},
+    {"unit", unit::kOne, "", of<&ResponseRow::unit>(), "", kInTable, "unit"}};
+
+ResponseRow row_of(const app::ResponseRun& run, const app::ResponseCurve& curve, std::size_t i) {
+  return {curve.input, curve.channel, curve.unit, run.frequency[i], curve.values[i]};
+}
+
+}  // namespace
+
+template <>
+std::span<const Column<ResponseRow>> columns() {
+  return kResponse;
+}
+
+namespace app {
+namespace {
+
+using io::Json;
+
+bool is_in_picture(const ResponseCurve& curve) {
+  return curve.channel.ends_with("Q_N") || curve.channel.ends_with("Y_N") || curve.channel.ends_with("_m_s2");
+}
+
+/// Magnitudes of forces, or of accelerations, under one input.
+std::optional<pictures::Chart> chart_of(const ResponseRun& run, const std::string& input, bool forces) {
+  constexpr std::size_t kMost = 8;  // that can be told apart
+  pictures::Chart chart;
+  chart.x_label = "frequency [Hz]";
+  chart.x_scale = chart.y_scale = pictures::AxisScale::log;
+  chart.x_range = {run.frequency.front(), run.frequency.back()};
+  for (const ResponseCurve& curve : run.curves) {
+    if (curve.input != input || !is_in_picture(curve) || curve.channel.ends_with("_N") != forces) continue;
+    if (chart.series.size() == kMost) break;
+    chart.title = input + ": " + (forces ? "forces" : "accelerations");
+    chart.y_label = '[' + curve.unit + ']';
+    pictures::ChartSeries series;
+    series.name = curve.channel;
+    series.style = static_cast<int>(chart.series.size());
+    for (std::size_t i = 0; i < run.frequency.size(); ++i)
+      series.curve.push_back({run.frequency[i], std::abs(curve.values[i])});
+    // What a symmetric vehicle does not feel is rounding.
+    constexpr double kNothing = 1e-9;
+    const auto largest = [](const pictures::Curve& c) {
+      double most = 0.0;
+      for (const auto& point : c) most = std::max(most, point[1]);
+      return most;
+    };
+    double most = 0.0;
+    for (const ResponseCurve& other : run.curves)
+      if (other.input == input && other.unit == curve.unit)
+        for (const auto& value : other.values) most = std::max(most, std::abs(value));
+    if (largest(series.curve) > kNothing * most) chart.series.push_back(std::move(series));
+  }
+  if (chart.series.empty()) return std::nullopt;
+  return chart;
+}
+
+}  // namespace
+
+std::string response_table(const ResponseRun& run) {
+  // Each curve at its highest magnitude.
+  std::vector<ResponseRow> rows;
+  rows.reserve(run.curves.size());
+  for (const ResponseCurve& curve : run.curves) {
+    const auto most = std::max_element(curve.values.begin(), curve.values.end(),
+                                       [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
+    rows.push_back(row_of(run, curve, static_cast<std::size_t>(most - curve.values.begin())));
+  }
+  return fmt::format("{} at {:g} m/s, {:g} to {:g} Hz; each at its highest\n", run.title, run.speed,
+                     run.frequency.front(), run.frequency.back()) +
+         io::table_of(rows);
+}
+
+std::string response_csv(const ResponseRun& run) {
+  std::vector<ResponseRow> rows;
+  rows.reserve(run.curves.size() * run.frequency.size());
+  for (const ResponseCurve& curve : run.curves)
+    for (std::size_t i = 0; i < run.frequency.size(); ++i) rows.push_back(row_of(run, curve, i));
+  return io::csv_of(rows, Digits::all);
+}
+
+std::string response_json(const ResponseRun& run) {
+  Json out;
+  out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
+  out["input"] = {{"file", run.request.file.string()}, {"settings", run.request.overrides}};
+  out["title"] = run.title;
+  out["speed_m_s"] = io::number(run.speed);
+  out["frequency_Hz"] = io::numbers(run.frequency);
+  out["responses"] = Json::array();
+  for (const ResponseCurve& curve : run.curves) {
+    std::vector<double> real, imaginary;
+    real.reserve(curve.values.size());
+    imaginary.reserve(curve.values.size());
+    for (const auto& value : curve.values) {
+      real.push_back(value.real());
+      imaginary.push_back(value.imag());
+    }
+    out["responses"].push_back({{"input", curve.input},
+                                {"channel", curve.channel},
+                                {"unit", curve.unit},
+                                {"real", io::numbers(real)},
+                                {"imaginary", io::numbers(imaginary)}});
+  }
+  return io::dumped(out, 2) + '\n';
+}
+
+std::string response_svg(const ResponseRun& run) {
+  pictures::ChartSheet sheet;
+  sheet.title = fmt::format("{}, {:g} m/s", run.title, run.speed);
+  sheet.width = 620.0;
+  sheet.height = 280.0;
+  sheet.gap_y = 66.0;
+  sheet.top = 58.0;
+  std::string last;
+  for (const ResponseCurve& curve : run.curves) {
+    if (curve.input == last) continue;
+    last = curve.input;
+    for (const bool forces : {true, false})
+      if (auto chart = chart_of(run, curve.input, forces)) sheet.charts.push_back(std::move(*chart));
+  }
+  return pictures::draw_sheet(sheet);
+}
+
+void write_response_folder(const std::filesystem::path& folder, const ResponseRun& run) {
+  OutputFolder output(folder, OutputFolder::Old::kept);
+  write_file(output.path() / "response.csv", response_csv(run));
+  write_file(output.path() / "response.svg", response_svg(run));
+  write_file(output.path() / "response.json", response_json(run));
+  output.move_into("response.json");
+}
+
+}  // namespace app
+}  // namespace treadmark

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/stability/response_run.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/stability/straight_vehicle.hpp"
+#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/histories/channels.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/model/vehicle/assessment.hpp"
+#include "treadmark/solvers/vehicle/stability/response.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Complex = std::complex<double>;
+using vehicle::FrequencyResponse;
+using vehicle::ResponseInput;
+
+std::vector<double> frequencies_of(const ResponseRequest& r) {
+  if (!(r.from > 0.0) || !(r.to > r.from) || r.count < 2)
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} frequencies from {:g} to {:g} Hz make no range", r.count, r.from, r.to));
+  std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(r.count));
+  for (int i = 0; i < r.count; ++i) all.push_back(r.from * std::pow(r.to / r.from, i / (r.count - 1.0)));
+  all.back() = r.to;
+  return all;
+}
+
+struct Channel {
+  std::function<Complex(const FrequencyResponse&, double omega)> value;
+};
+
+/// Names with their units, as the columns of histories have them.
+template <class Part>
+struct Named {
+  std::vector<io::HistoryColumn> heads;
+  std::vector<Part> parts;
+
+  void add(std::string name, std::string unit, Part part) {
+    heads.push_back({std::move(name), std::move(unit), {}});
+    parts.push_back(std::move(part));
+  }
+  std::vector<std::size_t> chosen(const std::vector<std::string>& patterns) const {
+    return io::fitting_columns(heads, patterns);
+  }
+};
+
+Named<ResponseInput> all_inputs(const vehicle::VehicleOnTrack& v) {
+  using Kind = ResponseInput::Kind;
+  Named<ResponseInput> all;
+  for (std::size_t i = 0; i < kIrregularityNames.size(); ++i)
+    all.add(std::string(kIrregularityNames[i]), "m", {Kind::irregularity, static_cast<Irregularity>(i), 0});
+  for (std::size_t i = 0; i < v.wheels.size(); ++i) {
+    all.add(v.wheels[i].name + ".lateral_force", "N", {Kind::lateral_force, {}, i});
+    all.add(v.wheels[i].name + ".vertical_force", "N", {Kind::vertical_force, {}, i});
+  }
+  return all;
+}
+
+/// Forces of wheels, accelerations of axle boxes and points, motions of bodies, by the names that histories have.
+Named<Channel> all_channels(const io::SimulationFile& file, const vehicle::VehicleOnTrack& v) {
+  Named<Channel> all;
+  for (std::size_t i = 0; i < v.wheels.size(); ++i) {
+    all.add(v.wheels[i].name + ".Q_N", "N", {[i](const FrequencyResponse& r, double) { return r.vertical[i]; }});
+    all.add(v.wheels[i].name + ".Y_N", "N", {[i](const FrequencyResponse& r, double) { return r.lateral[i]; }});
+  }
+  const auto add_point = [&](const std::string& name, const vehicle::Multibody::Body& body, const Vec3& arm) {
+    const auto of = [at = body.coordinate](const FrequencyResponse& r, Freedom f) {
+      const int c = at[static_cast<std::size_t>(f)];
+      return c < 0 ? Complex(0.0) : r.coordinate[c];
+    };
+    // As instruments on the body show it, which lean with it.
+    all.add(name + ".ay_m_s2", "m/s2", {[=, g = file.settings.gravity](const FrequencyResponse& r, double omega) {
+              return -omega * omega *
+                         (of(r, Freedom::y) + of(r, Freedom::yaw) * arm.x() - of(r, Freedom::roll) * arm.z()) -
+                     g * of(r, Freedom::roll);
+            }});
+    const double pitching = body.wheelset < 0 ? arm.x() : 0.0;  // axle boxes do not turn with the axle
+    all.add(name + ".az_m_s2", "m/s2", {[=](const FrequencyResponse& r, double omega) {
+              return -omega * omega *
+                     (of(r, Freedom::z) + of(r, Freedom::roll) * arm.y() - of(r, Freedom::pitch) * pitching);
+            }});
+  };
+  for (const vehicle::WheelOnRail& wheel : v.wheels) {
+    const double y = wheel.side == wheelrail::Side::left ? -file.history.axle_box_y : file.history.axle_box_y;
+    const auto& set = v.system.wheelsets[static_cast<std::size_t>(wheel.wheelset)];
+    add_point("axle_box." + wheel.name, v.system.bodies[static_cast<std::size_t>(set.body)], {0.0, y, 0.0});
+  }
+  for (const io::PointInput& point : file.history.points)
+    add_point(fmt::format("{}.{}", kPointKinds[static_cast<std::size_t>(point.kind)], point.name),
+              *ranges::find(v.system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm);
+  for (std::size_t i = 0; i < v.system.coordinates.size(); ++i) {
+    const vehicle::Coordinate& c = v.system.coordinates[i];
+    if (c.body < 0) continue;
+    const std::string unit = static_cast<int>(c.freedom) < 3 ? "m" : "rad";
+    all.add(c.name + '_' + unit, unit,
+            {[i](const FrequencyResponse& r, double) { return r.coordinate[static_cast<Eigen::Index>(i)]; }});
+  }
+  return all;
+}
+
+}  // namespace
+
+ResponseRun run_response(const ResponseRequest& request, const Progress& progress) {
+  ResponseRun run;
+  run.request = request;
+  run.frequency = frequencies_of(request);
+  io::SimulationFile file = straight_vehicle(request.file, request.overrides);
+  run.title = file.title.empty() ? file.vehicle.name : file.title;
+  run.notes = file.notes;
+  run.speed = file.settings.speed;
+  const double base = file.layout ? file.layout->cant_base : TrackLayout{}.cant_base;
+  file.layout.reset();
+  SurfaceStore store;
+  ContactTables tables(request.cache);
+  const CancellationScope scope(progress.stop);
+  const vehicle::VehicleOnTrack v = build_vehicle(file, store, &tables).vehicle;
+  const Named<ResponseInput> inputs = all_inputs(v);
+  const Named<Channel> channels = all_channels(file, v);
+  std::vector<std::string> wanted = request.inputs;
+  if (wanted.empty()) {
+    wanted.assign(kIrregularityNames.begin(), kIrregularityNames.end());
+    wanted.push_back(v.wheels.front().name + ".*");
+  }
+  const std::vector<std::string>& asked = request.channels.empty() ? file.history.channels : request.channels;
+  const std::vector<std::size_t> chosen_inputs = inputs.chosen(wanted),
+                                 chosen = channels.chosen(asked.empty() ? std::vector<std::string>{"*"} : asked);
+  std::vector<ResponseInput> shakers;
+  for (const std::size_t i : chosen_inputs) {
+    shakers.push_back(inputs.parts[i]);
+    for (const std::size_t c : chosen)
+      run.curves.push_back(
+          {inputs.heads[i].name, channels.heads[c].name, channels.heads[c].unit + '/' + inputs.heads[i].unit, {}});
+  }
+
+  const vehicle::Equilibrium balance = vehicle::find_equilibrium(v);
+  if (balance.report.status != Status::ok)
+    throw Error(ErrorKind::numerical, balance.report.message, {}, vehicle::kNoEquilibriumAdvice);
+  if (!balance.report.message.empty()) run.notes.push_back(balance.report.message);
+  const vehicle::LinearVehicle linear(v, balance.state, base);
+  for (const double frequency : run.frequency) {
+    check_cancelled();
+    const std::vector<FrequencyResponse> all = linear.at(frequency, shakers);
+    auto curve = run.curves.begin();
+    for (const FrequencyResponse& r : all)
+      for (const std::size_t c : chosen)
+        (curve++)->values.push_back(channels.parts[c].value(r, 2.0 * std::numbers::pi * frequency));
+  }
+  return run;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <complex>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "treadmark/core/progress.hpp"
+#include "treadmark/io/files/content_cache.hpp"
+#include "treadmark/io/simulations/simulation_model.hpp"
+
+namespace treadmark::app {
+
+/// What `treadmark response` is asked for.
+struct ResponseRequest {
+  std::filesystem::path file;
+  std::vector<std::string> overrides;  ///< of the simulation file
+  double from = 0.5, to = 50.0;        ///< frequencies [Hz]
+  int count = 201;                     ///< of them, by equal ratios
+  std::vector<std::string> inputs;     ///< names, * for any letters; empty: irregularities, forces at the first wheel
+  std::vector<std::string> channels;   ///< the same of what responds; empty: those of the file, else all
+  std::optional<io::ContentCache> cache;  ///< where tables are kept for other processes
+};
+
+/// What responds to one input.
+struct ResponseCurve {
+  std::string input, channel, unit;          ///< "longitudinal_level", "ws1_left.Q_N", "N/m"
+  std::vector<std::complex<double>> values;  ///< by frequency [SI], e^(i w t)
+};
+
+/// Transfer functions of a vehicle that runs steadily.
+struct ResponseRun {
+  ResponseRequest request;
+  std::string title;
+  std::vector<std::string> notes;  ///< of the file, and warnings about the equilibrium
+  double speed = 0.0;              ///< [m/s]
+  std::vector<double> frequency;   ///< [Hz]
+  std::vector<ResponseCurve> curves;
+};
+
+/// The vehicle of a simulation file on straight track at its speed, linearised
+/// (solvers/vehicle/stability/response.hpp). Errors: Error(configuration) for frequencies that are no range, names that
+/// fit nothing, wheels with full contact and rails that bend; those of the file; Error(numerical) without an
+/// equilibrium. May be cancelled.
+ResponseRun run_response(const ResponseRequest& request, const Progress& progress = {});
+
+std::string response_table(const ResponseRun& run);
+std::string response_json(const ResponseRun& run);
+std::string response_csv(const ResponseRun& run);
+std::string response_svg(const ResponseRun& run);
+
+/// response.json, response.csv, response.svg.
+void write_response_folder(const std::filesystem::path& folder, const ResponseRun& run);
+
+}  // namespace treadmark::app

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/stability/response_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "treadmark/app/simulation/run_simulation.hpp"
+#include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Complex = std::complex<double>;
+using std::numbers::pi;
+
+const std::string kVehicleRuns = std::string(TREADMARK_SOURCE_DIR) + "/examples/flat-at-speed.toml";
+constexpr double kFast = 40.0, kLeading = 10.78;  // [m/s], [m]
+
+/// The vehicle on round wheels, at constant speed.
+std::vector<std::string> round_wheels(double distance) {
+  return {"simulation.wheels=[]", "simulation.speed_m_s=" + std::to_string(kFast),
+          "simulation.distance_m=" + std::to_string(distance)};
+}
+
+ResponseRun response_of(double from, double to, int count) {
+  ResponseRequest request;
+  request.file = kVehicleRuns;
+  request.overrides = round_wheels(1.0);
+  request.from = from;
+  request.to = to;
+  request.count = count;
+  return run_response(request);
+}
+
+const std::vector<Complex>& curve(const ResponseRun& run, const std::string& input, const std::string& channel) {
+  const auto found =
+      ranges::find_if(run.curves, [&](const ResponseCurve& c) { return c.input == input && c.channel == channel; });
+  EXPECT_NE(found, run.curves.end()) << input << ' ' << channel;
+  return found->values;
+}
+
+/// A spring beside a damper with a spring in series.
+Complex stiffness(double omega, double k, double c, double series) {
+  const Complex damper(0.0, omega * c);
+  return k + damper * series / (damper + series);
+}
+
+/// The vehicle in its vertical plane on lumped track, written down by hand: force of the leading left wheel on its
+/// rail, motion of the car, under a level whose phase is that below the leading wheelset.
+struct InThePlane {
+  Complex vertical, car;
+};
+InThePlane in_the_plane(double frequency, double contact) {
+  constexpr double kPivot = 9.5, kBase = 1.28;
+  const double omega = 2.0 * pi * frequency, square = omega * omega;
+  // Of an axle, of a bogie; half track twice.
+  const Complex primary = stiffness(omega, 2 * 1.22e6, 2 * 4e3, 2 * 1e6),
+                secondary = stiffness(omega, 2 * 0.43e6, 2 * 20e3, 2 * 6e6);
+  const Complex pads(2 * 1.63761e8, omega * 2 * 1.88955e5), bed(2 * 3.47047e8, omega * 2 * 1.4814e5);
+  const Complex below = bed - square * 632.37, rails = -square * 2 * 83.263 + pads * below / (pads + below),
+                wheels = 2.0 * contact * rails / (2.0 * contact + rails);
+  using Matrix10 = Eigen::Matrix<Complex, 10, 10>;
+  using Vector10 = Eigen::Matrix<Complex, 10, 1>;
+  Matrix10 dynamic = Matrix10::Zero();  // car z, pitch; bogies z, pitch; wheelsets z
+  const double inertia[] = {32e3, 1.97e6, 2615.0, 1476.0, 2615.0, 1476.0, 1813.0, 1813.0, 1813.0, 1813.0};
+  for (int i = 0; i < 10; ++i) dynamic(i, i) = -square * inertia[i];
+  const auto add = [&](const std::vector<std::pair<int, double>>& stretch, Complex k) {
+    Vector10 by = Vector10::Zero();
+    for (const auto& [c, factor] : stretch) by[c] = factor;
+    dynamic += k * by * by.transpose();
+  };
+  add({{0, 1.0}, {1, -kPivot}, {2, -1.0}}, secondary);
+  add({{0, 1.0}, {1, kPivot}, {4, -1.0}}, secondary);
+  Vector10 right = Vector10::Zero();
+  for (int set = 0; set < 4; ++set) {
+    const int bogie = set < 2 ? 2 : 4;
+    const double arm = set % 2 == 0 ? kBase : -kBase, place = (set < 2 ? kPivot : -kPivot) + arm;
+    add({{bogie, 1.0}, {bogie + 1, -arm}, {6 + set, -1.0}}, primary);
+    dynamic(6 + set, 6 + set) += wheels;
+    right[6 + set] = wheels * std::exp(Complex(0.0, omega * (place - kLeading) / kFast));
+  }
+  const Vector10 moved = dynamic.partialPivLu().solve(right);
+  return {0.5 * wheels * (moved[6] - 1.0), moved[0]};
+}
+
+TEST(Response, IsThatOfTheVehicleInItsPlaneByHand) {
+  const ResponseRun run = response_of(0.5, 40.0, 41);
+  const auto &wheel = curve(run, "longitudinal_level", "ws1_left.Q_N"),
+             &car = curve(run, "longitudinal_level", "car.z_m");
+  double largest = 0.0;
+  for (const Complex& value : car) largest = std::max(largest, std::abs(value));
+  for (std::size_t i = 0; i < run.frequency.size(); ++i) {
+    constexpr double kContact = 1.17e9;  // of one wheel [N/m]; matters little below 40 Hz
+    const InThePlane truth = in_the_plane(run.frequency[i], kContact);
+    EXPECT_LT(std::abs(wheel[i] - truth.vertical), 0.02 * std::abs(truth.vertical)) << run.frequency[i] << " Hz";
+    // The wheelbases filter the car's motion to nothing at some frequencies.
+    EXPECT_LT(std::abs(car[i] - truth.car), 0.02 * std::abs(truth.car) + 1e-4 * largest) << run.frequency[i] << " Hz";
+  }
+}
+
+struct Wave {
+  Irregularity function;
+  double frequency, amplitude, phase;  ///< [Hz] at the speed, [m], [rad]
+};
+
+/// Waves that a vehicle runs over.
+io::SimulationFile over_waves(const std::vector<Wave>& waves, double distance) {
+  io::SimulationFile file = io::read_simulation_file(kVehicleRuns, round_wheels(distance));
+  IrregularityTable table;
+  for (double s = -30.0; s < distance + 60.0; s += 0.1) {
+    table.distance.push_back(s);
+    for (const Wave& w : waves) table.values[static_cast<std::size_t>(w.function)].resize(table.distance.size());
+    for (const Wave& w : waves)
+      table.values[static_cast<std::size_t>(w.function)].back() +=
+          w.amplitude * std::cos(2.0 * pi * w.frequency * s / kFast + w.phase);
+  }
+  IrregularitySpec spec;
+  spec.table = std::move(table);
+  spec.begin = 15.0;
+  spec.wind_up = 40.0;
+  file.irregularities = spec;
+  file.settings.output_every = 0.04;
+  file.settings.tolerance = 1e-7;
+  return file;
+}
+
+/// Complex amplitudes of a column at the frequencies of the waves, by least squares over the times behind a first one.
+std::vector<Complex> amplitudes(const io::SimulationResult& r, const std::string& name, const std::vector<Wave>& waves,
+                                double from) {
+  const std::size_t columns = r.columns.size(), rows = r.values.size() / columns, at = io::column_index(r, name);
+  std::vector<std::size_t> used;
+  for (std::size_t row = 0; row < rows; ++row)
+    if (r.values[row * columns] >= from) used.push_back(row);
+  const auto terms = static_cast<Eigen::Index>(2 * waves.size() + 1);
+  Eigen::MatrixXd a(static_cast<Eigen::Index>(used.size()), terms);
+  Eigen::VectorXd b(a.rows());
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    const std::size_t row = used[static_cast<std::size_t>(i)];
+    const double t = r.values[row * columns];
+    a(i, 0) = 1.0;
+    for (std::size_t w = 0; w < waves.size(); ++w) {
+      const auto c = static_cast<Eigen::Index>(2 * w + 1);
+      a(i, c) = std::cos(2.0 * pi * waves[w].frequency * t);
+      a(i, c + 1) = -std::sin(2.0 * pi * waves[w].frequency * t);
+    }
+    b[i] = r.values[row * columns + at];
+  }
+  const Eigen::VectorXd x = a.colPivHouseholderQr().solve(b);
+  std::vector<Complex> out;
+  for (std::size_t w = 0; w < waves.size(); ++w) {
+    const auto c = static_cast<Eigen::Index>(2 * w + 1);
+    out.emplace_back(x[c], x[c + 1]);
+  }
+  return out;
+}
+
+TEST(Response, IsWhatASimulationMeasures) {
+  using enum Irregularity;
+  const ResponseRun run = response_of(1.3, 11.0, 15);
+  struct Given {
+    Irregularity function;
+    std::size_t at;  ///< in the frequencies of the response
+    double amplitude, phase;
+  };
+  const std::vector<Given> given{{longitudinal_level, 0, 2e-4, 0.3},  {longitudinal_level, 8, 2e-4, 1.1},
+                                 {longitudinal_level, 14, 1e-4, 2.0}, {cross_level, 3, 2e-4, 0.7},
+                                 {cross_level, 11, 1e-4, 1.9},        {alignment, 2, 5e-5, 0.2},
+                                 {alignment, 10, 3e-5, 2.6},          {gauge, 6, 5e-5, 1.4}};
+  std::vector<Wave> waves;
+  waves.reserve(given.size());
+  for (const Given& g : given) waves.push_back({g.function, run.frequency[g.at], g.amplitude, g.phase});
+  const std::vector<std::string> channels{"ws1_left.Q_N", "ws3_right.Q_N", "ws1_left.Y_N", "axle_box.ws2_left.ay_m_s2",
+                                          "axle_box.ws2_left.az_m_s2"};
+  io::SimulationFile file = over_waves(waves, 800.0);
+  file.history.channels = channels;
+  SurfaceStore store;
+  const io::SimulationResult r = run_simulation(file, store, {}, {});
+  ASSERT_EQ(r.status, "complete") << r.message;
+  for (const std::string& channel : channels) {
+    // Columns of the first wheel have no prefix.
+    const std::string column = channel.starts_with("ws1_left.") ? channel.substr(9) : channel;
+    const std::vector<Complex> measured = amplitudes(r, column, waves, 9.0);
+    for (std::size_t w = 0; w < waves.size(); ++w) {
+      const Wave& wave = waves[w];
+      const std::string name(kIrregularityNames[static_cast<std::size_t>(wave.function)]);
+      const Complex truth = std::polar(wave.amplitude, wave.phase + 2.0 * pi * wave.frequency * kLeading / kFast) *
+                            curve(run, name, channel)[given[w].at];
+      // Beside 2 % of the response: what the tolerance of steps makes of forces and accelerations.
+      const double floor = channel.ends_with("_N") ? 1.0 : 1e-4;
+      EXPECT_LT(std::abs(measured[w] - truth), 0.02 * std::abs(truth) + floor)
+          << channel << ", " << name << " at " << wave.frequency << " Hz: " << measured[w] << " for " << truth;
+    }
+  }
+}
+
+TEST(Response, RefusesWhatItCannotDo) {
+  ResponseRequest request;
+  request.file = kVehicleRuns;
+  request.overrides = round_wheels(1.0);
+  request.channels = {"car.w_m"};
+  EXPECT_THROW(run_response(request), Error);
+  request.channels = {};
+  request.from = 5.0;
+  request.to = 5.0;
+  EXPECT_THROW(run_response(request), Error);
+  request.to = 6.0;
+  request.overrides = {};
+  EXPECT_THROW(run_response(request), Error);  // a wheel with full contact
+}
+
+}  // namespace
+}  // namespace treadmark::app
