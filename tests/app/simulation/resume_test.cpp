@@ -85,6 +85,20 @@ TEST_F(Resume, WheelsThatShareRailsGoOnInTheMiddle) {
   expect_kills_to_change_nothing();
 }
 
+TEST_F(Resume, WhatSticksAndSlidesGoesOnInTheMiddle) {
+  input.edit("vehicle.toml", "[[bump_stops]]",
+             "[[frictions]]\nname = \"leaf\"\nbetween = [\"axle\", \"mass\"]\nat_m = [[0, -1, -0.46], [0, 1, -0.46]]\n"
+             "directions = [\"y\", \"z\"]\nstiffness_N_per_m = 5e7\ncoefficient = 0.02\nstatic_ratio = 1.2\n"
+             "load_of = [\"primary\"]\n\n[[damper_curves]]\nname = \"blows_off\"\nbetween = [\"axle\", \"mass\"]\n"
+             "at_m = [[0, 0, -0.6]]\ndirection = \"z\"\nvelocity_m_s = [0, 0.01, 0.1]\nforce_N = [0, 500, 800]\n"
+             "series_stiffness_N_per_m = 2e6\n\n[[bump_stops]]");
+  input.edit("simulation.toml", "[case]",
+             "[[simulation.forces]]\nbody = \"mass\"\ndirection = \"z\"\ntime_s = [0, 0.004]\nforce_N = [0, 9e3]\n"
+             "[[simulation.rail_shifts]]\nside = \"left\"\ndirection = \"z\"\ntime_s = [0, 0.005]\n"
+             "displacement_mm = [0, 0.2]\n\n[case]");
+  expect_kills_to_change_nothing();
+}
+
 TEST_F(Resume, PeaksBetweenTheLinesOutliveKills) {
   input.edit("simulation.toml", "distance_m = 0.15", "distance_m = 0.15\noutput_every_mm = 60");
   expect_kills_to_change_nothing();
