@@ -118,6 +118,29 @@ void add_spectra(AssessedRun& run) {
   }
 }
 
+/// Means over the time in a section, sides of curves alike. NaN without a line, or where the record has no instant.
+double cant_deficiency_in(const io::SimulationResult& result, const AssessmentSection& section) {
+  constexpr double kBase = 1.5, kGravity = 9.81;
+  const auto column = [&](const char* name) {
+    return ranges::find(result.columns, name, &io::HistoryColumn::name) - result.columns.begin();
+  };
+  const auto place = column("x_m"), time = column("t_s"), speed = column("line.speed_m_s"),
+             curvature = column("line.curvature_1_m"), cant = column("line.cant_m");
+  if (std::max({place, time, speed, curvature, cant}) == static_cast<std::ptrdiff_t>(result.columns.size()))
+    return measures::kUnknown;
+  const auto value = [&](std::size_t row, std::ptrdiff_t c) {
+    return result.values[row * result.columns.size() + static_cast<std::size_t>(c)];
+  };
+  double sum = 0.0, duration = 0.0;
+  for (std::size_t row = 1; row < result.rows(); ++row) {
+    if (value(row, place) < section.from || value(row, place) > section.to) continue;
+    const double v = value(row, speed), step = value(row, time) - value(row - 1, time);
+    sum += step * (kBase / kGravity * v * v * value(row, curvature) - value(row, cant));
+    duration += step;
+  }
+  return duration > 0.0 ? std::fabs(sum) / duration : measures::kUnknown;
+}
+
 void add_doubts(AssessedRun& run) {
   if (run.result->status != "complete")
     run.doubts.push_back(fmt::format("the run is {}: it is assessed as far as it goes", run.result->status));
@@ -285,7 +308,7 @@ void check(const AssessmentRequest& request) {
 AssessedRun assess_result(std::string name, std::shared_ptr<const io::SimulationResult> result,
                           const AssessmentRequest& request) {
   check(request);
-  AssessedRun run{std::move(name), std::move(result), request, {}, {}, {}};
+  AssessedRun run{std::move(name), std::move(result), request, {}, {}, {}, {}};
   const measures::RunSignals signals = signals_of(*run.result, request.laws);
   if (signals.time.size() < 2)
     throw Error(ErrorKind::input_data, fmt::format("{}: the history has fewer than two instants", run.name));
@@ -303,9 +326,22 @@ AssessedRun assess_result(std::string name, std::shared_ptr<const io::Simulation
   if (run.request.sections.empty())
     run.request.sections.push_back({kWholeRun, std::max(request.from, begin), end, SectionKind::straight});
   run.quantities = measures::assess_run(signals, run.request.sections, request.vehicle);
+  for (const AssessmentSection& section : run.request.sections)
+    run.cant_deficiency.push_back(cant_deficiency_in(*run.result, section));
   add_doubts(run);
   if (!request.spectra.empty() && request.from < end) add_spectra(run);
   return run;
+}
+
+std::vector<measures::Estimate> estimates_of(std::span<const AssessedRun> runs) {
+  std::vector<measures::SectionValue> values;
+  for (const AssessedRun& run : runs)
+    for (const measures::Assessed& one : run.quantities) {
+      const auto section = static_cast<std::size_t>(
+          ranges::find(run.request.sections, one.section, &AssessmentSection::name) - run.request.sections.begin());
+      values.push_back({one, run.request.sections[section].kind, run.cant_deficiency[section]});
+    }
+  return measures::estimates_of(values);
 }
 
 std::vector<AssessedRun> assess_files(const std::vector<std::string>& results, const AssessmentRequest& request,

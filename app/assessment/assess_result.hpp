@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/analysis/measures/estimates.hpp"
 #include "treadmark/analysis/measures/running.hpp"
 #include "treadmark/analysis/measures/spectrum.hpp"
 #include "treadmark/io/histories/history_model.hpp"
@@ -32,6 +33,7 @@ struct AssessedRun {
   std::shared_ptr<const io::SimulationResult> result;
   AssessmentRequest request;  ///< with its sections
   std::vector<measures::Assessed> quantities;
+  std::vector<double> cant_deficiency;  ///< mean of each section, for a base of 1.5 m [m]; NaN: no line in the history
   std::vector<ChannelSpectrum> spectra;
   std::vector<std::string> doubts;
 };
@@ -60,6 +62,9 @@ std::vector<AssessedRun> assess_files(const std::vector<std::string>& results, c
 /// Errors: as assess_result.
 std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,
                                       const std::optional<AssessmentRequest>& request);
+
+/// What the sections of all runs say together.
+std::vector<measures::Estimate> estimates_of(std::span<const AssessedRun> runs);
 
 /// Sections have names of their own and an extent, laws ask for no elements of contact. Errors: Error(configuration).
 void check(const AssessmentRequest& request);

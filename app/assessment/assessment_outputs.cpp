@@ -3,6 +3,7 @@
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/json/json_tree.hpp"
+#include "treadmark/io/tables/csv_of.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/report/pictures/chart.hpp"
 #include "treadmark/report/pictures/histories/history_svg.hpp"
@@ -43,6 +45,24 @@ constexpr Column<A> kAssessed[] = {
     {"limit", kOwn, "", of<&A::limit>(), "", kInTable, "limit"},
     {"share", kOne, "", {[](const A& a) { return a.share(); }}, "of the limit", kInTable, "share"}};
 
+using E = measures::Estimate;
+
+constexpr Column<E> kEstimates[] = {
+    {"quantity", kOne, "", of<&E::quantity>(), "", kInTable, "quantity"},
+    {"kind", kOne, "", word(+[](const E& e) { return std::string(kSectionKinds[static_cast<std::size_t>(e.kind)]); }),
+     "", kInTable, "kind"},
+    {"place", kOne, "", of<&E::place>(), "", kInTable, "place"},
+    {"sections", kOne, "", of<&E::sections>(), "", kInTable, "sections"},
+    {"mean", kOwn, "", of<&E::mean>(), "", kInTable, "mean"},
+    {"deviation", kOwn, "", of<&E::deviation>(), "standard deviation", kInTable, "deviation"},
+    {"factor", kOne, "", of<&E::factor>(), "of the deviation", kInTable, "k"},
+    {"largest", kOwn, "", of<&E::largest>(), "mean + k deviation", kInTable, "largest"},
+    {"limit", kOwn, "", of<&E::limit>(), "", kInTable, "limit"},
+    {"share", kOne, "", {[](const E& e) { return e.share(); }}, "of the limit", kInTable, "share"},
+    {"slope_by_cant_deficiency", kOwn, "", of<&E::slope>(), "by m of cant deficiency", kInTable, "slope"},
+    {"cant_deficiency_m", unit::kM, "", of<&E::reference>(), "at which the bound holds", kInTable, "cant deficiency"},
+    {"bound", kOwn, "", of<&E::bound>(), "99 % of further sections lie below it", kInTable, "bound"}};
+
 /// Those that stand behind unit and status in CSV.
 bool is_number(const Column<A>& column) { return column.access.word == nullptr && !column.access.whole; }
 
@@ -51,6 +71,10 @@ bool is_number(const Column<A>& column) { return column.access.word == nullptr &
 template <>
 std::span<const Column<measures::Assessed>> columns() {
   return kAssessed;
+}
+template <>
+std::span<const Column<measures::Estimate>> columns() {
+  return kEstimates;
 }
 
 namespace app {
@@ -101,8 +125,21 @@ std::string assessment_text(std::span<const AssessedRun> runs) {
     }
     for (const std::string& doubt : run.doubts) text += fmt::format("  warning: {}\n", doubt);
   }
+  // Of each quantity with a limit the place that comes nearest to it.
+  std::map<std::pair<std::string, SectionKind>, measures::Estimate> nearest;
+  for (const measures::Estimate& e : estimates_of(runs))
+    if (auto& one = nearest[{e.quantity, e.kind}]; std::isfinite(e.limit) && !(one.share() >= e.share())) one = e;
+  for (const auto& [key, e] : nearest) {
+    if (e.sections == 0) continue;
+    const std::string unit = measures::quantity_info(e.quantity).unit;
+    text += fmt::format("  over {} sections, {}: {} of {}, mean + {:g} deviations {:.4g} {}, {:.0f} % of its limit\n",
+                        e.sections, kSectionKinds[static_cast<std::size_t>(e.kind)], e.quantity, e.place, e.factor,
+                        shown_value(e.largest, unit).first, shown_value(e.largest, unit).second, 100.0 * e.share());
+  }
   return text;
 }
+
+std::string estimates_csv(std::span<const AssessedRun> runs) { return io::csv_of(estimates_of(runs), Digits::all); }
 
 std::string assessment_csv(std::span<const AssessedRun> runs) {
   std::string text = "run,section,from_m,to_m,kind,place,quantity,unit,status,samples";
@@ -187,6 +224,7 @@ std::string assessment_json(std::span<const AssessedRun> runs) {
     one["doubts"] = run.doubts;
     out["runs"].push_back(std::move(one));
   }
+  out["estimates"] = io::json_of(estimates_of(runs));
   return io::dumped(out, 2) + '\n';
 }
 
@@ -256,6 +294,7 @@ void write_assessment_folder(const std::filesystem::path& folder, std::span<cons
                              std::span<const std::string> channels) {
   OutputFolder output(folder, OutputFolder::Old::kept);
   write_file(output.path() / "assessment.csv", assessment_csv(runs));
+  if (!estimates_of(runs).empty()) write_file(output.path() / "estimates.csv", estimates_csv(runs));
   bool spectra = false, bands = false;
   for (const AssessedRun& run : runs)
     for (const ChannelSpectrum& s : run.spectra) spectra = true, bands = bands || !s.bands.empty();

@@ -18,6 +18,8 @@ namespace treadmark::app {
 std::string assessment_text(std::span<const AssessedRun> runs);
 /// A line each run, section, place and quantity; numbers in SI units, exact.
 std::string assessment_csv(std::span<const AssessedRun> runs);
+/// A line each quantity, kind of section and place, of all runs together.
+std::string estimates_csv(std::span<const AssessedRun> runs);
 /// A line each channel and one-third octave, and each line of a density.
 std::string spectra_csv(std::span<const AssessedRun> runs);
 /// All of this.
@@ -35,8 +37,8 @@ std::vector<std::string> usual_channels(const io::SimulationResult& result);
 /// What an assessment of one run was asked for, from its assessment.json. Errors: Error(input_data).
 AssessmentRequest request_in(const std::filesystem::path& json);
 
-/// assessment.csv, spectra.csv and spectra.svg where there are spectra, where there are channels runs.svg and runs.csv
-/// with these over the distance, and last assessment.json.
+/// assessment.csv, estimates.csv where there are enough sections, spectra.csv and spectra.svg where there are spectra,
+/// where there are channels runs.svg and runs.csv with these over the distance, and last assessment.json.
 void write_assessment_folder(const std::filesystem::path& folder, std::span<const AssessedRun> runs,
                              std::span<const std::string> channels);
 
