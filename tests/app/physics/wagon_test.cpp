@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@ namespace {
 
 constexpr double kMassOfWagon = 70e3 + 2 * 2000.0 + 4 * 1350.0, kPush = 60e3;  // [kg], [N]
 
-io::SimulationFile wagon() {
-  return io::read_simulation_file(std::string(TREADMARK_SOURCE_DIR) + "/examples/wagon-push.toml");
+io::SimulationFile wagon(const std::vector<std::string>& overrides = {}) {
+  return io::read_simulation_file(std::string(TREADMARK_SOURCE_DIR) + "/examples/wagon-push.toml", overrides);
 }
 
 /// A column as a function of the row.
@@ -35,6 +36,38 @@ TEST(Wagon, BearsItsLoadsAsByHand) {
     if (f.name.starts_with("bowl")) EXPECT_NEAR(f.normal_force / (kPivots * 30.0 / 31.0), 1.0, 0.005) << f.name;
     if (f.name.starts_with("bearer")) EXPECT_NEAR(f.normal_force / (10e3 + kPivots * 0.5 / 31.0), 1.0, 0.005) << f.name;
   }
+}
+
+TEST(ThreePieceWagon, BearsItsLoadsAsByHand) {
+  const io::SimulationFile file = wagon({"simulation.vehicle=vehicles/three-piece-wagon.toml"});
+  const vehicle::Multibody s = vehicle::assemble(file.vehicle, {}, file.settings.speed, file.settings.gravity);
+  for (const double load : s.wheelset_load)
+    EXPECT_NEAR(load, (80e3 + 2 * 600.0 + 4 * 450.0 + 4 * 1200.0) * 9.81 / 4.0, 1.0);
+  constexpr double kNest = (80e3 / 2 + 600.0) * 9.81 / 2, kAdapter = (80e3 / 4 + 600.0 / 2 + 450.0) * 9.81 / 2;
+  for (const vehicle::DryFriction& f : s.elements.frictions) {
+    if (f.name.starts_with("wedge")) EXPECT_NEAR(f.normal_force / (0.3 * kNest), 1.0, 0.005) << f.name;
+    if (f.name.starts_with("adapter")) EXPECT_NEAR(f.normal_force / kAdapter, 1.0, 0.005) << f.name;
+    if (f.name.starts_with("bearer")) EXPECT_EQ(f.normal_force, 0.0) << f.name;
+  }
+}
+
+TEST(ThreePieceWagon, IsPushedAside) {
+  SurfaceStore store;
+  const io::SimulationResult r =
+      run_simulation(wagon({"simulation.vehicle=vehicles/three-piece-wagon.toml"}), store, {}, {});
+  ASSERT_EQ(r.status, "complete") << r.message;
+  const auto error = ranges::find(r.summary, std::string("energy_integration_error"), &io::NamedValue::name);
+  ASSERT_NE(error, r.summary.end());
+  EXPECT_LT(std::abs(error->value), 1e-4);
+  const auto time = column_of(r, "t_s");
+  double guiding = 0.0;
+  int counted = 0;
+  for (std::size_t row = 0; row < r.values.size() / r.columns.size(); ++row) {
+    if (time(row) < 4.0 || time(row) > 5.0) continue;
+    ++counted;
+    for (int set = 1; set <= 4; ++set) guiding += column_of(r, "ws" + std::to_string(set) + ".sumY_N")(row);
+  }
+  EXPECT_NEAR(guiding / counted / kPush, 1.0, 0.01);
 }
 
 TEST(Wagon, IsPushedAside) {
