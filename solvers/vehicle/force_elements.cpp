@@ -60,6 +60,11 @@ void add_friction(const DryFriction& f, Index number, const Vector& displacement
   const CurveValue normal = normal_force(f, displacement);
   const double size = trial.norm(), coefficient = f.coefficient[f.directions == 1 && trial[0] < 0.0 ? 1 : 0],
                bound = coefficient * normal.force;
+  if (!(bound > 0.0)) {
+    r.memory(columns) = displacement(columns);
+    slides = 1.0;
+    return;
+  }
   if (size <= (slides != 0.0 ? bound : f.static_ratio * bound)) {
     r.force(columns) = trial;
     for (Index c = f.first; c < f.first + f.directions; ++c) {
