@@ -91,11 +91,12 @@ def jobs():
     yield "measure-shapes", [["measure", "wheel", example("wheel-flat"), "--json", "OUT/wheel.json", "--csv", "OUT/wheel.csv", "--report", "OUT/wheel.html"],
                              ["measure", "rail", example("corrugation"), "--json", "OUT/rail.json", "--report", "OUT/rail.html"], ["measure", "rail", example("corrugation")]]
 
-    for case, distance in (("crossing-vehicle", 1.0), ("curve", 2.0), ("flat-at-speed", 0.6)):
+    for case, distance in (("crossing-vehicle", 1.0), ("curve", 2.0), ("flat-at-speed", 0.6), ("wagon-push", 10.0)):
         yield f"simulate-{case}", [["simulate", example(case), "--set", f"simulation.distance_m={distance}", "-o", "OUT/results", "--report", "OUT/report.html"], ["plot", "OUT/results", "--what", "wheels", "-o", "OUT/plot.svg"],
                                    ["assess", "OUT/results", "-o", "OUT/assessed", "--json", "OUT/assessed.json", "--csv", "OUT/assessed.csv", "--report", "OUT/assessed.html"], ["assess", "OUT/results"]]
     straight = ["--set", "simulation.wheels=[]"]
     yield "stability-flat", [["stability", example("flat-at-speed"), *straight, "--from", "20", "--to", "60", *said] for said in ([], ["-o", "OUT/results", "--json", "OUT/result.json"])]
+    yield "response-flat", [["response", example("flat-at-speed"), *straight, "--count", "5", *said] for said in ([], ["-o", "OUT/results", "--json", "OUT/result.json"])]
     yield "track-fit", [["track", str(EXAMPLES / "tracks/zhai-flexible.toml"), "--fit", "1", *said] for said in ([], ["-o", "OUT/results", "--json", "OUT/result.json"])]
     yield "fmu-flat", [["fmu", example("wheel-flat"), "-o", "OUT/wheel.fmu"]]
     yield "sweep-creep", [["sweep", example("creep-curves"), "--runs", "1-3", "-o", "OUT/results"], ["sweep", example("creep-curves"), "-o", "OUT/results", "--status"],

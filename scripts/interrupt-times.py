@@ -106,6 +106,7 @@ ROWS = {  # name: command, target
     "assess": ("assess simulated --json @", "out.json"),
     "stability": (f"stability {SIMULATION} --set simulation.wheels=[] --from 5 --to 100 --count 400 -o @", "out"),
     "stability, falling": (f"stability {SIMULATION} --set simulation.wheels=[] --falling -o @", "out"),
+    "response": (f"response {SIMULATION} --set simulation.wheels=[] --count 4000 -o @", "out"),
     "track": (f"track {EXAMPLES}/tracks/gm-tt0088.toml --fit 3 --count 2000 -o @", "out"),
     "fmu": ("fmu pair.toml -o @", "out.fmu"),
     "evolve": (f"evolve {EXAMPLES}/hollow-wheel.toml -o @", "out"),
