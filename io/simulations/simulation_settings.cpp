@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
 namespace treadmark::io {
