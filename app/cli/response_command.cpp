@@ -48,14 +48,12 @@ Command add_response(CLI::App& verb) {
   verb.add_option("--count", request.count, "Frequencies, by equal ratios")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
-  verb.add_option("--inputs", request.inputs,
-                  "What shakes: longitudinal_level, alignment, cross_level, gauge, ws1_left.vertical_force ...; * for "
-                  "any letters")
-      ->delimiter(',')
-      ->type_name("NAMES");
-  verb.add_option("--channels", request.channels, "What responds, by the names of a history: ws1_*.Q_N,car.z_m")
-      ->delimiter(',')
-      ->type_name("NAMES");
+  add_values(verb, "--inputs", request.inputs,
+             "What shakes: longitudinal_level, cross_level, alignment, gauge, ws1_left.vertical_force ..., * for any "
+             "letters",
+             "INPUT,...");
+  add_values(verb, "--channels", request.channels, "What responds, by the names of a history, as ws1_*.Q_N",
+             "CHANNEL,...");
   verb.add_option("--json", options->json_file, "Write the numbers here; - for standard output instead of the text")
       ->check(is_output())
       ->type_name("FILE");
