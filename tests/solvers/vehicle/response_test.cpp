@@ -20,10 +20,10 @@ constexpr double kSprung = 9000.0, kSet = 1813.0, kLeft = 200.0, kSuspension = 2
 
 /// Wheelset and mass, which only move up and down, on two rails: forces on the left rail and motion of the mass under
 /// equal irregularities of both rails, and under a force on the wheelset.
-struct ByHand {
+struct Amplitudes {
   Complex vertical, mass;
 };
-ByHand by_hand(double frequency, double irregularity, double force) {
+Amplitudes by_hand(double frequency, double irregularity, double force) {
   const double omega = 2.0 * std::numbers::pi * frequency, load = 0.5 * (kSprung + kSet) * kGravity;
   const double contact = 1.5 * std::pow(kTouch, 2.0 / 3.0) * std::cbrt(load);
   const Complex suspension(kSuspension, omega * kDamper), bed(kBed, omega * kBedDamping);
@@ -48,7 +48,7 @@ TEST(LinearVehicle, RespondsAsByHand) {
                                           {Kind::irregularity, Irregularity::cross_level, 0}};
   for (const double frequency : {0.3, 2.0, 5.0, 30.0, 60.0, 200.0, 900.0}) {
     const std::vector<FrequencyResponse> r = linear.at(frequency, inputs);
-    const ByHand level = by_hand(frequency, 1.0, 0.0), pushed = by_hand(frequency, 0.0, 1.0);
+    const Amplitudes level = by_hand(frequency, 1.0, 0.0), pushed = by_hand(frequency, 0.0, 1.0);
     const auto near = [&](Complex found, Complex truth) {
       EXPECT_LT(std::abs(found - truth), 1e-4 * std::abs(truth)) << frequency << " Hz";
     };
