@@ -82,7 +82,9 @@ void add_friction(const DryFriction& f, Index number, const Vector& displacement
     r.damping(columns, columns) += f.damping * across;
   }
   if (f.load >= 0) r.stiffness(columns, f.load) += coefficient * normal.slope * along;
-  r.memory(columns) = displacement(columns) - r.force(columns) / f.stiffness;
+  // Where the damper bears a part it would slide back against its force, and give energy back.
+  const Vector slid = displacement(columns) - r.force(columns) / f.stiffness;
+  if ((slid - r.memory(columns)).dot(along) > 0.0) r.memory(columns) = slid;
   slides = 1.0;
 }
 

@@ -133,6 +133,27 @@ TEST(DryFriction, SlidesInThePlaneAgainstTheMotion) {
   EXPECT_EQ(respond(e, u, still, memory).force.norm(), 0.0);
 }
 
+TEST(DryFriction, DoesNotSlideBackForWhatItsDamperBears) {
+  ForceElements e;
+  e.columns.resize(1);
+  DryFriction f;
+  f.stiffness = 1e7;
+  f.damping = 2e4;
+  f.coefficient = {0.3, 0.3};
+  f.normal_force = 1e4;
+  e.frictions.push_back(f);
+  Vector u(1), v(1);
+  u << 2.7e-4;
+  v << 0.02;
+  // Spring and damper, 2700 N and 400 N, are beyond the bound, the spring alone is not.
+  const ElementResponse broken = respond(e, u, v, e.fresh_memory());
+  EXPECT_NEAR(broken.force[0], 3000.0, 1e-9);
+  EXPECT_EQ(broken.memory[0], 0.0);
+  EXPECT_EQ(broken.memory[1], 1.0);
+  u << 6e-4;
+  EXPECT_NEAR(respond(e, u, v, broken.memory).memory[0], 3e-4, 1e-12);
+}
+
 TEST(DryFriction, TangentsAreDerivatives) {
   const ForceElements e = in_a_plane();
   Random random(3);
