@@ -70,8 +70,9 @@ class Simulation {
   const SystemState& state() const { return motion_.state; }
   /// Of all coordinates after the last step, of the scheme.
   const Vector& acceleration() const { return motion_.a; }
-  /// Of the columns of Multibody::elements after the last step: forces [N], what they remember.
+  /// Of the columns of Multibody::elements after the last step [N].
   const Vector& element_force() const { return motion_.element_force; }
+  /// What the elements remember after the last step (ForceElements::fresh_memory).
   const Vector& element_memory() const { return motion_.element_memory; }
   /// Of all wheels after the last step, in the order of VehicleOnTrack::wheels.
   const std::vector<ContactReaction>& reactions() const { return reactions_; }
