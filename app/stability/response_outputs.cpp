@@ -2,12 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "treadmark/app/stability/response_run.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/tables/csv_of.hpp"
 #include "treadmark/io/tables/json_of.hpp"
 #include "treadmark/io/tables/text_of.hpp"
@@ -53,21 +57,32 @@ namespace {
 
 using io::Json;
 
-bool is_in_picture(const ResponseCurve& curve) {
-  return curve.channel.ends_with("Q_N") || curve.channel.ends_with("Y_N") || curve.channel.ends_with("_m_s2");
+/// What is drawn together: the ends of its channels' names, and what they are.
+struct Drawn {
+  std::string_view ending, what;
+};
+constexpr Drawn kForces{"_N", "forces"}, kAccelerations{"_m_s2", "accelerations"}, kMoved{"_m", "displacements"},
+    kTurned{"_rad", "rotations"};
+
+/// Motions are drawn where nothing else was asked for.
+std::array<Drawn, 2> drawn_of(const ResponseRun& run) {
+  const bool moved = ranges::none_of(run.curves, [](const ResponseCurve& c) {
+    return c.channel.ends_with(kForces.ending) || c.channel.ends_with(kAccelerations.ending);
+  });
+  return moved ? std::array{kMoved, kTurned} : std::array{kForces, kAccelerations};
 }
 
-/// Magnitudes of forces, or of accelerations, under one input.
-std::optional<pictures::Chart> chart_of(const ResponseRun& run, const std::string& input, bool forces) {
+/// Magnitudes of those under one input.
+std::optional<pictures::Chart> chart_of(const ResponseRun& run, const std::string& input, const Drawn& drawn) {
   constexpr std::size_t kMost = 8;  // that can be told apart
   pictures::Chart chart;
   chart.x_label = "frequency [Hz]";
   chart.x_scale = chart.y_scale = pictures::AxisScale::log;
   chart.x_range = {run.frequency.front(), run.frequency.back()};
   for (const ResponseCurve& curve : run.curves) {
-    if (curve.input != input || !is_in_picture(curve) || curve.channel.ends_with("_N") != forces) continue;
+    if (curve.input != input || !curve.channel.ends_with(drawn.ending)) continue;
     if (chart.series.size() == kMost) break;
-    chart.title = input + ": " + (forces ? "forces" : "accelerations");
+    chart.title = fmt::format("{}: {}", input, drawn.what);
     chart.y_label = '[' + curve.unit + ']';
     pictures::ChartSeries series;
     series.name = curve.channel;
@@ -104,7 +119,7 @@ std::string response_table(const ResponseRun& run) {
   }
   return fmt::format("{} at {:g} m/s, {:g} to {:g} Hz; each at its highest\n", run.title, run.speed,
                      run.frequency.front(), run.frequency.back()) +
-         io::table_of(rows);
+         io::table_of(rows) + (run.stable ? "" : fmt::format("{}\n", kUnstable));
 }
 
 std::string response_csv(const ResponseRun& run) {
@@ -121,6 +136,7 @@ std::string response_json(const ResponseRun& run) {
   out["input"] = {{"file", run.request.file.string()}, {"settings", run.request.overrides}};
   out["title"] = run.title;
   out["speed_m_s"] = io::number(run.speed);
+  out["stable"] = run.stable;
   out["frequency_Hz"] = io::numbers(run.frequency);
   out["responses"] = Json::array();
   for (const ResponseCurve& curve : run.curves) {
@@ -147,12 +163,14 @@ std::string response_svg(const ResponseRun& run) {
   sheet.height = 280.0;
   sheet.gap_y = 66.0;
   sheet.top = 58.0;
+  sheet.legend = pictures::ChartSheet::Legend::each;
+  if (!run.stable) sheet.remarks.emplace_back(kUnstable);
   std::string last;
   for (const ResponseCurve& curve : run.curves) {
     if (curve.input == last) continue;
     last = curve.input;
-    for (const bool forces : {true, false})
-      if (auto chart = chart_of(run, curve.input, forces)) sheet.charts.push_back(std::move(*chart));
+    for (const Drawn& drawn : drawn_of(run))
+      if (auto chart = chart_of(run, curve.input, drawn)) sheet.charts.push_back(std::move(*chart));
   }
   return pictures::draw_sheet(sheet);
 }

@@ -12,11 +12,13 @@
 #include "treadmark/app/stability/straight_vehicle.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/model/vehicle/assessment.hpp"
 #include "treadmark/solvers/vehicle/stability/response.hpp"
+#include "treadmark/solvers/vehicle/stability/stability.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -40,18 +42,32 @@ struct Channel {
   std::function<Complex(const FrequencyResponse&, double omega)> value;
 };
 
-/// Names with their units, as the columns of histories have them.
+/// Parts with their names and units.
 template <class Part>
 struct Named {
-  std::vector<io::HistoryColumn> heads;
+  std::vector<std::string> names, units;
   std::vector<Part> parts;
 
   void add(std::string name, std::string unit, Part part) {
-    heads.push_back({std::move(name), std::move(unit), {}});
+    names.push_back(std::move(name));
+    units.push_back(std::move(unit));
     parts.push_back(std::move(part));
   }
-  std::vector<std::size_t> chosen(const std::vector<std::string>& patterns) const {
-    return io::fitting_columns(heads, patterns);
+  bool has(const std::string& pattern) const {
+    return ranges::any_of(names, [&](const std::string& name) { return io::fits(name, pattern); });
+  }
+  /// Indices of those that fit one of the patterns. what: they are, in messages. Errors: Error(configuration) for a
+  /// pattern that fits none.
+  std::vector<std::size_t> chosen(const std::vector<std::string>& patterns, std::string_view what) const {
+    for (const std::string& pattern : patterns)
+      if (!has(pattern))
+        throw Error(ErrorKind::configuration, fmt::format("no {} is called '{}'", what, pattern), {},
+                    advice_on_name(pattern, names, "* stands for any letters; see docs/response.md"));
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (ranges::any_of(patterns, [&](const std::string& pattern) { return io::fits(names[i], pattern); }))
+        out.push_back(i);
+    return out;
   }
 };
 
@@ -132,21 +148,27 @@ ResponseRun run_response(const ResponseRequest& request, const Progress& progres
     wanted.assign(kIrregularityNames.begin(), kIrregularityNames.end());
     wanted.push_back(v.wheels.front().name + ".*");
   }
-  const std::vector<std::string>& asked = request.channels.empty() ? file.history.channels : request.channels;
-  const std::vector<std::size_t> chosen_inputs = inputs.chosen(wanted),
-                                 chosen = channels.chosen(asked.empty() ? std::vector<std::string>{"*"} : asked);
+  std::vector<std::string> asked = request.channels;
+  if (asked.empty())  // a history has more
+    for (const std::string& pattern : file.history.channels)
+      if (channels.has(pattern)) asked.push_back(pattern);
+  if (asked.empty()) asked.emplace_back("*");
+  const std::vector<std::size_t> chosen_inputs = inputs.chosen(wanted, "input"),
+                                 chosen = channels.chosen(asked, "channel of a response");
   std::vector<ResponseInput> shakers;
   for (const std::size_t i : chosen_inputs) {
     shakers.push_back(inputs.parts[i]);
     for (const std::size_t c : chosen)
-      run.curves.push_back(
-          {inputs.heads[i].name, channels.heads[c].name, channels.heads[c].unit + '/' + inputs.heads[i].unit, {}});
+      run.curves.push_back({inputs.names[i], channels.names[c], channels.units[c] + '/' + inputs.units[i], {}});
   }
 
   const vehicle::Equilibrium balance = vehicle::find_equilibrium(v);
   if (balance.report.status != Status::ok)
     throw Error(ErrorKind::numerical, balance.report.message, {}, vehicle::kNoEquilibriumAdvice);
   if (!balance.report.message.empty()) run.notes.push_back(balance.report.message);
+  for (const vehicle::Eigenmode& mode : vehicle::all_eigenmodes(v, balance.state))
+    if (mode.value.real() > vehicle::StabilitySettings{}.neutral) run.stable = false;
+  if (!run.stable) run.notes.push_back(kUnstable);
   const vehicle::LinearVehicle linear(v, balance.state, base);
   for (const double frequency : run.frequency) {
     check_cancelled();

@@ -21,7 +21,7 @@ struct ResponseRequest {
   double from = 0.5, to = 50.0;        ///< frequencies [Hz]
   int count = 201;                     ///< of them, by equal ratios
   std::vector<std::string> inputs;     ///< names, * for any letters; empty: irregularities, forces at the first wheel
-  std::vector<std::string> channels;   ///< the same of what responds; empty: those of the file, else all
+  std::vector<std::string> channels;   ///< the same of what responds; empty: of those of the file, else all
   std::optional<io::ContentCache> cache;  ///< where tables are kept for other processes
 };
 
@@ -31,12 +31,18 @@ struct ResponseCurve {
   std::vector<std::complex<double>> values;  ///< by frequency [SI], e^(i w t)
 };
 
+/// Said of a vehicle that is not stable.
+inline constexpr const char* kUnstable =
+    "the linearised vehicle is unstable at this speed: what is computed is no response that lasts (treadmark "
+    "stability)";
+
 /// Transfer functions of a vehicle that runs steadily.
 struct ResponseRun {
   ResponseRequest request;
   std::string title;
   std::vector<std::string> notes;  ///< of the file, and warnings about the equilibrium
   double speed = 0.0;              ///< [m/s]
+  bool stable = true;              ///< false: some motion grows by itself at this speed, so that no response lasts
   std::vector<double> frequency;   ///< [Hz]
   std::vector<ResponseCurve> curves;
 };
