@@ -54,12 +54,9 @@ Command add_response(CLI::App& verb) {
              "INPUT,...");
   add_values(verb, "--channels", request.channels, "What responds, by the names of a history, as ws1_*.Q_N",
              "CHANNEL,...");
-  verb.add_option("--json", options->json_file, "Write the numbers here; - for standard output instead of the text")
-      ->check(is_output())
-      ->type_name("FILE");
-  verb.add_option("-o,--output", options->folder, "Folder for response.json, response.csv and response.svg")
-      ->check(is_output())
-      ->type_name("FOLDER");
+  add_output(verb, "--json", options->json_file, "Write the numbers here; - for standard output instead of the text",
+             "FILE");
+  add_output(verb, "-o,--output", options->folder, "Folder for response.json, response.csv and response.svg", "FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, request.overrides, "simulation.speed_m_s=40");
   return command(options, response_command);
