@@ -37,6 +37,7 @@ TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
       {"vehicle", "treadmark sweep", {"sweep", nowhere, "--resume", "-o", "/nowhere/out"}},
       {"vehicle", "treadmark evolve", {"evolve", nowhere, "-o", "/nowhere/out"}},
       {"vehicle", "treadmark stability", {"stability", nowhere, "--to", "50"}},
+      {"vehicle", "treadmark response", {"response", nowhere, "--to", "50"}},
       {"vehicle", "treadmark track", {"track", nowhere, "--fit", "2"}},
       {"vehicle", "treadmark table", {"table", nowhere, "-o", "/nowhere/t.h5"}},
       {"vehicle", "the schema of study files", {"schema", "study"}},
