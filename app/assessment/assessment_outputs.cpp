@@ -52,6 +52,8 @@ constexpr Column<E> kEstimates[] = {
     {"kind", kOne, "", word(+[](const E& e) { return std::string(kSectionKinds[static_cast<std::size_t>(e.kind)]); }),
      "", kInTable, "kind"},
     {"place", kOne, "", of<&E::place>(), "", kInTable, "place"},
+    {"unit", kOne, "", word(+[](const E& e) { return std::string(measures::quantity_info(e.quantity).unit); }), "",
+     kInTable, "unit"},
     {"sections", kOne, "", of<&E::sections>(), "", kInTable, "sections"},
     {"mean", kOwn, "", of<&E::mean>(), "", kInTable, "mean"},
     {"deviation", kOwn, "", of<&E::deviation>(), "standard deviation", kInTable, "deviation"},
