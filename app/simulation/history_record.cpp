@@ -186,7 +186,8 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
 void HistoryRecord::add_energies() {
   add("energy.mechanical_J", "J", "kinetic energy and potentials about the reference configuration",
       [&] { return simulation_->energy().mechanical; });
-  add("energy.dampers_J", "J", "dissipated in dampers and by dry friction of the vehicle", [&] { return simulation_->energy().dampers; });
+  add("energy.dampers_J", "J", "dissipated in dampers and by dry friction of the vehicle",
+      [&] { return simulation_->energy().dampers; });
   add("energy.drive_J", "J", "work that keeps up the speed", [&] { return simulation_->energy().drive; });
   add("energy.friction_J", "J", "dissipated in the contacts", [&] { return simulation_->energy().friction; });
   add("energy.elastic_J", "J", "stored in the contacts", [&] { return simulation_->energy().elastic; });
