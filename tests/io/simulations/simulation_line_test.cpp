@@ -293,7 +293,8 @@ displacement_mm = [0, 5]
 TEST_F(SimulationLine, WhatActsFromOutsideIsRead) {
   const SimulationFile file = parse(kFromOutside);
   ASSERT_EQ(file.forces.size(), 2u);
-  EXPECT_EQ(file.forces[0].point, Vec3(0.5, 0.0, -2.0));
+  ASSERT_TRUE(file.forces[0].point);
+  EXPECT_EQ(*file.forces[0].point, Vec3(0.5, 0.0, -2.0));
   EXPECT_EQ(force_at(file.forces[0], 0.5), 250.0);
   EXPECT_FALSE(file.forces[1].point);
   EXPECT_EQ(file.forces[1].direction, Freedom::yaw);
