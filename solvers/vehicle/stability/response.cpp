@@ -13,7 +13,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using ComplexVector = Eigen::VectorXcd;
-using Index = Eigen::Index;
 
 /// Coordinates of a pair (PairVector) that irregularities move.
 constexpr int kYaw = 5, kRailY = 6, kRailZ = 7, kRailRoll = 8;
