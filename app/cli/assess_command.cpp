@@ -108,7 +108,8 @@ Command add_assess(CLI::App& verb) {
   add_output(verb, "--json", options->json_file, "Write all numbers here; - for standard output instead of the text",
              "FILE");
   add_output(verb, "-o,--output", options->folder,
-             "Folder for assessment.csv, assessment.json, spectra.csv, runs.csv and pictures (SVG)", "FOLDER");
+             "Folder for assessment.csv, assessment.json, estimates.csv, spectra.csv, runs.csv and pictures (SVG)",
+             "FOLDER");
   add_report_file(verb, options->report_file);
   return command(options, assess_command);
 }
