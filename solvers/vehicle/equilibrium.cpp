@@ -18,8 +18,9 @@
 namespace treadmark::vehicle {
 namespace {
 
-// Of pair coordinates: small against all that contact geometry changes over, large against rounding.
-constexpr double kSteps[kPairCoordinates] = {1e-6, 2e-6, 5e-8, 1e-6, 1e-6, 2e-6, 2e-6, 5e-8, 1e-6};
+// Of pair coordinates: small against all that contact geometry changes over, large against rounding. Roll raises and
+// sinks wheels by what height does: contact tables have kinks at their loads, and slopes of both sides must not mix.
+constexpr double kSteps[kPairCoordinates] = {1e-6, 2e-6, 5e-8, 7e-8, 1e-6, 2e-6, 2e-6, 5e-8, 7e-8};
 // Rates, over the speed.
 constexpr double kRateSteps[kPairCoordinates] = {1e-6, 1e-6, 1e-6, 1e-6, 2e-6, 1e-6, 1e-6, 1e-6, 1e-6};
 

@@ -45,8 +45,8 @@ struct LinearSystem {
 LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness = 1.0);
 
 /// -d(generalised force of a wheel)/d(pair coordinates) and /d(their rates) by central differences about a motion: some
-/// 1e-6 m and rad (heights 5e-8 m) wide, times coarseness. Of coordinates that nothing in the system moves only with
-/// all.
+/// 1e-6 m and rad (heights 5e-8 m, roll 7e-8 rad) wide, times coarseness. Of coordinates that nothing in the system
+/// moves only with all.
 PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t wheel, const SystemState& state,
                        double coarseness = 1.0, bool all = false);
 
