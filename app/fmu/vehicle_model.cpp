@@ -16,7 +16,7 @@ namespace treadmark::fmi {
 namespace {
 
 vehicle::SystemState equilibrium_of(const app::BuiltVehicle& built) {
-  const vehicle::Equilibrium found = vehicle::find_equilibrium(built.vehicle);
+  const vehicle::Equilibrium found = vehicle::find_equilibrium(built.vehicle, {}, built.easy ? &*built.easy : nullptr);
   if (found.report.status != Status::ok)
     throw Error(ErrorKind::numerical, found.report.message, {}, vehicle::kNoEquilibriumAdvice);
   return found.state;

@@ -155,6 +155,9 @@ class Builder {
     return bodies;
   }
 
+  /// Whether there can be a table of a side.
+  bool has_section(Side side) { return geometry(round_wheel(file_), table_rail(side), Region{}).constant_profiles(); }
+
   std::shared_ptr<const vehicle::ContactTable> table(Side side, double wheel_load) {
     // Rails are right-hand ones: one table serves both sides of one shape.
     auto& made = tables_[is_common(side) ? nullptr : &file_.rail(side)];
@@ -372,7 +375,23 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   v = outline(file, true);
   v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
   std::optional<RailsBelow> rails;
-  if (file.flexible_track) rails.emplace(file, v.system);
+  const auto lay_rails = [&] {
+    if (file.flexible_track) rails.emplace(file, v.system);
+  };
+  lay_rails();
+  // On rails that bend, and beside check rails, which are fixed to the running ones.
+  const auto mounted = [&](std::shared_ptr<vehicle::ContactElement> contact, std::size_t i) {
+    vehicle::WheelOnRail on = v.wheels[i];
+    on.element = std::move(contact);
+    for (const io::CheckRailInput& rail : file.check_rails)
+      if (rail.side == on.side) on.element = beside(rail, file, file.wheels[i], on);
+    return rails ? rails->upon(on) : on.element;
+  };
+  const double load = *ranges::max_element(v.system.wheelset_load) / 2.0;
+  const auto tabulated = [&](Side side) {
+    const Stopwatch watch(built.table_seconds);
+    return std::make_shared<vehicle::TableContact>(builder.table(side, load), side, builder.creep_table(progress));
+  };
   for (std::size_t i = 0; i < file.wheels.size(); ++i) {
     const io::WheelContactInput& wheel = file.wheels[i];
     vehicle::WheelOnRail& on = v.wheels[i];
@@ -381,10 +400,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
     const bool is_full = wheel.model == io::ContactModelInput::full;
     if (!is_full || wheel.changes_over()) {
       builder.require_section(wheel);
-      const Stopwatch watch(built.table_seconds);
-      const auto table = builder.table(on.side, *ranges::max_element(v.system.wheelset_load) / 2.0);
-      from_table = std::make_shared<vehicle::TableContact>(table, on.side, builder.creep_table(progress));
-      on.rail_marker = table->nominal().X_TR.origin;
+      from_table = tabulated(on.side);
+      on.rail_marker = builder.table(on.side, load)->nominal().X_TR.origin;
       if (on.side == Side::left) on.rail_marker.y() = -on.rail_marker.y();
     }
     if (is_full) {
@@ -402,12 +419,17 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       built.bodies.emplace_back();
       on.element = from_table;
     }
-    // A check rail is fixed to the running rail.
-    for (const io::CheckRailInput& rail : file.check_rails)
-      if (rail.side == wheel.side) on.element = beside(rail, file, wheel, on);
-    if (rails) on.element = rails->upon(on);
+    on.element = mounted(on.element, i);
   }
   v.connect();
+  const bool any_full = ranges::any_of(built.full, [](const auto& full) { return full != nullptr; });
+  if (any_full && v.line && v.line->point(0.0).curvature.value != 0.0 && builder.has_section(Side::left) &&
+      builder.has_section(Side::right)) {
+    lay_rails();
+    built.easy = v;
+    for (std::size_t i = 0; i < v.wheels.size(); ++i)
+      built.easy->wheels[i].element = mounted(tabulated(v.wheels[i].side), i);
+  }
   const bool fields = !file.fields.pitch.empty() || !file.fields.position.empty();
   const auto damaged = [](const io::WheelContactInput& w) {
     return w.model == io::ContactModelInput::full && w.defects;

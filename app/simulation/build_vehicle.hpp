@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "treadmark/app/simulation/contact_tables.hpp"
@@ -27,6 +28,8 @@ struct BuiltVehicle {
   /// Of the wheels with defects; null where there are none.
   std::shared_ptr<const DefectDepth> defect_depth;
   double table_seconds = 0.0;  ///< spent on contact tables
+  /// With contact tables at all wheels, for the start in a curve; none where that is not wanted or not possible.
+  std::optional<vehicle::VehicleOnTrack> easy;
 };
 
 /// "ws1_right"

@@ -124,7 +124,7 @@ class Run {
 
   vehicle::Equilibrium balance() {
     const Stopwatch watch(times_.equilibrium_s);
-    vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle);
+    vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle, {}, built_.easy ? &*built_.easy : nullptr);
     if (e.report.status != Status::ok)
       throw Error(ErrorKind::numerical, e.report.message, {},
                   built_.vehicle.line && built_.vehicle.line->setup().path

@@ -58,7 +58,9 @@ void material(RuleList& rules, const WheelRailCase& c) {
       c.reference_surface == Reference::curved && c.friction_variation.kind == FrictionVariation::Kind::inclination;
   simplified_theory(rules, c, by_row, false);
   const bool simplified = c.tangential_model != TangentialModel::full;
-  rules.refuse_if(simplified && c.reference_surface != Reference::plane, CaseSetting::reference_surface,
+  const bool takes_slip = c.reference_surface == Reference::plane_surface_slip &&
+                          takes_slip_of_elements(c.tangential_model) && c.conventions != Conventions::contact;
+  rules.refuse_if(simplified && c.reference_surface != Reference::plane && !takes_slip, CaseSetting::reference_surface,
                   "the simplified theory takes one creepage for a patch, not the slip of surfaces at every element",
                   "D = 2 in .inp, contact.reference_surface = \"plane\" in .toml");
   viscoelastic_rules(rules, c);

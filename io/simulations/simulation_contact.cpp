@@ -12,6 +12,7 @@
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/model/contact/theories.hpp"
 
 namespace treadmark::io {
 
@@ -140,6 +141,9 @@ void read_contact(const ContactPart& part, SimulationFile& out) {
     refuse(change.path, change.value.where);
   }
   out.contact = contact_of(completed(part, out), part, &out.notes);
+  // One creepage for a patch is not enough at flanges.
+  if (!given_at(part, "contact.reference_surface") && takes_slip_of_elements(out.contact.tangential_model))
+    out.contact.reference_surface = ReferenceSurface::plane_surface_slip;
   out.contact.vertical_force = 0.0;
   check_radius(part, out);
   check_regime(part, out);

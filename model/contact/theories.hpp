@@ -119,6 +119,12 @@ constexpr const Theory<InfluenceSettings::Kind>& theory(InfluenceSettings::Kind 
   return kInfluenceKinds[static_cast<std::size_t>(id)];
 }
 
+/// Whether the rigid slip may be another one at every element: not where there are strips, nor in the linear theory.
+constexpr bool takes_slip_of_elements(TangentialModel id) {
+  const TheoryLimits& limits = theory(id).limits;
+  return !limits.strips && !limits.no_slip;
+}
+
 /// The theory that a control digit asks for; the first of the table where the digit asks for no other.
 template <class Id, std::size_t count>
 constexpr Id of_contact_digit(const Theory<Id> (&table)[count], int digit) {

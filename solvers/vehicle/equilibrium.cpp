@@ -312,8 +312,10 @@ VehicleOnTrack staying(VehicleOnTrack vehicle) {
   return vehicle;
 }
 
-/// From the state that was found.
-void iterate(const Balance& balance, const EquilibriumSettings& settings, Equilibrium& found, std::string& why) {
+/// From the state that was found. slopes: of contacts that cost less, by which steps are made as long as they halve the
+/// imbalance; null: none.
+void iterate(const Balance& balance, const EquilibriumSettings& settings, Equilibrium& found, std::string& why,
+             const Balance* slopes = nullptr) {
   Vector r;
   found.residual = std::numeric_limits<double>::infinity();
   if (!balance.imbalance(found.state, r, found.reactions, why)) return;
@@ -322,8 +324,9 @@ void iterate(const Balance& balance, const EquilibriumSettings& settings, Equili
   constexpr double kWider = 10.0, kWidest = 100.0;
   double coarseness = 1.0;
   for (; found.residual > settings.tolerance && found.iterations < most; ++found.iterations) {
-    const Vector step = balance.jacobian(found.state, coarseness).fullPivLu().solve(r);
+    const Vector step = (slopes ? *slopes : balance).jacobian(found.state, coarseness).fullPivLu().solve(r);
     constexpr double kShortest = 1e-3;
+    const double before = found.residual;
     bool better = false;
     for (double share = 1.0; share > kShortest && !better; share *= 0.5) {
       const SystemState trial = balance.moved(found.state, share * step);
@@ -337,6 +340,10 @@ void iterate(const Balance& balance, const EquilibriumSettings& settings, Equili
       found.residual = residual;
       found.reactions = std::move(reactions);
       r = r_trial;
+    }
+    if (slopes) {
+      if (!(found.residual < 0.5 * before)) slopes = nullptr;
+      continue;
     }
     // Slopes over wider differences pass over jumps of the forces.
     if (!better && (coarseness *= kWider) > kWidest) break;
@@ -406,8 +413,19 @@ std::string what_remains(const VehicleOnTrack& vehicle, const Balance& balance, 
 
 }  // namespace
 
-Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings,
+                             const VehicleOnTrack* easy) {
   const Balance balance(vehicle);
+  if (easy) {
+    Equilibrium near = find_equilibrium(*easy, settings);
+    const Balance slopes(*easy);
+    std::string why;
+    if (near.report.status == Status::ok) {
+      iterate(balance, settings, near, why, &slopes);
+      near.report = {};
+      if (near.residual <= settings.acceptable) return near;
+    }
+  }
   Equilibrium found;
   found.state = balance.start();
   Vector r;

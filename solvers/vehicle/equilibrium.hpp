@@ -35,7 +35,10 @@ struct Equilibrium {
 /// elements; (3) on curved lines, the same from where the vehicle is after some running in; (4) the same from wheelsets
 /// that turn on the spot until no moment acts on them, for wheels that touch far from their nominal circle.
 /// A state that is only doubtful has status ok and a message. Leaves the elements as they were.
-Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
+/// easy: the same vehicle with contacts that cost less, whose balance is found first and led on to that of the others;
+/// null: none.
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {},
+                             const VehicleOnTrack* easy = nullptr);
 
 /// Forces of everything, linear about a state: -K d(coordinates) - C d(rates).
 struct LinearSystem {

@@ -67,7 +67,8 @@ struct Problem {
   std::optional<Thermal> thermal;
   std::optional<Damping> damping;
   bool sensitivities = false;
-  bool refinement = false;  ///< what smaller elements would change is estimated
+  bool refinement = false;     ///< what smaller elements would change is estimated
+  bool surface_loads = false;  ///< PatchSolution::surface_loads is wanted
   /// Friction at inclinations of the rail's surface [rad], increasing; between them every number of the law is
   /// interpolated, beyond them it stays. Empty: friction is the same everywhere.
   std::vector<double> friction_inclination;

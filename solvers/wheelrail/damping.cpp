@@ -26,9 +26,13 @@ void add_damping(const Problem& p, const Instant& previous, const Instant& now, 
     const Vec3 rate = (now.patches[i].force_C - before) / dt;
     const auto damped = [](double c, double value, double most) { return c * std::clamp(value, -most, most); };
     const Damping& d = *p.damping;
-    patch.force_C +=
-        Vec3(damped(d.tangential, rate.x(), d.max_rate_tangential),
-             damped(d.tangential, rate.y(), d.max_rate_tangential), damped(d.normal, rate.z(), d.max_rate_normal));
+    const Vec3 damping(damped(d.tangential, rate.x(), d.max_rate_tangential),
+                       damped(d.tangential, rate.y(), d.max_rate_tangential),
+                       damped(d.normal, rate.z(), d.max_rate_normal));
+    patch.force_C += damping;
+    if (!patch.surface_loads) continue;
+    patch.surface_loads->rail.force += damping;
+    patch.surface_loads->wheel += {damping, Vec3(0.0, 0.0, patch.approach).cross(damping)};
   }
 }
 

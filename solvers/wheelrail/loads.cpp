@@ -19,14 +19,18 @@ void flip(Wrench& w) {
 }  // namespace
 
 Wrenches loads(const Placement& placed, const Pose& X_TC, const Wrench& load_C) {
-  const Vec3 force_T = X_TC.rotation * load_C.force, moment_T = X_TC.rotation * load_C.moment;
-  const auto about = [&](const Vec3& point_T) {
-    return Wrench{force_T, (X_TC.origin - point_T).cross(force_T) + moment_T};
+  return loads(placed, X_TC, load_C, load_C);
+}
+
+Wrenches loads(const Placement& placed, const Pose& X_TC, const Wrench& by_rail_C, const Wrench& by_wheel_C) {
+  const auto about = [&](const Vec3& point_T, const Wrench& load_C) {
+    const Vec3 force_T = X_TC.rotation * load_C.force;
+    return Wrench{force_T, (X_TC.origin - point_T).cross(force_T) + X_TC.rotation * load_C.moment};
   };
   Wrenches out;
-  out.track = about(placed.X_TR.origin);
+  out.track = about(placed.X_TR.origin, by_rail_C);
   out.rail = seen_in(out.track, placed.X_TR.rotation);
-  const Wrench at_wheel = about(placed.X_TW.origin);
+  const Wrench at_wheel = about(placed.X_TW.origin, by_wheel_C);
   out.wheelset = seen_in(at_wheel, placed.X_TWs.rotation);
   out.wheel = seen_in(at_wheel, placed.X_TW.rotation);
   return out;

@@ -34,6 +34,8 @@ struct Wrenches {
 
 /// A load at a contact reference, given in contact axes with its moment about that point [N], [N m].
 Wrenches loads(const Placement& placement, const Pose& X_TC, const Wrench& load_C);
+/// The same of a load that rail and wheel take at different places: by_wheel_C is the opposite of the wheel's.
+Wrenches loads(const Placement& placement, const Pose& X_TC, const Wrench& by_rail_C, const Wrench& by_wheel_C);
 
 /// The load seen in the mirror y -> -y.
 Wrenches mirrored(Wrenches load);

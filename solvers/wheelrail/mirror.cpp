@@ -71,6 +71,11 @@ void flip(PatchSolution& p) {
   p.force_C.y() = -p.force_C.y();
   flip_axial(p.moment_C);
   p.load = mirrored(p.load);
+  if (p.surface_loads)
+    for (Wrench* load : {&p.surface_loads->pressure, &p.surface_loads->rail, &p.surface_loads->wheel}) {
+      load->force.y() = -load->force.y();
+      flip_axial(load->moment);
+    }
   std::reverse(p.row_angle.begin(), p.row_angle.end());
   for (double& angle : p.row_angle) angle = -angle;
 

@@ -112,7 +112,10 @@ void complete(const Geometry& bodies, PairSolution& solution) {
     patch.rail_shape = contact_shape(*bodies.rail, X_ST * patch.frame.X_TC);
     patch.wheel_shape = contact_shape(*bodies.wheel, X_AT * patch.frame.X_TC);
     const kalker::ContactSolution& c = patch.contact;
-    patch.load = loads(solution.placement, patch.frame.X_TC, {patch.force_C, patch.moment_C});
+    const Wrench plane{patch.force_C, patch.moment_C};
+    const auto& at_surfaces = patch.surface_loads;
+    patch.load = loads(solution.placement, patch.frame.X_TC, at_surfaces ? at_surfaces->rail : plane,
+                       at_surfaces ? at_surfaces->wheel : plane);
     solution.load += patch.load;
     locate(solution.placement, patch);
     for (const Report* report : {&c.normal, &c.tangential})
@@ -211,6 +214,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   next->last.stiffness = balance.stiffness;
   next->last.end_slope = balance.end_slope;
   if (p.refinement) step.estimate_refinement(coarse_solver_);
+  if (p.surface_loads) step.find_surface_loads();
   solution.placement = step.placement();
   const double balanced = step.force_T().z();
   solution.patches = step.take_patches();

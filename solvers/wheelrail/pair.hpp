@@ -25,6 +25,21 @@
 
 namespace treadmark::wheelrail {
 
+/// Heights of rail and wheel along n at which the rigid slip of each element was taken [m]; empty: in the contact plane
+/// and at the approach.
+struct SlipHeights {
+  std::vector<double> rail, wheel;  ///< by element of the grid [m]
+};
+
+/// What a patch does to its bodies (surface_loads.hpp): loads on the rail in contact axes, moments about the contact
+/// reference [N], [N m].
+struct SurfaceLoads {
+  Wrench pressure;          ///< of the pressures alone, as the rail takes them
+  Wrench rail;              ///< as the rail takes the whole load
+  Wrench wheel;             ///< the opposite of what the wheel takes
+  double slip_power = 0.0;  ///< of the tractions on the rigid slip, lost by the bodies [W]
+};
+
 /// One contact patch between wheel and rail, solved.
 struct PatchSolution {
   detection::ContactPatch region;  ///< where the undeformed bodies interpenetrate
@@ -43,12 +58,13 @@ struct PatchSolution {
   Vec3 force_C = Vec3::Zero();                     ///< on the rail, contact axes, with damping [N]
   Vec3 moment_C = Vec3::Zero();                    ///< about the contact reference [N m]
   Wrenches load;
-  std::uint64_t id = 0;                    ///< stays with a patch through a sequence in time; > 0
-  std::vector<std::uint64_t> came_from;    ///< patches of the previous instant that it continues
-  Vec3 reference_rail = Vec3::Zero();      ///< contact reference in rail axes [m]
-  Vec3 reference_wheel = Vec3::Zero();     ///< in wheel profile axes (not pitched) [m]
-  Vec3 reference_wheelset = Vec3::Zero();  ///< in wheelset axes [m]
-  double reference_s = 0.0;                ///< arc length along the rail profile from y = 0 [m]
+  std::optional<SurfaceLoads> surface_loads;  ///< where they were asked for, with damping; load is then theirs
+  std::uint64_t id = 0;                       ///< stays with a patch through a sequence in time; > 0
+  std::vector<std::uint64_t> came_from;       ///< patches of the previous instant that it continues
+  Vec3 reference_rail = Vec3::Zero();         ///< contact reference in rail axes [m]
+  Vec3 reference_wheel = Vec3::Zero();        ///< in wheel profile axes (not pitched) [m]
+  Vec3 reference_wheelset = Vec3::Zero();     ///< in wheelset axes [m]
+  double reference_s = 0.0;                   ///< arc length along the rail profile from y = 0 [m]
   double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
   std::optional<kalker::Refinement> refinement;                      ///< where it was asked for
   std::optional<ContactShape> rail_shape, wheel_shape;  ///< at the contact reference; none where a surface ends there

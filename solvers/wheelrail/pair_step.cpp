@@ -16,6 +16,7 @@
 #include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
+#include "treadmark/solvers/wheelrail/surface_loads.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"
 
 namespace treadmark::wheelrail {
@@ -87,6 +88,7 @@ void PairStep::move(Patch& patch) const {
     PartSlip slip = part_slip(problem_, placement_, *geometry_.rail, s, patch.parts);
     s.extra_slip_x = std::move(slip.x);
     s.extra_slip_y = std::move(slip.y);
+    patch.slip_heights = std::move(slip.heights);
     return;
   }
   SurfaceSlip slip =
@@ -94,6 +96,7 @@ void PairStep::move(Patch& patch) const {
   s.kinematics = slip.kinematics;
   s.extra_slip_x = std::move(slip.extra_x);
   s.extra_slip_y = std::move(slip.extra_y);
+  patch.slip_heights = std::move(slip.heights);
 }
 
 kalker::ContactSolver& PairStep::solver(std::size_t i, const Patch& patch) {
@@ -340,6 +343,16 @@ void PairStep::estimate_refinement(kalker::ContactSolver& coarse) {
   for (Patch& patch : patches_)
     patch.solution.refinement =
         kalker::estimate_refinement(contact_problem(patch), patch.solution.contact, !at_given_height(), coarse);
+}
+
+void PairStep::find_surface_loads() {
+  const MaterialVelocity material = material_velocity(problem_, placement_);
+  for (Patch& patch : patches_) {
+    PatchSolution& s = patch.solution;
+    s.surface_loads = surface_loads(
+        geometry_, placement_, material, s,
+        patch.reference ? *patch.reference : detection::plane_reference(s.grid, s.reference_C), patch.slip_heights);
+  }
 }
 
 std::vector<PatchSolution> PairStep::take_patches() {

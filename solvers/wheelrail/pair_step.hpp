@@ -80,6 +80,8 @@ class PairStep {
 
   /// Of each patch, after tractions were found.
   void estimate_refinement(kalker::ContactSolver& coarse);
+  /// Likewise.
+  void find_surface_loads();
   std::vector<PatchSolution> take_patches();
   const Placement& placement() const { return placement_; }
   /// Names the patches and returns what they leave to the next instant; before take_patches().
@@ -96,6 +98,7 @@ class PairStep {
     /// Where the rigid slip is that of the surfaces: what elements lie on, and the surfaces over them.
     std::optional<detection::ReferenceRows> reference;
     detection::FacingSurfaces surfaces;
+    SlipHeights slip_heights;
     bool part_hidden = false;  ///< elements were left out because another part of a section lies over them
     kalker::ContactSolution normal;
     Vec3 normal_force_C = Vec3::Zero();  ///< resultant of the pressures

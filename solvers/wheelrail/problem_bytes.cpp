@@ -111,10 +111,10 @@ void put_all(ByteWriter& out, const T&... values) {
 void write(const Problem& p, ByteWriter& out) {
   const auto& [side, track, wheelset, state, roller, vertical, longitudinal, springs, regime, history, step_rule,
                reference, discretisation, material, friction, solver, iterations, normal, tangential, fastsim,
-               influence, thermal, damping, sensitivities, refinement, inclination, laws] = p;
+               influence, thermal, damping, sensitivities, refinement, surface, inclination, laws] = p;
   put_all(out, side, track, wheelset, state, roller, vertical, longitudinal, springs, regime, history, step_rule,
           reference, discretisation, material, friction, solver, iterations, normal, tangential, fastsim, influence,
-          thermal, damping, sensitivities, refinement, inclination, laws);
+          thermal, damping, sensitivities, refinement, surface, inclination, laws);
 }
 
 }  // namespace treadmark::wheelrail

@@ -86,12 +86,13 @@ SurfaceSlip surface_slip(const Problem& p, const Placement& placed, const Pose& 
                          const detection::ReferenceRows& reference, const detection::FacingSurfaces& surfaces,
                          const ContactKinematics& at_reference) {
   require_same_grid(grid, reference, surfaces);
-  SurfaceSlip result{at_reference, std::vector<double>(grid.size()), std::vector<double>(grid.size())};
+  SurfaceSlip result{at_reference, std::vector<double>(grid.size()), std::vector<double>(grid.size()), {}};
   ContactKinematics& k = result.kinematics;
   k.velocity = rolling_velocity(p, at_reference.velocity);
   if (k.velocity < kStanding) return result;
 
   const MaterialVelocity material = material_velocity(p, placed);
+  result.heights = {std::vector<double>(grid.size()), std::vector<double>(grid.size())};
   const Vec2 offset = spin_offset(p, grid, k.chi);
   const auto place = [&](int ix, int iy) -> Vec2 {
     return Vec2(grid.x(ix), grid.y(iy)) - reference.reference_C + offset;
@@ -104,6 +105,8 @@ SurfaceSlip surface_slip(const Problem& p, const Placement& placed, const Pose& 
     const Pose X_TL = X_TC * reference.X_CL(iy);
     for (int ix = 0; ix < grid.nx; ++ix) {
       const std::size_t i = grid.index(ix, iy);
+      result.heights.rail[i] = heights->rail;
+      result.heights.wheel[i] = heights->wheel;
       if (missing(i)) continue;
       const Vec3 v_rail = material.rail.at(X_TL.apply({grid.x(ix), 0.0, heights->rail}));
       const Vec3 v_wheel = material.wheel.at(X_TL.apply({grid.x(ix), 0.0, heights->wheel}));
@@ -153,6 +156,7 @@ PartSlip part_slip(const Problem& p, const Placement& placed, const Surface& rai
   const Grid2& g = patch.grid;
   slip.x.assign(g.size(), 0.0);
   slip.y.assign(g.size(), 0.0);
+  slip.heights = {std::vector<double>(g.size(), 0.0), std::vector<double>(g.size(), patch.approach)};
   const ContactKinematics& whole = patch.kinematics;
   for (std::size_t k = 0; k < static_cast<std::size_t>(parts.count); ++k) {
     const detection::PatchExtent& extent = patch.region.parts[k];
@@ -160,7 +164,8 @@ PartSlip part_slip(const Problem& p, const Placement& placed, const Surface& rai
                  own_share = 1.0 - coupling_of(parts, k);
     if (std::isnan(z) || !(own_share > 0.0)) continue;
     const Pose X_TP{{extent.x, extent.y, z}, patch.frame.X_TC.rotation};
-    const ContactKinematics own = contact_kinematics(p, placed, X_TP, approach_of(patch, parts, k));
+    const double approach = approach_of(patch, parts, k);
+    const ContactKinematics own = contact_kinematics(p, placed, X_TP, approach);
     const Vec3 reference = patch.frame.X_TC.apply_inverse(X_TP.origin);
     for (int iy = 0; iy < g.ny; ++iy)
       for (int ix = 0; ix < g.nx; ++ix) {
@@ -169,6 +174,8 @@ PartSlip part_slip(const Problem& p, const Placement& placed, const Surface& rai
         const double x = g.x(ix) - patch.reference_C.x(), y = g.y(iy) - patch.reference_C.y();
         slip.x[i] = own_share * (own.xi - whole.xi - own.phi * (y - reference.y()) + whole.phi * y);
         slip.y[i] = own_share * (own.eta - whole.eta + own.phi * (x - reference.x()) - whole.phi * x);
+        slip.heights.rail[i] = own_share * reference.z();
+        slip.heights.wheel[i] += own_share * (reference.z() + approach - patch.approach);
       }
   }
   return slip;

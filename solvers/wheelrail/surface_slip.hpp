@@ -16,6 +16,7 @@ namespace treadmark::wheelrail {
 struct SurfaceSlip {
   ContactKinematics kinematics;          ///< creepages and spin about the contact reference, V, chi
   std::vector<double> extra_x, extra_y;  ///< per element [-] (shift: [m]), 0 where a surface is missing
+  SlipHeights heights;                   ///< empty for a standing wheel
 };
 
 /// Rigid slip of every element from the velocities of the rail's and the wheel's material, each on its own undeformed
@@ -33,6 +34,7 @@ SurfaceSlip surface_slip(const Problem& right_hand_problem, const Placement& pla
 /// Rigid slip of the elements of a patch of several parts beyond its creepages and spin, per element [-] (shift: [m]).
 struct PartSlip {
   std::vector<double> x, y;  ///< empty for a patch of one part
+  SlipHeights heights;       ///< likewise
 };
 
 /// Every part creeps as about its own contact reference where it feels little of the others, and with the patch where

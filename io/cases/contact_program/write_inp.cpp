@@ -313,6 +313,8 @@ class InputWriter {
     const int method = discretisation_digit(c);
     refuse_if(c.reference_surface != Reference::plane && c.discretisation.method != 2,
               "contact.reference_surface with a discretisation.method of its own");
+    refuse_if(c.reference_surface != Reference::plane && c.tangential_model != TangentialModel::full,
+              "contact.reference_surface of a simplified theory");
     const bool flexible = deviates(c.state.wheel_offset) || deviates(c.state.wheel_velocity);
     own_settings({{"case.sensitivities", "false"},
                   {"case.reference_ways", "true"},

@@ -25,6 +25,8 @@ constexpr double kLeastShare = 0.02;
 PatchTangent tangent_of(const wheelrail::PatchSolution& patch, const wheelrail::Problem& p, double travelled) {
   PatchTangent t;
   t.X_TC = patch.frame.X_TC;
+  const Vec3 pressure = patch.surface_loads->pressure.force;  // across a curved patch not along the plane's normal
+  t.X_TC.rotation *= rotation_x(std::atan2(-pressure.y(), pressure.z()));
   const kalker::ContactSolution& c = patch.contact;
   t.stiffness_n = 1.5 * c.force_n / std::max(patch.approach, 1e-9);
   t.normal_force = c.force_n;
@@ -55,8 +57,9 @@ double traction_at(const std::vector<double>& field, const Grid2& grid, double i
   return (1.0 - share) * at(low) + share * at(low + 1);
 }
 
-/// Power that friction dissipates: slip times the mean of the tractions where material is and where it was a rolling
-/// step before. With those at the end of the step alone it would be of first order in the step only.
+/// Power that friction dissipates in transient rolling: slip times the mean of the tractions where material is and
+/// where it was a rolling step before. With those at the end of the step alone it would be of first order in the step
+/// only.
 double dissipated(const wheelrail::PatchSolution& patch) {
   const kalker::ContactSolution& c = patch.contact;
   if (c.traction_x.empty() || c.slip_x.empty()) return 0.0;
@@ -95,8 +98,14 @@ FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem
   problem_.vertical_force.reset();
   problem_.longitudinal_force.reset();
   problem_.rail_springs.reset();
+  problem_.surface_loads = true;
   problem_.discretisation.usual_dq_relative = usual_travel / problem_.discretisation.dx;
   past_.state = accepted_.before.state = pair_.save();
+}
+
+/// Whether tractions of the past are carried on.
+bool FullContact::goes_on(const Past& past, const PairMotion& motion) const {
+  return past.started && problem_.regime == kalker::Regime::transient && motion.wheelset.x != past.x;
 }
 
 wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& motion) {
@@ -108,10 +117,9 @@ wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& m
   p.track.dy = r.y, p.track.dz = r.z, p.track.roll = r.roll;
   p.track.vy = r.vy, p.track.vz = r.vz, p.track.vroll = r.vroll;
 
-  const double travelled = motion.wheelset.x - past.x;
-  if (past.started && p.regime == kalker::Regime::transient && travelled != 0.0) {
+  if (goes_on(past, motion)) {
     p.history = kalker::HistoryUse::keep_going;
-    p.discretisation.dq_relative = std::abs(travelled) / p.discretisation.dx;
+    p.discretisation.dq_relative = std::abs(motion.wheelset.x - past.x) / p.discretisation.dx;
   } else {
     if (p.regime == kalker::Regime::transient) p.regime = kalker::Regime::steady;
     p.history = kalker::HistoryUse::start;
@@ -122,6 +130,7 @@ wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& m
 ContactReaction FullContact::evaluate(const PairMotion& motion) {
   if (!at_past_) pair_.restore(past_.state);
   at_past_ = false;
+  const bool in_time = goes_on(past_, motion);
   const wheelrail::PairSolution solution = solve(past_, motion);
   tried_ = motion;
   times_ += solution.times;
@@ -141,13 +150,21 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
     out.max_pressure = std::max(out.max_pressure, c.max_pressure);
     out.area += c.elements_contact * patch.grid.cell_area();
     out.elastic_energy += c.elastic_energy;
-    out.frictional_power += dissipated(patch);
+    // Steady: elastic slip does no work in all, by reciprocity, so friction takes what rigid slip puts in. Sums of slip
+    // times traction over elements lack the step in which material leaves the contact.
+    out.frictional_power += in_time ? dissipated(patch) : patch.surface_loads->slip_power;
     out.tangents.push_back(tangent_of(patch, problem_, motion.wheelset.x - past_.x));
-    // Each body feels the force where its creep is measured, the wheel at the depth of the approach: their power is
-    // that of the creep.
-    const Vec3 arm = patch.frame.X_TC.apply({0.0, 0.0, patch.approach}) - solution.placement.X_TWs.origin;
-    const Vec3 force = patch.frame.X_TC.rotation * patch.force_C, moment = patch.frame.X_TC.rotation * patch.moment_C;
-    out.on_wheelset += {-force, -(moment + arm.cross(force))};
+    const Pose& X_TC = patch.frame.X_TC;
+    const auto about_axle = [&](const wheelrail::Wrench& load_C) {
+      const Vec3 force = X_TC.rotation * load_C.force, arm = X_TC.origin - solution.placement.X_TWs.origin;
+      return wheelrail::Wrench{force, X_TC.rotation * load_C.moment + arm.cross(force)};
+    };
+    const wheelrail::Wrench taken = about_axle(patch.surface_loads->wheel);
+    out.on_wheelset += {-taken.force, -taken.moment};
+    // Ahead of the axle a rail that bends has another direction, and pressures push the wheel back or forth.
+    const double along = -motion.curvature * about_axle(patch.surface_loads->pressure).moment.z();
+    out.on_rail.force.x() += along;
+    out.on_wheelset.force.x() -= along;
     ++out.patches;
     if (c.force_n <= most_loaded) continue;
     most_loaded = c.force_n;

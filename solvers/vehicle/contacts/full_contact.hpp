@@ -52,6 +52,7 @@ class FullContact : public ContactElement {
   const wheelrail::PhaseTimes& times() const { return times_; }
 
  private:
+  bool goes_on(const Past& past, const PairMotion& motion) const;
   wheelrail::PairSolution solve(const Past& past, const PairMotion& motion);
 
   wheelrail::Problem problem_;

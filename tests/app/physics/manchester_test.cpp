@@ -156,6 +156,43 @@ TEST(Manchester, StartsInTightCurvesWhereARunIntoThemEnds) {
   }
 }
 
+/// Eight full contacts in a tight curve, with the friction that Y/Q of the inner leading wheel tells: forces are those
+/// that a published comparison of programs has of Universal Mechanism (docs/vehicle-simulation.md), and flanges lose no
+/// work.
+TEST(Manchester, GuidesItselfInATightCurveAsPublished) {
+  constexpr double kPublished[4][4] = {// vertical left and right, lateral left and right [kN]
+                                       {54.4, 55.1, 32.2, -23.1},
+                                       {39.9, 68.7, 1.5, -21.9},
+                                       {49.3, 59.2, 19.9, -25.1},
+                                       {44.3, 64.9, 4.1, -10.8}};
+  constexpr double kVertical = 1.5, kLateral = 1.0;  // [kN]
+  io::SimulationFile file = into_a_curve(150.0, 0.1, 4.4);
+  file.start = 205.0;
+  file.settings.distance = 0.01;
+  file.settings.duration = file.settings.distance / file.settings.speed;
+  file.track.reset();
+  file.contact.friction.kinetic = 0.42;
+  file.contact.tangential_model = TangentialModel::fastsim;
+  for (io::WheelContactInput& wheel : file.wheels) wheel.model = io::ContactModelInput::full;
+  SurfaceStore store;
+  ContactTables tables;
+  BuiltVehicle built = build_vehicle(file, store, &tables);
+  const vehicle::Equilibrium e = vehicle::find_equilibrium(built.vehicle, {}, built.easy ? &*built.easy : nullptr);
+  ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
+  for (std::size_t i = 0; i < e.reactions.size(); ++i) {
+    const vehicle::WheelOnRail& wheel = built.vehicle.wheels[i];
+    const std::size_t right = wheel.side == wheelrail::Side::right;
+    const double(&row)[4] = kPublished[wheel.wheelset];
+    const Vec3 force = 1e-3 * e.reactions[i].on_rail.force;
+    EXPECT_NEAR(force.z(), row[right], kVertical) << wheel.name;
+    EXPECT_NEAR(-force.y(), row[2 + right], kLateral) << wheel.name;
+  }
+  vehicle::Simulation s(built.vehicle, e.state, integration_settings(file));
+  while (!s.finished()) s.advance();
+  EXPECT_GT(s.energy().drive, 10.0);
+  EXPECT_LT(std::abs(s.energy().contact_error(s.energy_at_start())), 1e-3 * s.energy().turnover);
+}
+
 TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
   check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=20"}, 2e-10, 1e-6);
 }

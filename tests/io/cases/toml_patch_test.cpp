@@ -282,6 +282,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{kRail + "damping.tangential_s = 1\n", "damping.max_rate_tangential_N_per_s is missing"},
         Wrong{kRail + "contact.reference_surface = \"conformal\"\n",
               "is not one of \"plane\", \"plane_surface_slip\", \"curved\""},
+        Wrong{kRail + "contact.reference_surface = \"curved\"\nsolver.tangential_model = \"fastsim\"\n",
+              "the simplified theory takes one creepage for a patch"},
+        Wrong{kRail + "contact.reference_surface = \"plane_surface_slip\"\nsolver.tangential_model = \"fastrip\"\n",
+              "the simplified theory takes one creepage for a patch"},
         Wrong{kRail + "[[subsurface.blocks]]\nz_mm = [1]\nx_mm = [0]\n", "a block of subsurface points is empty"},
         Wrong{kRail + "discretisation.max_elements = 1000000\n[[subsurface.blocks]]\nz_mm = [1, 2, 3, 4, 5, 6, 7, 8, "
                       "9, 10, 11, 12, 13, 14, 15, "

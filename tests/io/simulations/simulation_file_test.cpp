@@ -68,6 +68,19 @@ TEST_F(SimulationText, FillsEveryValueInSIUnits) {
   EXPECT_FALSE(file.left_rail || file.right_rail || file.table_rail);
 }
 
+TEST_F(SimulationText, SlipIsThatOfTheSurfacesWhereTheTheoryTakesIt) {
+  using R = ReferenceSurface;
+  const auto reference = [&](const std::vector<std::string>& overrides) {
+    return parse(kSimulation, overrides).contact.reference_surface;
+  };
+  const std::string steady = "case.regime=steady", model = "solver.tangential_model=";
+  EXPECT_EQ(reference({}), R::plane_surface_slip);
+  EXPECT_EQ(reference({model + "fastsim"}), R::plane_surface_slip);
+  EXPECT_EQ(reference({model + "fastrip", steady}), R::plane);
+  EXPECT_EQ(reference({"contact.reference_surface=plane"}), R::plane);
+  EXPECT_EQ(reference({"contact.reference_surface=curved"}), R::curved);
+}
+
 TEST_F(SimulationText, ContactIsThatOfACaseFile) {
   const WheelRailCase c = parse(kSimulation).contact;
   EXPECT_EQ(c.regime, Regime::transient);
