@@ -110,7 +110,7 @@ void require_registered(const io::CaseFile& file) {
   }
 }
 
-io::CaseFile read_case_file(const std::string& file, const std::vector<std::string>& overrides) {
+io::CaseFile read_registered_case(const std::string& file, const std::vector<std::string>& overrides) {
   io::CaseFile out = io::read_any_case(file, overrides);
   require_registered(out);
   return out;

@@ -27,6 +27,6 @@ const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file);
 /// not know.
 void require_registered(const io::CaseFile& file);
 /// io::read_any_case with require_registered. Errors: theirs.
-io::CaseFile read_case_file(const std::string& file, const std::vector<std::string>& overrides);
+io::CaseFile read_registered_case(const std::string& file, const std::vector<std::string>& overrides);
 
 }  // namespace treadmark::app

@@ -49,7 +49,7 @@ std::vector<std::string> echo(const BenchOptions& options) {
 }
 
 io::CaseFile case_of(const BenchOptions& options) {
-  if (!options.case_file.empty()) return app::read_case_file(options.case_file, options.overrides);
+  if (!options.case_file.empty()) return app::read_registered_case(options.case_file, options.overrides);
   io::CaseFile file = app::bench_case();
   io::apply_overrides(file, options.overrides);
   return file;

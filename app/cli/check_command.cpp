@@ -93,7 +93,7 @@ void check_geometry_file(const CheckOptions& options, CheckedInput& input) {
 
 /// pictures: the folder for them; empty: none.
 void check_case_file(const CheckOptions& options, const std::filesystem::path& pictures, CheckedInput& input) {
-  const io::CaseFile file = app::read_case_file(input.file, options.overrides);
+  const io::CaseFile file = app::read_registered_case(input.file, options.overrides);
   const std::vector<app::CaseGeometry> cases = app::check_geometry(file);
   print_notes(file.notes, false);
   input.notes = file.notes;

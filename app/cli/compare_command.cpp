@@ -80,7 +80,7 @@ int exit_status(const io::Comparison& result) {
 int compare_command(const CompareOptions& options, const CommonOptions& common) {
   const ThreadLimit limit(common.threads);
   catch_interrupt();
-  const io::CaseFile file = app::read_case_file(options.case_file, options.overrides);
+  const io::CaseFile file = app::read_registered_case(options.case_file, options.overrides);
   const auto compared = std::make_shared<io::Comparison>(with_progress(common.quiet, [&](const Progress& progress) {
     return app::compare_cases(file, settings_of(options), progress);
   }));

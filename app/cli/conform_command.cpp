@@ -31,7 +31,7 @@ int conform_command(const ConformOptions& options, const CommonOptions& common) 
                 fmt::format("--set is for a case file, and '{}' is taken for a backend", options.what), {},
                 "a case file has an extension");
   const conformance::Record record = with_progress(common.quiet, [&](const Progress& progress) {
-    return is_file ? app::hold_case(app::read_case_file(options.what, options.overrides))
+    return is_file ? app::hold_case(app::read_registered_case(options.what, options.overrides))
                    : conformance::hold_backend(options.what, 1e-3 * options.resolution_mm, progress);
   });
   print(record.text());

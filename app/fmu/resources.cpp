@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/platform/ranges.hpp"
@@ -120,7 +121,7 @@ std::vector<io::Case> cases_of(const io::CaseFile& file, const FmuContent& conte
 }
 
 std::string write_wheels(const FmuContent& content, const fs::path& folder) {
-  io::CaseFile file = io::read_any_case(content.input, content.overrides);
+  io::CaseFile file = app::read_registered_case(content.input.string(), content.overrides);
   file.cases = cases_of(file, content);
   Packer packer(folder);
   for (io::Case& c : file.cases) packer.pack(std::get<io::WheelRailCase>(c.content));

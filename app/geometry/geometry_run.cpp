@@ -234,7 +234,7 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
   double cant = r.cant.value_or(0.0);
   geometry::PairPlacement& placement = out.placement;
   if (!r.case_file.empty()) {
-    const io::CaseFile file = io::read_any_case(r.case_file, r.overrides);
+    const io::CaseFile file = read_registered_case(r.case_file, r.overrides);
     const io::WheelRailCase* first = first_wheelrail_case(file);
     if (first == nullptr)
       throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail in the file", {r.case_file});

@@ -46,6 +46,13 @@ io::SurfaceSource round_wheel(const io::SimulationFile& file) {
   return source;
 }
 
+/// Whatever represents it.
+io::SurfaceSource as_given(io::SurfaceSource source) {
+  source.backend.clear();
+  source.resolution = 0.0;
+  return source;
+}
+
 }  // namespace
 
 io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
@@ -140,9 +147,7 @@ class Builder {
 
   /// Round wheel, rail without defects, both as they are given.
   wheelrail::Geometry table_geometry(Side side) {
-    io::SurfaceSource wheel = round_wheel(file_);
-    wheel.backend = "";
-    wheel.resolution = 0.0;
+    const io::SurfaceSource wheel = as_given(round_wheel(file_));
     wheelrail::Geometry bodies = geometry(wheel, table_rail(side), Region{});
     if (!bodies.round_wheel)
       throw Error(ErrorKind::configuration, "wheels with table contact must be round", wheel.where,
@@ -156,7 +161,9 @@ class Builder {
   }
 
   /// Whether there can be a table of a side.
-  bool has_section(Side side) { return geometry(round_wheel(file_), table_rail(side), Region{}).constant_profiles(); }
+  bool has_section(Side side) {
+    return geometry(as_given(round_wheel(file_)), table_rail(side), Region{}).constant_profiles();
+  }
 
   std::shared_ptr<const vehicle::ContactTable> table(Side side, double wheel_load) {
     // Rails are right-hand ones: one table serves both sides of one shape.
@@ -423,13 +430,20 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   }
   v.connect();
   const bool any_full = ranges::any_of(built.full, [](const auto& full) { return full != nullptr; });
-  if (any_full && v.line && v.line->point(0.0).curvature.value != 0.0 && builder.has_section(Side::left) &&
-      builder.has_section(Side::right)) {
-    lay_rails();
-    built.easy = v;
-    for (std::size_t i = 0; i < v.wheels.size(); ++i)
-      built.easy->wheels[i].element = mounted(tabulated(v.wheels[i].side), i);
-  }
+  const auto easy_start = [&]() -> std::optional<vehicle::VehicleOnTrack> {
+    try {
+      if (!builder.has_section(Side::left) || !builder.has_section(Side::right)) return std::nullopt;
+      lay_rails();
+      vehicle::VehicleOnTrack easy = v;
+      for (std::size_t i = 0; i < v.wheels.size(); ++i)
+        easy.wheels[i].element = mounted(tabulated(v.wheels[i].side), i);
+      return easy;
+    } catch (const Error&) {  // full contacts do without
+      return std::nullopt;
+    }
+  };
+  // Tables are made of what files name: of a shape put in its place they would know nothing.
+  if (any_full && v.line && v.line->point(0.0).curvature.value != 0.0 && !store.replaced()) built.easy = easy_start();
   const bool fields = !file.fields.pitch.empty() || !file.fields.position.empty();
   const auto damaged = [](const io::WheelContactInput& w) {
     return w.model == io::ContactModelInput::full && w.defects;

@@ -28,7 +28,7 @@
 namespace treadmark::app {
 
 std::string energy_doubt(const vehicle::EnergyBalance& now, const vehicle::EnergyBalance& start) {
-  constexpr double kDoubtful = 0.02;  // full contacts leave up to 0.005
+  constexpr double kDoubtful = 0.02;
   const double off = std::max(std::abs(now.contact_error(start)), std::abs(now.integration_error(start)));
   if (!(off > kDoubtful * now.turnover)) return {};
   return fmt::format(

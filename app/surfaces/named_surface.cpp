@@ -76,7 +76,7 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
   if (is_offset_file(file) && radius > 0.0)
     refuse("offsets have their own nominal radius, --nominal-radius cannot change it");
   if (is_case) {
-    const io::CaseFile cases = io::read_any_case(file.string(), said.overrides);
+    const io::CaseFile cases = read_registered_case(file.string(), said.overrides);
     const io::WheelRailCase* first = first_wheelrail_case(cases);
     if (first == nullptr)
       throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail in the file", {file.string()});

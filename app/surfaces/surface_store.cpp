@@ -102,6 +102,7 @@ void SurfaceStore::put(const io::SurfaceSource& source, Body body, double radius
                        std::shared_ptr<const NaturalSurface> surface) {
   note_hashes(source);
   naturals_.push_back({key_of(source, body, radius), source.defects, std::move(surface)});
+  replaced_ = true;
 }
 
 const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double radius,

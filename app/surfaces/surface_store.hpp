@@ -37,6 +37,8 @@ class SurfaceStore {
   /// The surface that a source stands for from now on, in place of what it names. For sources that nobody has asked
   /// for yet.
   void put(const io::SurfaceSource& source, Body body, double radius, std::shared_ptr<const NaturalSurface> surface);
+  /// Whether put() was called.
+  bool replaced() const { return replaced_; }
 
   /// Tells the natural surface of a source from others in any store: what describes it, and the contents of its files.
   /// Defects do not show in it.
@@ -72,6 +74,7 @@ class SurfaceStore {
   std::vector<std::unique_ptr<Stored>> stored_;
   std::vector<Stored*> used_;
   std::vector<std::pair<std::string, std::string>> hashes_;
+  bool replaced_ = false;
 };
 
 }  // namespace treadmark::app

@@ -95,7 +95,7 @@ MadeTable make_table(const io::Case& given, const wheelrail::Geometry& geometry,
 
 MadeTable make_table(const std::filesystem::path& case_file, const TableRequest& request, const io::ContentCache* cache,
                      const Progress& progress) {
-  const io::CaseFile file = io::read_any_case(case_file, request.overrides);
+  const io::CaseFile file = read_registered_case(case_file.string(), request.overrides);
   const auto found = ranges::find_if(
       file.cases, [](const io::Case& c) { return std::holds_alternative<io::WheelRailCase>(c.content); });
   if (found == file.cases.end())

@@ -198,13 +198,17 @@ Held<app::BenchReport> bench(const std::optional<Source>& source, const Strings&
 }  // namespace
 
 io::CaseFile cases_of(const Source& source) {
-  if (source.text) return io::parse_case_text(*source.text, source.file, source.overrides);
+  if (source.text) {
+    io::CaseFile file = io::parse_case_text(*source.text, source.file, source.overrides);
+    app::require_registered(file);
+    return file;
+  }
   if (io::is_study_file(source.file))
     throw Error(ErrorKind::configuration, "this is a study", {source.file.string(), 0, 0}, "use treadmark.sweep");
   if (io::is_simulation_file(source.file))
     throw Error(ErrorKind::configuration, "this is a simulation", {source.file.string(), 0, 0},
                 "use treadmark.simulate");
-  return app::read_case_file(source.file, source.overrides);
+  return app::read_registered_case(source.file, source.overrides);
 }
 
 void add_verbs(py::module_& module) {

@@ -94,7 +94,8 @@ void add_balance_keys(KeyList& list) {
       "contact.reference_surface",
       {{"plane", R::plane}, {"plane_surface_slip", R::plane_surface_slip}, {"curved", R::curved}},
       "tangent plane with creepages, tangent plane with the rigid slip of the surfaces at every element, or conformal "
-      "contact on a surface that is curved across the rail",
+      "contact on a surface that is curved across the rail; in simulations the second unless given, where the theory "
+      "takes it",
       [](W& c) -> R& { return c.reference_surface; });
 }
 

@@ -141,8 +141,11 @@ void read_contact(const ContactPart& part, SimulationFile& out) {
     refuse(change.path, change.value.where);
   }
   out.contact = contact_of(completed(part, out), part, &out.notes);
-  // One creepage for a patch is not enough at flanges.
-  if (!given_at(part, "contact.reference_surface") && takes_slip_of_elements(out.contact.tangential_model))
+  // One creepage for a patch is not enough at flanges. Whoever asks for the reference program's ways gets its plane.
+  const bool reference_ways =
+      out.contact.conventions == Conventions::contact || out.contact.discretisation.conventions == Conventions::contact;
+  if (!given_at(part, "contact.reference_surface") && !reference_ways &&
+      takes_slip_of_elements(out.contact.tangential_model))
     out.contact.reference_surface = ReferenceSurface::plane_surface_slip;
   out.contact.vertical_force = 0.0;
   check_radius(part, out);

@@ -411,21 +411,30 @@ std::string what_remains(const VehicleOnTrack& vehicle, const Balance& balance, 
   return text;
 }
 
+/// From the balance of the same vehicle with simpler contacts, where that leads there.
+std::optional<Equilibrium> from_easy(const Balance& balance, const VehicleOnTrack& easy,
+                                     const EquilibriumSettings& settings) {
+  try {
+    Equilibrium near = find_equilibrium(easy, settings);
+    if (near.report.status != Status::ok) return std::nullopt;
+    const Balance slopes(easy);
+    std::string why;
+    iterate(balance, settings, near, why, &slopes);
+    near.report = {};
+    if (near.residual <= settings.acceptable) return near;
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::numerical) throw;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings,
                              const VehicleOnTrack* easy) {
   const Balance balance(vehicle);
-  if (easy) {
-    Equilibrium near = find_equilibrium(*easy, settings);
-    const Balance slopes(*easy);
-    std::string why;
-    if (near.report.status == Status::ok) {
-      iterate(balance, settings, near, why, &slopes);
-      near.report = {};
-      if (near.residual <= settings.acceptable) return near;
-    }
-  }
+  if (easy)
+    if (auto near = from_easy(balance, *easy, settings)) return *near;
   Equilibrium found;
   found.state = balance.start();
   Vector r;

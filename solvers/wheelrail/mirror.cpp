@@ -72,7 +72,8 @@ void flip(PatchSolution& p) {
   flip_axial(p.moment_C);
   p.load = mirrored(p.load);
   if (p.surface_loads)
-    for (Wrench* load : {&p.surface_loads->pressure, &p.surface_loads->rail, &p.surface_loads->wheel}) {
+    for (Wrench* load : {&p.surface_loads->pressure, &p.surface_loads->pressure_on_wheel, &p.surface_loads->rail,
+                         &p.surface_loads->wheel}) {
       load->force.y() = -load->force.y();
       flip_axial(load->moment);
     }

@@ -34,10 +34,11 @@ struct SlipHeights {
 /// What a patch does to its bodies (surface_loads.hpp): loads on the rail in contact axes, moments about the contact
 /// reference [N], [N m].
 struct SurfaceLoads {
-  Wrench pressure;          ///< of the pressures alone, as the rail takes them
-  Wrench rail;              ///< as the rail takes the whole load
-  Wrench wheel;             ///< the opposite of what the wheel takes
-  double slip_power = 0.0;  ///< of the tractions on the rigid slip, lost by the bodies [W]
+  Wrench pressure;           ///< of the pressures alone, as the rail takes them
+  Wrench pressure_on_wheel;  ///< the opposite of what the wheel takes of them
+  Wrench rail;               ///< as the rail takes the whole load
+  Wrench wheel;              ///< the opposite of what the wheel takes
+  double slip_power = 0.0;   ///< of the tractions on the rigid slip, lost by the bodies [W]
 };
 
 /// One contact patch between wheel and rail, solved.

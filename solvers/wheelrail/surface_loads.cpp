@@ -15,7 +15,8 @@ class Profile {
     for (auto* field : {&z_, &by_x_, &by_y_}) field->resize(row.size());
     surface.heights({X_SL, row}, {z_, by_x_, by_y_});
   }
-  Vec3 point(std::size_t i, double x) const { return {x, 0.0, z_[i]}; }
+  /// In the plane where a surface has no height: distances need not come from these heights.
+  Vec3 point(std::size_t i, double x) const { return {x, 0.0, std::isnan(z_[i]) ? 0.0 : z_[i]}; }
   /// Normal into the rail per area of the plane; that of the plane where a surface has none.
   Vec3 normal(std::size_t i) const {
     return std::isnan(by_x_[i] + by_y_[i]) ? Vec3(Vec3::UnitZ()) : Vec3(-by_x_[i], -by_y_[i], 1.0);
@@ -54,7 +55,7 @@ SurfaceLoads surface_loads(const Geometry& bodies, const Placement& placed, cons
   const bool tangential = !c.traction_x.empty();
   const double area = g.cell_area();
   SurfaceLoads out;
-  Wrench traction, on_wheel;  // the latter about the axle
+  Wrench traction, pressure_on_wheel, traction_on_wheel;  // the latter two about the axle
   Profile rail, wheel;
   for (int iy = 0; iy < g.ny; ++iy) {
     const auto [first, count] = pressed(g, iy, c.pressure);
@@ -73,20 +74,22 @@ SurfaceLoads surface_loads(const Geometry& bodies, const Placement& placed, cons
       if (!(c.pressure[i] > 0.0)) continue;
       const double x = row.x(k), force = c.pressure[i] * area;
       add(out.pressure, Vec3::Zero(), rail.point(at, x), force * rail.normal(at));
-      add(on_wheel, axle_C, wheel.point(at, x), force * wheel.normal(at));
+      add(pressure_on_wheel, axle_C, wheel.point(at, x), force * wheel.normal(at));
       if (!tangential) continue;
       const Vec3 t = area * Vec3(c.traction_x[i], c.traction_y[i], 0.0),
                  by_rail(x, 0.0, heights.rail.empty() ? 0.0 : heights.rail[i]),
                  by_wheel(x, 0.0, heights.wheel.empty() ? s.approach : heights.wheel[i]);
       add(traction, Vec3::Zero(), by_rail, t);
-      add(on_wheel, axle_C, by_wheel, t);
+      add(traction_on_wheel, axle_C, by_wheel, t);
       const Vec3 slip = material.rail.at(X_TL.apply(by_rail)) - material.wheel.at(X_TL.apply(by_wheel));
       out.slip_power -= t.dot(X_TL.rotation.transpose() * slip);
     }
   }
   out.rail = out.pressure;
   out.rail += traction;
-  out.wheel = moved({out.rail.force, on_wheel.moment}, axle_C);
+  out.pressure_on_wheel = moved({out.pressure.force, pressure_on_wheel.moment}, axle_C);
+  out.wheel = out.pressure_on_wheel;
+  out.wheel += moved({traction.force, traction_on_wheel.moment}, axle_C);
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/contact_program/read_inp.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
@@ -168,9 +169,13 @@ TEST(CaseFiles, NamesThatNobodyHasRegisteredAreRefusedByEveryVerb) {
   input.write("case.toml", standard_case("1.0"));
   const std::string file = (input.folder() / "case.toml").string(), out = (input.folder() / "again.toml").string();
   for (const char* setting : {"wheel.backend=splines", "rail.backend=splines", "discretisation.detector=sight"})
-    for (const char* verb : {"run", "check", "compare", "bench", "conform", "convert"}) {
+    for (const std::string verb :
+         {"run", "check", "compare", "bench", "conform", "convert", "table", "geometry", "measure", "fmu"}) {
+      if (verb == "fmu" && !has_part("fmu")) continue;
       std::vector<std::string> words{verb, file, "--set", setting};
-      if (words[0] == "convert") words.insert(words.begin() + 2, out);
+      if (verb == "convert") words.insert(words.begin() + 2, out);
+      if (verb == "measure") words.insert(words.begin() + 1, "wheel");
+      if (verb == "fmu") words.insert(words.end(), {"-o", out});
       const ProgramResult r = run_program(words);
       EXPECT_EQ(r.status, 2) << verb << ' ' << setting;
       EXPECT_THAT(r.err, HasSubstr(std::string(setting).substr(std::string(setting).find('=') + 1))) << verb;

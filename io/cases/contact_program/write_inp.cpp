@@ -314,7 +314,8 @@ class InputWriter {
     refuse_if(c.reference_surface != Reference::plane && c.discretisation.method != 2,
               "contact.reference_surface with a discretisation.method of its own");
     refuse_if(c.reference_surface != Reference::plane && c.tangential_model != TangentialModel::full,
-              "contact.reference_surface of a simplified theory");
+              "contact.reference_surface of a simplified theory",
+              "contact.reference_surface = \"plane\" (--set) takes one creepage for a patch, as such files do");
     const bool flexible = deviates(c.state.wheel_offset) || deviates(c.state.wheel_velocity);
     own_settings({{"case.sensitivities", "false"},
                   {"case.reference_ways", "true"},

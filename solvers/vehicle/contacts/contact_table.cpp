@@ -616,7 +616,7 @@ wheelrail::Problem table_problem(wheelrail::Problem p, const ContactTableOptions
   p.rail_springs.reset();
   p.damping.reset();
   p.thermal.reset();
-  p.sensitivities = false;
+  p.sensitivities = p.refinement = p.surface_loads = false;
   p.discretisation.dx = p.discretisation.ds = options.element_size;
   return p;
 }

@@ -162,7 +162,7 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
     const wheelrail::Wrench taken = about_axle(patch.surface_loads->wheel);
     out.on_wheelset += {-taken.force, -taken.moment};
     // Ahead of the axle a rail that bends has another direction, and pressures push the wheel back or forth.
-    const double along = -motion.curvature * about_axle(patch.surface_loads->pressure).moment.z();
+    const double along = -motion.curvature * about_axle(patch.surface_loads->pressure_on_wheel).moment.z();
     out.on_rail.force.x() += along;
     out.on_wheelset.force.x() -= along;
     ++out.patches;

@@ -80,6 +80,21 @@ TEST_F(Instant, IsWrittenAsInputOfContact) {
   }
 }
 
+/// Simulations take the slip of the surfaces with FASTSIM, which such a file cannot say.
+TEST_F(Instant, OfASimplifiedTheoryNeedsAPlaneForContact) {
+  input.edit("simulation.toml", "[simulation]", "solver.tangential_model = \"fastsim\"\n[simulation]");
+  const ProgramResult r = run_program({"simulate", input.path("simulation.toml"), "-o", input.path("out")});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(convert({"-o", input.path("case.toml"), "--at", "0"}).status, 0);
+  const std::vector<std::string> to_inp{"-o", input.path("instant.inp"), "--at", "0"};
+  const ProgramResult refused = convert(to_inp);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("contact.reference_surface = \"plane\""));
+  std::vector<std::string> plane = to_inp;
+  plane.insert(plane.end(), {"--set", "contact.reference_surface=plane"});
+  EXPECT_EQ(convert(plane).status, 0);
+}
+
 TEST_F(Instant, WhatCannotBeIsRefused) {
   const auto error = [&](std::vector<std::string> options) {
     const ProgramResult r = convert(std::move(options));

@@ -154,6 +154,7 @@ TEST(KeptTables, EveryPartOfAProblemDecides) {
       [](P& p) { p.influence.inclination = {0.1}; },
       [](P& p) { p.thermal = Thermal{}; },
       [](P& p) { p.damping = Damping{}; },
+      [](P& p) { p.surface_loads = true; },
       [](P& p) { p.friction_inclination = {0.1}; },
       [](P& p) { p.friction_laws = {FrictionLaw{}}; }};
   std::vector<std::vector<std::byte>> all{plain};

@@ -187,7 +187,8 @@ contact = "full"
       chosen.push_back(row);
       break;
     }
-  std::string text = crossing("rail") + kCommon + "side = \"right\"\n\n[track]\nrail_y_mm = 753.6\nrail_z_mm = 0\n";
+  std::string text = "contact.reference_surface = \"plane_surface_slip\"\n" + crossing("rail") + kCommon +
+                     "side = \"right\"\n\n[track]\nrail_y_mm = 753.6\nrail_z_mm = 0\n";
   for (const std::size_t row : chosen)
     text += fmt::format(
         "\n[[cases]]\nwheelset.vertical_force_N = {:.12g}\nwheelset.s_mm = {:.12g}\nwheelset.y_mm = 0\n"

@@ -77,6 +77,8 @@ TEST_F(SimulationText, SlipIsThatOfTheSurfacesWhereTheTheoryTakesIt) {
   EXPECT_EQ(reference({}), R::plane_surface_slip);
   EXPECT_EQ(reference({model + "fastsim"}), R::plane_surface_slip);
   EXPECT_EQ(reference({model + "fastrip", steady}), R::plane);
+  EXPECT_EQ(reference({model + "fastsim", "case.reference_ways=true"}), R::plane);
+  EXPECT_EQ(reference({"discretisation.reference_search_mesh=true"}), R::plane);
   EXPECT_EQ(reference({"contact.reference_surface=plane"}), R::plane);
   EXPECT_EQ(reference({"contact.reference_surface=curved"}), R::curved);
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -181,7 +183,8 @@ TEST(FullContact, SlipOfTheSurfacesDoesItsWorkToo) {
       contact.accept();
       double elements = 0.0;
       for (const auto& patch : contact.repeat(contact.accepted()).patches) elements -= patch.contact.frictional_power;
-      EXPECT_NEAR(elements, r.frictional_power, 0.015 * elements);
+      constexpr double kLastStep = 0.02;  // in which material leaves the contact, with these elements
+      EXPECT_NEAR(elements, r.frictional_power, kLastStep * r.frictional_power);
     }
 }
 
@@ -203,14 +206,22 @@ TEST(FullContact, PressureLeansAsInConformalContact) {
 /// Along a curve the rail has turned where a yawed flange touches ahead of the axle.
 TEST(FullContact, PressuresDoNoWorkInACurve) {
   constexpr double kCurvature = 1.0 / 150.0, kBalanced = 1e-6;
-  Aside at = aside(6.3e-3, 20e-3);
-  PairMotion& m = at.motion;
-  m.curvature = kCurvature;
-  m.wheelset_velocity.yaw = kCurvature * m.wheelset_velocity.x;
-  FullContact contact(bodies(false), prototype(wheelrail::Side::right, kalker::Regime::steady, 0.5e-3));
-  const ContactReaction r = contact.evaluate(m);
-  ASSERT_NE(r.status, Status::no_contact);
-  EXPECT_NEAR(-power(r, m), r.frictional_power, kBalanced * r.frictional_power);
+  for (const double y : {6.3e-3, 7e-3})
+    for (const double yaw : {20e-3, -15e-3})
+      for (const auto side : {wheelrail::Side::right, wheelrail::Side::left}) {
+        Aside at = aside(y, yaw);
+        PairMotion& m = at.motion;
+        const double mirrored = side == wheelrail::Side::left ? -1.0 : 1.0;
+        m.wheelset.y *= mirrored;
+        m.wheelset.yaw *= mirrored;
+        m.curvature = mirrored * kCurvature;
+        m.wheelset_velocity.yaw = m.curvature * m.wheelset_velocity.x;
+        FullContact contact(bodies(false), prototype(side, kalker::Regime::steady, 0.5e-3));
+        const ContactReaction r = contact.evaluate(m);
+        ASSERT_NE(r.status, Status::no_contact);
+        EXPECT_NEAR(-power(r, m), r.frictional_power, kBalanced * r.frictional_power)
+            << y << ' ' << yaw << ' ' << mirrored;
+      }
 }
 
 TEST(FullContact, TrialsLeaveTheAcceptedInstantAlone) {
