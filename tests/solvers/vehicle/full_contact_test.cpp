@@ -307,19 +307,21 @@ TEST(FullContact, AnInstantCanBeSolvedAgainAlsoInAnotherProcess) {
 /// A wheel pressed onto the rail so that it rolls without leaving it, slowly: its centre follows the flat. Chord flats
 /// of a rigid wheel drop it by (x + L/2)^2/(2 R) on the way in (Newton and Clark 1979).
 TEST(FullContact, SlowlyOverAChordFlatTheWheelDropsAsGeometrySays) {
-  // Light load, so that the bodies are nearly rigid.
+  // Light load, so that the bodies are nearly rigid. Elements pass the edge of the flat at 100 Hz: the wheelset bounces
+  // on its contacts three times as fast, and its damper takes what remains of that.
   SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
   SurfaceSpec wheel{Body::wheel, kWheelRadius, StandardProfile{"S1002"}, {}};
-  constexpr double kLength = 0.04, kLoad = 400.0, kDepth = kLength * kLength / (8.0 * kWheelRadius);
+  constexpr double kLength = 0.04, kLoad = 400.0, kDepth = kLength * kLength / (8.0 * kWheelRadius), kMass = 100.0;
   WheelFlat flat;
   flat.shape = WheelFlat::Shape::fresh;
   flat.length = kLength;
   wheel.defects.flats = {flat};
   const wheelrail::Geometry geometry{create_surface(rail), create_surface(wheel), true, false};
-  VehicleModel model = wheel_on_mass(1000.0, 0.01, 1e3, 0.0);
+  VehicleModel model = wheel_on_mass(kMass, 0.01, 1e3, 0.0);
+  model.springs.push_back(spring("wheelset", kGround, {0, 0, -0.46}, {}, {0, 0, 3e4, 0, 0, 0}));
   VehicleOnTrack v;
   constexpr double kSpeed = 0.05;
-  v.system = assemble(model, {}, kSpeed, 2.0 * kLoad / 1000.0);
+  v.system = assemble(model, {}, kSpeed, 2.0 * kLoad / kMass);
   v.speed = kSpeed;
   v.pitch_at_start = {0.05};
   for (const auto side : {wheelrail::Side::left, wheelrail::Side::right}) {
@@ -346,7 +348,7 @@ TEST(FullContact, SlowlyOverAChordFlatTheWheelDropsAsGeometrySays) {
     deepest = std::max(deepest, drop);
   }
   EXPECT_GT(deepest, 0.9 * kDepth);
-  EXPECT_LT(worst, 0.06 * kDepth);
+  EXPECT_LT(worst, 0.02 * kDepth);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/wheelrail/surface_loads.hpp"
 
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "standard_pair.hpp"
@@ -46,7 +48,7 @@ TEST(SurfaceLoads, LeftIsTheMirrorImageOfRight) {
 /// Both bodies take one force, whether patches are solved apart or as parts of one, and no moment about the axle comes
 /// of pressures on a round wheel.
 TEST(SurfaceLoads, PartsOfAPatchTakeWhatPatchesApartTake) {
-  std::vector<Wrench> sums;
+  std::vector<Vec3> sums;
   for (const auto grouping : {testing::Grouping::apart, testing::Grouping::parts_of_one}) {
     Problem p = asked(testing::crowns_problem());
     p.material.layer_flexibility = 0.0;
@@ -57,24 +59,23 @@ TEST(SurfaceLoads, PartsOfAPatchTakeWhatPatchesApartTake) {
     testing::group(p, grouping);
     const PairSolution s = Pair(testing::two_crowns()).solve(p);
     ASSERT_EQ(s.status, Status::ok) << s.message;
-    Wrench sum;
+    Vec3 sum = Vec3::Zero();
     for (const PatchSolution& patch : s.patches) {
       const SurfaceLoads& at = *patch.surface_loads;
       EXPECT_EQ(at.rail.force, at.wheel.force);
       EXPECT_EQ(at.pressure.force, at.pressure_on_wheel.force);
       EXPECT_NEAR(at.pressure.force.z(), patch.contact.force_n, 1e-9 * patch.contact.force_n);
-      EXPECT_GT(at.slip_power, 0.0);
+      constexpr double kLastStep = 0.03;  // in which material leaves the contact: sums over elements lack it
+      EXPECT_NEAR(at.slip_power, -patch.contact.frictional_power, kLastStep * at.slip_power);
       const Vec3 axle_C = patch.frame.X_TC.apply_inverse(s.placement.X_TWs.origin);
       const Vec3 about_axle =
           patch.frame.X_TC.rotation * (at.pressure_on_wheel.moment - axle_C.cross(at.pressure.force));
       EXPECT_NEAR(about_axle.y(), 0.0, 1e-5 * testing::kRadius * at.pressure.force.z());
-      sum.force += patch.load.track.force;
-      sum.moment += patch.load.track.moment;
+      sum += patch.load.track.force;
     }
     sums.push_back(sum);
   }
-  EXPECT_NEAR((sums[0].force - sums[1].force).norm(), 0.0, 2e-3 * sums[0].force.norm());
-  EXPECT_NEAR((sums[0].moment - sums[1].moment).norm(), 0.0, 2e-3 * 0.03 * sums[0].force.norm());
+  EXPECT_NEAR((sums[0] - sums[1]).norm(), 0.0, 2e-3 * sums[0].norm());
 }
 
 }  // namespace
