@@ -81,6 +81,11 @@ dy_mm = 2
 smoothing_mm = 3
 )" + kLaw;
 
+/// Relative tolerance of tractions: elements that stick have slip of that size, whose work counts on the surface alone.
+constexpr double kSolver = 1e-5;
+/// What elements of 2 mm at the edges of a flat move the largest force by from one generation to the next.
+constexpr double kElements = 0.02;
+
 class SimulatedEvolution : public ::testing::Test {
  protected:
   SimulatedEvolution() {
@@ -132,7 +137,7 @@ TEST_F(SimulatedEvolution, FirstGenerationIsTheSimulation) {
     ASSERT_NE(largest, one.summary.end());
     EXPECT_EQ(largest->value, number(g, "q_max_N"));
     EXPECT_LT(std::fabs(io::volume_balance(g.bodies.front())), 1e-9);
-    EXPECT_LT(std::fabs(io::work_balance(g.bodies.front())), 1e-6);
+    EXPECT_LT(std::fabs(io::work_balance(g.bodies.front())), kSolver);
   }
 }
 
@@ -180,11 +185,13 @@ TEST_F(SimulatedEvolution, FlatRoundsOffAndForcesFall) {
   FlatShape before = shape_of(generation(0).bodies.front(), row);
   for (std::size_t k = 1; k < result.generations.size(); ++k) {
     const FlatShape now = shape_of(generation(k).bodies.front(), row);
-    EXPECT_LT(number(result.generations[k], "q_max_N"), number(result.generations[k - 1], "q_max_N"));
+    EXPECT_LT(number(result.generations[k], "q_max_N"),
+              (1.0 + kElements) * number(result.generations[k - 1], "q_max_N"));
     EXPECT_GE(now.length, before.length);
     EXPECT_LT(now.turn, before.turn);
     before = now;
   }
+  EXPECT_LT(number(result.generations.back(), "q_max_N"), 0.85 * number(result.generations.front(), "q_max_N"));
 }
 
 /// Flow alone does so within some hundred turns of the wheel, and takes nothing away.
@@ -198,7 +205,6 @@ TEST_F(SimulatedEvolution, FlatFlowsAndForcesFall) {
   ASSERT_EQ(result.status, "complete") << result.message;
   for (std::size_t k = 1; k < result.generations.size(); ++k)
     EXPECT_GT(number(result.generations[k], "wheel_strain"), number(result.generations[k - 1], "wheel_strain"));
-  // From one generation to the next elements of 1 to 2 mm at the edges of the flat move the peak by up to 2 %.
   EXPECT_LT(number(result.generations.back(), "q_max_N"), 0.985 * number(result.generations.front(), "q_max_N"));
   const io::EvolvedBody& wheel = result.generations.back().bodies.front();
   EXPECT_GT(wheel.max_depth, 5e-6);
@@ -230,9 +236,11 @@ TEST_F(SimulatedEvolution, GoesOnToTheSameBytes) {
 /// Both wheels pass over a rail with a dip: it wears where they are, by the work that the simulation states, and the
 /// force of the next generation is that of a simulation over its surface file.
 TEST_F(SimulatedEvolution, RailsWearBelowWheelsThatPass) {
-  std::string passage = io::replaced(kPassage, "pitch_deg = 9",
-                                     "[[simulation.wheels]]\nwheelset = 1\nside = \"left\"\n"
-                                     "contact = \"full\"\n");
+  // Steps that resolve the peak of the force.
+  std::string passage = io::replaced(kPassage, "distance_m = 0.16", "distance_m = 0.16\nmax_step_elements = 0.2");
+  passage = io::replaced(passage, "pitch_deg = 9",
+                         "[[simulation.wheels]]\nwheelset = 1\nside = \"left\"\n"
+                         "contact = \"full\"\n");
   passage = io::replaced(passage, "flats = [{ shape = \"fresh\", length_mm = 60 }]\n", "");
   passage = io::replaced(passage, "[track]",
                          "squats = [{ length_mm = 40, width_mm = 30, depth_mm = 0.3, x_center_mm = 80 }]\n[track]");
@@ -249,7 +257,7 @@ TEST_F(SimulatedEvolution, RailsWearBelowWheelsThatPass) {
   const io::EvolvedBody& rail = result.generations.back().bodies.front();
   EXPECT_EQ(rail.body, Body::rail);
   EXPECT_LT(std::fabs(io::volume_balance(rail)), 1e-9);
-  EXPECT_LT(std::fabs(io::work_balance(rail)), 1e-6);
+  EXPECT_LT(std::fabs(io::work_balance(rail)), kSolver);
   EXPECT_GT(rail.max_depth, 1e-6);
   // each wheel makes half of the passages; between the first and the last place all of them go over every cell
   for (const auto& [j, row] : rail.record.passages.rows())
