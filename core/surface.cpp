@@ -18,16 +18,47 @@ void require_sizes(const HeightsOut& out, std::size_t wanted, const char* caller
                                                 std::to_string(wanted));
 }
 
+void require_positive(const Grid2& g) {
+  if (g.nx <= 0 || g.ny <= 0 || !(g.dx > 0.0) || !(g.dy > 0.0))
+    throw Error(ErrorKind::configuration, "a plane grid needs at least one point and positive steps");
+}
+
 std::span<double> one(std::span<double> array, std::size_t i) { return array.empty() ? array : array.subspan(i, 1); }
 
 }  // namespace
 
 void Surface::heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
-  const Grid2& g = plane_grid.grid;
-  if (g.nx <= 0 || g.ny <= 0 || !(g.dx > 0.0) || !(g.dy > 0.0))
-    throw Error(ErrorKind::configuration, "a plane grid needs at least one point and positive steps");
-  require_sizes(out, g.size(), "heights()");
+  require_positive(plane_grid.grid);
+  require_sizes(out, plane_grid.grid.size(), "heights()");
   do_heights(plane_grid, out);
+}
+
+std::shared_ptr<const Surface> Surface::changed(std::size_t parameter, double amount) const {
+  std::shared_ptr<const Surface> out = parameter < parameters().size() ? do_change(parameter, amount) : nullptr;
+  if (!out)
+    throw Error(ErrorKind::configuration,
+                "a surface of " + std::string(backend()) + " has no parameter " + std::to_string(parameter) +
+                    ", or none that can be changed by so much",
+                {}, "ask for its parameters first");
+  return out;
+}
+
+std::shared_ptr<const Surface> Surface::do_change(std::size_t, double) const { return nullptr; }
+
+bool Surface::do_heights_by(std::size_t, const PlaneGrid&, std::span<double>) const { return false; }
+
+HeightsBy Surface::heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const {
+  require_positive(plane_grid.grid);
+  const std::vector<ShapeParameter> all = parameters();
+  if (by.size() != plane_grid.grid.size())
+    throw Error(ErrorKind::configuration, "heights_by() needs as many results as points");
+  if (parameter < all.size() && do_heights_by(parameter, plane_grid, by)) return HeightsBy::exact;
+  const double step = parameter < all.size() ? all[parameter].step : 0.0;
+  std::vector<double> less(by.size());
+  changed(parameter, step)->heights(plane_grid, {by, {}, {}});
+  changed(parameter, -step)->heights(plane_grid, {less, {}, {}});
+  for (std::size_t i = 0; i < by.size(); ++i) by[i] = (by[i] - less[i]) / (2.0 * step);
+  return HeightsBy::differences;
 }
 
 void Surface::heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {

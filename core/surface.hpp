@@ -4,7 +4,9 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -80,6 +82,19 @@ struct HeightBounds {
   bool empty = false;
 };
 
+/// A number that the shape of a surface follows from.
+struct ShapeParameter {
+  std::string name;   ///< small letters, digits, '_': of no other parameter of the surface
+  std::string unit;   ///< in SI: "m", "rad"; "1": none
+  double step = 0.0;  ///< in that unit, > 0: moves the surface by some hundredths of a micrometre at most
+};
+
+/// How derivatives of heights were found.
+enum class HeightsBy {
+  exact,        ///< in closed form
+  differences,  ///< from the surfaces with the parameter a step more and a step less
+};
+
 /// An arbitrary 3D wheel or rail surface in its own frame S.
 /// Rail: x along the track, y to the right, z down. Wheel: origin on the axle, y along the axle, x = r sin(theta), z =
 /// r cos(theta). All queries are const, safe to call from any number of threads, and independent of the number of
@@ -110,6 +125,16 @@ class Surface {
   /// increasing. Empty: it was not, or does not tell.
   virtual std::vector<double> data_v() const { return {}; }
 
+  /// Numbers that the shape follows from, by which there are derivatives. Empty: there are none, or it does not tell.
+  virtual std::vector<ShapeParameter> parameters() const { return {}; }
+  /// The surface with a parameter changed by an amount of its unit; it need not tell parameters of its own. Errors:
+  /// Error(configuration) if there is no such parameter, or no surface with that amount.
+  std::shared_ptr<const Surface> changed(std::size_t parameter, double amount) const;
+  /// Derivatives of the heights over a grid by a parameter, of points (x, y) of a plane that stay [m per unit]; NaN
+  /// where there is no surface. Exact, or by differences where a surface does not know better, and says which. Errors:
+  /// as changed() and heights().
+  HeightsBy heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const;
+
   /// Heights (and slopes) over a regular grid in a rigidly placed plane; see HeightsOut.
   /// Errors: Error(configuration) if an output array has another size than the grid, or the grid is not positive.
   void heights(const PlaneGrid& plane_grid, const HeightsOut& out) const;
@@ -127,6 +152,10 @@ class Surface {
   void height_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const;
 
  private:
+  /// Of a parameter that parameters() names; null: there is no such surface.
+  virtual std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const;
+  /// Exact derivatives; false: not known, and nothing was written.
+  virtual bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const;
   virtual void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const = 0;
   /// Falls back to one-point grids; a backend that can do better overrides it.
   virtual void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const;

@@ -19,6 +19,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parametric.hpp"
+#include "treadmark/core/surface_change.hpp"
 
 namespace treadmark::displacement {
 
@@ -56,6 +57,12 @@ class DisplacedSurface final : public Surface, public Parametric {
   }
   std::vector<double> data_v() const override { return base_->data_v(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + base_->memory_bytes() + field_->memory_bytes(); }
+  /// Those of the base, then those of the field.
+  std::vector<ShapeParameter> parameters() const override {
+    std::vector<ShapeParameter> all = base_->parameters();
+    for (ShapeParameter& one : field_->parameters()) all.push_back(std::move(one));
+    return all;
+  }
   Box3 bounds() const override {
     Box3 b = base_->bounds();
     if (body_ == Body::rail) {
@@ -68,6 +75,8 @@ class DisplacedSurface final : public Surface, public Parametric {
   }
 
  private:
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override;
+  bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const override;
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
@@ -206,6 +215,25 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
     p.arc_length = below[k].arc_length;
     p.status = below[k].status == LocateStatus::ambiguous ? LocateStatus::ambiguous : LocateStatus::converged;
   }
+}
+
+std::shared_ptr<const Surface> DisplacedSurface::do_change(std::size_t parameter, double amount) const {
+  const std::size_t of_base = base_->parameters().size();
+  if (parameter < of_base)
+    return std::make_shared<DisplacedSurface>(base_->changed(parameter, amount), field_, body_, backend_);
+  std::shared_ptr<const OffsetField> field = field_->changed(parameter - of_base, amount);
+  return field ? std::make_shared<DisplacedSurface>(base_, std::move(field), body_, backend_) : nullptr;
+}
+
+/// Offsets act along e, which leaves u and y as they are.
+bool DisplacedSurface::do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const {
+  const std::size_t of_base = base_->parameters().size();
+  if (parameter < of_base) return false;
+  heights_by_displacement(*this, plane_grid, by, [&](const SurfacePoint& p) -> Vec3 {
+    const NaturalPoint at(body_, p.position_S);
+    return field_->by(parameter - of_base, at.u(), at.y) * at.e;
+  });
+  return true;
 }
 
 /// p = q + d e with the base's q(u, v) and the offset d at the station and y of q: neither changes along e.

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
+#include <vector>
 
 #include "treadmark/core/surface.hpp"
 
@@ -44,6 +46,19 @@ class OffsetField {
 
   /// Whether it is the same at every u.
   virtual bool constant_along() const { return false; }
+
+  /// Numbers that the field follows from, as Surface::parameters.
+  virtual std::vector<ShapeParameter> parameters() const { return {}; }
+  /// The field with one of them changed; null: there is no such field.
+  virtual std::shared_ptr<const OffsetField> changed(std::size_t parameter, double amount) const {
+    static_cast<void>(parameter), static_cast<void>(amount);
+    return nullptr;
+  }
+  /// Derivative by one of them, exact [m per unit].
+  virtual double by(std::size_t parameter, double u, double y) const {
+    static_cast<void>(parameter), static_cast<void>(u), static_cast<void>(y);
+    return 0.0;
+  }
 
   /// Memory taken by the field.
   virtual std::size_t memory_bytes() const = 0;

@@ -10,12 +10,14 @@
 
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/interval.hpp"
+#include "treadmark/backends/spline/node_change.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/backends/spline/viewed_profile.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/recent.hpp"
+#include "treadmark/core/surface_change.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -74,6 +76,19 @@ Box3 PrismaticSurface::bounds() const {
 
 std::size_t PrismaticSurface::memory_bytes() const {
   return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes() + hulls_.memory_bytes();
+}
+
+std::vector<ShapeParameter> PrismaticSurface::parameters() const { return node_parameters(profile_); }
+
+std::shared_ptr<const Surface> PrismaticSurface::do_change(std::size_t parameter, double amount) const {
+  return std::make_shared<PrismaticSurface>(with_node(profile_, parameter, amount));
+}
+
+bool PrismaticSurface::do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const {
+  const ProfileSpline change = node_change(profile_, parameter);
+  heights_by_displacement(*this, plane_grid, by,
+                          [&](const SurfacePoint& at) -> Vec3 { return change.position(at.v).y() * Vec3::UnitZ(); });
+  return true;
 }
 
 void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {

@@ -8,12 +8,14 @@
 
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/interval.hpp"
+#include "treadmark/backends/spline/node_change.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/backends/spline/wheel_view.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/surface_change.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -164,6 +166,21 @@ Box3 RevolutionSurface::bounds() const {
 
 std::size_t RevolutionSurface::memory_bytes() const {
   return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes() + hulls_.memory_bytes();
+}
+
+std::vector<ShapeParameter> RevolutionSurface::parameters() const { return node_parameters(profile_); }
+
+std::shared_ptr<const Surface> RevolutionSurface::do_change(std::size_t parameter, double amount) const {
+  const ProfileSpline changed = with_node(profile_, parameter, amount);
+  return std::make_shared<RevolutionSurface>(add_radius(changed, -nominal_radius_), nominal_radius_);
+}
+
+bool RevolutionSurface::do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const {
+  const ProfileSpline change = node_change(profile_, parameter);
+  heights_by_displacement(*this, plane_grid, by, [&](const SurfacePoint& at) -> Vec3 {
+    return change.position(at.v).y() * Vec3(std::sin(at.u), 0.0, std::cos(at.u));
+  });
+  return true;
 }
 
 void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {

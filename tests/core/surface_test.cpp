@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "treadmark/core/error.hpp"
@@ -32,6 +33,41 @@ class Marked final : public Surface {
   void do_locate(const Pose&, std::span<const Vec2>, std::span<SurfacePoint>) const override {}
   HeightBounds do_height_bounds(const Pose&, const Rectangle&) const override { return {}; }
 };
+
+/// A level plane at z = height^2, by its height.
+class Level final : public Surface {
+ public:
+  explicit Level(double height) : height_(height) {}
+  std::string_view backend() const override { return "level"; }
+  Facing facing() const override { return Facing::up; }
+  Box3 bounds() const override { return {}; }
+  std::size_t memory_bytes() const override { return 0; }
+  std::vector<ShapeParameter> parameters() const override { return {{"height", "m", 1e-4}}; }
+
+ private:
+  std::shared_ptr<const Surface> do_change(std::size_t, double amount) const override {
+    return std::make_shared<Level>(height_ + amount);
+  }
+  void do_heights(const PlaneGrid&, const HeightsOut& out) const override {
+    for (double& z : out.z) z = height_ * height_;
+  }
+  void do_locate(const Pose&, std::span<const Vec2>, std::span<SurfacePoint>) const override {}
+  HeightBounds do_height_bounds(const Pose&, const Rectangle&) const override { return {}; }
+
+  double height_;
+};
+
+TEST(SurfaceContract, DerivativesAreDifferencesWhereASurfaceKnowsNoBetterAndSayIt) {
+  const Level surface(0.3);
+  const PlaneGrid grid{{}, {0.0, 0.0, 1.0, 1.0, 2, 2}};
+  std::vector<double> by(4);
+  EXPECT_EQ(surface.heights_by(0, grid, by), HeightsBy::differences);
+  for (const double one : by) EXPECT_NEAR(one, 0.6, 1e-10);
+  EXPECT_THROW(surface.heights_by(1, grid, by), Error);
+  EXPECT_THROW(Marked().changed(0, 1.0), Error);
+  by.resize(3);
+  EXPECT_THROW(surface.heights_by(0, grid, by), Error);
+}
 
 TEST(Grid, RunsRowByRow) {
   const Grid2 g{1.0, 2.0, 0.1, 0.2, 3, 4};

@@ -31,8 +31,8 @@ std::shared_ptr<const Surface> add_defects(std::shared_ptr<const Surface> base, 
 /// y, infinite for shapes as wide as the profile; nothing without defects.
 std::optional<Rectangle> defect_region(const Defects& defects, double nominal_radius);
 
-/// Sum of shapes.
-class DefectField final : public displacement::OffsetField {
+/// Sum of shapes. Parameters are their amounts, shape_0, shape_1 ...: 1 more is that shape once more.
+class DefectField final : public displacement::OffsetField, public std::enable_shared_from_this<DefectField> {
  public:
   explicit DefectField(std::vector<ShapePtr> shapes) : shapes_(std::move(shapes)) {}
 
@@ -40,6 +40,9 @@ class DefectField final : public displacement::OffsetField {
   void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
                 std::span<double> d_y) const override;
   displacement::OffsetRange range(const Rectangle& uy) const override;
+  std::vector<ShapeParameter> parameters() const override;
+  std::shared_ptr<const displacement::OffsetField> changed(std::size_t parameter, double amount) const override;
+  double by(std::size_t parameter, double u, double y) const override { return shapes_[parameter]->jet(u, y).value; }
   std::size_t memory_bytes() const override;
 
  private:
