@@ -27,12 +27,13 @@ enum class Quantity {
 
 /// Derivatives of a number by what is given. Elements in contact stay in it and others out of it, so that they hold
 /// between two changes of the contact area: at one, and where the largest pressure moves to another element, there is
-/// one of each side, and these are those of the elements as the solution has them. Elements that adhere and slip,
-/// coefficients of friction and what tractions have of the instant before stay likewise.
+/// one of each side, and these are those of the elements as the solution has them. Elements that adhere and slip, and
+/// what tractions have of the instant before, stay likewise.
 struct Gradient {
   std::vector<double> by_gap;           ///< by the undeformed distance h of each element [unit/m], 0 out of contact
   double by_load = 0.0;                 ///< by the force [unit/N] or the approach [unit/m], whichever is prescribed
   std::array<double, 3> by_creepage{};  ///< by xi, eta [unit], phi [unit m]; shift: [unit/m], [unit/m], [unit/rad]
+  double by_friction = 0.0;             ///< by the coefficient of friction of all elements [unit]
   Report report;  ///< iterations of two products each; derivatives of another status than ok are none
 };
 

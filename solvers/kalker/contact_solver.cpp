@@ -296,6 +296,7 @@ Gradient ContactSolver::gradient(const ContactProblem& problem, const ContactSol
     tangential = workspace_->tangential.gradient(problem, solution, weights);
   Gradient out = workspace_->normal.gradient_by_gap(problem, solution, weights.pressure, weights.approach);
   out.by_creepage = tangential.by_creepage;
+  out.by_friction = tangential.by_friction;
   out.report.iterations += tangential.report.iterations;
   if (out.report.status == Status::ok && tangential.report.status != Status::ok) out.report = tangential.report;
   return out;

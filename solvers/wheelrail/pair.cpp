@@ -112,20 +112,27 @@ void complete(const Geometry& bodies, PairSolution& solution) {
     patch.rail_shape = contact_shape(*bodies.rail, X_ST * patch.frame.X_TC);
     patch.wheel_shape = contact_shape(*bodies.wheel, X_AT * patch.frame.X_TC);
     const kalker::ContactSolution& c = patch.contact;
+    for (const Report* report : {&c.normal, &c.tangential})
+      if (report->status != Status::ok)
+        note(solution, report->status,
+             report->message.empty() ? "a contact problem did not converge" : report->message);
+  }
+  resolve_loads(solution);
+}
+
+}  // namespace
+
+void resolve_loads(PairSolution& solution) {
+  solution.load = {};
+  for (PatchSolution& patch : solution.patches) {
     const Wrench plane{patch.force_C, patch.moment_C};
     const auto& at_surfaces = patch.surface_loads;
     patch.load = loads(solution.placement, patch.frame.X_TC, at_surfaces ? at_surfaces->rail : plane,
                        at_surfaces ? at_surfaces->wheel : plane);
     solution.load += patch.load;
     locate(solution.placement, patch);
-    for (const Report* report : {&c.normal, &c.tangential})
-      if (report->status != Status::ok)
-        note(solution, report->status,
-             report->message.empty() ? "a contact problem did not converge" : report->message);
   }
 }
-
-}  // namespace
 
 PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
   search_s += other.search_s, distance_s += other.distance_s, normal_s += other.normal_s,

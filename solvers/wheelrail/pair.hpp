@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -101,6 +102,38 @@ struct PairSolution {
   PhaseTimes times;
 };
 
+/// A number by which derivatives are wanted: of a pair's problem, of its surfaces, or of both.
+struct PairParameter {
+  /// Adds an amount of either sign to the number. It may change track, roller, wheelset, state, a given vertical force,
+  /// coefficients of friction and the surfaces. Called from any thread.
+  std::function<void(double amount, Problem& problem, Geometry& geometry)> change;
+  /// Places and gaps are differenced over it, nothing else is: in the unit of the number, what moves surfaces by some
+  /// hundredths of a micrometre.
+  double step = 5e-8;
+  /// Instead of both: of the surface that faces so, this one of its parameters (Surface::parameters).
+  std::optional<Facing> shape_of = std::nullopt;
+  std::size_t shape = 0;
+};
+
+/// Two solutions beside a given one, on either side of it along its tangent: with a number that is given more by the
+/// step, and less by it. Their central difference is the total derivative. They have z, placement and of every patch
+/// contact plane, kinematics, approach, forces, moments, loads, largest pressure, energy and power; they have no
+/// fields, no shapes of the bodies, and whatever else has no derivative is as in the given solution.
+struct PairNeighbours {
+  PairSolution more, less;
+  double step = 0.0;  ///< of the parameter, in its unit
+  /// Of a parameter of a shape: how heights of the elements' surfaces were found to change. Where the contact plane
+  /// lies is differenced in any case.
+  HeightsBy heights = HeightsBy::exact;
+  Report report;  ///< where the status is not ok, the derivatives are none
+
+  /// Of a number of a solution, by the parameter.
+  template <class Number>
+  double derivative(Number&& number) const {
+    return (number(more) - number(less)) / (2.0 * step);
+  }
+};
+
 struct Instant;
 class RailMemory;
 
@@ -135,6 +168,17 @@ class Pair {
   /// Error(configuration) for a solution that is not ok, rails on springs, a longitudinal force that is given, curved
   /// contact, and as kalker::ContactSolver::gradient.
   PairGradient gradient(const Problem& problem, const PairSolution& solution, const PairQuantity& quantity);
+
+  /// Total derivatives of all numbers of a solution of this problem: through placement, search, contact planes that
+  /// move and turn, gaps, creepages, coefficient of friction and the balance of a vertical force that is given.
+  /// Elements stay in contact or out of it and adhere or slip, as in kalker::Gradient; so does the element of the
+  /// largest pressure and that of the greatest penetration. Costs some linear systems for each patch and two searches
+  /// without pressures for each parameter; parameters on all threads, with the same bits for any number of them. The
+  /// history stays as it is. A parameter that changes anything else of the problem, or contact that comes or goes with
+  /// it, is told in its report. Errors: as gradient(), Error(configuration) for transient rolling, shifts, damping, the
+  /// slip of surfaces, a shape that has no such parameter, and what changed problems and surfaces are refused for.
+  std::vector<PairNeighbours> neighbours(const Problem& problem, const PairSolution& solution,
+                                         std::span<const PairParameter> parameters);
 
   /// Forgets the history: the bodies come together from rest.
   void reset();

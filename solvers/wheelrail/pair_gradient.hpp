@@ -23,9 +23,10 @@ struct PairQuantity {
   kalker::Quantity number = kalker::Quantity::max_pressure;  ///< of the patch, in its grid's axes
 };
 
-/// Total derivatives of a number, with the balance of a vertical force that is given. Contact planes, elements and
+/// Derivatives of a number by gaps, with the balance of a vertical force that is given. Contact planes, elements and
 /// creepages stay, and so does the vertical force of a patch relative to its normal force; elements stay in contact or
-/// out of it and adhere or slip (kalker::Gradient).
+/// out of it and adhere or slip (kalker::Gradient). What a change of shape does by turning and moving a contact plane
+/// is not in it: Pair::neighbours() has all of that.
 struct PairGradient {
   /// Of each patch: by the gap of each of its elements [unit/m]. A rail that is moved by d along n, into itself, adds d
   /// to the gap, a wheel that is moved so takes it away: by heights along n they are these, and these with the other

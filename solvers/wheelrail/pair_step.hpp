@@ -21,6 +21,13 @@ namespace treadmark::wheelrail {
 
 class RailMemory;
 
+/// How a patch lies: its contact plane, and the gap of the bodies over elements that are given.
+struct LaidPatch {
+  detection::ContactFrame frame;
+  std::vector<double> gap;   ///< rail over wheel along n [m], negative: penetration; NaN where a surface is missing
+  double reference_s = 0.0;  ///< PatchSolution::reference_s [m]
+};
+
 /// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail,
 /// patches with their normal problems per height of the wheel over the rail, tangential problems per pitch rate. A
 /// right-hand problem. The references must outlive this.
@@ -48,6 +55,9 @@ class PairStep {
   /// Patches and pressures with the wheelset at height z over the undeflected rail. One patch on a plane is solved
   /// under the load, if given: force_T() has this vertical part [N], on elements that were laid for height z.
   void evaluate(double z, std::optional<double> load = {});
+  /// How these patches lie with the wheelset at height z, on planes of their own there and on the elements that they
+  /// have, without pressures. Fewer than these where contact is found at fewer places. Not for curved references.
+  std::vector<LaidPatch> lay(double z, std::span<const PatchSolution> patches);
   /// Whether the last evaluate() found pressures under its load; then all but the elements' place is that of z().
   bool carries_load() const { return carries_load_; }
   double z() const { return z_; }
@@ -141,6 +151,9 @@ class PairStep {
   std::optional<detection::ContactPatch> between_;
   std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };
+
+/// Loads of solved patches and their sum, and where they lie in the axes of the bodies.
+void resolve_loads(PairSolution& solution);
 
 /// What is given of a patch that lies where it does, but for its gap, parts, history and what follows from rows of
 /// elements.

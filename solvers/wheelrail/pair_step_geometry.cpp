@@ -110,6 +110,36 @@ void PairStep::locate(const detection::ContactPatch& region, const detection::Bo
   link(from_wheelset, patch);
 }
 
+std::vector<LaidPatch> PairStep::lay(double z, std::span<const PatchSolution> patches) {
+  placement_ = start_;
+  const double dz = z - start_z_;
+  lower(dz), z_ = z;
+  const detection::SearchResult found = search_->at(dz);
+  const detection::BodyPair bodies = detection::moved(bodies_, dz);
+  std::vector<char> taken(found.patches.size(), 0);
+  std::vector<LaidPatch> out;
+  for (const PatchSolution& patch : patches) {
+    // the place that is nearest to where the patch was
+    double nearest = kInfinity;
+    std::size_t here = found.patches.size();
+    for (std::size_t k = 0; k < found.patches.size(); ++k) {
+      const double away = std::hypot(found.patches[k].x - patch.region.x, found.patches[k].y - patch.region.y);
+      if (taken[k] == 0 && away < nearest) nearest = away, here = k;
+    }
+    if (here == found.patches.size()) return out;
+    taken[here] = 1;
+    LaidPatch& laid = out.emplace_back();
+    laid.frame = detection::contact_frame(bodies, found.patches[here]);
+    laid.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS, laid.frame.X_TC.origin);
+    const Pose X_CP{{-patch.reference_C.x(), -patch.reference_C.y(), 0.0}, Mat3::Identity()};
+    detection::UndeformedDistance undeformed =
+        detection::undeformed_distance(bodies, laid.frame.X_TC * X_CP, patch.grid);
+    laid.gap = std::move(undeformed.distance);
+    for (double& gap : laid.gap) gap -= undeformed.approach;
+  }
+  return out;
+}
+
 /// Of the elements, in T; where there is no rail on the reference surface. On a steep plane a place is far from the
 /// foot of its element.
 std::vector<Vec2> PairStep::places_on_rail(const detection::BodyPair& bodies, const Patch& patch) const {

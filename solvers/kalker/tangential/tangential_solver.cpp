@@ -384,6 +384,7 @@ Gradient TangentialSolver::gradient(const ContactProblem& problem, const Contact
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t to = patch.grid_index(static_cast<int>(i));
     weights.pressure[to] += solution.friction[to] * back.by_bound[i];
+    out.by_friction += solution.pressure[to] * back.by_bound[i];
   }
   const KnownSlip known =
       patch_conditions(problem, patch, step, kernel, solution.pressure, {}, workspace_->operators).known_slip;

@@ -190,6 +190,9 @@ void expect_differences(OwnedProblem owned, std::span<const Quantity> quantities
       expect_number(gradient.by_creepage[1], c.eta, [](ContactProblem& p) -> double& { return p.creepage.eta; });
     if (rolls)
       expect_number(gradient.by_creepage[2], c.phi, [](ContactProblem& p) -> double& { return p.creepage.phi; });
+    if (rolls)
+      expect_number(gradient.by_friction, owned.problem.friction.kinetic,
+                    [](ContactProblem& p) -> double& { return p.friction.kinetic; });
   }
 }
 
