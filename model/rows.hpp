@@ -42,6 +42,9 @@ struct Access {
   double (*uncertainty)(const Row&) = nullptr;  ///< of the number, in its unit; NaN, nullptr: not known
   std::string (*reason)(const Row&) = nullptr;  ///< why the number is not known
   bool flag = false;  ///< 0 or 1, in JSON false or true; of a text: null in JSON where it is empty
+  /// Its derivatives by what was given are those along the tangent of the solution (wheelrail::PairNeighbours): get()
+  /// of both neighbours, differenced.
+  bool smooth = false;
 };
 
 namespace access {
@@ -92,6 +95,13 @@ template <auto Member>
 constexpr Access<WholeOf<Member>> flag() {
   Access<WholeOf<Member>> access = of<Member>();
   access.whole = false, access.flag = true;
+  return access;
+}
+
+/// A number that has derivatives by what was given.
+template <class Row>
+constexpr Access<Row> smooth(Access<Row> access) {
+  access.smooth = true;
   return access;
 }
 

@@ -22,6 +22,7 @@
 #include "treadmark/io/results/comparison_table.hpp"
 #include "treadmark/io/results/contact_program/write_mat.hpp"
 #include "treadmark/io/results/contact_program/write_subs.hpp"
+#include "treadmark/io/results/derivative_table.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
@@ -74,6 +75,7 @@ void remove_unmade(const std::filesystem::path& folder, const std::filesystem::p
   if (!std::filesystem::exists(made / "fields.h5", ignored)) std::filesystem::remove(folder / "fields.h5", ignored);
 }
 
+constexpr const char* kDerivatives = "derivatives.csv";
 constexpr const char* kOfLists[] = {"cases.csv", "cases.h5", "cases.json"};
 
 /// Tables without cases.json are somebody's own.
@@ -121,7 +123,8 @@ std::vector<double> times_of(const io::RunResult& run) {
 std::vector<std::string> result_files(const std::filesystem::path& folder, bool list) {
   std::vector<std::string> files;
   if (folder.empty()) return files;
-  for (const char* name : {"result.json", "fields.h5", "pressure.svg"}) files.push_back((folder / name).string());
+  for (const char* name : {"result.json", "fields.h5", "pressure.svg", kDerivatives})
+    files.push_back((folder / name).string());
   if (list || holds_list(folder))
     for (const char* name : kOfLists) files.push_back((folder / name).string());
   return files;
@@ -145,6 +148,11 @@ std::vector<std::string> write_result_folder(const std::filesystem::path& folder
   });
   remove_unmade(folder, output.path());
   std::error_code ignored;
+  const std::string derivatives = io::derivatives_csv(result);
+  // those of an earlier run; without results beside it the file is somebody's own
+  if (derivatives.empty() && std::filesystem::exists(folder / "result.json", ignored))
+    std::filesystem::remove(folder / kDerivatives, ignored);
+  if (!derivatives.empty()) write_file(made / kDerivatives, derivatives);
   if (holds_list(folder))  // nor must tables of a list pass for those of this run
     for (const char* name : kOfLists) std::filesystem::remove(folder / name, ignored);
   output.move_into("result.json");

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/case_derivatives.hpp"
 #include "treadmark/app/cases/case_list.hpp"
 #include "treadmark/app/cases/output_files.hpp"
 #include "treadmark/app/cases/pages/run_page.hpp"
@@ -42,6 +43,8 @@ struct RunOptions {
   bool fields = false;                 ///< of patches, also of long lists
   bool verbose = false;                ///< all numbers of all cases
   bool bodies = false;                 ///< wheel and rail of every case for ParaView
+  bool sensitivities = false;          ///< derivatives by numbers of the case file
+  std::vector<std::string> by;         ///< which; empty: placement, motion, load and friction
 };
 
 void choose_backends(io::CaseFile& file, const RunOptions& options) {
@@ -81,7 +84,8 @@ int exit_status(const io::RunResult& result) {
 }
 
 bool is_list(const io::ListedCases& given, const RunOptions& options) {
-  const bool all_shown = options.fields || options.verbose || options.bodies || !options.report_file.empty();
+  const bool all_shown =
+      options.fields || options.verbose || options.bodies || options.sensitivities || !options.report_file.empty();
   return !all_shown && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
 }
 
@@ -171,16 +175,20 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (!options.numbers.empty())
       throw Error(ErrorKind::configuration, "--numbers chooses columns of lists, this has all of them", {name},
                   fmt::format("leave it out: a list has cases_file, or more than {} cases, and no --fields, --report, "
-                              "--vtk or --verbose",
+                              "--vtk, --sensitivities or --verbose",
                               app::kLongList));
     const OutputClaim claim(app::result_files(folders.empty() ? "" : folders[k], false));
     const auto rows = given.rows;
     io::CaseFile file = io::all_cases(std::move(given));
     choose_backends(file, options);
+    app::check_derivative_keys(file, options.by);
     app::SurfaceStore store;
     io::RunResult result =
         with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
     result.settings = settings_of(options);
+    if (options.sensitivities && result.complete)
+      with_progress(common.quiet,
+                    [&](const Progress& progress) { app::add_derivatives(result, file, store, options.by, progress); });
     if (rows) result.geometry_sha256.emplace_back(rows->file().string(), rows->sha256());
 
     print_notes(file.notes, common.quiet);
@@ -194,7 +202,8 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     const auto json = [&] { return io::to_json(result); };
     print_results(options.json_file, json, [&] {
       constexpr std::size_t kInFull = 3;  // cases that are printed with all numbers
-      if (result.cases.size() > kInFull && !options.verbose) return io::summary_list(result.cases);
+      if (result.cases.size() > kInFull && !options.verbose && !options.sensitivities)
+        return io::summary_list(result.cases);
       std::string text;
       for (const io::CaseResult& c : result.cases) text += io::summary(c) + '\n';
       return text;
@@ -224,7 +233,16 @@ Command add_run(CLI::App& verb) {
   add_values(verb, "--numbers", options->numbers,
              "Of lists: columns, by their names in results (pmax_MPa, patch_2.fn_N, ...)", "NAME,...");
   verb.add_flag("--fields", options->fields,
-                "Of lists too: all fields and pictures, which stay in memory; so do --report, --vtk and --verbose");
+                "Of lists too: all fields and pictures, which stay in memory; so do --report, --vtk, --sensitivities "
+                "and --verbose");
+  CLI::Option* sensitivities =
+      verb.add_flag("--sensitivities", options->sensitivities,
+                    "Derivatives of the numbers of each case by placement, motion, load and friction");
+  add_values(
+      verb, "--by", options->by,
+      "By what instead: keys of the case file (wheelset.y_mm, wheel.flats.0.depth_mm, ...), rail.shape, wheel.shape",
+      "KEY,...")
+      ->needs(sensitivities);
   verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)")
       ->type_name(kBackendName);

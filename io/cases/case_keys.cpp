@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/key_builder.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
@@ -229,6 +230,71 @@ void apply_assignment(Case& target, const CaseOverride& assignment, const std::f
     return;
   }
   refuse_unknown_case_key(path, where);
+}
+
+namespace {
+
+bool belongs_to(const Case& c, const KeyInfo& key) {
+  return key.scope == KeyScope::any || key.scope == static_cast<KeyScope>(1 + c.content.index());
+}
+
+/// The number at the end of a path into a list of tables, "0.waves.1.amplitude_mm".
+std::optional<double> number_within(const CaseValue& list, std::string_view path) {
+  const CaseValue* value = &list;
+  while (!path.empty()) {
+    const std::string_view name = path.substr(0, path.find('.'));
+    path.remove_prefix(std::min(path.size(), name.size() + 1));
+    const CaseValue* next = nullptr;
+    if (value->is_list()) {
+      std::size_t index = 0;
+      from_chars(name.data(), name.data() + name.size(), index);
+      if (index < value->list().size()) next = &value->list()[index];
+    } else if (value->is_table()) {
+      for (const CaseEntry& entry : value->table())
+        if (entry.key == name) next = &entry.value;
+    }
+    if (next == nullptr) return std::nullopt;
+    value = next;
+  }
+  const bool number = std::holds_alternative<double>(value->data) || std::holds_alternative<std::int64_t>(value->data);
+  return number ? std::optional(value->number()) : std::nullopt;
+}
+
+/// The key at the end of a path into a list of tables. Errors: as split_element_path, and for a name that is none.
+const KeyInfo& element_key(const KeyInfo& list, std::string_view rest) {
+  const ElementPath place = split_element_path(list, rest, {});
+  std::vector<std::string> known;
+  for (const KeyInfo& element : list.elements) {
+    if (element.path == place.key) return element;
+    if (element.type == KeyType::table_list && place.key.starts_with(element.path + '.'))
+      return element_key(element, std::string_view(place.key).substr(element.path.size() + 1));
+    known.push_back(element.path);
+  }
+  refuse_unknown_key(place.key, known, {});
+}
+
+void require_number(const KeyInfo& key, const std::string& path) {
+  if (key.type != KeyType::number) fail(fmt::format("{} is no number", path), {}, "name keys that are numbers");
+}
+
+}  // namespace
+
+std::optional<double> number_of(const Case& c, const std::string& path) {
+  if (const CaseKey* key = case_key(path); key != nullptr) {
+    require_number(key->info, path);
+    if (!belongs_to(c, key->info)) return std::nullopt;
+    const std::string written = key->written ? key->written(c, {}) : std::string();
+    return written.empty() ? std::nullopt : number_within(parse_toml("x = " + written, path).front().value, "");
+  }
+  for (const CaseKey& key : case_keys()) {
+    if (key.info.type != KeyType::table_list || !path.starts_with(key.info.path + '.')) continue;
+    const std::string_view rest = std::string_view(path).substr(key.info.path.size() + 1);
+    require_number(element_key(key.info, rest), path);
+    if (!belongs_to(c, key.info)) return std::nullopt;
+    const std::string written = key.written ? key.written(c, {}) : std::string();
+    return written.empty() ? std::nullopt : number_within(parse_toml("x = " + written, path).front().value, rest);
+  }
+  refuse_unknown_case_key(path, {});
 }
 
 std::string case_file_schema() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,6 +49,12 @@ const CaseKey* case_key(std::string_view path);
 /// Applies one override; its path may also name a key of a list element ("wheel.flats.0.depth_mm",
 /// "rail.corrugations.0.waves.1.phase_deg").
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder);
+
+/// The number that a case has for a key, in the unit of the key, also of a list element ("wheel.flats.0.depth_mm").
+/// Nothing where the key says nothing of this case: it belongs to others, or to another way to say it that this case
+/// uses, or its element leaves it at its default. Errors: Error(configuration) for a path that is no key, or a key that
+/// is no number.
+std::optional<double> number_of(const Case& c, const std::string& path);
 
 /// JSON Schema (draft 2020-12) of the Treadmark case file, for editors and validators; from the same table as the
 /// reader.

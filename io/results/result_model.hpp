@@ -187,6 +187,27 @@ struct PatchResult {
   }
 };
 
+/// Derivatives of the numbers of a case by numbers of its file.
+struct CaseDerivatives {
+  /// By what.
+  struct Parameter {
+    std::string key;     ///< of the case file, with its unit
+    double value = 0.0;  ///< that the case has, in that unit
+    bool of_surfaces =
+        false;             ///< it changes a surface: surfaces on both sides of the one that is there were differenced
+    std::string left_out;  ///< why there are none by it; empty: there are
+  };
+  /// Of what.
+  struct Number {
+    std::string name;        ///< in JSON, of a patch "patch_1.pmax_MPa"
+    std::vector<double> by;  ///< each parameter, in the units of both names; NaN: left out
+  };
+  std::vector<Parameter> parameters;
+  std::vector<Number> numbers;
+  std::vector<std::string> without;  ///< numbers of patches that have no derivatives
+  std::string message;               ///< why there are none at all; empty: there are
+};
+
 /// What came out of one case.
 struct CaseResult {
   int number = 0;  ///< of the case in its file, from 1
@@ -219,6 +240,7 @@ struct CaseResult {
   int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;    ///< how often each was done
   std::vector<std::pair<double, double>> force_iterations;                      ///< (z_ws [m], F_z [N])
   std::vector<PatchResult> patches;
+  std::optional<CaseDerivatives> derivatives;  ///< where they were asked for; in JSON and tables, not in HDF5
 };
 
 /// How a case ended, in result files and tables: "doubtful" where it is ok but a remark is grave, else the word of its

@@ -12,6 +12,7 @@
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/results/derivative_table.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/tables/shown.hpp"
 
@@ -111,7 +112,7 @@ std::string summary(const CaseResult& result) {
   if (result.has_wheelset) add_wheelset(table, result);
   if (!result.patches.empty()) add_patches(table, result.patches);
   for (const Remark& remark : result.remarks) table.line("  " + to_line(remark));
-  return table.take();
+  return table.take() + (result.derivatives ? derivatives_text(*result.derivatives) : "");
 }
 
 std::string summary_list(std::span<const CaseResult> cases) {

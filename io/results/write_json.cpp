@@ -107,6 +107,19 @@ Json patch_json(const PatchResult& patch) {
   return out;
 }
 
+Json derivatives_json(const CaseDerivatives& derivatives) {
+  Json out = {{"message", derivatives.message},
+              {"by", Json::array()},
+              {"numbers", Json::array()},
+              {"without", derivatives.without}};
+  for (const CaseDerivatives::Parameter& p : derivatives.parameters)
+    out["by"].push_back(
+        {{"key", p.key}, {"value", number(p.value)}, {"of_surfaces", p.of_surfaces}, {"left_out", p.left_out}});
+  for (const CaseDerivatives::Number& n : derivatives.numbers)
+    out["numbers"].push_back({{"name", n.name}, {"by", numbers(n.by)}});
+  return out;
+}
+
 Json case_json(const CaseResult& result) {
   Json out = Json::object();
   out["case"] = result.number;
@@ -128,6 +141,7 @@ Json case_json(const CaseResult& result) {
   out["npatch"] = result.patches.size();
   out["patches"] = Json::array();
   for (const PatchResult& patch : result.patches) out["patches"].push_back(patch_json(patch));
+  if (result.derivatives) out["derivatives"] = derivatives_json(*result.derivatives);
   return out;
 }
 
