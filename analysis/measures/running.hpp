@@ -14,8 +14,9 @@
 
 namespace treadmark::measures {
 
-/// What running tests ask of a run, after EN 14363: wheel forces and accelerations filtered, sliding means, percentiles
-/// against limits, section by section. docs/assessment.md has the definitions. SI; y to the right, z down.
+/// What running tests and passengers ask of a run, after EN 14363 and EN 12299: wheel forces and accelerations
+/// filtered, sliding means, percentiles against limits, section by section. docs/assessment.md has the definitions. SI;
+/// y to the right, z down.
 
 /// One wheel: forces on the rail at every instant.
 struct WheelSignal {
@@ -33,12 +34,14 @@ struct WheelsetSignal {
   double load = kUnknown;  ///< on its two rails at rest, 2 Q0 [N]
 };
 
-/// Acceleration of a point of a body in one direction.
+/// Accelerations of a point of a body, and the rate at which the body rolls.
+enum class PointMotion { longitudinal, lateral, vertical, roll };
+
 struct PointSignal {
   std::string name;  ///< "floor"
   PointKind kind = PointKind::car_body;
-  bool lateral = true;               ///< else vertical
-  std::vector<double> acceleration;  ///< [m/s2]
+  PointMotion motion = PointMotion::lateral;
+  std::vector<double> values;  ///< [m/s2], [rad/s]
 };
 
 /// A run as it was recorded, at any steps.
@@ -47,11 +50,12 @@ struct RunSignals {
   std::vector<WheelSignal> wheels;
   std::vector<WheelsetSignal> wheelsets;
   std::vector<PointSignal> points;
+  std::vector<double> curvature;  ///< of the line at each instant, positive to the right [1/m]; empty: straight
 };
 
 enum class AssessedStatus {
   ok,
-  outside,     ///< the run does not hold all of the section
+  outside,     ///< the run does not hold all of the section, or of what a mean needs around it
   too_short,   ///< the section is shorter than the window of the mean or a period of the filter
   too_coarse,  ///< an eighth of a period of the filter is shorter than some step of the record
   unloaded,    ///< the wheel carries less than a hundredth of its load: there is no ratio of forces
@@ -76,9 +80,8 @@ struct Assessed {
 /// What is assessed: the rows of the table, with what stands behind each.
 struct QuantityInfo {
   const char *key, *unit, *meaning;
-  const char* value;   ///< which number is compared
-  const char* limit;   ///< in words; empty: none
-  const char* source;  ///< of the limit or law; empty: none
+  const char* value;        ///< which number is compared
+  const char* source = "";  ///< of a law; empty: none
 };
 std::span<const QuantityInfo> assessed_quantities();
 /// Errors: Error(configuration) for keys that are none.
@@ -91,6 +94,6 @@ double longest_record_step(const RunSignals& run);
 /// Samples are taken at 1 kHz, sliding means every half metre. Errors: Error(input_data) for signals of different
 /// lengths, with fewer than two instants, or whose time does not increase.
 std::vector<Assessed> assess_run(const RunSignals& run, std::span<const AssessmentSection> sections,
-                                 VehicleKind vehicle);
+                                 VehicleKind vehicle, const RunningLimits& limits = usual_limits());
 
 }  // namespace treadmark::measures

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kWholeRun = "run";
+constexpr const char* kCurvature = "line.curvature_1_m";
+constexpr std::pair<const char*, measures::PointMotion> kPointChannels[] = {
+    {"ax_m_s2", measures::PointMotion::longitudinal},
+    {"ay_m_s2", measures::PointMotion::lateral},
+    {"az_m_s2", measures::PointMotion::vertical},
+    {"roll_rate_rad_s", measures::PointMotion::roll}};
 constexpr double kStepsOfWave = 8.0;  // of the record
 
 /// "ws12_left": 11 and true.
@@ -125,7 +132,7 @@ double cant_deficiency_in(const io::SimulationResult& result, const AssessmentSe
     return ranges::find(result.columns, name, &io::HistoryColumn::name) - result.columns.begin();
   };
   const auto place = column("x_m"), time = column("t_s"), speed = column("line.speed_m_s"),
-             curvature = column("line.curvature_1_m"), cant = column("line.cant_m");
+             curvature = column(kCurvature), cant = column("line.cant_m");
   if (std::max({place, time, speed, curvature, cant}) == static_cast<std::ptrdiff_t>(result.columns.size()))
     return measures::kUnknown;
   const auto value = [&](std::size_t row, std::ptrdiff_t c) {
@@ -147,6 +154,14 @@ void add_doubts(AssessedRun& run) {
   for (const std::string& name : run.request.laws)
     if (const NamedLaw& law = *law_named(name); !law.verified)
       run.doubts.push_back(fmt::format("the law {} is unverified: {}", name, law.source));
+  if (run.request.limits && !run.request.limits->verified)
+    run.doubts.push_back(fmt::format("the limits of {} are unverified", run.request.limits->edition));
+  const auto by_radius = [](const RunningLimit& l) { return l.to_radius || l.by_curvature != 0.0; };
+  for (const AssessmentSection& section : run.request.sections)
+    if (section.kind == SectionKind::curve && ranges::any_of(run.limits().limits, by_radius) &&
+        ranges::find(run.result->columns, kCurvature, &io::HistoryColumn::name) == run.result->columns.end())
+      run.doubts.push_back(fmt::format("section {}: the history has no {}, limits by radius are those of a straight",
+                                       section.name, kCurvature));
   std::map<measures::AssessedStatus, std::pair<std::size_t, std::string>> counts;
   for (const measures::Assessed& one : run.quantities)
     if (one.status != measures::AssessedStatus::ok) {
@@ -210,10 +225,14 @@ measures::RunSignals signals_of(const io::SimulationResult& result, const std::v
       wheels[parts[0]][parts[1]] = i;
     }
     const auto kind = parts.size() == 3 ? ranges::find(kPointKinds, parts[0]) : kPointKinds.end();
-    if (kind != kPointKinds.end() && (parts[2] == "ay_m_s2" || parts[2] == "az_m_s2"))
-      run.points.push_back(
-          {parts[1], static_cast<PointKind>(kind - kPointKinds.begin()), parts[2] == "ay_m_s2", values(i)});
+    if (kind == kPointKinds.end()) continue;
+    for (const auto& [channel, motion] : kPointChannels)
+      if (parts[2] == channel)
+        run.points.push_back({parts[1], static_cast<PointKind>(kind - kPointKinds.begin()), motion, values(i)});
   }
+  const auto curvature = ranges::find(result.columns, kCurvature, &io::HistoryColumn::name);
+  if (curvature != result.columns.end())
+    run.curvature = values(static_cast<std::size_t>(curvature - result.columns.begin()));
   for (const std::string& name : order) {
     const auto& of = wheels[name];
     if (!of.contains("Q_N") || !of.contains("Y_N")) continue;
@@ -277,6 +296,14 @@ void check_assessable(const io::SimulationFile& file, const std::vector<io::Hist
 }
 
 void check(const AssessmentRequest& request) {
+  if (request.limits) {
+    std::vector<std::string> known;
+    for (const measures::QuantityInfo& info : measures::assessed_quantities()) known.emplace_back(info.key);
+    for (const RunningLimit& limit : request.limits->limits)
+      if (ranges::find(known, limit.quantity) == known.end())
+        throw Error(ErrorKind::configuration, fmt::format("quantity '{}' is not assessed", limit.quantity), limit.where,
+                    advice_on_name(limit.quantity, known));
+  }
   std::set<std::string> names;
   for (const AssessmentSection& section : request.sections) {
     if (section.name.empty() || !names.insert(section.name).second)
@@ -325,7 +352,7 @@ AssessedRun assess_result(std::string name, std::shared_ptr<const io::Simulation
     outside(fmt::format("the beginning of the assessment, {:.6g} m,", request.from));
   if (run.request.sections.empty())
     run.request.sections.push_back({kWholeRun, std::max(request.from, begin), end, SectionKind::straight});
-  run.quantities = measures::assess_run(signals, run.request.sections, request.vehicle);
+  run.quantities = measures::assess_run(signals, run.request.sections, request.vehicle, run.limits());
   for (const AssessmentSection& section : run.request.sections)
     run.cant_deficiency.push_back(cant_deficiency_in(*run.result, section));
   add_doubts(run);

@@ -36,6 +36,8 @@ struct AssessedRun {
   std::vector<double> cant_deficiency;  ///< mean of each section, for a base of 1.5 m [m]; NaN: no line in the history
   std::vector<ChannelSpectrum> spectra;
   std::vector<std::string> doubts;
+
+  const RunningLimits& limits() const { return request.limits ? *request.limits : usual_limits(); }
 };
 
 /// The signals of a history by the names of its columns, with what these laws make of them. Errors: Error(input_data)
@@ -66,7 +68,8 @@ std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult
 /// What the sections of all runs say together.
 std::vector<measures::Estimate> estimates_of(std::span<const AssessedRun> runs);
 
-/// Sections have names of their own and an extent, laws ask for no elements of contact. Errors: Error(configuration).
+/// Sections have names of their own and an extent, limits are of quantities that there are, laws ask for no elements
+/// of contact. Errors: Error(configuration).
 void check(const AssessmentRequest& request);
 
 }  // namespace treadmark::app

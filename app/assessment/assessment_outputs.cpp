@@ -15,6 +15,7 @@
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/tables/csv_of.hpp"
 #include "treadmark/io/tables/json_of.hpp"
+#include "treadmark/io/tables/read_json.hpp"
 #include "treadmark/report/pictures/chart.hpp"
 #include "treadmark/report/pictures/histories/history_svg.hpp"
 
@@ -65,6 +66,32 @@ constexpr Column<E> kEstimates[] = {
     {"cant_deficiency_m", unit::kM, "", of<&E::reference>(), "at which the bound holds", kInTable, "cant deficiency"},
     {"bound", kOwn, "", of<&E::bound>(), "99 % of further sections lie below it", kInTable, "bound"}};
 
+using L = RunningLimit;
+constexpr std::string_view kAny = "any";
+
+/// A condition that need not be there, by the words of its enumerators.
+template <auto Member, const auto& Words>
+constexpr Access<L> condition() {
+  Access<L> access =
+      word(+[](const L& l) { return std::string(l.*Member ? Words[static_cast<std::size_t>(*(l.*Member))] : kAny); });
+  access.put_word = [](L& l, const std::string& given) {
+    for (std::size_t i = 0; i < Words.size(); ++i)
+      if (given == Words[i]) (l.*Member).emplace(static_cast<typename access::ValueOf<Member>::value_type>(i));
+  };
+  return access;
+}
+
+constexpr Column<L> kLimits[] = {
+    {"quantity", kOne, "", of<&L::quantity>(), "", kInTable, "quantity"},
+    {"vehicle", kOne, "", condition<&L::vehicle, kVehicleKinds>(), "", kInTable, "vehicle"},
+    {"section", kOne, "", condition<&L::section, kSectionKinds>(), "", kInTable, "section"},
+    {"from_radius_m", unit::kM, "", of<&L::from_radius>(), "", kInTable, "from R"},
+    {"to_radius_m", unit::kM, "", of<&L::to_radius>(), "", kInTable, "to R"},
+    {"above_speed_m_s", FileUnit{"m/s"}, "", of<&L::above_speed>(), "", kInTable, "above"},
+    {"value", kOwn, "", of<&L::constant>(), "", kInTable, "value"},
+    {"by_load", kOwn, "", of<&L::by_load>(), "times 2 Q0 in N", kInTable, "by load"},
+    {"by_curvature", kOwn, "", of<&L::by_curvature>(), "over the radius in m", kInTable, "by curvature"}};
+
 /// Those that stand behind unit and status in CSV.
 bool is_number(const Column<A>& column) { return column.access.word == nullptr && !column.access.whole; }
 
@@ -77,6 +104,10 @@ std::span<const Column<measures::Assessed>> columns() {
 template <>
 std::span<const Column<measures::Estimate>> columns() {
   return kEstimates;
+}
+template <>
+std::span<const Column<RunningLimit>> columns() {
+  return kLimits;
 }
 
 namespace app {
@@ -96,6 +127,10 @@ std::pair<double, std::string> shown_value(double value, const std::string& unit
 
 }  // namespace
 
+std::string limits_text(const RunningLimits& limits) {
+  return fmt::format("{}{}", limits.edition, limits.verified ? "" : ", not verified against its text");
+}
+
 const Assessed* worst_of(const AssessedRun& run, const std::string& section, const std::string& quantity) {
   const Assessed* worst = nullptr;
   const auto badness = [](const Assessed& a) { return std::isfinite(a.limit) ? a.share() : std::fabs(a.value); };
@@ -111,6 +146,7 @@ std::string assessment_text(std::span<const AssessedRun> runs) {
   for (const AssessedRun& run : runs) {
     const bool named = run.result->title == run.name;
     text += run.name + (named ? "" : ": " + run.result->title) + '\n';
+    text += fmt::format("  limits: {}\n", limits_text(run.limits()));
     for (const AssessmentSection& section : run.request.sections) {
       text += fmt::format("  {}, {:.6g} to {:.6g} m, {}\n", section.name, section.from, section.to,
                           kSectionKinds[static_cast<std::size_t>(section.kind)]);
@@ -187,11 +223,8 @@ std::string assessment_json(std::span<const AssessedRun> runs) {
   out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
   Json& quantities = out["quantities"] = Json::object();
   for (const measures::QuantityInfo& info : measures::assessed_quantities())
-    quantities[info.key] = {{"unit", info.unit},
-                            {"meaning", info.meaning},
-                            {"value", info.value},
-                            {"limit", info.limit},
-                            {"source", info.source}};
+    quantities[info.key] = {
+        {"unit", info.unit}, {"meaning", info.meaning}, {"value", info.value}, {"source", info.source}};
   out["runs"] = Json::array();
   for (const AssessedRun& run : runs) {
     Json one;
@@ -202,6 +235,10 @@ std::string assessment_json(std::span<const AssessedRun> runs) {
     one["from_m"] = io::number(run.request.from);
     one["channels"] = run.request.spectra;
     one["laws"] = run.request.laws;
+    one["limits"] = {{"edition", run.limits().edition},
+                     {"verified", run.limits().verified},
+                     {"usual", !run.request.limits},
+                     {"limits", io::json_of(run.limits().limits, Digits::all)}};
     one["sections"] = Json::array();
     for (const AssessmentSection& section : run.request.sections)
       one["sections"].push_back({{"name", section.name},
@@ -240,6 +277,13 @@ AssessmentRequest request_in(const std::filesystem::path& json) {
   request.from = run.number("from_m");
   request.spectra = run.at("channels").texts();
   if (run.has("laws")) request.laws = run.at("laws").texts();
+  if (run.has("limits") && !run.at("limits").at("usual").flag()) {
+    const io::JsonTree given = run.at("limits");
+    RunningLimits& limits = request.limits.emplace();
+    limits.edition = given.text("edition");
+    limits.verified = given.at("verified").flag();
+    for (const io::JsonTree& one : given.at("limits").items()) io::read_json(one, limits.limits.emplace_back());
+  }
   for (const io::JsonTree& one : run.at("sections").items())
     request.sections.push_back(
         {one.text("name"), one.number("from_m"), one.number("to_m"),

@@ -27,6 +27,9 @@ std::string assessment_json(std::span<const AssessedRun> runs);
 /// One-third octaves of all channels and runs. At least one run has a band.
 std::string spectra_svg(std::span<const AssessedRun> runs);
 
+/// Whose limits they are, and whether anybody has verified them.
+std::string limits_text(const RunningLimits& limits);
+
 /// The worst of a quantity in a section; nullptr where no number is ok. The result points into the run.
 const measures::Assessed* worst_of(const AssessedRun& run, const std::string& section, const std::string& quantity);
 
@@ -49,5 +52,8 @@ namespace treadmark {
 /// Columns whose unit has no name have that of the quantity.
 template <>
 std::span<const Column<measures::Assessed>> columns();
+/// Of a limit.
+template <>
+std::span<const Column<RunningLimit>> columns();
 
 }  // namespace treadmark

@@ -13,6 +13,7 @@
 #include "treadmark/core/number_text.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/simulations/read_limits.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -22,6 +23,7 @@ struct AssessOptions {
   std::string vehicle = "passenger";
   double from = 0.0;
   std::vector<std::string> sections, spectra, laws, channels;
+  std::string limits;                                    ///< file; empty: the usual ones
   std::string csv_file, json_file, folder, report_file;  ///< empty = none; "-": standard output instead of the text
 };
 
@@ -62,6 +64,7 @@ int assess_command(const AssessOptions& options, const CommonOptions&) {
   request.from = options.from;
   request.spectra = options.spectra;
   request.laws = options.laws;
+  if (!options.limits.empty()) request.limits = io::read_limits_file(options.limits);
   for (const std::string& section : options.sections) request.sections.push_back(section_of(section));
   const std::vector<app::AssessedRun> runs = app::assess_files(options.results, request, options.channels);
   const std::vector<std::string> channels =
@@ -102,6 +105,7 @@ Command add_assess(CLI::App& verb) {
   add_values(verb, "--spectra", options->spectra, "Channels whose spectra are wanted, as ws1_*.Q_N", "CHANNEL,...");
   add_values(verb, "--laws", options->laws, "Named laws of wear and fatigue that are asked of the wheels (list laws)",
              "LAW,...");
+  verb.add_option("--limits", options->limits, "File of limits by section, radius, speed and load")->type_name("FILE");
   add_values(verb, "--channels", options->channels, "Channels that are drawn over the distance", "CHANNEL,...");
   add_output(verb, "--csv", options->csv_file, "Write the table here; - for standard output instead of the text",
              "FILE");

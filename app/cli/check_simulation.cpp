@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/evolve/run_evolution.hpp"
@@ -11,6 +12,7 @@
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
+#include "treadmark/io/simulations/read_limits.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
@@ -73,10 +75,21 @@ void check_track_file(const std::string& name, const std::vector<std::string>& o
                              std::get<FlexibleTrack>(track).name, std::get<FlexibleTrack>(track).seats.size());
 }
 
+void check_limits_file(const std::string& name, const std::vector<std::string>& overrides) {
+  if (!overrides.empty())
+    throw Error(ErrorKind::configuration, "limits of a file cannot be set", {name}, "change the file");
+  AssessmentRequest request;
+  request.limits = io::read_limits_file(name);
+  app::check(request);
+  std::cout << fmt::format("{}: {} limits, {}; no errors\n", name, request.limits->limits.size(),
+                           app::limits_text(*request.limits));
+}
+
 std::string vehicle_schema() { return io::vehicle_file_schema(); }
 std::string track_schema() { return io::track_file_schema(); }
 std::string simulation_schema() { return io::simulation_file_schema(); }
 std::string study_schema() { return io::study_file_schema(); }
 std::string evolve_schema() { return io::evolve_file_schema(); }
+std::string limits_schema() { return io::limits_file_schema(); }
 
 }  // namespace treadmark::cli

@@ -56,6 +56,7 @@ void check_evolution_file(const std::string& name, const std::vector<std::string
 void check_simulation_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_vehicle_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_track_file(const std::string& name, const std::vector<std::string>& overrides);
+void check_limits_file(const std::string& name, const std::vector<std::string>& overrides);
 /// In import_command.cpp.
 void check_import_file(const std::string& name, const std::vector<std::string>& overrides);
 
@@ -72,5 +73,6 @@ std::string track_schema();
 std::string simulation_schema();
 std::string study_schema();
 std::string evolve_schema();
+std::string limits_schema();
 
 }  // namespace treadmark::cli

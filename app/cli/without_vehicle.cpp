@@ -30,6 +30,9 @@ void check_vehicle_file(const std::string& name, const std::vector<std::string>&
 void check_track_file(const std::string& name, const std::vector<std::string>&) {
   left_out("vehicle", "tracks such as " + name);
 }
+void check_limits_file(const std::string& name, const std::vector<std::string>&) {
+  left_out("vehicle", "limits such as " + name);
+}
 
 io::CaseFile cases_of_instant(const std::string& store, const std::string&, double, const std::vector<std::string>&) {
   left_out("vehicle", "results of simulations such as " + store);
@@ -40,5 +43,6 @@ std::string track_schema() { left_out("vehicle", "the schema of track files"); }
 std::string simulation_schema() { left_out("vehicle", "the schema of simulation files"); }
 std::string study_schema() { left_out("vehicle", "the schema of study files"); }
 std::string evolve_schema() { left_out("vehicle", "the schema of evolution files"); }
+std::string limits_schema() { left_out("vehicle", "the schema of files of limits"); }
 
 }  // namespace treadmark::cli

@@ -261,11 +261,12 @@ void HistoryRecord::add_running(std::size_t watched) {
     });
 }
 
-/// Of points that move little: a + (angular acceleration) x arm.
+/// Of points that move little: a + (angular acceleration) x arm. What passengers feel beside it is asked of named
+/// points only.
 void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
   const vehicle::Multibody& system = vehicle_.system;
   const auto add_point = [&](const std::string& name, const std::string& what, const vehicle::Multibody::Body& body,
-                             const Vec3& arm) {
+                             const Vec3& arm, bool felt) {
     const auto place = [at = body.coordinate](Freedom f) { return at[static_cast<std::size_t>(f)]; };
     const auto rate = [this, place](Freedom f) { return place(f) < 0 ? 0.0 : simulation_->acceleration()[place(f)]; };
     // As an instrument on the body shows it, which takes gravity along its axes for acceleration.
@@ -283,17 +284,31 @@ void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
       return rate(Freedom::z) + rate(Freedom::roll) * arm.y() - (pitches ? rate(Freedom::pitch) : 0.0) * arm.x() +
              of_line().z();
     });
+    if (!felt) return;
+    const auto tip = [this, pitch = place(Freedom::pitch), pitches] {
+      return pitches && pitch >= 0 ? simulation_->state().q[pitch] : 0.0;
+    };
+    add(name + ".ax_m_s2", "m/s2", "longitudinal acceleration of " + what, [=, gravity = request.gravity] {
+      return rate(Freedom::x) + (pitches ? rate(Freedom::pitch) : 0.0) * arm.z() - rate(Freedom::yaw) * arm.y() +
+             of_line().x() + gravity * tip();
+    });
+    add(name + ".roll_rate_rad_s", "rad/s", "rate at which " + what + " rolls", [=, this, x = body.position.x()] {
+      const auto& line = vehicle_.line;
+      const int roll = place(Freedom::roll);
+      return (roll < 0 ? 0.0 : simulation_->state().v[roll]) +
+             (line ? line->frame_spin(x, simulation_->state().time).x() : 0.0);
+    });
   };
   for (const vehicle::WheelOnRail& wheel : vehicle_.wheels) {
     const auto& set = system.wheelsets[static_cast<std::size_t>(wheel.wheelset)];
     const double y = wheel.side == wheelrail::Side::left ? -request.axle_box_y : request.axle_box_y;
     add_point("axle_box." + wheel.name, "the axle box of " + wheel.name,
-              system.bodies[static_cast<std::size_t>(set.body)], {0.0, y, 0.0});
+              system.bodies[static_cast<std::size_t>(set.body)], {0.0, y, 0.0}, false);
   }
   for (const io::PointInput& point : request.points)
     add_point(fmt::format("{}.{}", kPointKinds[static_cast<std::size_t>(point.kind)], point.name),
               fmt::format("a point of {}", point.body),
-              *ranges::find(system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm);
+              *ranges::find(system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm, true);
 }
 
 void HistoryRecord::keep_only(const io::HistoryRequest& request) {

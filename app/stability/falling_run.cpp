@@ -18,6 +18,7 @@
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/model/vehicle/running_limits.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -79,8 +80,8 @@ vehicle::SwayHistory history_of(const io::SimulationResult& result, const std::v
   return history;
 }
 
-/// Sums of guiding forces over half of what EN 14363 allows a wheelset, 10 kN + 2 Q0/3, in its simplified way to
-/// measure stability.
+/// Sums of guiding forces over their limit of instability, half of what EN 14363 allows a wheelset, in its simplified
+/// way to measure stability.
 vehicle::SwayHistory forces_of(const io::SimulationResult& result, std::size_t wheelsets) {
   std::vector<std::string> columns;
   for (std::size_t i = 1; i <= wheelsets; ++i) columns.push_back(fmt::format("ws{}.sumY_N", i));
@@ -88,7 +89,9 @@ vehicle::SwayHistory forces_of(const io::SimulationResult& result, std::size_t w
   for (std::size_t i = 0; i < wheelsets; ++i) {
     const std::string load = fmt::format("wheelset{}.load_N", i + 1);
     const auto found = ranges::find(result.statics, load, &io::NamedValue::name);
-    const double allowed = 0.5 * (10e3 + found->value / 3.0);
+    LimitInput input;
+    input.load = found->value;
+    const double allowed = limit_of(usual_limits(), "sumY_rms", input);
     for (double& value : history.sway[i]) value /= allowed;
   }
   return history;

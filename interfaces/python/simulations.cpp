@@ -30,6 +30,7 @@
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
 #include "treadmark/io/simulations/read_evolution.hpp"
+#include "treadmark/io/simulations/read_limits.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/report/pictures/histories/history_svg.hpp"
@@ -262,13 +263,14 @@ using SectionTuple = std::tuple<std::string, double, double, std::string>;  // n
 
 FoundAssessment assess(const Strings& results, const std::string& vehicle, double from,
                        const std::vector<SectionTuple>& sections, const Strings& spectra, const Strings& laws,
-                       const Strings& channels) {
+                       const Strings& channels, const std::string& limits) {
   return with_files([&] {
     AssessmentRequest request;
     request.vehicle = static_cast<VehicleKind>(place_of(vehicle, kVehicleKinds));
     request.from = from;
     request.spectra = spectra;
     request.laws = laws;
+    if (!limits.empty()) request.limits = io::read_limits_file(limits);
     for (const auto& [name, begin, end, kind] : sections)
       request.sections.push_back({name, begin, end, static_cast<SectionKind>(place_of(kind, kSectionKinds))});
     AssessedRuns found{app::assess_files(results, request, channels), channels};

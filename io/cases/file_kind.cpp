@@ -36,6 +36,7 @@ FileKind kind_of(const CaseTable& top) {
   const CaseEntry* track = entry_of(top, "track");
   if (track != nullptr && track->value.is_table() && entry_of(track->value.table(), "name") != nullptr)
     return FileKind::track;
+  if (has("limits")) return FileKind::limits;
   constexpr std::string_view kOfImports[] = {"scan", "placement", "clean", "fit", "damage", "map"};
   return ranges::any_of(kOfImports, has) ? FileKind::import : FileKind::other;
 }

@@ -15,6 +15,7 @@ enum class FileKind {
   simulation,  ///< [simulation]
   vehicle,     ///< [vehicle]
   track,       ///< [track] with a name, which the track of a case has not
+  limits,      ///< [[limits]]
   import,      ///< any table of the settings of an import
   other,       ///< cases, and files that are no .toml, which are not opened
 };

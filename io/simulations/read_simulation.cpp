@@ -208,7 +208,8 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);
-  if (const auto table = line_table(document, "assessment", assessment_keys())) read_assessment(*table, result);
+  if (const auto table = line_table(document, "assessment", assessment_keys()))
+    read_assessment(*table, name.parent_path(), result);
   read_other_wheel(contact, simulation, result);
   read_rails(contact, simulation, result);
   read_check_rails(simulation, result);

@@ -44,7 +44,8 @@ FieldRequests read_fields(const SimulationTable& simulation);
 /// What [simulation] says of the history; out.vehicle and out.settings are set.
 void read_history(const SimulationTable& simulation, SimulationFile& out);
 /// [assessment]; out.vehicle, out.settings and out.irregularities are set.
-void read_assessment(const TableOf<AssessmentRequest>& assessment, SimulationFile& out);
+void read_assessment(const TableOf<AssessmentRequest>& assessment, const std::filesystem::path& folder,
+                     SimulationFile& out);
 /// [[simulation.torques]].
 std::vector<AxleTorque> read_torques(const SimulationTable& simulation, const VehicleModel& vehicle);
 /// [[simulation.forces]], [[simulation.spring_motions]], [[simulation.rail_shifts]].

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/simulations/read_limits.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
@@ -41,10 +42,15 @@ void read_history(const SimulationTable& simulation, SimulationFile& out) {
   }
 }
 
-void read_assessment(const TableOf<AssessmentRequest>& assessment, SimulationFile& out) {
+void read_assessment(const TableOf<AssessmentRequest>& assessment, const std::filesystem::path& folder,
+                     SimulationFile& out) {
   using A = AssessmentRequest;
   using S = AssessmentSection;
   A& request = out.assessment.emplace(assessment.read());
+  if (assessment.find(&A::limits) != nullptr) {
+    const FileText limits = named_text(assessment, assessment.key(&A::limits), folder);
+    request.limits = parse_limits_text(limits.text, limits.file.path.string());
+  }
   if (out.irregularities && assessment.find(&A::from) == nullptr && assessment.tables(&A::sections).empty()) {
     // where the last wheelset has left the wind-up behind
     const IrregularitySpec& rails = *out.irregularities;

@@ -6,6 +6,7 @@
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
 #include "treadmark/io/simulations/evolve_keys.hpp"
+#include "treadmark/io/simulations/limit_keys.hpp"
 #include "treadmark/io/simulations/line_keys.hpp"
 #include "treadmark/io/simulations/study_keys.hpp"
 #include "treadmark/io/simulations/vehicle_keys.hpp"
@@ -315,6 +316,9 @@ const KeyTable<AssessmentSection>& section_keys() {
   });
   return keys;
 }
+    list.value(key_info("limits", KeyType::path,
+                        "[file of limits](assessment.md#limits); without it those that the literature quotes"),
+               &A::limits);
 
 const KeyTable<CheckRailInput>& check_rail_keys() {
   using C = CheckRailInput;
@@ -363,9 +367,12 @@ Inputs inputs_of(const SimulationFile& file) {
   for (const SettingKey<SimulationFile>& key : simulation_keys().rows) {
     const std::string value = value_of(key, file, {});
     if (value != value_of(key, fresh, {})) inputs.add(key.info, "simulation." + key.info.path, {value});
+std::string limits_file_schema() { return schema_of("Treadmark file of limits", limit_file_keys().infos, false); }
+
   }
   Case contact;
   contact.content = file.contact;
+std::string limits_key_table() { return key_table(limit_file_keys().infos); }
   for (Inputs list : {inputs.words(), inputs_of({&contact, 1}, file.path.parent_path())})
     out.insert(out.end(), list.begin(), list.end());
   return out;

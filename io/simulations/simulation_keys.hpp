@@ -42,12 +42,14 @@ std::string simulation_file_schema();
 std::string study_file_schema();
 std::string evolve_file_schema();
 
-/// All keys as Markdown tables (docs/simulation-files.md, docs/evolve.md); tables that a track shares with a vehicle
-/// once.
+std::string limits_file_schema();
+/// All keys as Markdown tables (docs/simulation-files.md, docs/evolve.md, docs/assessment.md); tables that a track
+/// shares with a vehicle once.
 std::string vehicle_key_table();
 std::string track_key_table();
 std::string simulation_key_table();
 std::string study_key_table();
 std::string evolve_key_table();
+std::string limits_key_table();
 
 }  // namespace treadmark::io

@@ -171,6 +171,12 @@ Vec3 LineEffects::felt_acceleration(const Vec3& place, double time) const {
   return f.acceleration({0.0, place.y(), place.z()}, now) - setup_.gravity * Vec3(0.0, f.sine, f.cosine - 1.0);
 }
 
+Vec3 LineEffects::frame_spin(double x, double time) const {
+  if (!setup_.path) return Vec3::Zero();
+  const Travel now = travel(time);
+  return now.speed * frame(x, now).turn;
+}
+
 void LineEffects::add_inertia(LineState& out, const Travel& travel) const {
   for (const Multibody::Body& b : bodies_) {
     Vec3 force(-b.mass * travel.acceleration, 0.0, 0.0), moment = Vec3::Zero(), spin = Vec3::Zero();

@@ -76,6 +76,9 @@ class LineEffects {
   /// the acceleration against the frame: acceleration of the frame's point less the change of gravity [m/s2].
   Vec3 felt_acceleration(const Vec3& place, double time) const;
 
+  /// At which the path frame below a place along the vehicle turns, in its axes [rad/s].
+  Vec3 frame_spin(double x, double time) const;
+
   /// As it was given.
   const LineSetup& setup() const { return setup_; }
 

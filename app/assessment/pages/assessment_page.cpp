@@ -123,9 +123,10 @@ std::vector<Section> assessment_sections(std::span<const AssessedRun> runs) {
   for (const AssessedRun& run : runs)
     for (const std::string& doubt : run.doubts)
       section.blocks.emplace_back(Banner{Banner::Kind::warning, run.name + ":", doubt});
-  section.blocks.emplace_back(Paragraph{
-      "Filters, percentiles and limits are those that the literature quotes from EN 14363; they were not verified "
-      "against the text of the standard."});
+  section.blocks.emplace_back(Paragraph{fmt::format(
+      "Filters and percentiles are those that the literature quotes from EN 14363; they were not verified against the "
+      "text of the standard. Limits: {}.",
+      limits_text(runs.front().limits()))});
   section.blocks.emplace_back(side_by_side(runs));
   section.blocks.emplace_back(every_number(runs));
   std::vector<Section> sections{std::move(section)};

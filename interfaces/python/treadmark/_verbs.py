@@ -545,18 +545,19 @@ class Assessment(_Found):
 @checked
 def assess(results: Path | Sequence[Path], *, vehicle: str = "passenger", begin: Metre = 0.0,
            sections: Sequence[Sequence[Any]] = (), spectra: Sequence[str] = (), laws: Sequence[str] = (),
-           channels: Sequence[str] = ()) -> Assessment:
+           channels: Sequence[str] = (), limits: Path | None = None) -> Assessment:
     """Reads out of folders of simulations, or their simulation.h5, what ``treadmark assess`` does.
 
     sections: (name, from, to) or (name, from, to, kind) with places in m, kind "straight", "curve" or "transition"; begin [m]: where the
     assessment begins without them; spectra: channels whose spectra are wanted; laws: named ones of wear and fatigue that are asked of the wheels
-    (``treadmark list laws``); channels: those that ``write`` draws over the distance.
+    (``treadmark list laws``); channels: those that ``write`` draws over the distance; limits: a file of them in place of the usual ones.
     """
     files = [results] if isinstance(results, (str, os.PathLike)) else list(results)
     parts: list[Any] = [(*section, "straight")[:4] for section in sections]
     if any(len(part) < 4 for part in parts):
         raise InputError("a section has a name, from and to [m], and maybe a kind")
-    return Assessment(_treadmark.assess([str(file) for file in files], vehicle, begin, parts, list(spectra), list(laws), list(channels)))
+    return Assessment(_treadmark.assess([str(file) for file in files], vehicle, begin, parts, list(spectra), list(laws), list(channels),
+                                         "" if limits is None else os.fspath(limits)))
 
 
 class SweepRun(NamedTuple):

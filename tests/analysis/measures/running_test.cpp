@@ -171,10 +171,10 @@ TEST(Running, LimitsOfWheelForcesFallWithSpeed) {
 TEST(Running, AccelerationsAreFilteredByWhereTheyAre) {
   RunSignals run = run_of(20.0, 20.0, 5e-4, constant(60e3), constant(0.0), constant(0.0));
   const Wave shake = [](double t) { return 1.0 + 0.5 * std::sin(kCircle * 8.0 * t); };
-  for (const bool lateral : {true, false}) {
-    run.points.push_back({"floor", PointKind::car_body, lateral, over(run.time, shake)});
-    run.points.push_back({"frame", PointKind::bogie_frame, lateral, over(run.time, shake)});
-    run.points.push_back({"box", PointKind::axle_box, lateral, over(run.time, shake)});
+  for (const PointMotion motion : {PointMotion::lateral, PointMotion::vertical}) {
+    run.points.push_back({"floor", PointKind::car_body, motion, over(run.time, shake)});
+    run.points.push_back({"frame", PointKind::bogie_frame, motion, over(run.time, shake)});
+    run.points.push_back({"box", PointKind::axle_box, motion, over(run.time, shake)});
   }
   const std::vector<AssessmentSection> middle{{"middle", 100.0, 300.0}};
   const std::vector<Assessed> all = assess_run(run, middle, VehicleKind::passenger);
@@ -188,6 +188,49 @@ TEST(Running, AccelerationsAreFilteredByWhereTheyAre) {
   EXPECT_NEAR(find(all, "middle", "frame", "ay_frame").most, 1.0 + 0.5 * low_pass_magnitude(8.0, 10.0), 2e-3);
   EXPECT_NEAR(find(all, "middle", "box", "az_box").rms, std::hypot(1.0, 0.5 / std::numbers::sqrt2), 1e-3);
   EXPECT_TRUE(std::isnan(find(assess_run(run, middle, VehicleKind::freight), "middle", "floor", "ay_ride").limit));
+}
+
+/// 5 Hz of 8 kN beside a steady force and 13 Hz of 3 kN, of which the band of 3 to 7 Hz leaves little.
+TEST(Running, SwayIsTheRootMeanSquareAboutItsFrequency) {
+  const RunSignals run = run_of(20.0, 30.0, 5e-4, constant(60e3), constant(5e3), [](double t) {
+    return 8e3 * std::sin(kCircle * 5.0 * t) + 3e3 * std::sin(kCircle * 13.0 * t);
+  });
+  const std::vector<AssessmentSection> sections{{"long", 100.0, 500.0}, {"short", 100.0, 199.0}};
+  const std::vector<Assessed> all = assess_run(run, sections, VehicleKind::passenger);
+  const Assessed& sway = find(all, "long", "ws1", "sumY_rms");
+  EXPECT_EQ(sway.samples, 31u);  // windows of 100 m every 10 m
+  const auto kept = [](double f) { return high_pass_magnitude(f, 3.0) * low_pass_magnitude(f, 7.0); };
+  EXPECT_NEAR(sway.value, std::hypot(8e3 * kept(5.0), 3e3 * kept(13.0)) / std::numbers::sqrt2, 60.0);
+  EXPECT_NEAR(sway.limit, 0.5 * (10e3 + kLoad / 3.0), 1e-6);
+  EXPECT_NEAR(find(all, "long", "ws1", "f_sumY").value, 5.0, 0.07);  // lines are 0.12 Hz apart
+  EXPECT_EQ(find(all, "short", "ws1", "sumY_rms").status, AssessedStatus::too_short);
+}
+
+TEST(Running, UnloadingIsOfTheLoadAtRest) {
+  RunSignals run = run_of(20.0, 5.0, 5e-4, constant(44e3), constant(0.0), constant(0.0));
+  EXPECT_NEAR(find(assess_run(run, kAll, VehicleKind::freight), "all", "ws1_left", "dQ_Q").value, 0.2, 1e-9);
+  run.wheelsets.front().load = kUnknown;
+  for (const Assessed& a : assess_run(run, kAll, VehicleKind::freight)) EXPECT_NE(a.quantity, "dQ_Q");
+}
+
+TEST(Running, LimitsKnowTheRadiusOfTheSection) {
+  RunSignals run = run_of(20.0, 10.0, 5e-4, constant(60e3), constant(-9e3), constant(12e3));
+  for (const double x : run.place) run.curvature.push_back(x < 50.0 ? 0.0 : x < 100.0 ? -1.0 / 500.0 : 1.0 / 200.0);
+  const RunningLimits limits{"made up",
+                             true,
+                             {{.quantity = "Y_qst", .constant = 30e3, .by_curvature = 10.5e6},
+                              {.quantity = "YQ_2m", .from_radius = 250.0, .constant = 0.8}}};
+  const std::vector<AssessmentSection> sections{
+      {"straight", 0.0, 49.0}, {"wide", 52.0, 98.0, SectionKind::curve}, {"tight", 102.0, 198.0, SectionKind::curve}};
+  const std::vector<Assessed> all = assess_run(run, sections, VehicleKind::passenger, limits);
+  EXPECT_NEAR(find(all, "wide", "ws1_left", "Y_qst").limit, 51e3, 1.0);
+  EXPECT_NEAR(find(all, "tight", "ws1_left", "Y_qst").limit, 82.5e3, 1.0);
+  EXPECT_EQ(find(all, "straight", "ws1_left", "YQ_2m").limit, 0.8);
+  EXPECT_EQ(find(all, "wide", "ws1_left", "YQ_2m").limit, 0.8);
+  EXPECT_TRUE(std::isnan(find(all, "tight", "ws1_left", "YQ_2m").limit));
+  EXPECT_TRUE(std::isnan(find(all, "wide", "ws1_left", "Q").limit));  // the file has none
+  run.curvature.pop_back();
+  EXPECT_THROW(assess_run(run, sections, VehicleKind::passenger), Error);
 }
 
 }  // namespace

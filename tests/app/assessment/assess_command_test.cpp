@@ -100,8 +100,10 @@ TEST_F(AssessCommand, ColumnsOfRunningAndPointsAreTheForcesAndMotionsThatStandBe
     EXPECT_GE(wear[i], 0.0);
     EXPECT_LT(wear[i], q[i]);
   }
-  EXPECT_THAT(input_.read("a/history.csv"),
-              AllOf(HasSubstr("car_body.floor.az_m_s2"), HasSubstr("ws1.sumY_N"), HasSubstr("axle_box.ws1_left.ay")));
+  EXPECT_THAT(
+      input_.read("a/history.csv"),
+      AllOf(HasSubstr("car_body.floor.az_m_s2"), HasSubstr("car_body.floor.roll_rate_rad_s"), HasSubstr("ws1.sumY_N"),
+            HasSubstr("axle_box.ws1_left.ay"), Not(HasSubstr("axle_box.ws1_left.ax"))));
 }
 
 /// Over a flat: of the scheme's steps v' = v + h ((1 - g) a + g a'), where g follows from its spectral radius of 0.8.
@@ -129,6 +131,7 @@ TEST_F(AssessCommand, AccelerationsMakeTheVelocitiesThatStandBeside) {
     EXPECT_GT(most, 1e-3) << name;
   };
   expect_velocity("car_body.floor.az_m_s2", column("mass.z_rate_m_s"));
+  EXPECT_EQ(column("axle_box.end.roll_rate_rad_s"), roll);
   expect_velocity("axle_box.ws1_left.ay_m_s2", column("axle.y_rate_m_s"), column("axle.roll_rad"));
   for (const double side : {-1.0, 1.0}) {
     std::vector<double> velocity = z;
@@ -189,6 +192,41 @@ TEST_F(AssessCommand, LawsAreAskedOfTheWheels) {
   EXPECT_EQ(before.status, 2);
   EXPECT_THAT(before.err, HasSubstr("no wheel has the channels that the law sheffield-r8t needs"));
   EXPECT_FALSE(fs::exists(path("b")));
+}
+
+/// Of a file, before the run and afterwards, by the radius of what the history says of the line: a straight.
+TEST_F(AssessCommand, LimitsAreThoseOfTheFile) {
+  input_.write("limits.toml",
+               "edition = \"made up 2026\"\n[[limits]]\nquantity = \"Q\"\nvalue = 80e3\n"
+               "[[limits]]\nquantity = \"Y_qst\"\nto_radius_m = 500\nvalue = 1\n");
+  const ProgramResult made = simulate("a", {"--set", "assessment.limits=\"limits.toml\""});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("limits: made up 2026, not verified against its text"), HasSubstr("limit 80,"),
+                              HasSubstr("warning: the limits of made up 2026 are unverified"),
+                              HasSubstr("limits by radius are those of a straight")));
+  const auto json = nlohmann::json::parse(input_.read("a/assessment.json"));
+  const auto& limits = json.at("runs").at(0).at("limits");
+  EXPECT_EQ(limits.at("usual"), false);
+  EXPECT_EQ(limits.at("limits").at(1).at("to_radius_m"), 500.0);
+  for (const auto& one : json.at("runs").at(0).at("assessed"))
+    EXPECT_EQ(one["quantity"] == "Q" && one["status"] == "ok", !one["limit"].is_null()) << one;
+  const ProgramResult again = run_program({"assess", path("a"), "--section", "middle:1:5:curve", "--limits",
+                                           path("limits.toml"), "--spectra", "axle_box.*.az_m_s2", "--csv", "-"});
+  std::string own = input_.read("a/assessment.csv");
+  for (std::size_t at = 0; (at = own.find("\non tables,", at)) != std::string::npos;) own.replace(at, 11, "\na,");
+  EXPECT_EQ(again.out, own);
+  if (has_part("report")) {  // which reads the limits of assessment.json
+    ASSERT_EQ(run_program({"report", path("a"), "-o", path("a.html")}).status, 0);
+    EXPECT_THAT(input_.read("a.html"), HasSubstr("made up 2026, not verified"));
+  }
+  EXPECT_THAT(run_program({"assess", path("a")}).out,
+              HasSubstr("limits: UIC 518 and EN 14363 as the literature quotes"));
+  input_.write("limits.toml", "edition = \"made up 2026\"\n[[limits]]\nquantity = \"Yqst\"\nvalue = 80e3\n");
+  const ProgramResult wrong = run_program({"assess", path("a"), "--limits", path("limits.toml")});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err,
+              AllOf(HasSubstr("limits.toml:2:"), HasSubstr("quantity 'Yqst' is not assessed"), HasSubstr("'Y_qst'")));
+  EXPECT_EQ(run_program({"assess", path("a"), "--limits", path("none.toml")}).status, 2);
 }
 
 TEST_F(AssessCommand, RunsStandSideBySide) {

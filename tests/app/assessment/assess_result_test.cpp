@@ -20,6 +20,7 @@
 namespace treadmark::app {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using treadmark::testing::refusal_of;
@@ -85,7 +86,9 @@ TEST(AssessResult, FindsWheelsPointsAndLoadsByTheirNames) {
   EXPECT_NEAR(find(run, "ws1", "sumY_2m").value, 3e3, 1.0);
   EXPECT_NEAR(find(run, "ws1", "sumY_2m").limit, 50e3, 1.0);
   EXPECT_NEAR(find(run, "ws1_right", "az_box").rms, 3.0 / std::numbers::sqrt2, 0.05);
-  EXPECT_TRUE(run.doubts.empty());
+  // 60 m hold no window of 100 m
+  ASSERT_EQ(run.doubts.size(), 1u);
+  EXPECT_THAT(run.doubts.front(), AllOf(HasSubstr("sumY_rms of ws1 in curve"), HasSubstr("too_short")));
   EXPECT_EQ(worst_of(run, "curve", "Q")->place, "ws1_right");
   EXPECT_EQ(worst_of(run, "curve", "ay_ride"), nullptr);
 }

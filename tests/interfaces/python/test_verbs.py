@@ -133,6 +133,12 @@ def test_assessment(tmp_path, examples, program):
     assert isinstance(table, pandas.DataFrame) and set(table["section"]) == {"first", "rest"}
     found.write(tmp_path / "assessed")
     assert json.loads((tmp_path / "assessed" / "assessment.json").read_text())
+    limits = tmp_path / "limits.toml"
+    limits.write_text('edition = "made up"\n[[limits]]\nquantity = "Q"\nvalue = 90e3\n')
+    assert "made up, not verified" in tm.assess(tmp_path / "run", limits=limits).summary()
+    limits.write_text('edition = "made up"\n[[limits]]\nquantity = "q"\nvalue = 90e3\n')
+    with pytest.raises(tm.InputError):
+        tm.assess(tmp_path / "run", limits=limits)
     for wrong in ({"vehicle": "bicycle"}, {"sections": [("a", 0.0, 1.0, "bridge")]}, {"channels": ["ws1_left.Q_M"]},
                   {"laws": ["jendel"]}, {"laws": ["nobody_1900"]}):
         with pytest.raises(tm.InputError):

@@ -121,5 +121,19 @@ TEST_F(HistoryRequests, BadOnesAreRefusedWhereTheyStand) {
   EXPECT_THAT(error("spectra = ", "spectrum = "), HasSubstr("spectra"));
 }
 
+TEST_F(HistoryRequests, LimitsAreOfAFile) {
+  const auto with_file = [&](const std::string& name) {
+    return samples::with(text(), "vehicle = \"freight\"\n", "vehicle = \"freight\"\nlimits = \"" + name + "\"\n");
+  };
+  EXPECT_FALSE(parse(text()).assessment->limits);
+  folder_.write("limits.toml", "edition = \"made up\"\n[[limits]]\nquantity = \"Q\"\nvalue = 1\n");
+  const SimulationFile file = parse(with_file("limits.toml"));
+  ASSERT_TRUE(file.assessment->limits);
+  EXPECT_EQ(file.assessment->limits->edition, "made up");
+  EXPECT_EQ(file.assessment->limits->limits.size(), 1u);
+  EXPECT_THAT(samples::error_of([&] { parse(with_file("limit.toml")); }),
+              AllOf(HasSubstr("assessment.limits: there is no file"), HasSubstr("limits.toml")));
+}
+
 }  // namespace
 }  // namespace treadmark::io
