@@ -201,6 +201,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   read_history(simulation, result);
   result.torques = read_torques(simulation, result.vehicle);
   read_motions(simulation, result);
+  read_twist(simulation, result);
   contact = with_rail(std::move(contact), simulation);
   read_contact(contact, result);
   // The patches of a wheel lie on one raster while it rolls.

@@ -50,6 +50,8 @@ void read_assessment(const TableOf<AssessmentRequest>& assessment, const std::fi
 std::vector<AxleTorque> read_torques(const SimulationTable& simulation, const VehicleModel& vehicle);
 /// [[simulation.forces]], [[simulation.spring_motions]], [[simulation.rail_shifts]].
 void read_motions(const SimulationTable& simulation, SimulationFile& out);
+/// [simulation.twist]; out.vehicle and out.settings are set.
+void read_twist(const SimulationTable& simulation, SimulationFile& out);
 /// One entry for every wheel of the vehicle.
 std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, std::size_t wheelsets);
 

@@ -72,6 +72,8 @@ const KeyTable<SimulationFile>& simulation_keys() {
                spring_motion_keys().infos, &F::spring_motions);
     list.table("rail_shifts", KeyType::table_list, "rails that move in time below wheels", rail_shift_keys().infos,
                &F::rail_shifts);
+    list.table("twist", KeyType::table, "a twist test: rails below all wheels that twist the vehicle and its bogies",
+               twist_keys().infos, &F::twist);
     list.number("distance_m", kPositive, "travelled in all; this or the next one is required", setting(&S::distance),
                 kNoDefault, "say how far, distance_m, or how long, duration_s");
     list.number("duration_s", kPositive, "of the whole simulation", setting(&S::duration), kNoDefault);
@@ -250,6 +252,20 @@ const KeyTable<RailShift>& rail_shift_keys() {
   return keys;
 }
 
+const KeyTable<TwistTest>& twist_keys() {
+  using T = TwistTest;
+  static const auto keys = key_table<T>([](auto& list) {
+    list.number("vehicle_per_mille", kAnyNumber, "cross level over the distance between the middles of the bogies",
+                &T::vehicle);
+    list.number("bogie_per_mille", kAnyNumber, "cross level over the wheelbase of each bogie", &T::bogie);
+    list.integer("wheelsets_per_bogie", 1, 1000, "from the front on; 1: single axles", &T::wheelsets_per_bogie);
+    list.number("period_s", kPositive,
+                "in which the twist grows in a quarter of it, changes to the other sign in two and fades", &T::period,
+                kNeeded, "give a period that is long against all vibrations of the vehicle");
+  });
+  return keys;
+}
+
 const KeyTable<FieldRequests>& field_keys() {
   static const auto keys = key_table<FieldRequests>([](auto& list) {
     list.number_list("pitch_deg", kAnyNumber,
@@ -300,6 +316,9 @@ const KeyTable<AssessmentRequest>& assessment_keys() {
     list.words("spectra", "channels whose spectra are wanted, `*` for any letters", &A::spectra);
     list.words("laws", "named laws of wear and fatigue that are asked of the wheels: see `treadmark list laws`",
                &A::laws);
+    list.value(key_info("limits", KeyType::path,
+                        "[file of limits](assessment.md#limits); without it those that the literature quotes"),
+               &A::limits);
     list.table("sections", KeyType::table_list, "parts of the run; without them it is assessed as a whole",
                section_keys().infos, &A::sections);
   });
@@ -316,9 +335,6 @@ const KeyTable<AssessmentSection>& section_keys() {
   });
   return keys;
 }
-    list.value(key_info("limits", KeyType::path,
-                        "[file of limits](assessment.md#limits); without it those that the literature quotes"),
-               &A::limits);
 
 const KeyTable<CheckRailInput>& check_rail_keys() {
   using C = CheckRailInput;
@@ -351,9 +367,12 @@ std::string evolve_file_schema() {
   return schema_of("Treadmark evolution file", with_base(std::move(keys)), true);
 }
 
+std::string limits_file_schema() { return schema_of("Treadmark file of limits", limit_file_keys().infos, false); }
+
 std::string vehicle_key_table() { return key_table(vehicle_tables()); }
 std::string track_key_table() { return key_table(std::span(track_tables()).first(5)); }
 std::string simulation_key_table() { return key_table(simulation_tables()); }
+std::string limits_key_table() { return key_table(limit_file_keys().infos); }
 std::string study_key_table() { return key_table(study_tables()); }
 std::string evolve_key_table() { return key_table(evolve_tables()); }
 
@@ -367,12 +386,9 @@ Inputs inputs_of(const SimulationFile& file) {
   for (const SettingKey<SimulationFile>& key : simulation_keys().rows) {
     const std::string value = value_of(key, file, {});
     if (value != value_of(key, fresh, {})) inputs.add(key.info, "simulation." + key.info.path, {value});
-std::string limits_file_schema() { return schema_of("Treadmark file of limits", limit_file_keys().infos, false); }
-
   }
   Case contact;
   contact.content = file.contact;
-std::string limits_key_table() { return key_table(limit_file_keys().infos); }
   for (Inputs list : {inputs.words(), inputs_of({&contact, 1}, file.path.parent_path())})
     out.insert(out.end(), list.begin(), list.end());
   return out;

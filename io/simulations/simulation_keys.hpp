@@ -23,6 +23,7 @@ const KeyTable<AxleTorque>& torque_keys();
 const KeyTable<BodyForce>& force_keys();
 const KeyTable<SpringMotion>& spring_motion_keys();
 const KeyTable<RailShift>& rail_shift_keys();
+const KeyTable<TwistTest>& twist_keys();
 const KeyTable<FieldRequests>& field_keys();
 const KeyTable<WheelContactInput>& wheel_keys();
 const KeyTable<CheckRailInput>& check_rail_keys();
@@ -41,15 +42,15 @@ std::string track_file_schema();
 std::string simulation_file_schema();
 std::string study_file_schema();
 std::string evolve_file_schema();
-
 std::string limits_file_schema();
+
 /// All keys as Markdown tables (docs/simulation-files.md, docs/evolve.md, docs/assessment.md); tables that a track
 /// shares with a vehicle once.
 std::string vehicle_key_table();
 std::string track_key_table();
 std::string simulation_key_table();
 std::string study_key_table();
-std::string evolve_key_table();
 std::string limits_key_table();
+std::string evolve_key_table();
 
 }  // namespace treadmark::io

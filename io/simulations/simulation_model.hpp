@@ -136,7 +136,8 @@ struct SimulationFile {
   std::vector<AxleTorque> torques;                     ///< motors and brakes
   std::vector<BodyForce> forces;                       ///< from outside
   std::vector<SpringMotion> spring_motions;
-  std::vector<RailShift> rail_shifts;
+  std::vector<RailShift> rail_shifts;  ///< those of the twist, too
+  std::optional<TwistTest> twist;
   std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
   std::vector<CheckRailInput> check_rails;
   std::vector<std::string> notes;  ///< information on what was read or assumed

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
@@ -175,6 +176,31 @@ void read_motions(const SimulationTable& simulation, SimulationFile& out) {
                                              *shift.wheelset + 1, out.vehicle.wheelsets.size()));
     check_motion(table, shift);
   });
+}
+
+void read_twist(const SimulationTable& simulation, SimulationFile& out) {
+  using F = SimulationFile;
+  using T = TwistTest;
+  const CaseValue* given = simulation.find(&F::twist);
+  if (given == nullptr) return;
+  const TableOf table(*given, simulation.path_of(&F::twist), twist_keys());
+  const T& test = out.twist.emplace(table.read());
+  std::vector<double> places;
+  for (const WheelsetSpec& wheelset : out.vehicle.wheelsets)
+    places.push_back(ranges::find(out.vehicle.bodies, wheelset.body, &BodySpec::name)->position.x());
+  if (places.size() % static_cast<std::size_t>(test.wheelsets_per_bogie) != 0)
+    table.fail(fmt::format("{} wheelsets are no bogies of {}", places.size(), test.wheelsets_per_bogie),
+               "say how many wheelsets a bogie has (wheelsets_per_bogie; 1: single axles)");
+  if (test.vehicle == 0.0 && test.bogie == 0.0)
+    table.fail(fmt::format("{}: nothing is twisted", table.path()), "give vehicle_per_mille, bogie_per_mille or both");
+  constexpr double kSlack = 1e-9;
+  if (test.period > out.settings.duration * (1.0 + kSlack))
+    table.refuse(&T::period, fmt::format("{} = {:.6g}: the run ends after {:.6g} s", table.path_of(&T::period),
+                                         test.period, out.settings.duration));
+  for (RailShift& shift : twist_shifts(test, places)) {
+    shift.where = given->where;
+    out.rail_shifts.push_back(std::move(shift));
+  }
 }
 
 std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, std::size_t wheelsets) {

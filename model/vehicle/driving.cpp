@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "treadmark/core/line.hpp"
 
@@ -51,5 +52,33 @@ double highest_speed(const SpeedProfile& p) { return *std::max_element(p.speed.b
 double torque_at(const AxleTorque& t, double time) { return BrokenLine(t.time, t.torque).held_at(time); }
 
 double force_at(const BodyForce& f, double time) { return BrokenLine(f.time, f.force).held_at(time); }
+
+std::vector<RailShift> twist_shifts(const TwistTest& test, std::span<const double> places) {
+  std::vector<std::size_t> from_front(places.size());
+  std::iota(from_front.begin(), from_front.end(), std::size_t{0});
+  std::stable_sort(from_front.begin(), from_front.end(),
+                   [&](std::size_t a, std::size_t b) { return places[a] > places[b]; });
+  const auto size = static_cast<std::size_t>(test.wheelsets_per_bogie);
+  const auto middle = [&](std::size_t first, std::size_t count) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < first + count; ++i) sum += places[from_front[i]];
+    return sum / static_cast<double>(count);
+  };
+  std::vector<RailShift> shifts;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double bogie = middle(i - i % size, size);
+    const double level =
+        test.vehicle * (bogie - middle(0, places.size())) + test.bogie * (places[from_front[i]] - bogie);
+    for (const bool left : {true, false}) {
+      RailShift& shift = shifts.emplace_back();
+      shift.wheelset = static_cast<int>(from_front[i]);
+      shift.left = left;
+      const double most = left ? -0.5 * level : 0.5 * level;  // the left rail rises
+      shift.time = {0.0, 0.25 * test.period, 0.75 * test.period, test.period};
+      shift.displacement = {0.0, most, -most, 0.0};
+    }
+  }
+  return shifts;
+}
 
 }  // namespace treadmark

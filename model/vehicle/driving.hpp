@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -76,5 +77,17 @@ struct RailShift {
   std::vector<double> displacement;  ///< at these times [m]; a smooth curve between, at rest beyond
   SourcePosition where;
 };
+
+/// Twist of the track below a vehicle that is not turned by it as a whole: cross level over distance, between bogies
+/// and within each of them, which grows, changes to the other sign and fades.
+struct TwistTest {
+  double vehicle = 0.0;         ///< over the distance between the middles of the bogies [m/m]
+  double bogie = 0.0;           ///< over the wheelbase of each bogie [m/m]
+  int wheelsets_per_bogie = 2;  ///< 1: single axles
+  double period = 0.0;          ///< of all of it [s]
+};
+/// The rails that make it, a left and a right one below each wheelset. places: of the wheelsets along the vehicle, a
+/// whole number of bogies [m].
+std::vector<RailShift> twist_shifts(const TwistTest& test, std::span<const double> places);
 
 }  // namespace treadmark

@@ -328,6 +328,25 @@ TEST_F(SimulationLine, WhatActsFromOutsideIsRead) {
               HasSubstr("the spring on the ground 'primary1' is not known"));
 }
 
+TEST_F(SimulationLine, TwistTestsMoveTheRailsBelowAllWheels) {
+  const std::string kTwist = "\n[simulation.twist]\nvehicle_per_mille = 3\nwheelsets_per_bogie = 1\nperiod_s = 0.1\n";
+  const SimulationFile file = parse(kTwist);
+  ASSERT_TRUE(file.twist);
+  EXPECT_DOUBLE_EQ(file.twist->vehicle, 3e-3);
+  ASSERT_EQ(file.rail_shifts.size(), 2u);  // of one wheelset, which stands in the middle: nothing moves
+  EXPECT_EQ(file.rail_shifts[0].displacement[1], 0.0);
+  const auto refused = [&](const std::string& good, const std::string& bad) {
+    std::string text = kTwist;
+    text.replace(text.find(good), good.size(), bad);
+    return samples::error_of([&] { parse(text); });
+  };
+  EXPECT_THAT(refused("wheelsets_per_bogie = 1\n", ""), HasSubstr("1 wheelsets are no bogies of 2"));
+  EXPECT_THAT(refused("vehicle_per_mille = 3", "bogie_per_mille = 0"), HasSubstr("nothing is twisted"));
+  EXPECT_THAT(refused("period_s = 0.1", "period_s = 1e4"), HasSubstr("the run ends after"));
+  EXPECT_THAT(refused("period_s = 0.1\n", ""), HasSubstr("period"));
+  EXPECT_THAT(refused("wheelsets_per_bogie = 1", "wheelsets_per_bogie = 0"), HasSubstr("wheelsets_per_bogie"));
+}
+
 TEST_F(SimulationLine, TheSchemaKnowsTheTables) {
   const auto schema = nlohmann::json::parse(simulation_file_schema());
   const auto& layout = schema.at("properties").at("layout").at("properties");
