@@ -59,10 +59,10 @@ void check_simulation_file(const std::string& name, const std::vector<std::strin
 
 void check_vehicle_file(const std::string& name, const std::vector<std::string>& overrides) {
   const VehicleModel vehicle = io::read_vehicle_file(name, overrides);
-  std::cout << fmt::format(
-      "{}: vehicle \"{}\": {} bodies, {} wheelsets, {} parts between them; no errors\n", name, vehicle.name,
-      vehicle.bodies.size(), vehicle.wheelsets.size(),
-      vehicle.springs.size() + vehicle.bump_stops.size() + vehicle.damper_curves.size() + vehicle.frictions.size());
+  std::cout << fmt::format("{}: vehicle \"{}\": {} bodies, {} wheelsets, {} parts between them; no errors\n", name,
+                           vehicle.name, vehicle.bodies.size(), vehicle.wheelsets.size(),
+                           vehicle.springs.size() + vehicle.bump_stops.size() + vehicle.damper_curves.size() +
+                               vehicle.frictions.size() + vehicle.air_springs.size());
 }
 
 void check_track_file(const std::string& name, const std::vector<std::string>& overrides) {

@@ -225,6 +225,9 @@ void HistoryRecord::add_elements() {
       add(name + "_slid_m", "m", "how far it has slid since the reference configuration",
           [this, column] { return simulation_->element_memory()[column]; });
     }
+  for (std::size_t i = 0; i < elements.air_springs.size(); ++i)
+    add(fmt::format("air.{}.pressure_Pa", elements.air_springs[i].name), "Pa", "absolute, in the bellows",
+        [this, at = elements.memory_of_air(i) + 1] { return simulation_->element_memory()[at]; });
   for (const vehicle::DamperCurve& damper : elements.dampers)
     add(fmt::format("damper.{}_N", damper.name), "N", "force of the damper, against the rate",
         [this, &damper, &column = elements.columns[static_cast<std::size_t>(damper.column)]] {

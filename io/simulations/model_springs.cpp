@@ -231,6 +231,19 @@ std::vector<DamperCurveSpec> read_damper_curves(const TableReader& document, con
       check_damper, kNothingMore);
 }
 
+std::vector<AirSpringSpec> read_air_springs(const TableReader& document, const std::vector<BodySpec>& bodies) {
+  using A = AirSpringSpec;
+  return read_parts<A>(
+      document, bodies,
+      {"air_springs", "air springs", air_spring_table_keys(), air_spring_place_keys(), air_spring_keys()},
+      [](const TableOf<A>& part, const A& air) {
+        if (!(air.reservoir > 0.0)) return;
+        part.need(&A::orifice);
+        part.need(&A::loss);
+      },
+      kNothingMore);
+}
+
 std::vector<DryFrictionSpec> read_frictions(const TableReader& document, const std::vector<BodySpec>& bodies,
                                             const std::vector<SpringSpec>& springs,
                                             const std::vector<BumpStopSpec>& stops) {

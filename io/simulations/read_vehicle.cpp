@@ -134,6 +134,11 @@ void check_vehicle(const VehicleModel& vehicle) {
     for (std::size_t d = 0; d < kFreedoms; ++d)
       if (f.directions.at(d)) sticking.stiffness.at(d) = f.stiffness * (d < 3 ? 1.0 : f.arm * f.arm);
   }
+  for (const AirSpringSpec& a : vehicle.air_springs) {
+    SpringSpec& bearing = holding.emplace_back(SpringSpec{a.name, a.body_a, a.body_b, a.position, {}, {}, {}, {}});
+    // of the order of what it has
+    bearing.stiffness.at(static_cast<std::size_t>(Freedom::z)) = a.load * a.area / a.bellows;
+  }
   check_held(vehicle.bodies, holding, wheels);
 }
 
@@ -166,6 +171,7 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
   vehicle.springs = read_springs(document, vehicle.bodies);
   vehicle.bump_stops = read_bump_stops(document, vehicle.bodies);
   vehicle.damper_curves = read_damper_curves(document, vehicle.bodies);
+  vehicle.air_springs = read_air_springs(document, vehicle.bodies);
   vehicle.frictions = read_frictions(document, vehicle.bodies, vehicle.springs, vehicle.bump_stops);
   vehicle.wheelsets = read_wheelsets(document, vehicle.bodies);
   check_vehicle(vehicle);

@@ -51,6 +51,7 @@ std::vector<DamperCurveSpec> read_damper_curves(const TableReader& document, con
 std::vector<DryFrictionSpec> read_frictions(const TableReader& document, const std::vector<BodySpec>& bodies,
                                             const std::vector<SpringSpec>& springs,
                                             const std::vector<BumpStopSpec>& stops);
+std::vector<AirSpringSpec> read_air_springs(const TableReader& document, const std::vector<BodySpec>& bodies);
 std::vector<FlexibleAxle> read_axles(const TableReader& document);
 
 std::vector<std::string> names_of(const std::vector<BodySpec>& bodies);

@@ -24,7 +24,8 @@ void add_model_name(KeyRows<ModelHead>& list) {
 
 void add_model_factors(KeyRows<ModelHead>& list) {
   list.number("scale_mass", kPositive, "factor on all masses and moments of inertia", &ModelHead::mass);
-  list.number("scale_stiffness", kPositive, "factor on all stiffnesses of springs; bump stops, axles and rails stay",
+  list.number("scale_stiffness", kPositive,
+              "factor on all stiffnesses of springs; bump stops, air springs, axles and rails stay",
               &ModelHead::stiffness);
   list.number("scale_damping", kNotNegative, "factor on all damping", &ModelHead::damping);
 }

@@ -54,6 +54,8 @@ const TableKeys& vehicle_tables() {
       table_key("bump_stops", KeyType::table_list, "springs with a characteristic", bump_stop_table_keys()),
       table_key("damper_curves", KeyType::table_list, "dampers with a characteristic", damper_curve_table_keys()),
       table_key("frictions", KeyType::table_list, "dry friction that sticks and slides", friction_table_keys()),
+      table_key("air_springs", KeyType::table_list, "gas that bears, with reservoirs behind orifices",
+                air_spring_table_keys()),
       needed(table_key("wheelsets", KeyType::table_list, "bodies that run on the rails, the leading one first",
                        wheelset_keys().infos)),
       table_key("axles", KeyType::table_list, "how wheelsets bend and twist", axle_keys().infos)};
@@ -218,6 +220,35 @@ const KeyTable<DryFrictionSpec>& friction_keys() {
 
 const TableKeys& friction_table_keys() {
   static const TableKeys keys = connecting(friction_place_keys(), friction_keys().infos);
+  return keys;
+}
+
+const KeyTable<Places>& air_spring_place_keys() {
+  static const KeyTable<Places> keys = places_of("air spring");
+  return keys;
+}
+
+const KeyTable<AirSpringSpec>& air_spring_keys() {
+  using A = AirSpringSpec;
+  static const auto keys = key_table<A>([](auto& list) {
+    list.number("load_N", kPositive,
+                "by which it shares a weight with other springs; its pressure follows from what it bears", &A::load,
+                kNeeded);
+    list.number("area_m2", kPositive, "on which the pressure acts", &A::area, kNeeded);
+    list.number("bellows_m3", kPositive, "volume of its gas at rest, with what is open to it", &A::bellows, kNeeded);
+    list.number("reservoir_m3", kNotNegative, "volume behind the orifice", &A::reservoir);
+    list.number("orifice_mm", kPositive, "diameter of the orifice; required with a reservoir", &A::orifice, kNoDefault,
+                "the diameter of the orifice before the reservoir");
+    list.number("loss_coefficient", kPositive,
+                "pressure that the orifice takes over the dynamic one in it; required with a reservoir", &A::loss,
+                kNoDefault, "what the orifice takes of the pressure, over the dynamic one in it");
+    list.number("exponent", {{}, 1.0, 2.0}, "n of p Vⁿ: 1 isothermal, 1.4 adiabatic air", &A::exponent);
+  });
+  return keys;
+}
+
+const TableKeys& air_spring_table_keys() {
+  static const TableKeys keys = connecting(air_spring_place_keys(), air_spring_keys().infos);
   return keys;
 }
 

@@ -39,13 +39,16 @@ const KeyTable<SpringSpec>& spring_keys();
 const TableKeys& bump_stop_table_keys();
 const KeyTable<Places>& bump_stop_place_keys();
 const KeyTable<BumpStopSpec>& bump_stop_keys();
-/// The same of [[damper_curves]] and [[frictions]].
+/// The same of [[damper_curves]], [[frictions]] and [[air_springs]].
 const TableKeys& damper_curve_table_keys();
 const KeyTable<Places>& damper_curve_place_keys();
 const KeyTable<DamperCurveSpec>& damper_curve_keys();
 const TableKeys& friction_table_keys();
 const KeyTable<Places>& friction_place_keys();
 const KeyTable<DryFrictionSpec>& friction_keys();
+const TableKeys& air_spring_table_keys();
+const KeyTable<Places>& air_spring_place_keys();
+const KeyTable<AirSpringSpec>& air_spring_keys();
 const KeyTable<WheelsetSpec>& wheelset_keys();
 const KeyTable<FlexibleAxle>& axle_keys();
 const KeyTable<AxleMode>& bending_keys();

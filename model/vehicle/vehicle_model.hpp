@@ -88,6 +88,21 @@ struct DryFrictionSpec {
   SourcePosition where;
 };
 
+/// Gas in a bellows that bears a load along z, and in a reservoir behind an orifice (its pressure falls by the square
+/// of the flow). It follows p V^n; the gas that flows keeps its own, as behind a piston without mass.
+struct AirSpringSpec {
+  std::string name, body_a, body_b;
+  Vec3 position = Vec3::Zero();  ///< [m]
+  double load = 0.0;       ///< by which springs that bear together share it; pressures follow from shares [N]; > 0
+  double area = 0.0;       ///< on which the pressure acts [m2]; > 0
+  double bellows = 0.0;    ///< volume of its gas at rest, with what is open to it [m3]; > 0
+  double reservoir = 0.0;  ///< volume behind the orifice [m3]; 0: none
+  double orifice = 0.0;    ///< diameter [m]; > 0 with a reservoir
+  double loss = 0.0;       ///< coefficient: pressure over the dynamic one in the orifice; > 0 with a reservoir
+  double exponent = 1.4;   ///< n: 1 isothermal, 1.4 adiabatic air
+  SourcePosition where;
+};
+
 /// Which body carries a wheelset.
 struct WheelsetSpec {
   std::string body;                       ///< its springs hold the axle boxes, which do not turn with the axle
@@ -104,6 +119,7 @@ struct VehicleModel {
   std::vector<WheelsetSpec> wheelsets;  ///< leading one first
   std::vector<DamperCurveSpec> damper_curves = {};
   std::vector<DryFrictionSpec> frictions = {};
+  std::vector<AirSpringSpec> air_springs = {};
 };
 
 /// The track below one wheelset, moving along with it; there is one of its own for every wheelset. x = 0 below the

@@ -88,6 +88,60 @@ void add_friction(const DryFriction& f, Index number, const Vector& displacement
   slides = 1.0;
 }
 
+double pressure_at(const AirSpring& a, double at_rest, double volume) {
+  return a.pressure * std::pow(at_rest / volume, a.exponent);
+}
+
+/// Volume that has gone to the reservoir when the flow of a step agrees with the pressures at its end (backward Euler).
+/// Between what empties either side the excess of pressure falls; Newton's method, held there.
+double shifted(const AirSpring& a, double compression, double before, double duration) {
+  constexpr int kMost = 100;
+  double low = a.area * compression - a.bellows, high = a.reservoir;
+  if (!(low < high)) return kNaN;
+  double q = before > low && before < high ? before : 0.5 * (low + high);
+  for (int i = 0; i < kMost; ++i) {
+    const double left = a.bellows - a.area * compression + q, right = a.reservoir - q, flow = (q - before) / duration;
+    const double p_left = pressure_at(a, a.bellows, left), p_right = pressure_at(a, a.reservoir, right);
+    const double excess = p_left - p_right - a.resistance * flow * std::abs(flow);
+    (excess > 0.0 ? low : high) = q;
+    const double slope =
+        a.exponent * (p_left / left + p_right / right) + 2.0 * a.resistance * std::abs(flow) / duration;
+    constexpr double kRounding = 1e-15;
+    double next = q + excess / slope;
+    if (std::abs(next - q) <= kRounding * (a.bellows + a.reservoir)) return q;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    q = next;
+  }
+  return q;
+}
+
+void add_air(const AirSpring& a, Index memory, double compression, double duration, ElementResponse& r) {
+  const double before = r.memory[memory], q = a.reservoir > 0.0 ? shifted(a, compression, before, duration) : 0.0;
+  const double left = a.bellows - a.area * compression + q;
+  if (!(left > 0.0)) {
+    r.force[a.column] = kNaN;
+    return;
+  }
+  const double pressure = pressure_at(a, a.bellows, left), by_volume = a.exponent * pressure / left;
+  double kept = 1.0;  // share of a change of volume that the bellows has to take
+  if (a.reservoir > 0.0) {
+    const double right = a.reservoir - q;
+    const double other = a.exponent * pressure_at(a, a.reservoir, right) / right +
+                         2.0 * a.resistance * std::abs((q - before) / duration) / duration;
+    kept = other / (by_volume + other);
+  }
+  r.force[a.column] += a.area * (pressure - a.pressure) - a.linear * compression;
+  r.stiffness(a.column, a.column) += a.area * a.area * by_volume * kept - a.linear;
+  r.memory[memory] = q;
+  r.memory[memory + 1] = pressure;
+}
+
+/// Work to bring gas from its volume at rest to another one [J].
+double energy_of_gas(const AirSpring& a, double at_rest, double volume) {
+  const double ratio = at_rest / volume, n = a.exponent;
+  return a.pressure * at_rest * (n == 1.0 ? std::log(ratio) : (std::pow(ratio, n - 1.0) - 1.0) / (n - 1.0));
+}
+
 }  // namespace
 
 CurveValue value_at(const ForceCurve& c, double at) {
@@ -96,7 +150,15 @@ CurveValue value_at(const ForceCurve& c, double at) {
   return {line.at(at), line.slope(line.piece(at)), integral_to(c, at) - integral_to(c, 0.0)};
 }
 
-Vector ForceElements::fresh_memory() const { return Vector::Zero(size() + static_cast<Index>(frictions.size())); }
+Index ForceElements::memory_of_air(std::size_t spring) const {
+  return size() + static_cast<Index>(frictions.size() + 2 * spring);
+}
+
+Vector ForceElements::fresh_memory() const {
+  Vector memory = Vector::Zero(memory_of_air(air_springs.size()));
+  for (std::size_t i = 0; i < air_springs.size(); ++i) memory[memory_of_air(i) + 1] = air_springs[i].pressure;
+  return memory;
+}
 
 Vector ForceElements::of(const Vector& coordinates) const {
   Vector out = Vector::Zero(size());
@@ -125,11 +187,18 @@ double ForceElements::energy(const Vector& displacement, const Vector& memory) c
     const auto columns = Eigen::seqN(f.first, f.directions);
     sum += 0.5 * f.stiffness * (displacement(columns) - memory(columns)).squaredNorm();
   }
+  for (std::size_t i = 0; i < air_springs.size(); ++i) {
+    const AirSpring& a = air_springs[i];
+    const double compression = displacement[a.column], q = memory[memory_of_air(i)];
+    sum += energy_of_gas(a, a.bellows, a.bellows - a.area * compression + q) - a.pressure * a.area * compression -
+           0.5 * a.linear * compression * compression;
+    if (a.reservoir > 0.0) sum += energy_of_gas(a, a.reservoir, a.reservoir - q);
+  }
   return sum;
 }
 
 ElementResponse respond(const ForceElements& elements, const Vector& displacement, const Vector& rate,
-                        const Vector& memory) {
+                        const Vector& memory, double duration) {
   const Index n = elements.size();
   ElementResponse r{Vector::Zero(n), Matrix::Zero(n, n), Matrix::Zero(n, n), memory};
   for (std::size_t i = 0; i < elements.frictions.size(); ++i)
@@ -139,6 +208,10 @@ ElementResponse respond(const ForceElements& elements, const Vector& displacemen
     r.force[d.column] += value.force - d.linear * rate[d.column];
     r.damping(d.column, d.column) += value.slope - d.linear;
   }
+  for (std::size_t i = 0; i < elements.air_springs.size(); ++i) {
+    const AirSpring& a = elements.air_springs[i];
+    add_air(a, elements.memory_of_air(i), displacement[a.column], duration, r);
+  }
   return r;
 }
 
@@ -147,7 +220,8 @@ std::optional<ElementResponse> settle(const ForceElements& elements, const Eleme
   // Forces of friction have corners, between which whole steps may run in circles.
   constexpr double kPart = 0.6;
   const auto at = [&](const Vector& y) {
-    return respond(elements, step.displacement + step.of_displacement * y, step.rate + step.of_rate * y, memory);
+    return respond(elements, step.displacement + step.of_displacement * y, step.rate + step.of_rate * y, memory,
+                   step.duration);
   };
   Vector y = step.guess;
   ElementResponse now = at(y);

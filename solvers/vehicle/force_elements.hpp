@@ -10,6 +10,7 @@
 
 #include <Eigen/Dense>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/model/vehicle/vehicle_model.hpp"
 
 namespace treadmark::vehicle {
@@ -58,15 +59,30 @@ struct DamperCurve {
   double linear = 0.0;  ///< [N s/m]
 };
 
+/// AirSpringSpec by a column, its compression; what it does beyond a linear spring, which stands in
+/// Multibody::stiffness, and beyond the load at rest.
+struct AirSpring {
+  std::string name;
+  int column = 0;
+  double area = 0.0;                      ///< [m2]
+  double bellows = 0.0, reservoir = 0.0;  ///< volumes at rest [m3]
+  double exponent = 1.4;
+  double resistance = 0.0;  ///< of the orifice, pressure over the square of the flow [Pa s2/m6]
+  double pressure = 0.0;    ///< absolute, at rest [Pa]
+  double linear = 0.0;      ///< [N/m]
+};
+
 /// Forces that are neither linear nor functions of displacements alone. Immutable; what they remember stands outside.
 struct ForceElements {
   std::vector<ElementColumn> columns;
   std::vector<DryFriction> frictions;
   std::vector<DamperCurve> dampers;
+  std::vector<AirSpring> air_springs;
 
   int size() const { return static_cast<int>(columns.size()); }
   /// Memory in the reference configuration: how far each column of friction has slid [m], then whether each friction
-  /// slides.
+  /// slides, then of each air spring the volume that has gone into its reservoir [m3] and the pressure in its bellows
+  /// [Pa].
   Vector fresh_memory() const;
   /// Displacements (rates) of the columns by those of the coordinates.
   Vector of(const Vector& coordinates) const;
@@ -74,7 +90,9 @@ struct ForceElements {
   Matrix directions(Eigen::Index coordinates) const;
   /// Generalised force on the coordinates of forces that resist the columns' displacements.
   Vector on_coordinates(const Vector& force, Eigen::Index coordinates) const;
-  /// Energy that the springs of friction hold at displacements of the columns [J].
+  /// Place in the memory of an air spring's two numbers.
+  Eigen::Index memory_of_air(std::size_t spring) const;
+  /// Energy that the springs of friction and the gas of air springs hold at displacements of the columns [J].
   double energy(const Vector& displacement, const Vector& memory) const;
 };
 
@@ -85,15 +103,17 @@ struct ElementResponse {
   Vector memory;
 };
 
-/// At displacements [m] and rates [m/s] of the columns, from what was remembered before.
+/// At displacements [m] and rates [m/s] of the columns, from what was remembered so long before [s]; without end:
+/// pressures are even. Forces of air springs are NaN where nothing is left of a volume.
 ElementResponse respond(const ForceElements& elements, const Vector& displacement, const Vector& rate,
-                        const Vector& memory);
+                        const Vector& memory, double duration = kInfinity);
 
 /// A time step as the elements see it: displacement + of_displacement * y, rate + of_rate * y, where accelerations
 /// y = free - flexibility * force.
 struct ElementStep {
   Vector displacement, rate;
   double of_displacement = 0.0, of_rate = 0.0;
+  double duration = kInfinity;  ///< [s]
   Vector free;
   Matrix flexibility;
   Vector guess;            ///< of y

@@ -137,6 +137,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
     if (line) element_step.displacement += line->element_stretch, element_step.rate += line->element_rate;
     element_step.of_displacement = of_q;
     element_step.of_rate = of_v;
+    element_step.duration = h;
     element_step.tolerance = kElementTolerance * force_scale_;
   }
   ElementResponse response;

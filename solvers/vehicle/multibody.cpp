@@ -10,13 +10,15 @@
 #include <map>
 #include <tuple>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::vehicle {
 
 namespace {
 
-constexpr int kRotations = 3;  // freedoms from here on are rotations
+constexpr int kRotations = 3;             // freedoms from here on are rotations
+constexpr double kAtmosphere = 101325.0;  // [Pa]
 constexpr const char* kFreedomNames[] = {"x", "y", "z", "roll", "pitch", "yaw"};
 
 /// A bending mode in one plane.
@@ -67,10 +69,12 @@ class Assembly {
       system_.bodies.push_back({b.spec.name, b.spec.mass, b.spec.inertia, b.spec.position, b.coordinate, -1});
     for (const SpringSpec& spring : vehicle.springs) add_spring(spring, "", Vec3::Zero());
     for (const BumpStopSpec& stop : vehicle.bump_stops) add_stop(stop);
+    for (const AirSpringSpec& air : vehicle.air_springs) add_air_spring(air);
     for (const DamperCurveSpec& damper : vehicle.damper_curves) add_damper_curve(damper);
     for (const DryFrictionSpec& friction : vehicle.frictions) add_friction(friction);
     for (std::size_t i = 0; i < vehicle.wheelsets.size(); ++i) add_wheelset(vehicle.wheelsets[i], track, i);
     finish();
+    add_pressures(vehicle.air_springs);
   }
 
   Multibody take() { return std::move(system_); }
@@ -280,6 +284,47 @@ class Assembly {
     }
     system_.elements.columns.push_back({std::move(direction), link, damper.direction});
     system_.elements.dampers.push_back(std::move(curve));
+  }
+
+  void add_air_spring(const AirSpringSpec& spec) {
+    constexpr double kDensityByPressure = 1.0 / (287.0 * 293.0);  // of air at 20 degrees Celsius [kg/J]
+    const auto positive = [](double v) { return v > 0.0 && std::isfinite(v); };
+    if (!positive(spec.load) || !positive(spec.area) || !positive(spec.bellows) || !(spec.exponent >= 1.0) ||
+        (spec.reservoir > 0.0 && (!positive(spec.orifice) || !positive(spec.loss))))
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("air spring '{}' needs a load, an area, a volume, and an orifice with a loss where it has "
+                      "a reservoir",
+                      spec.name),
+          spec.where);
+    constexpr int kZ = static_cast<int>(Freedom::z);
+    const Direction direction = relative(spec.body_a, spec.body_b, "", spec.where, spec.position, kZ);
+    const int link = add_link(spec.body_a, spec.body_b, spec.position, spec.name);
+    AirSpring air{spec.name, system_.elements.size(), spec.area, spec.bellows, spec.reservoir, spec.exponent};
+    const double pressure = kAtmosphere + spec.load / spec.area;
+    air.linear = spec.exponent * pressure * spec.area * spec.area / (spec.bellows + spec.reservoir);
+    if (spec.reservoir > 0.0) {
+      const double hole = 0.25 * kPi * spec.orifice * spec.orifice;
+      air.resistance = 0.5 * spec.loss * kDensityByPressure * pressure / (hole * hole);
+    }
+    terms_.push_back({direction, air.linear, false, link, Freedom::z});
+    system_.elements.columns.push_back({direction, link, Freedom::z});
+    system_.elements.air_springs.push_back(std::move(air));
+  }
+
+  /// Which way air springs are compressed, and their pressures: known once springs bear their preloads.
+  void add_pressures(const std::vector<AirSpringSpec>& specs) {
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+      AirSpring& air = system_.elements.air_springs[i];
+      ElementColumn& column = system_.elements.columns[static_cast<std::size_t>(air.column)];
+      const double preload = system_.links[static_cast<std::size_t>(column.link)].preload;
+      if (preload == 0.0)
+        throw Error(ErrorKind::configuration, fmt::format("nothing lies on air spring '{}'", air.name), specs[i].where);
+      air.pressure = kAtmosphere + std::abs(preload) / air.area;
+      if (preload < 0.0) continue;  // b lies on a: it is compressed as b comes down
+      column.arm = -1.0;
+      for (auto& [c, factor] : column.direction) factor = -factor;
+    }
   }
 
   static double least_slope(const ForceCurve& curve) {

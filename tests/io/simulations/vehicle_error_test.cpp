@@ -125,9 +125,18 @@ Wrong friction(const std::string& keys, std::string expected) {
                std::move(expected));
 }
 
+Wrong air_spring(const std::string& keys, std::string expected) {
+  return added("[[air_springs]]\nname = \"a\"\n" + kPlace + "area_m2 = 0.2\nbellows_m3 = 0.02\n" + keys + '\n',
+               std::move(expected));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Elements, VehicleError,
     ::testing::Values(
+        air_spring("", "air_springs.a.load_N is missing"), air_spring("load_N = 0", "air_springs.a.load_N"),
+        air_spring("load_N = 4e4\nreservoir_m3 = 0.01\nloss_coefficient = 1.5", "air_springs.a.orifice_mm is missing"),
+        air_spring("load_N = 4e4\nreservoir_m3 = 0.01\norifice_mm = 20", "air_springs.a.loss_coefficient is missing"),
+        air_spring("load_N = 4e4\nexponent = 0.9", "air_springs.a.exponent"),
         damper("velocity_m_s = [0.1, 0.2]\nforce_N = [0, 1]", "damper_curves.d.velocity_m_s must start from 0"),
         damper("velocity_m_s = [0, 0.2]\nforce_N = [1, 2]", "damper_curves.d.force_N must start from 0"),
         damper("velocity_m_s = [0, 0.2, 0.3]\nforce_N = [0, 2, 1]", "damper_curves.d.force_N must not decrease"),

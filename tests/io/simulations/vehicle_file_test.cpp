@@ -120,6 +120,33 @@ series_stiffness_N_per_m = 6e6
   EXPECT_TRUE(parse_vehicle_text(text, "v.toml", std::vector{parse_override("scale_damping=0")}).damper_curves.empty());
 }
 
+TEST(VehicleFile, AirSpringsAreRead) {
+  const VehicleModel vehicle = parse_vehicle_text(samples::with(kVehicle, "[[bump_stops]]", R"([[air_springs]]
+name = "air"
+between = ["axle", "mass"]
+at_m = [[0, -1, -0.46], [0, 1, -0.46]]
+load_N = 40e3
+area_m2 = 0.2
+bellows_m3 = 0.02
+reservoir_m3 = 0.03
+orifice_mm = 20
+loss_coefficient = 1.5
+
+[[bump_stops]])"),
+                                                  "v.toml");
+  ASSERT_EQ(vehicle.air_springs.size(), 2u);
+  const AirSpringSpec& air = vehicle.air_springs[1];
+  EXPECT_EQ(air.name, "air2");
+  EXPECT_EQ(air.position, Vec3(0.0, 1.0, -0.46));
+  EXPECT_EQ(air.load, 40e3);
+  EXPECT_EQ(air.area, 0.2);
+  EXPECT_EQ(air.bellows, 0.02);
+  EXPECT_EQ(air.reservoir, 0.03);
+  EXPECT_NEAR(air.orifice, 0.02, 1e-15);
+  EXPECT_EQ(air.loss, 1.5);
+  EXPECT_EQ(air.exponent, 1.4);
+}
+
 TEST(VehicleFile, RotationalValuesAreTheLastThree) {
   const std::string text = samples::with(
       kVehicle, "damping_N_s_per_m = [0, 0, 4e3]",

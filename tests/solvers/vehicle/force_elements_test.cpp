@@ -368,6 +368,42 @@ TEST(DryFriction, WedgesHoldMoreOneWay) {
   EXPECT_NEAR(s.state().q[x], -(10e3 - 1e3) / kPull, 0.005 * 0.09);
 }
 
+/// The mass on air in place of its spring, with a linear damper beside it. swapped: the mass is the first body.
+VehicleModel on_air(bool swapped) {
+  VehicleModel model = wheel_on_mass(1800.0, 9000.0, 0.0, 3e5);
+  AirSpringSpec air;
+  air.name = "air";
+  air.body_a = swapped ? "mass" : "wheelset";
+  air.body_b = swapped ? "wheelset" : "mass";
+  air.position = {0, 0, -0.46};
+  air.load = 80e3;  // about what it bears
+  air.area = 0.2;
+  air.bellows = 0.02, air.reservoir = 0.03;
+  air.orifice = 0.02, air.loss = 1.5;
+  air.exponent = 1.3;
+  model.air_springs = {air};
+  return model;
+}
+
+/// A load that is laid on slowly: by the gas law of both volumes.
+TEST(AirSpring, BearsItsLoadAsByHand) {
+  constexpr double kMore = 20e3, kVolume = 0.05, kAreaOfAir = 0.2,
+                   kPressure = 101325.0 + 9000.0 * kGravity / kAreaOfAir;
+  for (const bool swapped : {false, true}) {
+    const VehicleOnTrack v = with_line(on_air(swapped), [&](LineSetup& setup) {
+      setup.forces = {on_mass({0.0, 4.0}, {0.0, kMore})};
+    });
+    EXPECT_NEAR(v.system.elements.air_springs[0].pressure, kPressure, 1.0);
+    const int mass = place_of(v.system, "mass.z"), set = place_of(v.system, "wheelset.z");
+    Simulation s(v, at_rest(v), steps_of(10.0, 1e-3));
+    while (!s.finished()) s.advance();
+    const double left = kVolume * std::pow(kPressure / (kPressure + kMore / kAreaOfAir), 1.0 / 1.3);
+    EXPECT_NEAR((s.state().q[mass] - s.state().q[set]) * kAreaOfAir / (kVolume - left), 1.0, 2e-3) << swapped;
+    EXPECT_NEAR(s.element_memory()[v.system.elements.memory_of_air(0) + 1], kPressure + kMore / kAreaOfAir, 100.0);
+    EXPECT_LT(lost(s), kMostLost);
+  }
+}
+
 TEST(DryFriction, IsPressedByABumpStop) {
   VehicleModel model = wheel_on_mass(1800.0, 9000.0, 2e6, 1e4);
   BumpStopSpec stop;
