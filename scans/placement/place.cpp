@@ -57,16 +57,6 @@ Pose frame_of(Body body, const Vec3& origin, const Vec3& along, const Vec3& out)
   return pose;
 }
 
-/// The axis of the file along which a direction runs most; of two that are about equal, as in a cloud turned by 45
-/// degrees, the first.
-Eigen::Index nearest_axis(const Vec3& direction) {
-  constexpr double kAlike = 0.95;
-  Eigen::Index out = 0;
-  const double most = direction.cwiseAbs().maxCoeff();
-  while (std::fabs(direction[out]) < kAlike * most) ++out;
-  return out;
-}
-
 /// Out of the head: the normals that point away from the middle of the section, summed; they cancel on both sides.
 Vec3 outwards(const RoughPlace& roughly) {
   const Vec3 along = roughly.rough.axis.direction;
@@ -277,11 +267,17 @@ void check_unit(Body body, double size, LengthUnit unit) {
                           body == Body::wheel ? "rail" : "wheel"));
 }
 
-Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly,
-                const PlaceSettings& settings) {
+Eigen::Index nearest_axis(const Vec3& direction) {
+  constexpr double kAlike = 0.95;
+  Eigen::Index out = 0;
+  const double most = direction.cwiseAbs().maxCoeff();
+  while (std::fabs(direction[out]) < kAlike * most) ++out;
+  return out;
+}
+
+Pose first_frame(const RoughPlace& roughly, const PlaceSettings& settings) {
   const Body body = settings.body;
   const bool wheel = body == Body::wheel;
-  const std::vector<Vec3> used = even_sample(points, keep, roughly.elements.centre, roughly.elements.size, kMostUsed);
   const Axis& axis = roughly.rough.axis;
   Vec3 along = axis.direction, out = wheel ? any_perpendicular(along) : outwards(roughly);
   if (!wheel && settings.up) out = *settings.up - along * along.dot(*settings.up);
@@ -293,7 +289,15 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
   const Vec3 origin = wheel
                           ? Vec3(axis.point + axis.direction * axis.direction.dot(roughly.elements.centre - axis.point))
                           : roughly.elements.centre;
-  Pose X_CS = frame_of(body, origin, along, out);
+  return frame_of(body, origin, along, out);
+}
+
+Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly,
+                const PlaceSettings& settings) {
+  const Body body = settings.body;
+  const bool wheel = body == Body::wheel;
+  const std::vector<Vec3> used = even_sample(points, keep, roughly.elements.centre, roughly.elements.size, kMostUsed);
+  Pose X_CS = first_frame(roughly, settings);
 
   Placement found;
   RefinedAxis refined;

@@ -60,6 +60,15 @@ struct Placement {
   int iterations = 0;
 };
 
+/// The frame that place() begins with: x along a rail by the settings, or as the axis of the cloud does that is nearest
+/// (of a wheel y along its axle); its origin in the middle. Errors: Error(configuration) for a direction up that runs
+/// along the rail.
+Pose first_frame(const RoughPlace& roughly, const PlaceSettings& settings);
+
+/// The axis of the file along which a direction runs most; of two that are about equal, as in a cloud turned by 45
+/// degrees, the first.
+Eigen::Index nearest_axis(const Vec3& direction);
+
 /// points: [m]; roughly: of the same points in metres too. Deterministic.
 /// Errors: those of refine_axis and match_nominal; Error(input_data) for an arc too short to find an axle from.
 Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly,
