@@ -18,6 +18,7 @@ struct ScanOptions {
   std::string surface, cloud;  ///< geometry or case file; file of points
   std::string truth_file;      ///< "-" = stdout, empty = none
   std::string body;            ///< "wheel", "rail" or empty
+  std::string line;            ///< file of a track layout or empty
   std::size_t points = 1'000'000;
   double spacing_mm = 0.0;  ///< 0 = by the number of points
   double noise_mm = 0.0, noise_lateral_mm = 0.0;
@@ -49,6 +50,7 @@ app::ScanRequest request_of(const ScanOptions& options, bool quiet) {
   request.range_x = range(options.range_mm, kMetres);
   request.range_theta = range(options.range_deg, kDegree);
   request.unit = length_unit(options.unit).value_or(LengthUnit::millimetre);
+  request.line = options.line;
   scans::ScannerSettings& scanner = request.scanner;
   if (!options.range_y_mm.empty()) {
     scanner.y_min = kMetres * options.range_y_mm[0];
@@ -129,6 +131,9 @@ Command add_scan(CLI::App& verb) {
       ->check(CLI::IsMember({"identity", "random"}));
   verb.add_option("--unit", options->unit, "Unit of the file: mm (default), m, um, in")
       ->check(CLI::IsMember({"mm", "m", "um", "in"}));
+  verb.add_option("--line", options->line,
+                  "File with the [layout] along which a rail lies, x from its beginning; without: straight")
+      ->type_name("FILE");
   range("--range-mm", options->range_mm, "Part of a rail: from, to along the track");
   range("--range-deg", options->range_deg, "Part of a wheel: from, to round it");
   range("--range-y-mm", options->range_y_mm, "Part across: from, to");

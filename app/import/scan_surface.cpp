@@ -10,6 +10,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "treadmark/app/import/layout_line.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
@@ -37,12 +38,18 @@ Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem
   const CancellationScope scope(progress.stop);
   check_cancelled();
   const NaturalSurface natural = named_surface(surface, request.surface);
-  Scanned out{surface, cloud, request.surface, request.scanner, request.unit, {}};
+  Scanned out{surface, cloud, request.surface, request.scanner, request.unit, request.line, {}};
   out.settings.body = natural.spec.body;
   out.settings.nominal_radius = natural.spec.nominal_radius;
   const Region part = part_of(natural.spec.body, request.range_x, request.range_theta);
   out.settings.u_min = part.u_min;
   out.settings.u_max = part.u_max;
+  if (!request.line.empty()) {
+    if (natural.spec.body == Body::wheel)
+      throw Error(ErrorKind::configuration, "a wheel does not lie along the line of a track", {request.line.string()},
+                  "leave --line out");
+    out.settings.line = layout_line(request.line).frames;
+  }
   const Box3 box = natural.surface->bounds();
   if (natural.spec.body == Body::rail && !request.range_x && (std::isinf(box.min.x()) || std::isinf(box.max.x())))
     throw Error(ErrorKind::configuration, "this rail has no ends", {surface.string()},
@@ -60,6 +67,7 @@ std::string summary(const Scanned& scanned) {
       kMicro * truth.area, truth.passes.size(), truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
   text += fmt::format("on the surface {}, outliers {}; lost: {} in holes, {} dropped out, {} too steep\n",
                       truth.on_surface, truth.outliers, truth.lost_holes, truth.lost_drop_outs, truth.lost_occlusion);
+  if (!scanned.line.empty()) text += fmt::format("along the line of {}\n", scanned.line.string());
   const Mat3& R = truth.X_CS.rotation;
   text += fmt::format("surface in the cloud: origin {} mm, x axis {}, y axis {}, z axis {}\n",
                       vector_text(truth.X_CS.origin, kMilli, 6), vector_text(R.col(0), 1.0, 9),
@@ -151,6 +159,17 @@ std::string truth_json(const Scanned& scanned) {
   out["seed"] = scanned.settings.seed;
   out["settings"] = settings_json(scanned.settings, wheel);
   out["surface_in_cloud"] = pose(truth.X_CS);
+  if (!scanned.line.empty()) {
+    out["line"] = {{"file", scanned.line.string()}, {"sha256", io::sha256_file(scanned.line)}};
+    Json& stations = out["line"]["stations"] = Json::array();
+    constexpr int kStations = 20;
+    const double from = scanned.scan.truth.passes.front().u_min, to = scanned.scan.truth.passes.front().u_max;
+    for (int k = 0; k <= kStations; ++k) {
+      const double x = from + (to - from) * k / kStations;
+      stations.push_back(pose(truth.X_CS * scanned.settings.line(x)));
+      stations.back()["x_mm"] = number(kMilli * x);
+    }
+  }
   out["counts"] = {{"on_surface", truth.on_surface},
                    {"outliers", truth.outliers},
                    {"lost_holes", truth.lost_holes},

@@ -16,6 +16,7 @@ struct ScanRequest {
   NamedSurface surface;
   scans::ScannerSettings scanner;  ///< body, nominal radius and range of u come from the surface and from below
   Range range_x, range_theta;      ///< part that is scanned: along the track [m], round the wheel [rad]
+  std::filesystem::path line;      ///< file with the [layout] along which a rail lies; empty: straight
   LengthUnit unit = LengthUnit::millimetre;
 };
 
@@ -24,6 +25,7 @@ struct Scanned {
   NamedSurface named;                    ///< as it was asked for
   scans::ScannerSettings settings;       ///< as used
   LengthUnit unit = LengthUnit::millimetre;
+  std::filesystem::path line;  ///< file
   scans::VirtualScan scan;
 };
 

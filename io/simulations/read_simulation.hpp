@@ -68,6 +68,9 @@ FromTo wheelset_places(const VehicleModel& vehicle);
 
 /// [layout], which must reach as far as the vehicle runs: out.vehicle, out.settings and out.contact are set.
 void read_layout(const TableOf<LayoutInput>& layout, SimulationFile& out);
+/// [layout] of a simulation file, or of a file that has nothing else, for those who have no vehicle on it; other tables
+/// are not looked at. Errors: Error(configuration) with file:line:column; also where there is no [layout].
+TrackLayout read_track_layout(const std::filesystem::path& file);
 /// [irregularities], which must reach as far: out.vehicle, out.settings and out.layout are set.
 void read_irregularities(const TableOf<IrregularityInput>& irregularities, const std::filesystem::path& folder,
                          SimulationFile& out);

@@ -6,12 +6,15 @@
 #include <cmath>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/line_keys.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::io {
 
 namespace {
+
+constexpr double kStandardGauge = 1.435;  // [m]
 
 /// What an element of constant curvature has throughout.
 struct Constant {
@@ -189,11 +192,26 @@ FromTo wheelset_places(const VehicleModel& vehicle) {
   return places;
 }
 
+TrackLayout read_track_layout(const std::filesystem::path& file) {
+  const CaseTable document = parse_toml(read_text(file), file.string());
+  const auto entry =
+      std::find_if(document.begin(), document.end(), [](const CaseEntry& e) { return e.key == "layout"; });
+  if (entry == document.end() || !entry->value.is_table())
+    throw Error(ErrorKind::configuration, "[layout] is missing, this is no line of a track",
+                entry == document.end() ? SourcePosition{file.string(), 1, 1} : entry->value.where,
+                "see docs/layout.md");
+  const TableOf<LayoutInput> layout(entry->value, "layout", layout_keys());
+  LayoutInput given = layout.read();
+  given.line.where = layout.where();
+  read_elements(layout, given.gauge.value_or(kStandardGauge), given.line);
+  check(given.line);
+  return std::move(given.line);
+}
+
 void read_layout(const TableOf<LayoutInput>& layout, SimulationFile& out) {
   LayoutInput given = layout.read();
   TrackLayout& line = given.line;
   line.where = layout.where();
-  constexpr double kStandardGauge = 1.435;
   const Track& track = out.contact.track;
   const double gauge = given.gauge.value_or(track.gauge_based ? track.gauge_width : kStandardGauge);
   out.rail_gauge = track.gauge_based ? track.gauge_width : gauge;

@@ -38,6 +38,7 @@ void check_share(double value, const char* what) {
 void check_settings(const ScannerSettings& s) {
   if (s.body == Body::wheel && !(s.nominal_radius > 0.0 && std::isfinite(s.nominal_radius)))
     refuse("the scan of a wheel needs its nominal radius");
+  if (s.body == Body::wheel && s.line) refuse("a wheel does not lie along a line");
   if (!(s.u_min < s.u_max) || !(s.y_min < s.y_max)) refuse("a range must run from a smaller to a greater number");
   check_length(s.spacing, "the spacing");
   check_length(s.noise, "the noise");

@@ -65,6 +65,11 @@ Surroundings surroundings(const FirstLook& part, std::uint64_t seed) {
   return around;
 }
 
+Vec3 along_line(const ScannerSettings& settings, const Vec3& position_S) {
+  if (!settings.line) return position_S;
+  return settings.line(position_S.x()).apply({0.0, position_S.y(), position_S.z()});
+}
+
 Line scan_line(const LineJob& job, std::size_t line, double u) {
   const ScannerSettings& settings = job.settings;
   const std::uint64_t seed = settings.seed;
@@ -80,7 +85,10 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
   std::vector<double> z(y.size()), dzdx(need_normals ? y.size() : 0), dzdy(dzdx.size());
   heights_along(job.surface, settings.body, u, y, {z, dzdx, dzdy});
 
-  const Pose X_SP = natural_plane(settings.body, u), X_CP = job.X_CS * X_SP;
+  const Pose X_SP = natural_plane(settings.body, u);
+  // along a line noise stays in the section's own axes
+  const Pose X_CP =
+      settings.line ? job.X_CS * settings.line(u) * Pose{Vec3(-u, 0.0, 0.0), Mat3::Identity()} * X_SP : job.X_CS * X_SP;
   const double least_cosine = settings.most_incidence > 0.0 ? std::cos(settings.most_incidence) : -1.0;
   DropOuts drop_outs(settings.drop_outs, Draws(seed, Purpose::drop_outs, job.pass_number, line));
   Draws noise(seed, Purpose::noise, job.pass_number, line), spoilt(seed, Purpose::outliers, job.pass_number, line);
@@ -98,7 +106,8 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
       ++out.lost_drop_outs;
     } else if (settings.outliers > 0.0 && spoilt.uniform() < settings.outliers) {
       ++out.outliers;
-      out.points_C.push_back(job.X_CS.apply(outlier(job, X_SP.apply(p_P), X_SP.rotation * normal_P, spoilt)));
+      out.points_C.push_back(
+          job.X_CS.apply(along_line(settings, outlier(job, X_SP.apply(p_P), X_SP.rotation * normal_P, spoilt))));
     } else {
       ++out.on_surface;
       Vec3 p = p_P;

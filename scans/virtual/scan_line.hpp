@@ -40,6 +40,9 @@ struct Line {
   std::size_t on_surface = 0, outliers = 0, lost_holes = 0, lost_drop_outs = 0, lost_occlusion = 0;
 };
 
+/// Where a place of the straight surface lies along the line of the settings.
+Vec3 along_line(const ScannerSettings& settings, const Vec3& position_S);
+
 /// The points of one line across the surface at u.
 Line scan_line(const LineJob& job, std::size_t line, double u);
 

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "treadmark/scans/virtual/draws.hpp"
+#include "treadmark/scans/virtual/scan_line.hpp"
 
 namespace treadmark::scans::scanner {
 namespace {
@@ -30,7 +31,9 @@ std::array<double, 2> share(double length, int k, int n, bool closed) {
   return {from, k + 1 == n && !closed ? length : from + width};
 }
 
-void measure(Pass& pass, const FirstLook& part, bool wheel, double registration, Draws& draws) {
+void measure(Pass& pass, const FirstLook& part, const ScannerSettings& settings, Draws& draws) {
+  const bool wheel = settings.body == Body::wheel;
+  const double registration = settings.registration;
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();
   bool first = true;
   for (const Patch& patch : part.patches) {
@@ -41,7 +44,7 @@ void measure(Pass& pass, const FirstLook& part, bool wheel, double registration,
     high = first ? patch.position_S : high.cwiseMax(patch.position_S).eval();
     first = false;
   }
-  pass.middle_S = 0.5 * (low + high);
+  pass.middle_S = along_line(settings, 0.5 * (low + high));
   if (!(registration > 0.0)) return;
   // an angle about each axis that moves the farthest ends across it by the same length
   const Vec3 half = 0.5 * (high - low), shift = registration * draws.gaussian3(),
@@ -78,7 +81,7 @@ std::vector<Pass> plan_passes(const FirstLook& part, const ScannerSettings& sett
       if (k + 1 < settings.passes) pass.y_max = part.reference.y_at(to, piece);
     }
     Draws draws(settings.seed, Purpose::registration, i);
-    measure(pass, part, wheel, settings.registration, draws);
+    measure(pass, part, settings, draws);
   }
   return passes;
 }

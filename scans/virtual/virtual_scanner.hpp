@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct ScannerSettings {
                               ///< moves the ends of the pass by as much
   bool random_frame = false;  ///< any position within 1 m and any orientation, from the seed
   Pose X_CS;                  ///< pose of the surface in the frame of the cloud, where random_frame is false
+  /// Rail: the line along which it lies, as the pose, in the frame of the surface, of the section at a place along it
+  /// [m]; empty: straight, x along it. Must be smooth and have the slope 1; called from several threads.
+  std::function<Pose(double)> line;
   std::uint64_t seed = 1;
 };
 
@@ -53,7 +57,7 @@ struct ScannerPass {
 /// What is known about a virtual scan. Points seen on the surface = on_surface + outliers + all that were lost; each is
 /// lost for one reason, the first of: occlusion, hole, drop-out.
 struct ScannerTruth {
-  Pose X_CS;                 ///< pose of the surface frame in the cloud's
+  Pose X_CS;                 ///< pose of the surface frame in the cloud's; along a line that of the line's frame
   std::vector<Pose> X_pass;  ///< registration error of each pass: p = X_pass.apply(where p should be), both in the
                              ///< frame of the cloud; a rotation about the middle of the pass and a shift
   std::vector<ScannerPass> passes;

@@ -103,6 +103,23 @@ class SimulationLine : public ::testing::Test {
   treadmark::testing::TemporaryFolder folder_;
 };
 
+TEST_F(SimulationLine, AlsoAlone) {
+  folder_.write("line.toml", kLine);
+  const TrackLayout alone = read_track_layout(folder_.path() / "line.toml"), with_vehicle = *parse(kLine).layout;
+  ASSERT_EQ(alone.elements.size(), with_vehicle.elements.size());
+  for (std::size_t i = 0; i < alone.elements.size(); ++i) {
+    EXPECT_EQ(alone.elements[i].length, with_vehicle.elements[i].length);
+    EXPECT_EQ(alone.elements[i].curvature.to, with_vehicle.elements[i].curvature.to);
+    EXPECT_EQ(alone.elements[i].cant.to, with_vehicle.elements[i].cant.to);
+  }
+  folder_.write("none.toml", "title = \"no line\"\n");
+  EXPECT_THAT(samples::error_of([&] { read_track_layout(folder_.path() / "none.toml"); }),
+              ::testing::HasSubstr("[layout] is missing"));
+  folder_.write("wrong.toml", "[layout]\n[[layout.elements]]\nkind = \"curve\"\nlength_m = 10\n");
+  EXPECT_THAT(samples::error_of([&] { read_track_layout(folder_.path() / "wrong.toml"); }),
+              ::testing::HasSubstr("radius_m"));
+}
+
 TEST_F(SimulationLine, ElementsJoin) {
   const SimulationFile file = parse(kLine);
   ASSERT_TRUE(file.layout);

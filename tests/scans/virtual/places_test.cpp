@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "treadmark/core/error.hpp"
 #include "treadmark/scans/virtual/virtual_scanner.hpp"
 #include "treadmark/tests/scans/virtual/sample_scans.hpp"
 
@@ -46,6 +47,33 @@ TEST(VirtualScanner, RailPointsLieOnTheCylinderEvenly) {
   }
   EXPECT_LT(unevenness(angle, -kHeadAngle, kHeadAngle, 24), kEven);
   EXPECT_LT(unevenness(x, -kRailHalf, kRailHalf, 10), kEven);
+}
+
+TEST(VirtualScanner, RailAlongACircle) {
+  constexpr double kRadius = 20.0, kCant = 0.1;
+  ScannerSettings settings = rail_settings(50'000);
+  settings.line = [](double s) {
+    const double psi = s / kRadius;
+    return Pose{kRadius * Vec3(std::sin(psi), 1.0 - std::cos(psi), 0.0), rotation_z(psi) * rotation_x(kCant)};
+  };
+  settings.X_CS = {Vec3(1.0, 2.0, 3.0), rotation_x(0.3) * rotation_z(-0.8)};
+  const VirtualScan scan = scan_surface(*round_rail(), settings), straight = [&] {
+    settings.line = {};
+    return scan_surface(*round_rail(), settings);
+  }();
+  ASSERT_EQ(scan.cloud.points.size(), straight.cloud.points.size()) << "the same places along and across";
+  for (std::size_t i = 0; i < scan.cloud.points.size(); ++i) {
+    // unbent by the circle in closed form
+    const Vec3 p = settings.X_CS.apply_inverse(scan.cloud.points[i]);
+    const double psi = std::atan2(p.x(), kRadius - p.y());
+    const Vec3 radial(0.0, kRadius - std::hypot(p.x(), kRadius - p.y()), p.z()),
+        on_rail = rotation_x(kCant).transpose() * radial;
+    ASSERT_NEAR(off_rail(on_rail), 0.0, kExact);
+    ASSERT_NEAR(kRadius * psi, settings.X_CS.apply_inverse(straight.cloud.points[i]).x(), kExact);
+  }
+  settings = wheel_settings(1000);
+  settings.line = [](double s) { return Pose{Vec3(s, 0.0, 0.0), Mat3::Identity()}; };
+  EXPECT_THROW(scan_surface(*ball_wheel(), settings), Error);
 }
 
 TEST(VirtualScanner, WheelPointsLieOnTheBallEvenly) {
