@@ -234,7 +234,7 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
   const scans::Band& band = found.projection.band;
   const auto u_of = [&](double a) { return band.closed ? wrap_angle(found.fitted.u_at(a)) : found.fitted.u_at(a); };
   report.body = found.scan.body;
-  report.X_CS = found.scan.placement.X_CS;
+  report.X_CS = frame_in_cloud(found.scan);
   report.nominal_radius = found.scan.body == Body::wheel ? found.scan.placement.nominal_radius : 0.0;
   report.radius_error = found.scan.placement.radius_error;
   report.axis_position_error = found.scan.placement.position_error;

@@ -4,20 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
+#include "treadmark/app/import/layout_match.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/extension.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 #include "treadmark/model/shape/natural_view.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/cleaning/pass_steps.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
+#include "treadmark/scans/line/line_doubts.hpp"
 #include "treadmark/scans/strays/stray_points.hpp"
 
 namespace treadmark::app {
@@ -247,7 +252,233 @@ LengthUnit find_unit(const Clouds& clouds, const io::ImportSettings& settings, B
   return unit;
 }
 
+/// The line that was given, in the unit of its file and else of the scan: points along it [m].
+std::vector<Vec3> read_line(const std::string& name, LengthUnit unit) {
+  const std::filesystem::path file = name;
+  if (!io::is_scan_file(file))
+    throw Error(
+        ErrorKind::configuration, fmt::format("placement.line: {} is no file of points", name), {name},
+        "give points along the rail, x y z in the scan's frame, in a file as scans are, or a file (.toml) with a "
+        "[layout]; or say auto or straight");
+  io::Scan scan = io::read_scan(file);
+  const double factor = metres_per(scan.unit.value_or(unit));
+  for (Vec3& p : scan.cloud.points) p *= factor;
+  return std::move(scan.cloud.points);
+}
+
+/// A rail, first some piece of it and then along its line.
+class RailOnItsLine {
+ public:
+  RailOnItsLine(PlacedScan& scan, const io::ImportSettings& settings, io::ImportReport& report)
+      : scan_(scan), settings_(settings), report_(report) {
+    if (settings.scan.unit != "auto") unit_ = length_unit(settings.scan.unit);
+    if (io::extension_of(settings.placement.line) == ".toml") layout_ = layout_line(settings.placement.line);
+  }
+
+  /// A piece whose width tells the unit; none of a short rail.
+  std::optional<scans::RoughPlace> piece(const scans::SurfaceElements& whole,
+                                         const std::optional<LengthUnit>& of_file) {
+    const std::optional<LengthUnit> unit = unit_ ? unit_ : of_file;
+    std::optional<Vec3> near;
+    if (is_given()) {
+      if (!unit)
+        throw Error(ErrorKind::configuration, "a line in the scan's unit (placement.line) needs this unit", {},
+                    "say it with --unit");
+      given_points_ = read_line(settings_.placement.line, *unit);
+      near = given_points_[given_points_.size() / 2] / metres_per(*unit);
+    }
+    auto found = scans::find_piece(scan_.points, scan_.keep, whole, unit, near);
+    long_ = found.has_value();
+    return found;
+  }
+
+  /// By points; a layout is for later.
+  bool is_given() const {
+    return settings_.placement.line != "auto" && settings_.placement.line != "straight" && !layout_;
+  }
+
+  /// Finds the line, and straightens the points along it if it is bent; rough and how are then about those.
+  /// base: piece, or all of a short rail. All in metres.
+  void follow(const scans::RoughPlace& base, scans::RoughPlace& rough, scans::PlaceSettings& how, bool must) {
+    try {
+      const Pose start = scans::first_frame(base, how);
+      std::optional<scans::RailLine> given;
+      if (is_given()) given = scans::line_through(given_points_, -start.rotation.col(2));
+      if (given) require_near(*given, start.origin);
+      // passes are not laid on each other better than that
+      const double least = long_ ? scans::kLeastDeviation : std::max(scans::kLeastDeviation, report_.pass_after);
+      scan_.line = scans::find_line(scan_.points, long_ ? of_one_pass() : scan_.keep, base, rough.elements, how,
+                                    given ? &*given : nullptr, least);
+      if (given) compare_with(*given);
+      if (layout_) {
+        const LayoutMatch match = match_layout(*layout_, 1e-3 * settings_.placement.line_beside_mm, scan_.line->line);
+        io::ImportReport::Line& line = report_.line.emplace();
+        line.given_largest = match.largest;
+        line.given_rms = match.rms;
+      }
+    } catch (const Error& error) {
+      if (must || is_given() || layout_) throw;
+      // sparse lines and short pieces stay what they were without a line
+      if (long_)
+        report_.warnings.push_back(
+            fmt::format("the line of the rail was not found, which is taken to be straight: {}", error.message()));
+      return;
+    }
+    constexpr double kLong = 2.0;  // from which runs and gaps are looked for [m]
+    bool others = false;
+    if (scan_.line->line.length() > kLong)
+      for (const measured::Doubt& doubt : scans::line_doubts(scan_.points, scan_.keep, scan_.passes, *scan_.line)) {
+        report_.warnings.push_back(fmt::format("{}: {}", doubt.name, doubt.text));
+        scan_.doubts.push_back({doubt.name, doubt.text});
+        others = others || doubt.name == "several_rails";
+      }
+    if (!scan_.line->bent && !others) return;
+    if (scan_.line->bent) {
+      scan_.line->line.straighten(scan_.points);
+      drop_beside(scan_.points);
+    } else {
+      std::vector<Vec3> straight = scan_.points;
+      scan_.line->line.straighten(straight);
+      drop_beside(straight);
+    }
+    rough = scans::find_roughly(scan_.points, scan_.keep, Body::rail);
+    if (!scan_.line->bent) return;
+    how.up = -Vec3::UnitZ();
+    if (how.forward) how.forward = Vec3::UnitX();
+  }
+
+ private:
+  /// Passes that are not aligned yet would bend and twist the line between them: flags of the one that reaches
+  /// farthest, if it goes all along.
+  std::vector<std::uint8_t> of_one_pass() const {
+    std::map<std::uint16_t, Eigen::AlignedBox3d> reach;
+    Eigen::AlignedBox3d all;
+    for (std::size_t i = 0; i < scan_.passes.size(); ++i) {
+      if (!scan_.keep.empty() && scan_.keep[i] == 0) continue;
+      reach[scan_.passes[i]].extend(scan_.points[i]);
+      all.extend(scan_.points[i]);
+    }
+    const auto longest = std::max_element(reach.begin(), reach.end(), [](const auto& a, const auto& b) {
+      return a.second.diagonal().norm() < b.second.diagonal().norm();
+    });
+    constexpr double kAllAlong = 0.95;
+    if (reach.size() < 2 || longest->second.diagonal().norm() < kAllAlong * all.diagonal().norm()) return scan_.keep;
+    std::vector<std::uint8_t> out(scan_.points.size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = scan_.passes[i] == longest->first && (scan_.keep.empty() || scan_.keep[i] != 0) ? 1 : 0;
+    return out;
+  }
+
+  /// What is beside the rail would pass for a part of it where its middle and its outermost section are looked for.
+  /// straight: the points along the line.
+  void drop_beside(std::span<const Vec3> straight) {
+    constexpr double kBeside = 0.25;  // [m]
+    if (scan_.keep.empty()) scan_.keep.assign(straight.size(), 1);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < straight.size(); ++i) {
+      if (scan_.keep[i] == 0 || std::hypot(straight[i].y(), straight[i].z()) <= kBeside) continue;
+      scan_.keep[i] = 0;
+      ++count;
+    }
+    report_.removed.push_back(
+        {"beside the line", count, fmt::format("farther than {:g} mm from the line of the rail", kMilli * kBeside)});
+  }
+
+  void require_near(const scans::RailLine& given, const Vec3& rail) const {
+    constexpr double kFarthest = 2.0;  // [m]
+    const auto place = given.locate(rail, given.nearest(rail));
+    const double off = place ? std::hypot(place->y(), place->z()) : kInfinity;
+    if (off > kFarthest)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("placement.line: the rail that was found lies {:.3g} m from the line", off),
+                  {settings_.placement.line}, "are its points in the scan's frame and unit?");
+  }
+
+  void compare_with(const scans::RailLine& given) {
+    double largest = 0.0, squares = 0.0, count = 0.0;
+    for (const scans::LineStation& station : scan_.line->stations) {
+      const Vec3 here = scan_.line->line.position(station.along);
+      const auto place = given.locate(here, given.nearest(here));
+      if (!place || place->x() < given.from() || place->x() > given.to()) continue;
+      const double off = std::hypot(place->y(), place->z());
+      largest = std::max(largest, off);
+      squares += off * off;
+      count += 1.0;
+    }
+    io::ImportReport::Line& line = report_.line.emplace();
+    if (count > 0.0) line.given_largest = largest, line.given_rms = std::sqrt(squares / count);
+  }
+
+  PlacedScan& scan_;
+  const io::ImportSettings& settings_;
+  io::ImportReport& report_;
+  std::optional<LengthUnit> unit_;
+  std::optional<LayoutLine> layout_;
+  std::vector<Vec3> given_points_;
+  bool long_ = false;
+};
+
 }  // namespace
+
+Pose frame_in_cloud(const PlacedScan& scan) {
+  const Pose& X_CS = scan.placement.X_CS;
+  if (!scan.straightened()) return X_CS;
+  return scan.line->line.at(X_CS.origin.x()) * Pose{Vec3(0.0, X_CS.origin.y(), X_CS.origin.z()), X_CS.rotation};
+}
+
+Vec3 straightened(const PlacedScan& scan, const Vec3& point) {
+  if (!scan.straightened()) return point;
+  Vec3 out = point;
+  scan.line->line.straighten({&out, 1});
+  return out;
+}
+
+void fill_line(const PlacedScan& scan, const io::ImportSettings& settings, io::ImportReport& report) {
+  if (!scan.line) return;
+  const scans::FoundLine& found = *scan.line;
+  const Pose& X_CS = scan.placement.X_CS;
+  io::ImportReport::Line out = report.line.value_or(io::ImportReport::Line{});
+  out.bent = found.bent;
+  out.deviation = found.deviation;
+  const std::optional<Vec3> up = direction_of(settings.placement.up);
+  const auto x_of = [&](double along) {
+    return X_CS.apply_inverse(found.bent ? Vec3(along, 0.0, 0.0) : found.line.position(along)).x();
+  };
+  const double from = found.line.from(), to = found.line.to();
+  const bool reversed = x_of(to) < x_of(from);
+  const double way = reversed ? -1.0 : 1.0, first = found.line.roll(reversed ? to : from);
+  for (const scans::LineStation& station : found.stations) {
+    io::ImportReport::LinePlace place;
+    place.x = x_of(station.along);
+    Pose frame = X_CS * Pose{Vec3(place.x, 0.0, 0.0), Mat3::Identity()};
+    place.curvature_error = station.error.lateral;
+    place.vertical_error = station.error.vertical;
+    if (found.bent) {
+      const double y = X_CS.origin.y(), z = X_CS.origin.z();
+      frame = found.line.at(station.along) * Pose{Vec3(0.0, y, z), X_CS.rotation};
+      // in the axes of the surface, and of its x axis, which lies beside the line
+      const double stretch = 1.0 - station.turn.lateral * y - station.turn.vertical * z;
+      const Vec3 bend = Vec3(0.0, station.turn.lateral, station.turn.vertical) / stretch,
+                 error(0.0, station.error.lateral, station.error.vertical);
+      const Mat3& R = X_CS.rotation;
+      place.curvature = bend.dot(R.col(1));
+      place.vertical = bend.dot(R.col(2));
+      place.curvature_error = error.cwiseProduct(R.col(1)).norm();
+      place.vertical_error = error.cwiseProduct(R.col(2)).norm();
+    }
+    place.place = frame.origin;
+    place.twist = station.turn.twist;
+    place.twist_error = station.error.twist;
+    place.roll = way * (found.line.roll(station.along) - first);
+    if (up) {
+      place.roll = -std::asin(std::clamp(frame.rotation.col(1).dot(*up), -1.0, 1.0));
+      place.gradient = std::asin(std::clamp(frame.rotation.col(0).dot(*up), -1.0, 1.0));
+    }
+    out.places.push_back(place);
+  }
+  if (reversed) std::reverse(out.places.begin(), out.places.end());
+  report.line = std::move(out);
+}
 
 PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportReport& report, StepClock& clock) {
   const io::ImportSettings& settings = request.settings;
@@ -271,16 +502,32 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
     scan.keep = keep_without_strays(scan.points, scans::look_for_elements(scan.points), settings, report);
 
   clock.begin("placement");
-  scans::RoughPlace rough = scans::find_roughly(scan.points, scan.keep, scan.body);
+  const bool look_along = scan.body == Body::rail && settings.placement.line != "straight";
+  scans::RoughPlace rough;
+  std::optional<Error> no_body;  // as a whole, which a long rail in a curve need not be
+  try {
+    rough = scans::find_roughly(scan.points, scan.keep, scan.body);
+  } catch (const Error& error) {
+    if (!look_along) throw;
+    no_body = error;
+    rough.elements = scans::look_for_elements(scan.points, scan.keep);
+  }
+  RailOnItsLine on_line(scan, settings, report);
+  std::optional<scans::RoughPlace> piece;
+  if (look_along) piece = on_line.piece(rough.elements, clouds.unit ? clouds.unit : clouds.usual_unit);
+  if (no_body && !piece) throw Error(*no_body);
   report.spacing = rough.elements.spacing;
-  const LengthUnit unit = find_unit(clouds, settings, scan.body, rough, report);
-  scans::check_unit(scan.body, rough.size, unit);
+  const LengthUnit unit = find_unit(clouds, settings, scan.body, piece ? *piece : rough, report);
+  scans::check_unit(scan.body, piece ? piece->size : rough.size, unit);
   report.unit = symbol(unit);
   const double factor = metres_per(unit);
   for (Vec3& p : scan.points) p *= factor;
   scans::scale(rough, factor);
+  if (piece) scans::scale(*piece, factor);
   report.spacing *= factor;
-  const scans::PlaceSettings how = place_settings(scan, settings);
+  scans::PlaceSettings how = place_settings(scan, settings);
+  // what bends by less than its section is wide is placed, and its passes aligned, before
+  if (piece) on_line.follow(*piece, rough, how, no_body.has_value());
   scan.placement = scans::place(scan.points, scan.keep, rough, how);
 
   if (settings.scan.pass_steps && !scan.passes.empty()) {
@@ -308,6 +555,10 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
       }
       scan.placement = scans::place(scan.points, scan.keep, rough, how);
     }
+  }
+  if (look_along && !piece) {
+    on_line.follow(rough, rough, how, false);
+    if (scan.straightened()) scan.placement = scans::place(scan.points, scan.keep, rough, how);
   }
   doubt_place(scan, report);
   // files and cases must agree on a radius: one that people write down

@@ -98,7 +98,7 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
     if (zero == "direction")
       throw Error(ErrorKind::configuration, "a rail has no angular zero", {}, "say placement.zero=scan or defect");
     report.zero = fmt::format("the place nearest the origin of the scan is at {}", at);
-    return X_CS.apply_inverse(Vec3::Zero()).x() - wanted;
+    return X_CS.apply_inverse(straightened(scan, Vec3::Zero())).x() - wanted;
   }
   Vec3 direction;
   if (zero == "direction") {
@@ -222,6 +222,7 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
                                   ? ", smoothed by their noise"
                                   : ": smooth them where they are used (smoothing_lambda_mm3, SMOOTH)"));
   if (report.body == Body::wheel) out.push_back(fmt::format("nominal radius: {:.4f} mm", 1e3 * report.nominal_radius));
+  if (report.line && report.line->bent) out.push_back(io::line_text(report));
   out.push_back(fmt::format("{}; holes up to {:.1f} mm filled", report.zero, 1e3 * report.hole_limit));
   for (std::string& line : out)
     for (char& c : line)
@@ -342,6 +343,7 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
     errors = std::make_shared<const SurfaceErrors>(scans::half_fit_errors(fitted, projection.points, noise, how_fit,
                                                                           halves ? &*halves : nullptr, stations,
                                                                           scan.placement.nominal_radius, inner));
+  fill_line(scan, settings, report);
   fill_report({scan, projection, noise, coverage, fit, fitted, damage, sections ? &*sections : nullptr}, report);
 
   std::optional<SliceSet> kept;
@@ -401,12 +403,17 @@ void check_settings(const io::ImportSettings& settings, Body body) {
   const auto& placement = settings.placement;
   if (body == Body::wheel) {
     if (!placement.up.empty()) refuse("placement.up", "it is that of a rail's head, and this is a wheel");
+    if (placement.line_beside_mm != 0.0)
+      refuse("placement.line_beside_mm", "it is that of a rail, and this is a wheel");
+    if (placement.line != "auto") refuse("placement.line", "it is that of a rail, and this is a wheel");
     if (placement.zero_mm != 0.0) refuse("placement.zero_mm", "it is that of a rail, and this is a wheel (zero_deg)");
   } else {
     if (placement.zero_deg != 0.0) refuse("placement.zero_deg", "it is that of a wheel, and this is a rail (zero_mm)");
     if (placement.nominal_radius_mm > 0.0) refuse("placement.nominal_radius_mm", "a rail has none");
     if (settings.map.angles_deg) refuse("map.angles_deg", "a rail has none");
   }
+  if (placement.line_beside_mm != 0.0 && io::extension_of(placement.line) != ".toml")
+    refuse("placement.line_beside_mm", "placement.line names no layout");
   if (!placement.zero_direction.empty() && placement.zero != "direction")
     refuse("placement.zero_direction", "placement.zero is " + placement.zero);
   if (settings.fit.mesh == "free" && settings.fit.decimate_um > 0.0)

@@ -72,6 +72,22 @@ Path surface_of(const Path& truth, const Path& named) {
               {truth.string()}, "put it beside this file, or start where the scan was made");
 }
 
+/// The line along which a rail was scanned: beside the truth, or where the scan was made.
+LineFrames line_of_scan(const Path& truth, const io::JsonTree& line) {
+  const Path named = line.text("file");
+  std::error_code ignored;
+  for (const Path& place : {truth.parent_path() / named, named}) {
+    if (!std::filesystem::exists(place, ignored)) continue;
+    if (line.text("sha256") != io::sha256_file(place))
+      throw Error(ErrorKind::configuration, "the line has changed since the rail was scanned along it",
+                  {place.string()}, "scan it again, or bring back the file of the line");
+    return layout_line(place).frames;
+  }
+  throw Error(ErrorKind::configuration,
+              fmt::format("the line along which the rail was scanned is not there: {}", named.string()),
+              {truth.string()}, "put it beside this file, or start where the scan was made");
+}
+
 Truth read_scan_truth(const Path& file, Body body) {
   const io::JsonTree json = io::read_json_file(file);
   const auto part = [&](const char* key) {
@@ -86,6 +102,7 @@ Truth read_scan_truth(const Path& file, Body body) {
   require_body(file, surface.at("body").one_of({"wheel", "rail"}) == 0 ? Body::wheel : Body::rail, body);
   out.X_CT = read_pose(part("surface_in_cloud"));
   out.points = cloud.count("points");
+  if (const auto line = json.find("line")) out.line = line_of_scan(file, *line);
   out.surface = surface_of(file, surface.text("file"));
   if (const auto sum = surface.find("sha256"); sum && sum->text() != io::sha256_file(out.surface))
     throw Error(ErrorKind::configuration, "the surface has changed since it was scanned", {out.surface.string()},
@@ -286,6 +303,15 @@ Along along_of(Body body, const Pose& X_TS) {
   return {X_TS.origin.x(), R(0, 0) < 0.0};
 }
 
+/// Of a surface whose frame is known in the cloud.
+Along along_in_cloud(const Truth& truth, const PlacedScan& scan) {
+  const Pose X_TS = truth.X_CT->inverse() * frame_in_cloud(scan);
+  if (!truth.line) return along_of(scan.body, X_TS);
+  const double at = place_along(truth.line, X_TS.origin, X_TS.origin.x());
+  if (std::isnan(at)) return along_of(scan.body, X_TS);
+  return {at, truth.line(at).rotation.col(0).dot(X_TS.rotation.col(0)) < 0.0};
+}
+
 /// The shift along the band at which surface and truth vary most alike. A tie: the least shift.
 Along find_along(const FittedScan& fit, const Truth& truth) {
   constexpr std::size_t kColumns = 32;
@@ -443,7 +469,7 @@ void compare_with_truth(const Truth& truth, const FittedScan& fit, io::ImportRep
   const Body body = fit.scan.body;
   const Surface& surface = *truth.natural.surface;
   const Places places = places_of(fit);
-  Along along = truth.X_CT ? along_of(body, truth.X_CT->inverse() * fit.scan.placement.X_CS) : find_along(fit, truth);
+  Along along = truth.X_CT ? along_in_cloud(truth, fit.scan) : find_along(fit, truth);
   Pose X_TS = along_pose(body, along.at, along.reversed);
   const auto enough = [&](std::size_t known) {
     constexpr std::size_t kFewest = 500, kPart = 20;

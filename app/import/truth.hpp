@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "treadmark/app/import/layout_line.hpp"
 #include "treadmark/app/import/write_outputs.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/io/imports/import_report.hpp"
@@ -18,6 +19,7 @@ struct Truth {
   NaturalSurface natural;
   std::optional<Pose> X_CT;           ///< the surface's frame in the cloud's [m]; nothing: only the surface is known
   std::optional<std::size_t> points;  ///< of the cloud
+  LineFrames line;  ///< along which a rail was scanned: X_CT is then that of the line's own frame; empty: straight
 };
 
 /// Reads what `treadmark scan --truth` wrote (*.json), with the surface that it names, or a surface: anything that

@@ -292,6 +292,10 @@ void audit(const File& file, Report& report) {
     file.object("frame", [&](const File& node) { frame(node, report); });
   else if constexpr (!File::kReads)
     file.value("frame", nullptr);
+  optional(file, "line", report.line, [](const File& node, auto& line) {
+    node.row(line);
+    node.list("places", line.places, kRows);
+  });
   file.object("coverage", [&](const File& node) { coverage(node, report); });
   file.object("fit", [&](const File& node) { fit(node, report); });
   file.number("damage_threshold_mm", report.damage_threshold, kMilli);
@@ -347,6 +351,8 @@ std::string import_report_schema() {
   const auto never_null = [](SchemaRow& row) { row.or_null = false; };
   return filled_schema(kImportSchema, {{"input", schema_rows<Report::Input>()},
                                        {"pass", schema_rows<Report::Pass>()},
+                                       {"line", schema_rows<Report::Line>()},
+                                       {"line_place", schema_rows<Report::LinePlace>()},
                                        {"hole", placed_rows<Report::Hole>()},
                                        {"sections", changed(schema_rows<Report::Sections>(), never_null)},
                                        {"level", schema_rows<Report::Level>()},

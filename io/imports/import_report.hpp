@@ -87,6 +87,25 @@ struct ImportReport {
     std::size_t all = 0, removed = 0;  ///< points of both kinds that these stand for
     std::size_t far = 0;               ///< removed ones too far from all others to be among these
   };
+  /// Where the x axis of a rail's surface lies in the cloud at a place along it, and how it bends there.
+  struct LinePlace {
+    double x = 0.0;                                 ///< along the rail [m]
+    Vec3 place = Vec3::Zero();                      ///< in the cloud [m]
+    double curvature = 0.0, curvature_error = 0.0;  ///< to the right, with its standard error [1/m]
+    double vertical = 0.0, vertical_error = 0.0;    ///< curvature down [1/m]
+    double twist = 0.0, twist_error = 0.0;          ///< how the section turns about x [rad/m]
+    double roll =
+        0.0;  ///< of the section, right side low: from level if `up` was given, else from the first place [rad]
+    double gradient = std::numeric_limits<double>::quiet_NaN();  ///< up, if `up` was given [rad]
+  };
+  /// The line of a rail.
+  struct Line {
+    bool bent = false;       ///< the surface is straightened along it; else it is straight by what the points tell
+    double deviation = 0.0;  ///< farthest that it lies off a straight line [m]
+    double given_largest = std::numeric_limits<double>::quiet_NaN(),
+           given_rms = std::numeric_limits<double>::quiet_NaN();  ///< that it lies off the line that was given [m]
+    std::vector<LinePlace> places;                                ///< by x
+  };
   /// The surface against what it should be.
   struct Truth {
     std::string file;        ///< as it was named, without folders; what `treadmark scan` wrote, or a surface
@@ -118,6 +137,7 @@ struct ImportReport {
   double match_residual = 0.0, match_agreeing = 0.0;  ///< of the section with the nominal profile [m]; part of it
   bool turned = false;                                ///< the section ran the other way than the nominal one
   std::string zero;                                   ///< what is at u = 0, in words
+  std::optional<Line> line;                           ///< of a rail; older files have none
   std::vector<Pass> passes;
   double pass_before = 0.0, pass_after = 0.0;  ///< rms distance of passes where they overlap [m]
 
@@ -213,6 +233,10 @@ template <>
 std::span<const Column<io::ImportReport::Distances>> columns();
 template <>
 std::span<const Column<io::ImportReport::Sections>> columns();
+template <>
+std::span<const Column<io::ImportReport::Line>> columns();
+template <>
+std::span<const Column<io::ImportReport::LinePlace>> columns();
 template <>
 std::span<const Column<ErrorSize>> columns();
 

@@ -20,9 +20,11 @@ using Output = io::ImportReport::Output;
 using Step = io::ImportReport::Step;
 using Distances = io::ImportReport::Distances;
 using Kept = io::ImportReport::Sections;
+using Line = io::ImportReport::Line;
+using LinePlace = io::ImportReport::LinePlace;
 
 constexpr FileUnit kUm{"\u00b5m", 1e6, "m"}, kMm2{"mm\u00b2", 1e6, "m2"}, kCubicMm{"mm\u00b3", 1e9, "m3"},
-    kMrad{"mrad", 1e3, "rad"};
+    kMrad{"mrad", 1e3, "rad"}, kPerM{"1/m"}, kMradPerM{"mrad/m", 1e3, "rad/m"};
 
 // A row of a table stays a row: clang-format would give each column a line.
 // clang-format off
@@ -95,6 +97,26 @@ constexpr Column<Kept> kKept[] = {
     {"smoothing_lambda_mm3", kMm3, "", of<&Kept::smoothing>(), "of triangles and offsets made of sections that noise does not smooth"},
     {"smoothed_um", kUm, "", of<&Kept::smoothed>(), "points moved by their noise: root mean square of what they were moved by"}};
 
+constexpr Column<Line> kLine[] = {
+    {"bent", kOne, "", flag<&Line::bent>(), "the surface is straightened along it; else straight by what the points tell"},
+    {"deviation_mm", kMm, "", of<&Line::deviation>(), "farthest that it lies off a straight line"},
+    {"given_largest_mm", kMm, "", of<&Line::given_largest>(), "farthest that it lies off the line that was given"},
+    {"given_rms_mm", kMm, "", of<&Line::given_rms>()}};
+
+constexpr Column<LinePlace> kLinePlaces[] = {
+    {"x_mm", kMm, "", of<&LinePlace::x>(), "along the rail"},
+    {"place_x_mm", kMm, "", part<&LinePlace::place, 0>(), "where the x axis of the surface is in the cloud"},
+    {"place_y_mm", kMm, "", part<&LinePlace::place, 1>()},
+    {"place_z_mm", kMm, "", part<&LinePlace::place, 2>()},
+    {"curvature_per_m", kPerM, "", of<&LinePlace::curvature>(), "positive to the right"},
+    {"curvature_error_per_m", kPerM, "", of<&LinePlace::curvature_error>(), "standard error"},
+    {"vertical_per_m", kPerM, "", of<&LinePlace::vertical>(), "curvature, positive down"},
+    {"vertical_error_per_m", kPerM, "", of<&LinePlace::vertical_error>(), "standard error"},
+    {"twist_mrad_per_m", kMradPerM, "", of<&LinePlace::twist>(), "of the section about x"},
+    {"twist_error_mrad_per_m", kMradPerM, "", of<&LinePlace::twist_error>(), "standard error"},
+    {"roll_mrad", kMrad, "", of<&LinePlace::roll>(), "right side low: from level where placement.up was given, else from the first place"},
+    {"gradient_mrad", kMrad, "", of<&LinePlace::gradient>(), "up, where placement.up was given"}};
+
 constexpr Column<ErrorSize> kErrors[] = {
     {"rms_um", kUm, "", of<&ErrorSize::rms>()},
     {"largest_um", kUm, "", of<&ErrorSize::largest>()}};
@@ -110,6 +132,8 @@ template <> std::span<const Column<Output>> columns() { return kOutputs; }
 template <> std::span<const Column<Step>> columns() { return kSteps; }
 template <> std::span<const Column<Distances>> columns() { return kDistances; }
 template <> std::span<const Column<Kept>> columns() { return kKept; }
+template <> std::span<const Column<Line>> columns() { return kLine; }
+template <> std::span<const Column<LinePlace>> columns() { return kLinePlaces; }
 template <> std::span<const Column<ErrorSize>> columns() { return kErrors; }
 // clang-format on
 

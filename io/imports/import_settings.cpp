@@ -51,6 +51,14 @@ std::vector<ImportKey> listed_keys() {
   list.number("placement.zero_deg", {{}, -360.0, 360.0}, "theta that it gets",
               at(&S::placement, &S::Placement::zero_deg));
   list.number("placement.zero_mm", {{}, -1e6, 1e6}, "x that it gets", at(&S::placement, &S::Placement::zero_mm));
+  list.word(
+      "placement.line", {},
+      "line along which a rail lies: auto: found; straight; a file of points (x y z) along it, in the scan's frame "
+      "and unit, that it follows; or a file (.toml) with the [layout] with which it is compared",
+      at(&S::placement, &S::Placement::line));
+  list.number("placement.line_beside_mm", {{}, -1e4, 1e4},
+              "how far to the right of the layout's line the rail lies: half a gauge and half a head",
+              at(&S::placement, &S::Placement::line_beside_mm));
 
   list.flag("clean.strays", "remove outliers and small clusters among thinned points before anything else",
             at(&S::clean, &S::Clean::strays));

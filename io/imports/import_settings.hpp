@@ -24,6 +24,8 @@ struct ImportSettings {
     std::string zero = "defect";
     std::vector<double> zero_direction;
     double zero_deg = 0.0, zero_mm = 0.0;
+    std::string line = "auto";
+    double line_beside_mm = 0.0;
   } placement;
   struct Clean {
     bool strays = true;

@@ -109,6 +109,12 @@ void add_placement(Page& page, const ImportReport& report) {
                                                 percent(report.match_agreeing), length_text(report.match_residual),
                                                 report.turned ? "; it was turned round" : ""));
   if (!report.zero.empty()) page.row("zero", report.zero);
+  if (report.line) {
+    page.row("line", line_text(report));
+    if (std::isfinite(report.line->given_largest))
+      page.row("", fmt::format("{} off the given line at most, {} rms", length_text(report.line->given_largest),
+                               length_text(report.line->given_rms)));
+  }
   if (report.passes.size() > 1)
     page.row("passes", fmt::format("{}, {} apart before and {} after they were joined (rms)", report.passes.size(),
                                    length_text(report.pass_before), length_text(report.pass_after)));

@@ -67,6 +67,27 @@ std::string place_text(const ImportReport& report, double u, std::string_view de
   return shown_number(u * 1e3, 1) + " mm";
 }
 
+std::string line_text(const ImportReport& report) {
+  if (!report.line || report.line->places.empty()) return {};
+  const ImportReport::Line& line = *report.line;
+  const auto most = std::max_element(line.places.begin(), line.places.end(), [](const auto& a, const auto& b) {
+    return std::fabs(a.curvature) < std::fabs(b.curvature);
+  });
+  if (!line.bent)
+    return fmt::format("straight; a curvature of {:.2g} 1/m would not stand out of its error",
+                       2.0 * most->curvature_error);
+  const auto [least, greatest] = std::minmax_element(
+      line.places.begin(), line.places.end(), [](const auto& a, const auto& b) { return a.curvature < b.curvature; });
+  std::string radius;
+  if (std::fabs(most->curvature) > 2.0 * most->curvature_error)
+    radius = fmt::format(", R = {} m to the {} at {}", shown_number(1.0 / std::fabs(most->curvature), 1),
+                         most->curvature > 0.0 ? "right" : "left", place_text(report, most->x));
+  return fmt::format(
+      "curvature {:.4g} to {:.4g} 1/m, known to {:.2g} (standard error){}; {} off a straight line: the "
+      "surface is straightened along the rail",
+      least->curvature, greatest->curvature, most->curvature_error, radius, length_text(line.deviation));
+}
+
 std::string shortened(std::string_view text, std::size_t letters) {
   std::string out;
   std::size_t count = 0;

@@ -40,4 +40,8 @@ std::string place_text(const ImportReport& report, double u, std::string_view de
 /// The first letters of a text (UTF-8), with dots where it was cut.
 std::string shortened(std::string_view text, std::size_t letters);
 
+/// The line of a rail in words: how far it bends to which side, between which places, and that the surface is
+/// straightened along it; empty without one.
+std::string line_text(const ImportReport& report);
+
 }  // namespace treadmark::io

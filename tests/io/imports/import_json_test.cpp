@@ -114,6 +114,8 @@ TEST(ImportReportSchema, IsMadeOfItsRows) {
   expect_rows<Report::Input>(all["inputs"]["items"]);
   expect_rows<Report::Pass>(members("frame")["passes"]["items"]);
   expect_rows<Report::Hole>(holes);
+  expect_rows<Report::Line>(all["line"]);
+  expect_rows<Report::LinePlace>(all["line"]["properties"]["places"]["items"]);
   expect_rows<Report::Damage>(damage);
   expect_rows<Report::Sections>(fit["kept_sections"]);
   expect_rows<Report::Level>(fit["levels"]["items"]);
@@ -133,6 +135,27 @@ TEST(ImportJson, KeepsToItsSchema) {
   expect_schema(testing::sample_report());
   expect_schema(testing::sample_map_report());
   expect_schema({});
+}
+
+TEST(ImportJson, TheLineOfARail) {
+  io::ImportReport report;
+  EXPECT_TRUE(json::parse(io::import_json(report, false))["line"].is_null());
+  io::ImportReport::Line& line = report.line.emplace();
+  line.bent = true;
+  line.deviation = 12.5e-3;
+  line.places.push_back({2.0, Vec3(1.0, -2.0, 3.0), 1e-3, 2e-6, -1e-4, 3e-6, 2e-3, 1e-5, 0.1, 0.02});
+  line.places.push_back({4.0, Vec3::Zero(), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, std::nan("")});
+  expect_schema(report);
+  const json out = json::parse(io::import_json(report, false))["line"];
+  EXPECT_EQ(out["bent"], true);
+  expect_number(out, "deviation_mm", 12.5);
+  EXPECT_TRUE(out["given_rms_mm"].is_null());
+  expect_number(out["places"][0], "x_mm", 2000.0);
+  expect_number(out["places"][0], "place_y_mm", -2000.0);
+  expect_number(out["places"][0], "curvature_per_m", 1e-3);
+  expect_number(out["places"][0], "twist_mrad_per_m", 2.0);
+  expect_number(out["places"][0], "gradient_mrad", 20.0);
+  EXPECT_TRUE(out["places"][1]["gradient_mrad"].is_null());
 }
 
 TEST(ImportJson, AMapHasNoPlacement) {

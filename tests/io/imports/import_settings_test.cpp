@@ -43,6 +43,8 @@ std::vector<Case> cases() {
        [=](const S& s) { return s.placement.zero_direction == direction; }},
       {"placement", "zero_deg", "-12.25", [](const S& s) { return s.placement.zero_deg == -12.25; }},
       {"placement", "zero_mm", "-1000.1", [](const S& s) { return s.placement.zero_mm == -1000.1; }},
+      {"placement", "line_beside_mm", "-753.5", [](const S& s) { return s.placement.line_beside_mm == -753.5; }},
+      {"placement", "line", "\"alignment.xyz\"", [](const S& s) { return s.placement.line == "alignment.xyz"; }},
       {"clean", "strays", "false", [](const S& s) { return !s.clean.strays; }},
       {"clean", "stray_distance", "6", [](const S& s) { return s.clean.stray_distance == 6.0; }},
       {"clean", "stray_cluster", "0.25", [](const S& s) { return s.clean.stray_cluster == 0.25; }},
