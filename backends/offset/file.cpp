@@ -17,6 +17,7 @@
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
+#include "treadmark/backends/offset/vdb_tree_reader.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/missing_file.hpp"
 #include "treadmark/core/number_text.hpp"
@@ -44,21 +45,6 @@ std::uint64_t sum_of(const char* data, std::size_t size) {
   return h;
 }
 
-std::vector<char> read_all(const fs::path& file) {
-  require_file(file, "VDB file", ErrorKind::input_data);
-  std::error_code problem;
-  if (!fs::is_regular_file(file, problem))
-    throw Error(ErrorKind::input_data, "the VDB file is not a regular file", {file.string()});
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
-  if (size < 0) throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
-  std::vector<char> data(static_cast<std::size_t>(size));
-  in.seekg(0);
-  if (size > 0 && !in.read(data.data(), size))
-    throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
-  return data;
-}
-
 /// In a VDB file a random number as text follows its mark, three numbers for versions and a flag, so that no two files
 /// are alike. Here it follows from the content: equal offsets give equal files.
 void name_by_content(std::string& bytes) {
@@ -78,25 +64,6 @@ void append_trailer(std::string& bytes) {
   bytes.append(kMark.data(), kMark.size());
   bytes.append(reinterpret_cast<const char*>(&size), sizeof(size));
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
-}
-
-/// The VDB data in the content of a file.
-std::string_view require_sound(const std::vector<char>& data, const fs::path& file) {
-  const auto refuse = [&](const char* why, const char* advice) {
-    throw Error(ErrorKind::input_data, why, {file.string()}, advice);
-  };
-  if (data.empty()) refuse("the VDB file is empty", "write it again");
-  if (data.size() < kVdbMagic.size() || !std::equal(kVdbMagic.begin(), kVdbMagic.end(), data.begin()))
-    refuse("this is not a VDB file", "offsets are read from files written by write_vdb");
-  const char* trailer = data.data() + data.size() - kTrailer;
-  if (data.size() < kTrailer + kVdbMagic.size() || !std::equal(kMark.begin(), kMark.end(), trailer))
-    return {data.data(), data.size()};  // OpenVDB wrote it again
-  std::uint64_t size = 0, sum = 0;
-  std::memcpy(&size, trailer + 8, sizeof(size));
-  std::memcpy(&sum, trailer + 16, sizeof(sum));
-  if (size != data.size() - kTrailer || sum != sum_of(data.data(), data.size() - kTrailer))
-    refuse("the VDB file is damaged: its check sum does not fit", "write or copy it again");
-  return {data.data(), data.size() - kTrailer};
 }
 
 /// The transform may have been changed by another program since the entry 'frame' was written. Returns what was
@@ -127,6 +94,36 @@ std::string take_transform(const SheetFile& sheet, SheetFrame& f, const fs::path
 
 }  // namespace
 
+std::vector<char> vdb_bytes(const fs::path& file) {
+  require_file(file, "VDB file", ErrorKind::input_data);
+  std::error_code problem;
+  if (!fs::is_regular_file(file, problem))
+    throw Error(ErrorKind::input_data, "the VDB file is not a regular file", {file.string()});
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
+  if (size < 0) throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
+  std::vector<char> data(static_cast<std::size_t>(size));
+  in.seekg(0);
+  if (size > 0 && !in.read(data.data(), size))
+    throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
+  const auto refuse = [&](const char* why, const char* advice) {
+    throw Error(ErrorKind::input_data, why, {file.string()}, advice);
+  };
+  if (data.empty()) refuse("the VDB file is empty", "write it again");
+  if (data.size() < kVdbMagic.size() || !std::equal(kVdbMagic.begin(), kVdbMagic.end(), data.begin()))
+    refuse("this is not a VDB file", "was it written by OpenVDB, or by treadmark convert?");
+  const char* trailer = data.data() + data.size() - kTrailer;
+  if (data.size() < kTrailer + kVdbMagic.size() || !std::equal(kMark.begin(), kMark.end(), trailer))
+    return data;  // OpenVDB wrote it
+  std::uint64_t covered = 0, sum = 0;
+  std::memcpy(&covered, trailer + 8, sizeof(covered));
+  std::memcpy(&sum, trailer + 16, sizeof(sum));
+  if (covered != data.size() - kTrailer || sum != sum_of(data.data(), data.size() - kTrailer))
+    refuse("the VDB file is damaged: its check sum does not fit", "write or copy it again");
+  data.resize(data.size() - kTrailer);
+  return data;
+}
+
 void write_vdb(const fs::path& file, const OffsetFile& content) {
   if (!content.offsets) throw Error(ErrorKind::configuration, "there are no offsets to write");
   const SheetFrame& f = content.offsets->frame;
@@ -142,8 +139,8 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
 
 OffsetFile read_vdb(const fs::path& file) {
   constexpr float kAbsurd = 1.0f;  // [m]
-  const std::vector<char> data = read_all(file);
-  SheetFile sheet = read_sheet(require_sound(data, file), file);
+  const std::vector<char> data = vdb_bytes(file);
+  SheetFile sheet = read_sheet({data.data(), data.size()}, file);
   const auto offsets = std::make_shared<SparseOffsets>();
   OffsetFile result;
   from_metadata(sheet.metadata, *offsets, result.base, file.string());
