@@ -15,6 +15,7 @@ std::vector<Backend> analytic_backends();
 std::vector<Backend> spline_backends();    ///< spline, nurbs, thb
 std::vector<Backend> mesh_backends();      ///< mesh, mesh-flat
 std::vector<Backend> offset_backends();    ///< offset, offset-quadratic, offset-bilinear
+std::vector<Backend> levelset_backends();  ///< level-set
 std::vector<Backend> shortcut_backends();  ///< chords, prismatic
 
 /// Whether the shape is a standard profile or a chain of arcs.

@@ -32,6 +32,9 @@ void check(const SurfaceSpec& spec) {
   if (spec.roller_radius != 0.0 && std::holds_alternative<SplineSurface>(spec.shape))
     throw Error(ErrorKind::configuration, "a surface given by its splines cannot become a roller", {},
                 "use a profile, slices or triangles");
+  if (spec.roller_radius != 0.0 && std::holds_alternative<SolidShape>(spec.shape))
+    throw Error(ErrorKind::configuration, "a surface made of solids cannot become a roller", {},
+                "use a profile, slices or triangles");
   check_body(spec.defects, spec.body);
   if (const auto* points = std::get_if<Profile>(&spec.shape))
     require_same_body(points->body, spec.body, fmt::format("the profile '{}'", points->name));

@@ -21,8 +21,8 @@ namespace treadmark {
 using sampling::Region;
 
 /// The representations there are, see registry.hpp: "analytic", "spline", "nurbs", "mesh" (smooth over the triangles),
-/// "mesh-flat" (the triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear", and what the
-/// program has registered. The texts live as long as the program.
+/// "mesh-flat" (the triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear", "level-set", and
+/// what the program has registered. The texts live as long as the program.
 std::vector<std::string_view> backend_names();
 
 /// Errors: Error(configuration) that lists the representations if this is none of them.

@@ -68,7 +68,8 @@ class Registry {
  private:
   /// The order is that of all lists.
   Registry() {
-    for (const auto rows : {analytic_backends, spline_backends, mesh_backends, offset_backends, shortcut_backends})
+    for (const auto rows :
+         {analytic_backends, spline_backends, mesh_backends, offset_backends, levelset_backends, shortcut_backends})
       for (Backend& row : rows()) add(std::move(row));
   }
 

@@ -37,7 +37,7 @@ endmacro()
 treadmark_part(embree TREADMARK_WITH_EMBREE "Embree" "libembree-dev"
   "Surfaces of triangles (backends mesh and mesh-flat), with Embree")
 treadmark_part(openvdb TREADMARK_WITH_OPENVDB "OpenVDB" "libopenvdb-dev and libboost-iostreams-dev"
-  "Offsets over a base (backends offset, offset-quadratic and offset-bilinear, .vdb files), with OpenVDB")
+  "Offsets over a base (backends offset, offset-quadratic and offset-bilinear, .vdb files) and level sets (level-set), with OpenVDB")
 treadmark_part(cad TREADMARK_WITH_OPENCASCADE "OpenCASCADE" "libocct-data-exchange-dev"
   "Surfaces of CAD (.step and .iges files), with OpenCASCADE")
 treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields and histories (.h5), with HDF5")

@@ -30,7 +30,7 @@ std::shared_ptr<const NaturalSurface> as_given(io::SurfaceSource source, Body bo
 std::shared_ptr<const Surface> without_defects(const NaturalSurface& natural) {
   const auto& shape = natural.spec.shape;
   if (std::holds_alternative<SliceSet>(shape) || std::holds_alternative<TriangleMesh>(shape) ||
-      std::holds_alternative<SplineSurface>(shape))
+      std::holds_alternative<SplineSurface>(shape) || std::holds_alternative<SolidShape>(shape))
     return nullptr;
   SurfaceSpec spec = natural.spec;
   spec.defects = {};

@@ -42,8 +42,10 @@ class Packer {
 
   /// Makes the source name its packed files.
   void pack(io::SurfaceSource& source, Body body) {
-    if (source.backend.starts_with("offset") || !source.offsets.file.empty())
-      throw Error(ErrorKind::configuration, "FMUs do not take OpenVDB with them, which offsets need", source.where,
+    if (source.backend.starts_with("offset") || source.backend == "level-set" || !source.offsets.file.empty() ||
+        std::holds_alternative<io::SolidsInput>(source.geometry))
+      throw Error(ErrorKind::configuration, "FMUs do not take OpenVDB with them, which offsets and level sets need",
+                  source.where,
                   "choose another backend, or convert the surface to triangles or slices: treadmark convert");
     for (io::SurfaceSource& part : source.parts) pack(part, body);
     auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);

@@ -62,6 +62,8 @@ class Hashes {
     for (const io::SurfaceSource& part : source.parts) add(part);
     const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
     if (geometry != nullptr && source.parts.empty()) add(geometry->file, source.where);
+    if (const auto* given = std::get_if<io::SolidsInput>(&source.geometry))
+      for (const io::SolidInput& solid : given->solids) add(solid.file, source.where);
     if (!source.offsets.file.empty()) add(source.offsets.file, source.offsets.where);
   }
 

@@ -16,6 +16,7 @@
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/offset_table.hpp"
 #include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/backends/levelset/read_level_set.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/backends/spline/spline_gaps.hpp"
@@ -83,6 +84,8 @@ constexpr ShapeKind kSlices{"a file of slices",
                             "only one section can move along the track, and slices lie as they are in their file"};
 constexpr ShapeKind kProfileShape{"a profile", [](std::string_view key) { return key != "open_seam"; },
                                   "it belongs to slices all round a wheel (.slcw)"};
+constexpr ShapeKind kSolids{"a shape of solids", [](std::string_view key) { return key == "voxel_mm"; },
+                            "scale and place each body in its own table"};
 constexpr ShapeKind kFormula{"a shape without a file",
                              [](std::string_view key) { return is_crossing(key) || key.starts_with("start_"); },
                              "they belong to a shape given by a file"};
@@ -92,6 +95,7 @@ constexpr ShapeKind kParts{"a rail made of parts", [](std::string_view) { return
 ShapeKind kind_of(const io::SurfaceSource& source) {
   if (!source.parts.empty()) return kParts;
   const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  if (std::holds_alternative<io::SolidsInput>(source.geometry)) return kSolids;
   if (file == nullptr) return kFormula;
   if (is_offset_file(file->file)) return kOffsets;
   if (io::is_spline_file(file->file)) return kSplines;
@@ -194,6 +198,24 @@ NaturalSurface read_spline_file(const io::GeometryFile& file, const io::SurfaceS
   return out;
 }
 
+SolidShape read_solids(const io::SolidsInput& given, const SourcePosition& where) {
+  SolidShape shape;
+  shape.voxel = given.voxel;
+  for (const io::SolidInput& one : given.solids) {
+    Solid& solid = shape.solids.emplace_back();
+    solid.use = one.use;
+    solid.offset = one.offset;
+    if (io::is_mesh_file(one.file))
+      solid.shape = io::read_mesh(one.file, one.scale, where);
+    else if (is_offset_file(one.file))
+      solid.shape = levelset::read_level_set(one.file, one.scale * kMillimetre, one.grid);
+    else
+      throw Error(ErrorKind::configuration, fmt::format("'{}' is no body", one.file.string()), where,
+                  "give closed triangles (.ply, .stl, .obj or .off) or a level set (.vdb)");
+  }
+  return shape;
+}
+
 NaturalSurface read_parts(const io::SurfaceSource& source, Body body, double radius) {
   if (!source.defects.empty())
     throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
@@ -268,6 +290,8 @@ NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double rad
                                : fmt::format("did you mean '{}'? treadmark list profiles prints all", near));
     }
     spec.shape = *standard;
+  } else if (const auto* solids = std::get_if<io::SolidsInput>(&source.geometry)) {
+    spec.shape = read_solids(*solids, source.where);
   } else {
     spec.shape = std::get<ArcChain>(source.geometry);
   }

@@ -42,6 +42,11 @@ std::string key_of(const io::SurfaceSource& source, Body body, double radius) {
     key += fmt::format(" arcs {:.17g} {:.17g} {:.17g}", arcs->start_y, arcs->start_z, arcs->start_angle);
     for (const auto& segment : arcs->segments)
       key += fmt::format(" {:.17g} {:.17g}", segment.length, segment.curvature);
+  } else if (const auto* given = std::get_if<io::SolidsInput>(&source.geometry)) {
+    key += fmt::format(" solids {:.17g}", given->voxel);
+    for (const io::SolidInput& s : given->solids)
+      key += fmt::format(" [{} {} {:.17g} {} at {:.17g} {:.17g} {:.17g}]", s.file.string(), static_cast<int>(s.use),
+                         s.scale, s.grid, s.offset.x(), s.offset.y(), s.offset.z());
   }
   return key;
 }
@@ -76,6 +81,8 @@ void SurfaceStore::note_hashes(const io::SurfaceSource& source) {
   };
   if (!source.offsets.file.empty()) note(source.offsets.file.string(), source.offsets.file);
   const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
+  if (const auto* given = std::get_if<io::SolidsInput>(&source.geometry))
+    for (const io::SolidInput& solid : given->solids) note(solid.file.string(), solid.file);
   if (geometry != nullptr && source.parts.empty()) note(geometry->file.string(), io::profile_file(geometry->file));
 }
 

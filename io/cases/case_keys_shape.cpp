@@ -16,6 +16,55 @@ namespace {
 
 using W = WheelRailCase;
 
+using Solids = std::vector<SolidInput>;
+
+std::vector<ElementKey<SolidInput>> solid_keys() {
+  KeyInfo file =
+      key_info("file", KeyType::path,
+               "closed triangles (.ply .stl .obj .off) or a level set that OpenVDB wrote (.vdb), relative to "
+               "the folder of the case file");
+  file.required = true;
+  KeyInfo use = key_info("use", KeyType::choice,
+                         "what is done with it to those before it: join adds it, cut takes it away, common keeps what "
+                         "lies in both");
+  use.choices = {"join", "cut", "common"};
+  use.default_text = "\"join\"";
+  KeyInfo scale = key_info("scale_to_mm", KeyType::number, "factor from file units to mm (1000 for a file in m)");
+  scale.at_least = 1e-6;
+  scale.default_text = "1";
+  std::vector<ElementKey<SolidInput>> keys{
+      {file,
+       [](SolidInput& s, const CaseValue& v) {
+         std::string name = v.text();
+         std::replace(name.begin(), name.end(), '\\', '/');
+         s.file = name;
+       },
+       {},
+       [](const SolidInput& s) { return s.file.empty() ? std::string() : toml_text(s.file.generic_string()); }},
+      {use,
+       [](SolidInput& s, const CaseValue& v) {
+         s.use = v.text() == "cut" ? Solid::Use::cut : v.text() == "common" ? Solid::Use::common : Solid::Use::join;
+       },
+       {},
+       [](const SolidInput& s) {
+         return toml_text(s.use == Solid::Use::cut ? "cut" : s.use == Solid::Use::common ? "common" : "join");
+       }},
+      {scale,
+       [](SolidInput& s, const CaseValue& v) { s.scale = v.number(); },
+       {},
+       [](const SolidInput& s) { return exact_text(s.scale, 1.0); }},
+      {key_info("grid", KeyType::text, "name of the level set in its file; without it the only one"),
+       [](SolidInput& s, const CaseValue& v) { s.grid = v.text(); },
+       {},
+       [](const SolidInput& s) { return s.grid.empty() ? s.grid : toml_text(s.grid); }}};
+  const char* axes[] = {"x_mm", "y_mm", "z_mm"};
+  for (int axis = 0; axis < 3; ++axis)
+    keys.push_back(with_default(element_number<SolidInput>(axes[axis], kAnyNumber, "offset of the body",
+                                                           [axis](SolidInput& s) -> double& { return s.offset[axis]; }),
+                                "0"));
+  return keys;
+}
+
 /// Keys of wheel.shape or rail.shape.
 class ShapeKeys {
  public:
@@ -30,10 +79,11 @@ class ShapeKeys {
       add_seam();
     }
     add_offsets();
-    KeyInfo backend = backend_key(body_ + ".backend",
-                                  "surface representation: analytic, spline, nurbs, thb, thb-quadratic, mesh, "
-                                  "mesh-flat, offset, offset-quadratic, offset-bilinear, chords or prismatic; "
-                                  "without it the one that fits the shape");
+    KeyInfo backend =
+        backend_key(body_ + ".backend",
+                    "surface representation: analytic, spline, nurbs, thb, thb-quadratic, mesh, "
+                    "mesh-flat, offset, offset-quadratic, offset-bilinear, level-set, chords or prismatic; "
+                    "without it the one that fits the shape");
     backend.scope = KeyScope::wheel_rail;
     CaseKey& representation = list_.add(backend);
     representation.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
@@ -128,6 +178,61 @@ class ShapeKeys {
       angle.group = fmt::format("{}start_angle", prefix_);
       angle.alternative = unit;
     }
+    add_solids();
+  }
+
+  /// Names of files are relative to the folder of the case file, which only the whole list knows.
+  void add_solids() {
+    KeyInfo list =
+        info("solids", KeyType::table_list,
+             "closed bodies that are joined and cut one after the other, see [level sets](representations.md)");
+    list.group = prefix_;
+    list.alternative = "solids";
+    const auto solids_of = [surface = surface_](W& c, bool create) -> Solids* {
+      SurfaceSource& s = c.*surface;
+      if (create && !std::holds_alternative<SolidsInput>(s.geometry)) s.geometry = SolidsInput{};
+      SolidsInput* given = std::get_if<SolidsInput>(&s.geometry);
+      return given == nullptr ? nullptr : &given->solids;
+    };
+    add_list<SolidInput>(list_, list, solid_keys(), solids_of);
+    CaseKey& added = list_.keys.back();
+    added.set = [set = added.set, solids_of, surface = surface_](Case& c, const CaseValue& v,
+                                                                 const std::filesystem::path& folder) {
+      set(c, v, folder);
+      for (SolidInput& solid : *solids_of(content_of<W>(c), true))
+        solid.file = (folder / solid.file).lexically_normal();
+      (content_of<W>(c).*surface).where = v.where;
+    };
+    added.written = [written = added.written, solids_of](const Case& c, const std::filesystem::path& folder) {
+      Case relative = c;
+      if (Solids* all = solids_of(std::get<W>(relative.content), false))
+        for (SolidInput& solid : *all) solid.file = relative_to(solid.file, folder);
+      return written(relative, folder);
+    };
+    added.set_element = [set = added.set_element](Case& c, std::size_t index, const CaseTable& entries,
+                                                  const SourcePosition& where) {
+      for (const CaseEntry& entry : entries)
+        if (entry.key == "file" && std::filesystem::path(entry.value.text()).is_relative())
+          throw Error(ErrorKind::configuration, "the file of a solid can only be replaced by one with its full path",
+                      where);
+      set(c, index, entries, where);
+    };
+    KeyInfo voxel = info("voxel_mm", KeyType::number,
+                         "distance of the nodes at which solids are sampled; without it that of the first level set, "
+                         "else 0.5 mm");
+    voxel.above = 0.0;
+    CaseKey& edge = list_.add(voxel);
+    edge.set = [surface = surface_, path = voxel.path](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      auto* given = std::get_if<SolidsInput>(&(content_of<W>(c).*surface).geometry);
+      if (given == nullptr)
+        throw Error(ErrorKind::configuration, path + " belongs to a shape given by solids", v.where);
+      given->voxel = v.number() * unit_of_key("voxel_mm");
+    };
+    edge.written = [surface = surface_](const Case& c, const std::filesystem::path&) {
+      const auto* given = std::get_if<SolidsInput>(&(std::get<W>(c.content).*surface).geometry);
+      return given == nullptr || given->voxel == 0.0 ? std::string()
+                                                     : exact_text(given->voxel, unit_of_key("voxel_mm"));
+    };
   }
 
   /// change: ProfileOptions&, const CaseValue&; written: const ProfileOptions& or const GeometryFile& -> TOML, empty

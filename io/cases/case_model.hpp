@@ -50,6 +50,21 @@ struct GeometryFile {
   bool open_seam = false;  ///< SliceSet::open_seam
 };
 
+/// One of the bodies that a shape is put together from, see Solid.
+struct SolidInput {
+  std::filesystem::path file;  ///< closed triangles or a level set (.vdb); resolved against the folder of the case file
+  Solid::Use use = Solid::Use::join;
+  double scale = 1.0;          ///< file units to mm
+  std::string grid;            ///< name of the level set in its file; empty: the only one
+  Vec3 offset = Vec3::Zero();  ///< in the frame of the wheel or rail [m]
+};
+
+/// A shape put together from bodies.
+struct SolidsInput {
+  std::vector<SolidInput> solids;
+  double voxel = 0.0;  ///< [m]; 0: that of the first level set, or the default
+};
+
 /// A rail whose one section moves along the track.
 struct CrossingInput {
   /// What moves: nothing, the nose, the wing rail.
@@ -74,7 +89,7 @@ struct OffsetsInput {
 /// The shape of a wheel or rail, and the representation it is wanted in.
 struct SurfaceSource {
   /// A file to be read, or a shape given in the case file itself.
-  std::variant<GeometryFile, StandardProfile, ArcChain> geometry;
+  std::variant<GeometryFile, StandardProfile, ArcChain, SolidsInput> geometry;
   Defects defects;
   OffsetsInput offsets;     ///< on top of the defects
   std::string backend;      ///< "" = the natural one; see `treadmark list backends`

@@ -58,12 +58,17 @@ class Checker {
     if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
       require(!file->file.empty(), body + ".shape is missing",
               part ? "give its file, standard or arcs"
-                   : fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
+                   : fmt::format("give {0}.shape.file, {0}.shape.standard, {0}.shape.arcs or {0}.shape.solids", body));
       require(file->options.smoothing.kink_low <= file->options.smoothing.kink_high,
               body + ".shape: kink_low_deg must not exceed kink_high_deg");
     }
     if (const auto* arcs = std::get_if<ArcChain>(&s.geometry))
       require(!arcs->segments.empty(), body + ".shape.arcs is empty");
+    if (const auto* given = std::get_if<SolidsInput>(&s.geometry)) {
+      require(!given->solids.empty(), body + ".shape.solids is empty");
+      require(given->solids.empty() || given->solids.front().use == Solid::Use::join,
+              body + ".shape.solids: the first body must be joined", "there is nothing yet to cut from");
+    }
     require(s.crossing.part == CrossingInput::Part::none || s.crossing.length > 0.5 * s.crossing.rounding,
             body + ": crossing_length_mm must be more than half of crossing_rounding_mm");
   }

@@ -128,7 +128,7 @@ void check_regime(const ContactPart& part, const SimulationFile& out) {
 /// Shapes that may be out of round or damaged all around, so that none can be told from them that is not.
 bool is_measured_wheel(const SurfaceSource& wheel) {
   const auto* file = std::get_if<GeometryFile>(&wheel.geometry);
-  if (file == nullptr) return false;
+  if (file == nullptr) return std::holds_alternative<SolidsInput>(wheel.geometry);
   return can_hold(file->file, kSlicesFile | kTriangleFile | kOffsetFile);
 }
 

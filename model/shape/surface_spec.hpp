@@ -10,6 +10,7 @@
 #include "treadmark/model/shape/defects.hpp"
 #include "treadmark/model/shape/profile.hpp"
 #include "treadmark/model/shape/slices.hpp"
+#include "treadmark/model/shape/solid_shape.hpp"
 #include "treadmark/model/shape/spline_surface.hpp"
 #include "treadmark/model/shape/surface_doubts.hpp"
 #include "treadmark/model/shape/triangle_mesh.hpp"
@@ -42,7 +43,7 @@ struct SurfaceErrors;
 struct SurfaceSpec {
   Body body = Body::rail;
   double nominal_radius = 0.0;  ///< wheel: radius at profile z = 0 [m]; rail: unused
-  std::variant<Profile, SliceSet, StandardProfile, ArcChain, TriangleMesh, SplineSurface> shape;
+  std::variant<Profile, SliceSet, StandardProfile, ArcChain, TriangleMesh, SplineSurface, SolidShape> shape;
   Defects defects;
   /// Rail: 0, or the nominal radius of a roller [m]: the profile turned about an axle parallel to y at z =
   /// roller_radius, with profile z = 0 at that radius. x of slices and defects is then the arc length at that radius, 0

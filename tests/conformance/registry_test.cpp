@@ -93,7 +93,7 @@ TEST(Registry, WhatIsLeftOutSaysHowItIsPutIn) {
   std::string left_out;
   for (const Backend* row : left_out_backends()) left_out += row->name + ' ';
   EXPECT_EQ(left_out, std::string(has_part("embree") ? "" : "mesh mesh-flat ") +
-                          (has_part("openvdb") ? "" : "offset offset-quadratic offset-bilinear "));
+                          (has_part("openvdb") ? "" : "offset offset-quadratic offset-bilinear level-set "));
   for (const auto& [part, name] : {std::pair{"embree", "mesh"}, std::pair{"openvdb", "offset"}}) {
     if (has_part(part)) {
       EXPECT_EQ(backend_of(name).part, part);

@@ -36,11 +36,12 @@ void expect_refused(const SurfaceSpec& spec, const char* words) {
 
 constexpr const char* kAll =
     "choose analytic, spline, nurbs, thb, thb-quadratic, mesh, mesh-flat, offset, offset-quadratic, "
-    "offset-bilinear, chords, prismatic";
+    "offset-bilinear, level-set, chords, prismatic";
 
 TEST(CreateSurface, ListsWhatThereIs) {
-  EXPECT_THAT(backend_names(), ElementsAre("analytic", "spline", "nurbs", "thb", "thb-quadratic", "mesh", "mesh-flat",
-                                           "offset", "offset-quadratic", "offset-bilinear", "chords", "prismatic"));
+  EXPECT_THAT(backend_names(),
+              ElementsAre("analytic", "spline", "nurbs", "thb", "thb-quadratic", "mesh", "mesh-flat", "offset",
+                          "offset-quadratic", "offset-bilinear", "level-set", "chords", "prismatic"));
   EXPECT_THAT(standard_profile_names(), ::testing::IsSupersetOf({"60E1", "54E1", "UIC60", "S1002", "1:40", "EPS"}));
 }
 

@@ -9,6 +9,7 @@
 #include <openvdb/io/Compression.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/tools/MeshToVolume.h>
 
 #include "treadmark/backends/offset/openvdb/sheet_library.hpp"
 
@@ -119,10 +120,49 @@ bool unpack(bool blosc, std::string_view stored, char* to, std::size_t size) {
   }
 }
 
+/// Triangles as OpenVDB's conversion asks for them.
+struct Triangles {
+  const double* vertices;
+  std::size_t vertex_count;
+  const std::uint32_t* corners;
+  std::size_t triangle_count;
+
+  std::size_t polygonCount() const { return triangle_count; }
+  std::size_t pointCount() const { return vertex_count; }
+  std::size_t vertexCount(std::size_t) const { return 3; }
+  void getIndexSpacePoint(std::size_t n, std::size_t v, openvdb::Vec3d& at) const {
+    const double* p = vertices + 3 * std::size_t{corners[3 * n + v]};
+    at = {p[0], p[1], p[2]};
+  }
+};
+
+SheetFault nearest(const double* vertices, std::size_t vertex_count, const std::uint32_t* corners,
+                   std::size_t triangle_count, double half_width, std::vector<NearestBlock>& out) {
+  start_openvdb();
+  try {
+    const Triangles triangles{vertices, vertex_count, corners, triangle_count};
+    const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
+    openvdb::Int32Grid numbers(-1);
+    const float width = static_cast<float>(half_width);
+    openvdb::tools::meshToVolume<openvdb::FloatGrid>(triangles, *transform, width, width,
+                                                     openvdb::tools::UNSIGNED_DISTANCE_FIELD, &numbers);
+    for (auto leaf = numbers.tree().cbeginLeaf(); leaf; ++leaf) {
+      NearestBlock& block = out.emplace_back();
+      block.first = {leaf->origin().x(), leaf->origin().y(), leaf->origin().z()};
+      for (openvdb::Index k = 0; k < block.triangle.size(); ++k)
+        block.triangle[k] = leaf->isValueOn(k) ? leaf->getValue(k) : -1;
+    }
+    std::sort(out.begin(), out.end(), [](const NearestBlock& a, const NearestBlock& b) { return a.first < b.first; });
+  } catch (const std::exception& e) {
+    return {SheetFault::Kind::input_data, std::string("cannot become a level set: ") + e.what()};
+  }
+  return {};
+}
+
 }  // namespace
 
 extern "C" const SheetLibrary* treadmark_sheet_library() {
-  static const SheetLibrary library{TREADMARK_MODULE_VERSION, make_storage, write_sheet, unpack};
+  static const SheetLibrary library{TREADMARK_MODULE_VERSION, make_storage, write_sheet, unpack, nearest};
   return &library;
 }
 

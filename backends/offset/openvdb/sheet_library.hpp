@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -38,15 +40,25 @@ struct SheetFrameAndData {
   std::map<std::string, std::string> metadata;
 };
 
-/// What OpenVDB does for sheets. It lies in a library of its own, libtreadmark_openvdb, that is loaded where offsets
-/// are first used: the dynamic linker takes longer for OpenVDB than most cases take to be solved. That library knows
-/// nothing else of Treadmark. Functions may be called from several threads.
+/// The triangles nearest to the nodes of one leaf.
+struct NearestBlock {
+  std::array<std::int32_t, 3> first;       ///< its first node
+  std::array<std::int32_t, 512> triangle;  ///< [64 i + 8 j + k]; -1: none is within the band
+};
+
+/// What OpenVDB does for sheets and level sets. It lies in a library of its own, libtreadmark_openvdb, that is loaded
+/// where offsets are first used: the dynamic linker takes longer for OpenVDB than most cases take to be solved. That
+/// library knows nothing else of Treadmark. Functions may be called from several threads.
 struct SheetLibrary {
   const char* version;  ///< of Treadmark; another one is not used
   std::unique_ptr<SheetStorage> (*make_storage)();
   SheetFault (*write)(std::string& bytes, const std::vector<SheetEntry>& blocks, const SheetFrameAndData& sheet);
   /// Values as they are stored after their length, by Blosc or zlib; whether they are this many bytes.
   bool (*unpack)(bool blosc, std::string_view stored, char* to, std::size_t size);
+  /// Leaves with a node within the band of half this width [voxels] about triangles. vertices: x, y and z of each in
+  /// voxels; corners: three of each triangle. Ordered by their first nodes.
+  SheetFault (*nearest)(const double* vertices, std::size_t vertex_count, const std::uint32_t* corners,
+                        std::size_t triangle_count, double half_width, std::vector<NearestBlock>& out);
 };
 
 /// Its one symbol, "treadmark_sheet_library".
