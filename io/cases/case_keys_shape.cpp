@@ -183,9 +183,9 @@ class ShapeKeys {
 
   /// Names of files are relative to the folder of the case file, which only the whole list knows.
   void add_solids() {
-    KeyInfo list =
-        info("solids", KeyType::table_list,
-             "closed bodies that are joined and cut one after the other, see [level sets](representations.md)");
+    KeyInfo list = info(
+        "solids", KeyType::table_list,
+        "closed bodies that are joined and cut one after the other, see [level sets](representations.md#level-sets)");
     list.group = prefix_;
     list.alternative = "solids";
     const auto solids_of = [surface = surface_](W& c, bool create) -> Solids* {
