@@ -127,6 +127,15 @@ function(treadmark_library folder)
   set_property(GLOBAL APPEND PROPERTY TREADMARK_LIBRARIES treadmark_${name})
 endfunction()
 
+# treadmark_not_in_web(<target> <regular expression>): sources that draw or write files, which nothing calls there.
+function(treadmark_not_in_web target pattern)
+  if(TREADMARK_WEB)
+    get_target_property(sources ${target} SOURCES)
+    list(FILTER sources EXCLUDE REGEX "/${pattern}[^/]*$")
+    set_target_properties(${target} PROPERTIES SOURCES "${sources}")
+  endif()
+endfunction()
+
 # Programs under test share tables of contacts and creep forces, which depend on what is asked and on the program's own code alone.
 set(TREADMARK_TEST_ENVIRONMENT "TREADMARK_CACHE=${PROJECT_BINARY_DIR}/tests/tables")
 

@@ -15,35 +15,21 @@ using Values = std::vector<double>;
 
 constexpr double kPercent = 1e2;
 
-Values length_of(const Values& x, const Values& s, double factor) {
-  Values out;
-  if (x.size() != s.size()) return out;
-  for (std::size_t i = 0; i < x.size(); ++i) out.push_back(factor * std::hypot(x[i], s[i]));
-  return out;
+constexpr const io::FieldColumn* column_named(std::string_view name) {
+  for (const io::FieldColumn& column : io::kFieldColumns)
+    if (column.name == name) return &column;
+  return nullptr;
 }
-
-Values traction(const io::PatchResult& patch) {
-  return length_of(patch.fields.traction_x, patch.fields.traction_s, kMega);
-}
-
-/// Of a shift these are lengths; see slip_distance.
-Values slip(const io::PatchResult& patch) {
-  return patch.shift ? Values{} : length_of(patch.fields.slip_x, patch.fields.slip_s, kPercent);
-}
-
-Values slip_distance(const io::PatchResult& patch) {
-  return patch.shift ? length_of(patch.fields.slip_x, patch.fields.slip_s, kMicro) : Values{};
-}
-
-Values no_values(const io::PatchResult&) { return {}; }
+constexpr auto *kTractionX = column_named("traction_x"), *kTractionS = column_named("traction_s"),
+               *kSlipX = column_named("slip_x"), *kSlipS = column_named("slip_s");
 
 using Kind = FieldInfo::Kind;
 // Beside the fields of the files.
 constexpr FieldInfo kMadeFields[] = {
-    {{20, "adhesion and slip", "", 1.0, Kind::state}, "state", nullptr, no_values},
-    {{30, "traction", "MPa", 1.0, Kind::sequential, FieldInfo::Outside::zero}, "traction", nullptr, traction},
-    {{60, "slip", "%"}, "slip", nullptr, slip},
-    {{70, "slip distance", "µm"}, "slip_distance", nullptr, slip_distance},
+    {{20, "adhesion and slip", "", 1.0, Kind::state}, "state"},
+    {{30, "traction", "MPa", kMega, Kind::sequential, FieldInfo::Outside::zero}, "traction", kTractionX, kTractionS},
+    {{60, "slip", "%", kPercent}, "slip", kSlipX, kSlipS},
+    {{70, "slip distance", "µm", kMicro}, "slip_distance", kSlipX, kSlipS, true},
 };
 
 std::vector<FieldInfo> shown_fields() {
@@ -57,9 +43,14 @@ std::vector<FieldInfo> shown_fields() {
 }  // namespace
 
 std::vector<double> FieldInfo::values(const io::PatchResult& patch) const {
-  if (column == nullptr) return made(patch);
-  if (patch.shift && column->unit != column->unit_shift) return {};  // the shown unit is not that of a shift
+  if (column == nullptr) return {};
+  if (column->unit != column->unit_shift && patch.shift != of_shifts) return {};  // the shown unit is another one
   Values out = patch.fields.*column->values;
+  if (other != nullptr) {
+    const Values& s = patch.fields.*other->values;
+    if (s.size() != out.size()) return {};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = std::hypot(out[i], s[i]);
+  }
   for (double& value : out) value *= factor;
   return out;
 }

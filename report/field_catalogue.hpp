@@ -13,8 +13,9 @@ namespace treadmark::report {
 /// A quantity of the elements of a patch as reports and pictures show it.
 struct FieldInfo : io::ShownField {
   std::string_view name;
-  const io::FieldColumn* column = nullptr;  ///< of the files; nullptr: made of others
-  std::vector<double> (*made)(const io::PatchResult& patch) = nullptr;
+  const io::FieldColumn* column = nullptr;  ///< of the files; nullptr: states
+  const io::FieldColumn* other = nullptr;   ///< not nullptr: the quantity is the length of both
+  bool of_shifts = false;                   ///< shown in the unit that the column has in a shift
 
   /// Values in the shown unit, one an element, NaN = none; empty where the patch does not have the quantity. Not for
   /// states.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -205,9 +206,17 @@ struct Timeline {
   std::size_t count() const { return axes.empty() ? names.size() : axes.front().values.size(); }
 };
 
+/// What a page that solves needs: report/web/src/live.
+struct Solving {
+  std::string toml;                          ///< text of its case
+  std::map<std::string, std::string> files;  ///< bytes of the files that it names
+  std::vector<std::string> wheels, rails;    ///< names of profiles
+  std::string module, loader;                ///< of interfaces/web: the program, and the script that starts it
+};
+
 struct Page {
-  std::string kind;  ///< "run", "check", "compare", "bench", "import", "simulation", "assessment", "evolution", "sweep"
-                     ///< or "overlay"
+  std::string kind;  ///< "live", "run", "check", "compare", "bench", "import", "simulation", "assessment", "evolution",
+                     ///< "sweep" or "overlay"
   std::string title, lead;
   std::vector<Section> sections = {};
   std::optional<Timeline> timeline = {};
@@ -215,6 +224,7 @@ struct Page {
   std::vector<io::SampledSurface> surfaces = {};  ///< that frames name
   std::string document = {};                      ///< JSON text of the result; may be empty
   std::string full_data = {};                     ///< where all fields are in full: "fields.h5"
+  std::optional<Solving> solving = {};
 };
 
 }  // namespace treadmark::report

@@ -74,6 +74,7 @@ class Writer {
     const bool kept = !page_.document.empty() && page_.document.size() <= kMostDocument;
     data["document"] = kept ? Json::parse(page_.document, nullptr, false) : Json();
     if (data["document"].is_discarded()) data["document"] = Json();
+    if (page_.solving) data["live"] = live(*page_.solving);
     return without_markup(data.dump(-1, ' ', true, Json::error_handler_t::replace));
   }
 
@@ -179,6 +180,25 @@ class Writer {
     Json& values = out["values"] = Json::object();
     for (const auto& [name, value] : packed.values) values[name] = to_json(value);
     out["numbers"] = patch_numbers(p);
+    return out;
+  }
+
+  /// How treadmark.h names what the views show.
+  static Json live(const Solving& solving) {
+    Json out = {{"toml", solving.toml}, {"profiles", {{"wheel", solving.wheels}, {"rail", solving.rails}}}};
+    Json& files = out["files"] = Json::object();
+    for (const auto& [name, bytes] : solving.files) files[name] = io::to_base64(std::as_bytes(std::span(bytes)));
+    Json& fields = out["fields"] = Json::array();
+    for (const FieldInfo& field : field_catalogue()) {
+      if (field.column == nullptr || field.of_shifts) continue;
+      Json columns = Json::array({field.column->name});
+      if (field.other != nullptr) columns.push_back(field.other->name);
+      fields.push_back({{"name", field.name}, {"columns", columns}, {"factor", field.factor}});
+    }
+    Json& numbers = out["numbers"] = Json::array();
+    for (const auto& row : io::quantities<io::PatchResult>())
+      if (!row.label.page.empty() && !row.key.empty())
+        numbers.push_back({{"key", row.label.page}, {"name", io::si_name(row)}, {"factor", row.unit.in_file(1.0)}});
     return out;
   }
 

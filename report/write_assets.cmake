@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DSTYLES="a.css;b.css" -DSCRIPT=report.js -DOUT=assets.cpp -P write_assets.cmake
-# Writes the texts as C++ strings; no SCRIPT: an empty one.
+# cmake -DSTYLES="a.css;b.css" -DSCRIPT=report.js -DSOLVING=live.js -DOUT=assets.cpp -P write_assets.cmake
+# Writes the texts as C++ strings; no SCRIPT or SOLVING: an empty one.
 set(chunk 15000)  # compilers have limits for one literal
 
 function(add_text name text)
@@ -23,13 +23,16 @@ foreach(file IN LISTS STYLES)
   file(READ "${file}" text)
   string(APPEND style "${text}")
 endforeach()
-set(code "")
-if(SCRIPT)
-  file(READ "${SCRIPT}" code)
-endif()
+foreach(script IN ITEMS SCRIPT SOLVING)
+  set(${script}_code "")
+  if(${script})
+    file(READ "${${script}}" ${script}_code)
+  endif()
+endforeach()
 
 file(WRITE "${OUT}.new" "// Made by write_assets.cmake.\n#include \"treadmark/report/write_page.hpp\"\n\n#include <span>\n#include <string_view>\n\nnamespace treadmark::report {\nnamespace {\n\n")
 add_text(Style "${style}")
-add_text(Script "${code}")
-file(APPEND "${OUT}.new" "\nstd::string joined(std::span<const std::string_view> parts) {\n  std::string text;\n  for (const std::string_view part : parts) text += part;\n  return text;\n}\n\n}  // namespace\n\nconst std::string& page_style() {\n  static const std::string text = joined(kStyle);\n  return text;\n}\n\nconst std::string& page_script() {\n  static const std::string text = joined(kScript);\n  return text;\n}\n\n}  // namespace treadmark::report\n")
+add_text(Script "${SCRIPT_code}")
+add_text(Solving "${SOLVING_code}")
+file(APPEND "${OUT}.new" "\nstd::string joined(std::span<const std::string_view> parts) {\n  std::string text;\n  for (const std::string_view part : parts) text += part;\n  return text;\n}\n\n}  // namespace\n\nconst std::string& page_style() {\n  static const std::string text = joined(kStyle);\n  return text;\n}\n\nconst std::string& page_script() {\n  static const std::string text = joined(kScript);\n  return text;\n}\n\nconst std::string& solving_script() {\n  static const std::string text = joined(kSolving);\n  return text;\n}\n\n}  // namespace treadmark::report\n")
 file(RENAME "${OUT}.new" "${OUT}")

@@ -7,10 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string_view>
+#include <vector>
 
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/version.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/report/blob_store.hpp"
 #include "treadmark/report/html_text.hpp"
 #include "treadmark/report/page_data.hpp"
 #include "treadmark/report/shown_steps.hpp"
@@ -159,12 +164,27 @@ constexpr const char* kStatic =
 
 }  // namespace
 
+namespace {
+
+/// A text that scripts read and no browser runs. Its end mark must not be in it: a loader is no place for one.
+std::string text_for_scripts(const char* id, std::string_view text) {
+  if (text.find("</script") != std::string_view::npos || text.find("<!--") != std::string_view::npos)
+    throw Error(ErrorKind::input_data, "the loader of the program for browsers holds markup");
+  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
+}
+
+}  // namespace
+
 std::string to_html(const Page& whole, const PageOptions& options) {
   const Page page = with_shown_steps(whole);
   const bool live = options.live && !page_script().empty();
   const std::string style = "\n" + page_style(), script = "\n" + page_script() + "\n";
-  std::string out =
-      fmt::format(kHead, source_of(style), live ? source_of(script) : "'none'", version(), html_text(page.title));
+  const bool solves = live && page.solving;
+  const std::string solver = "\n" + solving_script() + "\n";
+  std::string scripts = live ? source_of(script) : "'none'";
+  // The program runs in a worker that the page makes of its own text; there is still nothing that it could load.
+  if (solves) scripts += " " + source_of(solver) + " 'wasm-unsafe-eval'; worker-src blob:";
+  std::string out = fmt::format(kHead, source_of(style), scripts, version(), html_text(page.title));
   out += "<style>" + style;
   out += fmt::format(
       "</style>\n</head>\n<body data-kind=\"{}\">\n<header class=\"page-head\"><h1>{}</h1><p "
@@ -189,8 +209,14 @@ std::string to_html(const Page& whole, const PageOptions& options) {
     constexpr std::size_t kMostPage = 7'500'000, kFewestFields = 1'000'000;
     const std::size_t taken = std::min(out.size() + script.size(), kMostPage - kFewestFields);
     const std::size_t budget = std::min(options.field_budget, kMostPage - taken);
-    out += "<script type=\"application/json\" id=\"treadmark-data\">" + page_data(page, budget) +
-           "</script>\n<script>" + script + "</script>\n";
+    out += "<script type=\"application/json\" id=\"treadmark-data\">" + page_data(page, budget) + "</script>\n";
+    if (solves) {
+      out += text_for_scripts("treadmark-loader", page.solving->loader);
+      const std::vector<std::byte> module = deflated(std::as_bytes(std::span(page.solving->module)));
+      out += text_for_scripts("treadmark-module", io::to_base64(module));
+      out += "<script>" + solver + "</script>\n";
+    }
+    out += "<script>" + script + "</script>\n";
   }
   return out + "</body>\n</html>\n";
 }

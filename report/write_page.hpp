@@ -25,4 +25,7 @@ const std::string& page_style();
 /// The script that makes views live; empty where Treadmark was built without Node.js.
 const std::string& page_script();
 
+/// The script that pages which solve have besides; empty where page_script is.
+const std::string& solving_script();
+
 }  // namespace treadmark::report

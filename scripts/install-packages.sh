@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# usage: install-packages.sh [--tests|--fuzz|--libcxx]
+# usage: install-packages.sh [--tests|--fuzz|--libcxx|--web]
 # Installs what building needs on Debian 12, with --tests also what only tests and the parts under the GPL need, with --fuzz also what
-# libFuzzer needs, with --libcxx also what the preset clang-libcxx needs. Does nothing where all of it is installed already.
+# libFuzzer needs, with --libcxx also what the preset clang-libcxx needs, with --web also what the preset web needs. Does nothing where all of it is installed already.
 set -euo pipefail
 
 packages=(
@@ -18,6 +18,7 @@ packages=(
   python3-sphinx python3-myst-parser furo)
 [[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev)
 [[ ${1:-} != --libcxx ]] || packages+=(clang libc++-dev libc++abi-dev googletest)
+[[ ${1:-} != --web ]] || packages+=(emscripten)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

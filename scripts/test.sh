@@ -29,6 +29,14 @@ next tests
 # does not answer on a busy machine is asked once more.
 ctest --preset release -j$(($(nproc) + 1)) --repeat after-timeout:2
 
+next "program for browsers"
+# Not installed for this: emscripten takes a minute, and the build some.
+if command -v em++ >/dev/null; then
+  bash scripts/web.sh build/release
+else
+  echo "skipped: program for browsers and its page (emscripten is not installed: scripts/install-packages.sh --web)" >&2
+fi
+
 next instructions
 # No path may take 5 % more instructions than it did. Where they cannot be counted or compared, the script says why.
 status=0

@@ -375,6 +375,8 @@ int new_command(const NewOptions& options, const CommonOptions&) {
 
 }  // namespace
 
+std::string text_of_new_case() { return kCase; }
+
 Command add_new(CLI::App& verb) {
   auto options = std::make_shared<NewOptions>();
   std::vector<std::string> kinds;

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <iterator>
+#include <span>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,22 @@ std::string url_of(const fs::path& file) {
 
 bool is_print(const fs::path& file) { return io::extension_of(file) == ".pdf"; }
 
+/// A program with its arguments, which reads and prints nothing; 0: it could not be started.
+pid_t started(std::span<std::string> words) {
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_RDWR, 0);
+  pid_t process = 0;
+  if (::posix_spawnp(&process, arguments.front(), &quiet, nullptr, arguments.data(), environ) != 0) process = 0;
+  posix_spawn_file_actions_destroy(&quiet);
+  return process;
+}
+
 std::string printed(const fs::path& file, const std::string& html) {
   // Never committed: gone with this object.
   const OutputFolder stage(fs::absolute(file).parent_path(), OutputFolder::Old::kept);
@@ -67,17 +84,8 @@ std::string printed(const fs::path& file, const std::string& html) {
                          ::geteuid() == 0 ? "--no-sandbox" : "--disable-extensions",
                          "--print-to-pdf=" + pdf.string(),
                          url_of(page)};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t quiet;
-  posix_spawn_file_actions_init(&quiet);
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_RDWR, 0);
-  pid_t process = 0;
-  if (::posix_spawn(&process, arguments.front(), &quiet, nullptr, arguments.data(), environ) == 0)
+  if (const pid_t process = started(words); process != 0)
     while (::waitpid(process, nullptr, 0) < 0 && errno == EINTR) continue;
-  posix_spawn_file_actions_destroy(&quiet);
   std::string bytes = fs::exists(pdf) ? io::profiles::read_text(pdf, "PDF", {}) : "";
   if (!bytes.starts_with("%PDF"))
     throw Error(ErrorKind::input_data, words[0] + " made no PDF", {file.string()},
@@ -100,6 +108,12 @@ void check_page_name(const fs::path& file) {
 
 void write_page(const fs::path& file, const std::string& html) {
   write_file(file, is_print(file) ? printed(file, html) : html);
+}
+
+void open_page(const fs::path& file) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+  std::string words[] = {"xdg-open", fs::absolute(file).string()};
+  started(words);
 }
 
 }  // namespace treadmark::cli

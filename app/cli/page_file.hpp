@@ -15,4 +15,7 @@ void check_page_name(const std::filesystem::path& file);
 /// Error(input_data) where Chromium makes no PDF.
 void write_page(const std::filesystem::path& file, const std::string& html);
 
+/// Opens the page in the user's browser, without waiting; does nothing where there is no screen.
+void open_page(const std::filesystem::path& file);
+
 }  // namespace treadmark::cli

@@ -50,6 +50,9 @@ std::string example_lines(const Verb& verb);
 /// Takes anything, and refuses it by the name of the part that this build leaves out. For without_<part>.cpp.
 Command add_left_out(CLI::App& verb);
 
+/// The case that treadmark new writes. In new_command.cpp.
+std::string text_of_new_case();
+
 /// What treadmark check does with these files: a line about each, or an Error. In check_simulation.cpp.
 void check_study_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_evolution_file(const std::string& name, const std::vector<std::string>& overrides);

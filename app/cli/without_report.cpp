@@ -17,6 +17,7 @@ namespace treadmark::cli {
 
 Command add_report(CLI::App& verb) { return add_left_out(verb); }
 Command add_plot(CLI::App& verb) { return add_left_out(verb); }
+Command add_live(CLI::App& verb) { return add_left_out(verb); }
 
 }  // namespace treadmark::cli
 

@@ -26,6 +26,7 @@
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/surface_errors.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/io/tables/number.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::app {
@@ -325,6 +326,15 @@ std::optional<Body> body_by_shape(const std::filesystem::path& file) {
   } catch (const Error&) {  // told where it is read
     return std::nullopt;
   }
+}
+
+std::string profile_check_json(const CheckedProfile& profile) {
+  io::Json json{{"body", body_name(profile.body)}};
+  json["facts"] = profile.judgement.facts;
+  json["notes"] = profile.judgement.notes;
+  io::Json& warnings = json["warnings"] = io::Json::array();
+  for (const io::ProfileRemark& remark : profile.judgement.remarks) warnings.push_back({remark.name, remark.text});
+  return io::dumped(json);
 }
 
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile) {

@@ -33,6 +33,9 @@ bool is_profile_file(const std::filesystem::path& file);
 CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body,
                              const io::ProfileOptions& options = {}, const io::ExpectedProfile& expected = {});
 
+/// As JSON: "body", "facts" and "warnings" as pairs of texts, "notes". Thread-safe.
+std::string profile_check_json(const CheckedProfile& profile);
+
 /// What is doubtful about a profile by itself, wherever it is to be placed. Never throws; thread-safe.
 std::vector<io::ProfileRemark> doubts_of(const io::SourcedProfile& profile);
 

@@ -16,6 +16,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
 
 namespace treadmark::c {
@@ -110,6 +111,16 @@ tm_status tm_case_copy(const tm_case* from, tm_case** out) {
 }
 
 void tm_case_free(tm_case* c) { delete c; }
+
+tm_status tm_case_text(const tm_case* c, char** toml) {
+  if (toml != nullptr) *toml = nullptr;
+  return guarded([&] {
+    require(c != nullptr && toml != nullptr, "case and toml must not be null");
+    io::CaseFile file;
+    file.cases = {*c->content};
+    *toml = lasting(io::case_file_text(file, c->folder));
+  });
+}
 
 tm_status tm_case_set(tm_case* c, const char* assignment) {
   return guarded([&] {

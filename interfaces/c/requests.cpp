@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/app/measure/measure_files.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/surfaces.hpp"
 
@@ -36,6 +39,19 @@ tm_status tm_measure(tm_body body, const char* file, const char* const* settings
     const app::MeasureRequest request = app::measure_request(body_of(body), given_by(settings, n));
     const app::MeasuredFile measured = app::measure_file(file, request);
     if (json != nullptr) *json = lasting(app::measure_json(measured, request));
+  });
+}
+
+tm_status tm_check_profile(const char* file, const char* body, char** json) {
+  if (json != nullptr) *json = nullptr;
+  return guarded([&] {
+    require(file != nullptr, "file must not be null");
+    const std::string_view kind = body == nullptr ? "" : body;
+    require(kind.empty() || kind == "wheel" || kind == "rail", "body must be wheel or rail");
+    std::optional<Body> known;
+    if (!kind.empty()) known = kind == "wheel" ? Body::wheel : Body::rail;
+    const std::string text = app::profile_check_json(app::check_profile(file, known));
+    if (json != nullptr) *json = lasting(text);
   });
 }
 

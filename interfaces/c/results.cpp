@@ -9,10 +9,12 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/handles.hpp"
 #include "treadmark/interfaces/c/numbers.hpp"
+#include "treadmark/interfaces/c/surfaces.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/write_json.hpp"
@@ -39,6 +41,13 @@ double value_of(const Result& result, const ResultNumber<Result>* number) {
   const io::Quantity<Result>& row = *number->row;
   return io::has_block(result, row.block) && row.has(result) ? row.access.get(result)
                                                              : std::numeric_limits<double>::quiet_NaN();
+}
+
+void give(const Pose& pose, double* origin, double* rotation) {
+  for (int i = 0; i < 3; ++i) {
+    if (origin != nullptr) origin[i] = pose.origin[i];
+    for (int k = 0; rotation != nullptr && k < 3; ++k) rotation[3 * i + k] = pose.rotation(i, k);
+  }
 }
 
 const std::vector<Remark>& remarks_of(const tm_solution& s) { return s.pair ? s.pair->remarks : s.result->remarks; }
@@ -109,6 +118,15 @@ tm_status tm_solution_number(tm_solution* s, const char* name, double* value) {
   });
 }
 
+tm_status tm_solution_pose(tm_solution* s, tm_body body, double origin[3], double rotation[9]) {
+  return guarded([&] {
+    const io::CaseResult& result = result_of(s);
+    const Body which = body_of(body);
+    if (!result.bodies) throw Error(ErrorKind::configuration, "the solution has no wheel and rail");
+    give(which == Body::wheel ? result.bodies->X_TA : result.bodies->X_TS, origin, rotation);
+  });
+}
+
 size_t tm_solution_patches(const tm_solution* s) {
   return s == nullptr ? 0 : s->pair ? s->pair->patches.size() : s->result->patches.size();
 }
@@ -133,6 +151,10 @@ tm_status tm_patch_grid(tm_solution* s, size_t patch, int* nx, int* ny, double* 
   });
 }
 
+tm_status tm_patch_pose(tm_solution* s, size_t patch, double origin[3], double rotation[9]) {
+  return guarded([&] { give(patch_of(s, patch).fields.X_TC, origin, rotation); });
+}
+
 tm_status tm_patch_field(tm_solution* s, size_t patch, const char* name, const double** values) {
   if (values != nullptr) *values = nullptr;
   return guarded([&] {
@@ -141,6 +163,15 @@ tm_status tm_patch_field(tm_solution* s, size_t patch, const char* name, const d
     require(column != std::end(io::kFieldColumns), "no field has this name (tm_list names them)");
     const std::vector<double>& field = patch_of(s, patch).fields.*(column->values);
     *values = field.empty() ? nullptr : field.data();
+  });
+}
+
+tm_status tm_patch_states(tm_solution* s, size_t patch, const uint8_t** states) {
+  if (states != nullptr) *states = nullptr;
+  return guarded([&] {
+    require(states != nullptr, "states must not be null");
+    const std::vector<std::uint8_t>& all = patch_of(s, patch).fields.state;
+    *states = all.empty() ? nullptr : all.data();
   });
 }
 

@@ -93,6 +93,8 @@ TM_API tm_status tm_case_read(const char *file, int number, tm_case **out);
 TM_API tm_status tm_case_parse(const char *text, size_t length, const char *folder, int number, tm_case **out);
 TM_API tm_status tm_case_copy(const tm_case *from, tm_case **out);
 TM_API void tm_case_free(tm_case *c);
+/* The text of a .toml file that reads as the same case, names of files counted from its folder; freed with tm_text_free. */
+TM_API tm_status tm_case_text(const tm_case *c, char **toml);
 /* As --set of the program: "key=value" with the keys and units of case files ("wheelset.y_mm=5", "friction.kind=..."). */
 TM_API tm_status tm_case_set(tm_case *c, const char *assignment);
 /* A number by the name of its key without the unit, in SI: "wheelset.y", 5e-3. Takes well below a microsecond. */
@@ -216,12 +218,19 @@ TM_API tm_status tm_solution_remark(const tm_solution *s, size_t i, const char *
 /* Numbers by their names in results (docs/results.md) without unit, in SI: "force_on_rail.fz_tr"; of a patch "fn", "pmax". A quantity
  * that was not computed is NaN. */
 TM_API tm_status tm_solution_number(tm_solution *s, const char *name, double *value);
+/* Where the surface of the wheel or rail lay: p_track = origin + rotation p_surface, rotation by rows, the wheel's with its pitch; the
+ * surface of a left-hand side is the mirror image of its file. TM_BAD_REQUEST: a solution without bodies. */
+TM_API tm_status tm_solution_pose(tm_solution *s, tm_body body, double origin[3], double rotation[9]);
 TM_API size_t tm_solution_patches(const tm_solution *s);
 TM_API tm_status tm_patch_number(tm_solution *s, size_t patch, const char *name, double *value);
 /* Size and place of a patch's elements: centre of the first and steps [m]. */
 TM_API tm_status tm_patch_grid(tm_solution *s, size_t patch, int *nx, int *ny, double *x0, double *y0, double *dx, double *dy);
+/* Of the axes (x, s, n) of a patch's grid in those of the track, as tm_solution_pose; of a case of one patch its own axes. */
+TM_API tm_status tm_patch_pose(tm_solution *s, size_t patch, double origin[3], double rotation[9]);
 /* A field of nx * ny numbers, x running fastest: "pressure", "traction_x", ... Lent by the solution. Null and TM_OK: was not computed. */
 TM_API tm_status tm_patch_field(tm_solution *s, size_t patch, const char *name, const double **values);
+/* Likewise what each element is: 0 outside of contact, 1 adhesion, 2 slip, 3 plastic. */
+TM_API tm_status tm_patch_states(tm_solution *s, size_t patch, const uint8_t **states);
 TM_API void tm_solution_free(tm_solution *s);
 
 /* Name, unit and meaning of the i-th number of cases, results, fields or tables of forces; TM_BAD_ARGUMENT behind the last one. Lent for ever. */
@@ -243,6 +252,9 @@ TM_API tm_status tm_geometry(const char *const *settings, size_t n, char **json)
  * measured says why; limits that do not hold are results, too. json: as `treadmark schema measure` says, freed with
  * tm_text_free. */
 TM_API tm_status tm_measure(tm_body body, const char *file, const char *const *settings, size_t n, char **json);
+/* As `treadmark check` of a profile's file: how it is read, and what speaks for that. body: "wheel", "rail", null: by its name and shape. json,
+ * freed with tm_text_free: {"body", "facts": [[name, value], ...], "notes": [text, ...], "warnings": [[name, text], ...]}. */
+TM_API tm_status tm_check_profile(const char *file, const char *body, char **json);
 TM_API void tm_text_free(char *text);
 
 #ifdef __cplusplus

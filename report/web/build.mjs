@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Bundles the scripts of the report into one file, which the page holds inline.
-// usage: node build.mjs --out DIR      writes DIR/report.js
+// Bundles the scripts of the report into one file, which the page holds inline, and those that pages which solve have beside it.
+// usage: node build.mjs --out DIR      writes DIR/report.js and DIR/live.js
 import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -29,21 +29,21 @@ function licences(inputs) {
   });
 }
 
-/** Resolves the import "bundled-licences" to the given list. */
-function licencesModule(list) {
+/** Resolves the import `name` to a value. */
+function made(name, value) {
   return {
-    name: "licences",
+    name,
     setup(builder) {
-      builder.onResolve({ filter: /^bundled-licences$/ }, () => ({ path: "bundled-licences", namespace: "licences" }));
-      builder.onLoad({ filter: /.*/, namespace: "licences" }, () => ({ contents: JSON.stringify(list), loader: "json" }));
+      builder.onResolve({ filter: new RegExp(`^${name}$`) }, () => ({ path: name, namespace: name }));
+      builder.onLoad({ filter: /.*/, namespace: name }, () => ({ contents: JSON.stringify(value), loader: "json" }));
     },
   };
 }
 
-function bundle(list) {
+function bundle(entry, plugins = []) {
   return build({
     absWorkingDir: here,
-    entryPoints: ["src/main.ts"],
+    entryPoints: [`src/${entry}.ts`],
     bundle: true,
     minify: true,
     format: "iife",
@@ -53,15 +53,24 @@ function bundle(list) {
     metafile: true,
     write: false,
     logLevel: "warning",
-    plugins: [licencesModule(list)],
+    plugins,
   });
 }
 
-// Twice: the first bundle tells which packages the second one has to name.
-const first = await bundle([]);
-const list = licences(first.metafile.inputs);
-const text = (await bundle(list)).outputFiles[0].text.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
-if (/<\/script/i.test(text)) throw new Error("the bundle would end the page's script element");
+function write(name, { outputFiles }, about) {
+  const text = outputFiles[0].text.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
+  if (/<\/script/i.test(text)) throw new Error("the bundle would end the page's script element");
+  writeFileSync(join(out, name), text);
+  console.log(`${name}: ${(text.length / 1024).toFixed(0)} KiB with ${about}`);
+}
+
 if (!existsSync(out)) mkdirSync(out, { recursive: true });
-writeFileSync(join(out, "report.js"), text);
-console.log(`report.js: ${(text.length / 1024).toFixed(0)} KiB with ${list.map((entry) => `${entry.name} ${entry.version}`).join(", ") || "no libraries"}`);
+// Twice: the first bundle tells which packages the second one has to name.
+const first = await bundle("main", [made("bundled-licences", [])]);
+const list = licences(first.metafile.inputs);
+write("report.js", await bundle("main", [made("bundled-licences", list)]), list.map((entry) => `${entry.name} ${entry.version}`).join(", ") || "no libraries");
+const worker = (await bundle("live/worker")).outputFiles[0].text;
+const live = await bundle("live/main", [made("live-worker", worker)]);
+const alien = licences(live.metafile.inputs).filter(({ name }) => !list.some((entry) => entry.name === name));
+if (alien.length > 0) throw new Error(`nothing names ${alien[0].name}`);
+write("live.js", live, "the worker");

@@ -5,7 +5,7 @@
 
 export interface ReportData {
   format: "treadmark report 1";
-  kind: "run" | "check" | "compare" | "bench" | "import" | "simulation" | "assessment" | "evolution" | "sweep" | "overlay";
+  kind: "live" | "run" | "check" | "compare" | "bench" | "import" | "simulation" | "assessment" | "evolution" | "sweep" | "overlay";
   title: string;
   timeline: Timeline | null;
   /** Quantities that patches may have, in the order of the menu. */
@@ -19,6 +19,21 @@ export interface ReportData {
   blobs: string[];
   /** result.json, compare.json, ... as it lies in the folder. */
   document: unknown;
+  /** Of pages that solve. */
+  live?: LiveData;
+}
+
+/** What a page that solves starts from, and how treadmark.h names what the views show. */
+export interface LiveData {
+  /** The case, and the files that it names, as base64. */
+  toml: string;
+  files: Record<string, string>;
+  /** Names of `treadmark list profiles`. */
+  profiles: { wheel: string[]; rail: string[] };
+  /** A field is one column times the factor, or the length of two. */
+  fields: { name: string; columns: string[]; factor: number }[];
+  /** Of Patch.numbers. */
+  numbers: { key: string; name: string; factor: number }[];
 }
 
 /** An array of numbers: plain (null = NaN), or packed in a blob. */
@@ -37,6 +52,8 @@ export interface Packed {
   low?: number;
   step?: number;
   none?: boolean;
+  /** Instead of a blob: f32 numbers as they are. */
+  values?: Float32Array;
 }
 
 export interface Axis {

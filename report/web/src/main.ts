@@ -72,6 +72,7 @@ function start(): void {
   mountNavigation();
   const footer = document.querySelector<HTMLElement>("body > footer");
   if (footer) mountLicences(footer);
+  window.dispatchEvent(new CustomEvent("treadmark-report", { detail: store }));  // to the script of pages that solve
 }
 
 start();

@@ -33,6 +33,7 @@ function blobBytes(blobs: string[], index: number): Uint8Array {
 const widths = { u8: 1, u16: 2, f32: 4 } as const;
 
 function unpack(packed: Packed, blobs: string[]): Float32Array {
+  if (packed.values) return packed.values;
   const bytes = blobBytes(blobs, packed.blob);
   const { offset, count } = packed;
   if (offset + count * widths[packed.type] > bytes.length) throw new Error(`blob ${packed.blob} is too short`);

@@ -134,6 +134,7 @@ class SectionFigure {
     };
     new ResizeObserver(fit).observe(frame);
     store.onStep(() => this.draw(this.drawnWidth));
+    store.onRenewal(() => this.draw(this.drawnWidth));
     window.addEventListener("beforeprint", () => this.draw(PAPER_WIDTH));
     onPaper(figure, store, (suffix) => {
       this.draw(PAPER_WIDTH);

@@ -50,6 +50,7 @@ export class Store {
   private readonly axes = new Signal(() => this.currentAxis);
   private readonly points = new Signal(() => this.currentPoint);
   private readonly themes = new Signal(() => this.currentTheme);
+  private readonly renewals = new Signal(() => this.data);
 
   constructor(data: ReportData) {
     this.data = data;
@@ -126,6 +127,15 @@ export class Store {
 
   onTheme(listener: (theme: Theme) => void): () => void {
     return this.themes.on(listener);
+  }
+
+  /** Tells that the data are others: of pages that solve. */
+  renew(): void {
+    this.renewals.raise();
+  }
+
+  onRenewal(listener: () => void): () => void {
+    return this.renewals.on(listener);
   }
 
   /** Frame of a step (the current one) in every set; null = none. */

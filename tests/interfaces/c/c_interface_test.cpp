@@ -48,6 +48,44 @@ TEST(CInterface, APairGivesTheNumbersOfTheProgram) {
   EXPECT_STREQ(tm_solution_message(s.get()), "");
 }
 
+TEST(CInterface, PosesAndStatesAreThoseOfTheProgram) {
+  const CaseOf given = case_of(kText);
+  const PairOf pair = pair_of(given.get());
+  const SolutionOf s = solved(pair.get(), given.get());
+  const io::RunResult run = app::run_cases(io::parse_case_text(kText, "text"));
+  const io::CaseResult& expected = run.cases.front();
+  double origin[3], rotation[9];
+  const auto is = [&](const Pose& pose) {
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(origin[i], pose.origin[i]);
+      for (int k = 0; k < 3; ++k) EXPECT_EQ(rotation[3 * i + k], pose.rotation(i, k));
+    }
+  };
+  ASSERT_EQ(tm_solution_pose(s.get(), TM_WHEEL, origin, rotation), TM_OK) << tm_message();
+  is(expected.bodies->X_TA);
+  ASSERT_EQ(tm_solution_pose(s.get(), TM_RAIL, origin, rotation), TM_OK);
+  is(expected.bodies->X_TS);
+  ASSERT_EQ(tm_patch_pose(s.get(), 0, origin, rotation), TM_OK);
+  is(expected.patches.front().fields.X_TC);
+  const std::uint8_t* states = nullptr;
+  ASSERT_EQ(tm_patch_states(s.get(), 0, &states), TM_OK);
+  const std::vector<std::uint8_t>& all = expected.patches.front().fields.state;
+  EXPECT_EQ(std::vector<std::uint8_t>(states, states + all.size()), all);
+}
+
+TEST(CInterface, TheTextOfACaseReadsAsTheSameCase) {
+  const CaseOf given = case_of(kText);
+  ASSERT_EQ(tm_case_set(given.get(), "wheelset.yaw_deg=0.5"), TM_OK) << tm_message();
+  ASSERT_EQ(tm_case_set_number(given.get(), "wheelset.y", 1.0 / 300.0), TM_OK);
+  char* text = nullptr;
+  ASSERT_EQ(tm_case_text(given.get(), &text), TM_OK) << tm_message();
+  const CaseOf again = case_of(text);
+  tm_text_free(text);
+  const PairOf pair = pair_of(given.get()), other = pair_of(again.get());
+  const SolutionOf one = solved(pair.get(), given.get()), same = solved(other.get(), again.get());
+  EXPECT_EQ(field(one.get(), 0, "pressure"), field(same.get(), 0, "pressure"));
+}
+
 TEST(CInterface, NumbersOfCasesAreInSi) {
   const CaseOf a = case_of(kText), b = case_of(kText);
   ASSERT_EQ(tm_case_set(a.get(), "wheelset.yaw_deg=0.5"), TM_OK) << tm_message();

@@ -14,6 +14,7 @@
 
 #include "treadmark/app/geometry/geometry_run.hpp"
 #include "treadmark/app/measure/measure_files.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/tests/interfaces/c/owned.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
@@ -101,6 +102,26 @@ TEST(CRequests, DocumentsNameEverySetting) {
   const std::string page(std::istreambuf_iterator<char>(in), {});
   for (const auto* keys : {&app::geometry_keys().infos, &app::measure_keys().infos})
     for (const io::KeyInfo& key : *keys) EXPECT_THAT(page, HasSubstr('`' + key.path + '`'));
+}
+
+TEST(CRequests, AProfileIsReadAsTheProgramReadsIt) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "worn.csv").string();
+  std::ofstream out(file);
+  out << "y [mm],z [mm]\n";
+  for (int i = 0; i <= 60; ++i) out << 30 - i << ',' << (i > 50 ? (i - 50) * (i - 50) / 4.0 : 0.0) << '\n';
+  out.close();
+  char* text = nullptr;
+  ASSERT_EQ(tm_check_profile(file.c_str(), "wheel", &text), TM_OK) << tm_message();
+  const json said = json::parse(text);
+  tm_text_free(text);
+  const app::CheckedProfile expected = app::check_profile(file, Body::wheel);
+  EXPECT_EQ(said.at("body"), "wheel");
+  ASSERT_FALSE(expected.judgement.facts.empty());
+  EXPECT_EQ(said.at("facts"), json(expected.judgement.facts));
+  EXPECT_EQ(said.at("warnings").size(), expected.judgement.remarks.size());
+  EXPECT_EQ(tm_check_profile(file.c_str(), "flange", &text), TM_BAD_ARGUMENT);
+  EXPECT_EQ(text, nullptr);
 }
 
 TEST(CRequests, AConeIsACone) {

@@ -129,6 +129,7 @@ export class Chart implements PointerTarget {
       this.follow();
       if (this.view.by_step || this.view.linked) this.schedule();
     });
+    this.store.onRenewal(() => this.change());
     if (this.view.linked)
       this.store.onAxis(() => {
         this.window = null;

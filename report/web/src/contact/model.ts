@@ -25,7 +25,7 @@ const NOTHING: Range = { low: Infinity, high: -Infinity };
 export class Model {
   readonly sets: FrameSet[];
   /** Frames that any step shows, each once. */
-  readonly frames: number[];
+  frames: number[] = [];
   private readonly panelsOf = new Map<string, PanelModel[]>();
   private readonly ranges = new Map<string, Range>();
   private readonly windows = new Map<string, Box>();
@@ -36,7 +36,13 @@ export class Model {
     readonly setNumbers: readonly number[],
   ) {
     this.sets = setNumbers.flatMap((k) => data.sets[k] ?? []);
-    this.frames = framesOf(data, this.sets);
+    this.renew();
+  }
+
+  /** Forgets what was said: the data are others. */
+  renew(): void {
+    this.frames = framesOf(this.data, this.sets);
+    for (const kept of [this.panelsOf, this.ranges, this.windows]) kept.clear();
   }
 
   /** All sets at a frame: the first about its own contact reference, the others where they lie to it in track. */
@@ -188,6 +194,7 @@ export function choicesOf(model: Model, allFirst = false): { label: string; choi
       most = Math.max(most, found.patches.length);
       for (const k of byLoad(found)) names.add(found.patches[k]?.name ?? "");
     }
+  if (model.data.live) most = 3;
   if (most < 2 && !allFirst) return [];
   const ranks = ["most loaded", "second by load", "third by load"];
   const out: { label: string; choice: Choice }[] = ranks.slice(0, most).map((label, rank) => ({ label, choice: { kind: "load", rank } }));

@@ -65,7 +65,7 @@ export class ContactFigure {
     const { sets } = this.model;
     this.other = sets.some(({ nominal }) => nominal !== null) ? "nominal patch" : sets.length > 1 ? (sets[0]?.name ?? null) : null;
     // Results that are laid over each other may differ in where they have contact.
-    this.allFirst = store.data.kind === "overlay" && isApart(this.model);
+    this.allFirst = store.data.kind === "live" || (store.data.kind === "overlay" && isApart(this.model));
     this.options = {
       field: this.fields.find(({ name }) => name === "pressure")?.name ?? this.fields[0]?.name ?? "",
       choice: this.allFirst ? { kind: "all" } : { kind: "load", rank: 0 },
@@ -88,7 +88,7 @@ export class ContactFigure {
     );
     this.parts = makeSkeleton(figure, controls, view.id, sets.length > 1);
     // Where any step has something to say, its line stays, so that the picture does not jump.
-    this.parts.status.hidden = this.model.frames.every((k) => statusText(this.model.panels(k, this.options.choice), true).text === "");
+    this.parts.status.hidden = !store.data.live && this.model.frames.every((k) => statusText(this.model.panels(k, this.options.choice), true).text === "");
     this.readout = new Readout(this.model, this.fields);
     this.fillSide();
     this.charts = new SectionCharts(view.id);
@@ -125,6 +125,10 @@ export class ContactFigure {
     const { store } = this;
     store.onStep(() => this.refresh());
     store.onTheme(() => this.refresh());
+    store.onRenewal(() => {
+      this.model.renew();
+      this.refresh();
+    });
     store.onPoint(() => this.takePoint());
     if (typeof IntersectionObserver === "undefined") this.visible = true;
     else

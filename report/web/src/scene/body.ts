@@ -70,6 +70,11 @@ export class Body {
     return part;
   }
 
+  /** Gives back what the graphics card holds of it. */
+  dispose(): void {
+    for (const { geometry } of this.drawn) geometry.dispose();
+  }
+
   setColour(colour: Rgb): void {
     this.materials.base.value.copy(rgbVector(colour));
   }

@@ -156,6 +156,7 @@ export function mountScene(figure: HTMLElement, view: SceneView, store: Store): 
     make: (stage, layers, output, fullScreen) => {
       const viewer = new Viewer(figure, stage, layers, output, view, store, fullScreen);
       store.onPoint(() => viewer.pointChanged());
+      store.onRenewal(() => viewer.renew());
       return viewer;
     },
   };

@@ -41,7 +41,8 @@ export class Viewer implements ControlTarget {
   private readonly world = new Group();
   private readonly patches: PatchLayer;
   private readonly ranges = new Map<string, Range | null>();
-  private readonly greatestTraction: number;
+  private greatestTraction = 0;
+  private renewals = 0;
   private palette: Palette;
   private wheel: Body | null = null;
   private rail: Body | null = null;
@@ -94,10 +95,7 @@ export class Viewer implements ControlTarget {
       deviation: offered.deviation && !contact,
       exaggeration: 1,
     };
-    const traction = this.rangeOf("traction");
-    const [tx, ts] = [this.rangeOf("traction_x"), this.rangeOf("traction_s")];
-    const size = (range: Range | null): number => (range ? Math.max(Math.abs(range.low), Math.abs(range.high)) : 0);
-    this.greatestTraction = traction ? traction.high : Math.hypot(size(tx), size(ts));
+    this.greatestTraction = this.measuredTraction();
     this.panel = makePanel(this.options, offered, () => this.optionsChanged(), (name) => this.preset(name), fullScreen);
     this.world.matrixAutoUpdate = false;
     this.world.add(this.patches.group);
@@ -126,6 +124,28 @@ export class Viewer implements ControlTarget {
     const range = rangeOfSet(this.set, name, (packed) => rangeOf(decode(packed, blobs), all(packed.count)));
     this.ranges.set(name, range);
     return range;
+  }
+
+  private measuredTraction(): number {
+    const traction = this.rangeOf("traction");
+    const [tx, ts] = [this.rangeOf("traction_x"), this.rangeOf("traction_s")];
+    const size = (range: Range | null): number => (range ? Math.max(Math.abs(range.low), Math.abs(range.high)) : 0);
+    return traction ? traction.high : Math.hypot(size(tx), size(ts));
+  }
+
+  /** The data are others: what was made of those before goes. */
+  renew(): void {
+    for (const [key, body] of this.bodies) {
+      if (this.store.data.surfaces[key] === body.data) continue;
+      this.world.remove(body.group);
+      body.dispose();
+      this.bodies.delete(key);
+    }
+    this.ranges.clear();
+    this.greatestTraction = this.measuredTraction();
+    ++this.renewals;
+    this.frameIndex = -2;
+    this.setStep();
   }
 
   private get field(): FieldInfo | undefined {
@@ -219,7 +239,7 @@ export class Viewer implements ControlTarget {
 
   private showPatches(): void {
     const { field, options, frame } = this;
-    const shape = `${this.frameIndex} ${this.exaggeration}`;
+    const shape = `${this.frameIndex} ${this.renewals} ${this.exaggeration}`;
     const info = field ?? { name: "", label: "", unit: "", kind: "sequential" as const };
     let range = options.sameScale ? this.rangeOf(info.name) : null;
     if (!options.sameScale && frame) {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cases/pages/live_page.hpp"
+
+#include <utility>
+
+#include "treadmark/app/cases/pages/case_figures.hpp"
+#include "treadmark/app/pages/page_parts.hpp"
+#include "treadmark/backends/profile_library.hpp"
+
+namespace treadmark::app::pages {
+
+using namespace report;
+
+namespace {
+
+/// Filled by the page itself, which knows the names and the order of its series.
+ChartView rolling_radii() {
+  ChartView view;
+  view.x = Axis{"lateral place of the wheelset y", "mm"};
+  view.panels = {
+      {"rolling radius difference", "mm", false, {{"right less left", {}}, {"here", {}, {}, Series::Marks::points}}},
+      {"place of contact, right side", "mm", false, {{"on the rail", {}}, {"on the wheel", {}}}}};
+  return view;
+}
+
+}  // namespace
+
+Page live_page(const std::shared_ptr<const io::RunResult>& run, Solving solving) {
+  for (const LibraryProfile& row : profile_library())
+    if (!row.family) (row.body == Body::wheel ? solving.wheels : solving.rails).push_back(row.name);
+  Page page{"live", title_of(run->title, run->input_file), ""};
+  page.lead =
+      "Change something, or drop a profile or a case on the page: it is solved here, in this page; nothing leaves it.";
+  page.timeline = case_timeline(*run);
+  page.sets.push_back(frames_of(run, "result"));
+  page.surfaces = run->sampled;
+  page.sections = {{"given", "Wheel on rail"},
+                   {"contact", "Contact", {Figure{"patches-view", "Contact patches", ContactView{{0}}}}},
+                   {"places",
+                    "Over the track",
+                    {Figure{"rolling-radii", "Rolling radius difference and places of contact", rolling_radii(),
+                            "Of rigid bodies, without roll: as treadmark geometry has it."}}}};
+  append(page.sections[1].blocks, body_figures("Wheel and rail"));
+  page.sections.push_back({"origin", "The case at the start", {Facts{run->inputs}, origin_facts(*run)}});
+  page.solving = std::move(solving);
+  return page;
+}
+
+}  // namespace treadmark::app::pages

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+
+// The functions of treadmark.h in a module of WebAssembly (interfaces/web).
+
+/** What the module's own script makes. */
+export interface Module {
+  HEAPU8: Uint8Array;
+  HEAP32: Int32Array;
+  HEAPF64: Float64Array;
+  FS: { writeFile(path: string, data: Uint8Array): void; mkdirTree(path: string): void; unlink(path: string): void };
+  UTF8ToString(pointer: number): string;
+  stringToUTF8(text: string, pointer: number, room: number): void;
+  lengthBytesUTF8(text: string): number;
+  _malloc(size: number): number;
+  _free(pointer: number): void;
+}
+
+export const enum Status {
+  ok = 0,
+  failed = 3,
+  outOfMemory = 15,
+}
+/** Of tm_body. */
+export const RAIL = 0;
+export const WHEEL = 1;
+
+/** What a call of treadmark.h that did nothing says. */
+export class CallError extends Error {
+  constructor(
+    readonly status: number,
+    message: string,
+  ) {
+    super(message);
+  }
+}
+
+type Argument = number | string;
+
+/** Calls by name: texts are lent for the call, outputs lie in places of `out`. */
+export class Library {
+  /** Places of eight bytes each for what calls give. */
+  private readonly places: number;
+
+  constructor(readonly module: Module) {
+    this.places = module._malloc(8 * 32);
+  }
+
+  /** Address of the k-th place for an output. */
+  out(k: number): number {
+    return this.places + 8 * k;
+  }
+
+  pointer(k: number): number {
+    return this.module.HEAP32[this.out(k) >> 2]!;
+  }
+
+  double(k: number): number {
+    return this.module.HEAPF64[this.out(k) >> 3]!;
+  }
+
+  doubles(pointer: number, count: number): Float64Array {
+    return this.module.HEAPF64.slice(pointer >> 3, (pointer >> 3) + count);
+  }
+
+  text(pointer: number): string {
+    return pointer === 0 ? "" : this.module.UTF8ToString(pointer);
+  }
+
+  /** What the function returns: a status, a size or an address. */
+  ask(name: string, ...given: Argument[]): number {
+    const { module } = this;
+    const lent: number[] = [];
+    try {
+      const values = given.map((one) => {
+        if (typeof one === "number") return one;
+        const room = module.lengthBytesUTF8(one) + 1;
+        const at = module._malloc(room);
+        if (at === 0) throw new CallError(Status.outOfMemory, "there is not enough memory");
+        lent.push(at);
+        module.stringToUTF8(one, at, room);
+        return at;
+      });
+      return (module as unknown as Record<string, (...values: number[]) => number>)[`_tm_${name}`]!(...values);
+    } finally {
+      lent.forEach((at) => module._free(at));
+    }
+  }
+
+  /** The same of a function with a status: how a computation ended. Errors: CallError for what did nothing. */
+  call(name: string, ...given: Argument[]): number {
+    const status = this.ask(name, ...given);
+    if (status > Status.failed) throw new CallError(status, this.text(this.ask("message")));
+    return status;
+  }
+
+  /** An object that a call makes at its last argument. */
+  make(name: string, ...given: Argument[]): number {
+    this.call(name, ...given, this.out(0));
+    return this.pointer(0);
+  }
+
+  /** A text that a call makes at its last argument. */
+  textOf(name: string, ...given: Argument[]): string {
+    const at = this.make(name, ...given);
+    const text = this.text(at);
+    this.ask("text_free", at);
+    return text;
+  }
+
+  /** The same of a function of a list of settings. */
+  textBySettings(name: string, settings: readonly string[], ...before: Argument[]): string {
+    const { module } = this;
+    const texts = settings.map((text) => {
+      const room = module.lengthBytesUTF8(text) + 1;
+      const at = module._malloc(room);
+      module.stringToUTF8(text, at, room);
+      return at;
+    });
+    const list = module._malloc(4 * Math.max(1, texts.length));
+    texts.forEach((at, k) => (module.HEAP32[(list >> 2) + k] = at));
+    try {
+      return this.textOf(name, ...before, list, texts.length);
+    } finally {
+      [...texts, list].forEach((at) => module._free(at));
+    }
+  }
+
+  /** A number by name of what a function knows; NaN where it does not. */
+  number(name: string, ...given: Argument[]): number {
+    return this.ask(name, ...given, this.out(0)) > Status.failed ? NaN : this.double(0);
+  }
+}

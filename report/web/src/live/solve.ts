@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import type { Frame, LiveData, Packed, Patch, Placed, SurfaceData } from "../data";
+import { bodyOf, MILLI, plain } from "./bodies";
+import { RAIL, Status, WHEEL, type Library } from "./library";
+
+// Solves cases as the worker of a page does, and gives what the views show.
+
+/** A case: the text of its file, and keys that differ. */
+export interface Given {
+  toml: string;
+  changes: readonly string[];
+}
+
+export interface Remark {
+  name: string;
+  text: string;
+  patch: number;
+  grave: boolean;
+}
+
+export interface Solved {
+  frame: Frame;
+  /** Rail and wheel, if they are others than those before. */
+  surfaces: SurfaceData[] | null;
+  remarks: Remark[];
+  /** In track axes [N]. */
+  force: [number, number, number];
+  milliseconds: number;
+}
+
+/** Folder of the files that were given. */
+export const FOLDER = "/case";
+const STATUS = ["ok", "no_contact", "not_converged", "failed"] as const;
+const NONE: Solved["force"] = [NaN, NaN, NaN];
+
+/** Keys on which the surfaces do not depend, where they are not sampled for their place. */
+const MOTIONS = /^(wheelset\.(y|yaw|roll|pitch|vpitch|velocity|rolling|vertical_force|longitudinal_force)\w*|friction\.\w+|discretisation\.\w+)=/;
+
+export class Solver {
+  private key = "";
+  private pair = 0;
+  private surfaces: [number, number] = [0, 0];
+  private shown: SurfaceData[] = [];
+
+  constructor(
+    private readonly library: Library,
+    private readonly live: LiveData,
+  ) {
+    library.module.FS.mkdirTree(FOLDER);
+  }
+
+  addFile(name: string, bytes: Uint8Array): void {
+    this.library.module.FS.writeFile(`${FOLDER}/${name}`, bytes);
+    this.key = "";
+  }
+
+  /** Does something with a case; it is freed. */
+  with<T>({ toml, changes }: Given, task: (c: number) => T): T {
+    const { library } = this;
+    const c = library.make("case_parse", toml, new TextEncoder().encode(toml).length, FOLDER, 1);
+    try {
+      for (const change of changes) library.call("case_set", c, change);
+      return task(c);
+    } finally {
+      library.ask("case_free", c);
+    }
+  }
+
+  /** The case as a file, and its numbers in SI by their names in treadmark.h. */
+  said(given: Given, names: readonly string[]): { toml: string; numbers: Record<string, number> } {
+    return this.with(given, (c) => ({
+      toml: this.library.textOf("case_text", c),
+      numbers: Object.fromEntries(names.map((name) => [name, this.library.number("case_get_number", c, name)])),
+    }));
+  }
+
+  /** As `treadmark geometry` of the case. */
+  geometry(given: Given): unknown {
+    const file = `${FOLDER}/case-of-the-page.toml`;
+    this.library.module.FS.writeFile(file, new TextEncoder().encode(this.said(given, []).toml));
+    return JSON.parse(this.library.textBySettings("geometry", [`case=${file}`]));
+  }
+
+  check(name: string, body: string): unknown {
+    return JSON.parse(this.library.textOf("check_profile", `${FOLDER}/${name}`, body === "" ? 0 : body));
+  }
+
+  private prepare(given: Given, c: number): boolean {
+    const { library } = this;
+    const sampled = given.toml.includes("backend");
+    const key = JSON.stringify([given.toml, given.changes.filter((change) => sampled || !MOTIONS.test(change))]);
+    if (key === this.key) return false;
+    const rail = library.make("surface_of_case", c, RAIL);
+    const wheel = library.make("surface_of_case", c, WHEEL);
+    const pair = library.make("pair_create", rail, wheel);
+    library.ask("pair_free", this.pair);
+    this.surfaces.forEach((one) => library.ask("surface_free", one));
+    [this.pair, this.surfaces, this.key] = [pair, [rail, wheel], key];
+    const left = /^side = "left"/m.test(library.textOf("case_text", c));
+    this.shown = [RAIL, WHEEL].flatMap((body) => bodyOf(library, this.surfaces[body]!, body, left) ?? []);
+    return true;
+  }
+
+  /** As it is, or at elements of a size [mm]. Errors: CallError. */
+  solve(given: Given, element: number | null, name: string): Solved {
+    const changes = element === null ? given.changes : [...given.changes, `discretisation.dx_mm=${element}`, `discretisation.ds_mm=${element}`];
+    return this.with({ ...given, changes }, (c) => {
+      const { library } = this;
+      const other = this.prepare(given, c);
+      library.call("pair_reset", this.pair);
+      const begin = performance.now();
+      const status = library.call("pair_solve", this.pair, c, library.out(0));
+      const s = library.pointer(0);
+      const milliseconds = performance.now() - begin;
+      try {
+        return { ...this.shownOf(s, status, name), surfaces: other ? this.shown : null, milliseconds };
+      } finally {
+        library.ask("solution_free", s);
+      }
+    });
+  }
+
+  private shownOf(s: number, status: number, name: string): Pick<Solved, "frame" | "remarks" | "force"> {
+    const { library } = this;
+    const message = library.text(library.ask("solution_message", s));
+    const frame: Frame = { name, status: STATUS[status] ?? "failed", message, patches: [], wheel: null, rail: null };
+    const remarks = Array.from({ length: library.ask("solution_remarks", s) }, (_, i): Remark => {
+      library.call("solution_remark", s, i, ...[0, 1, 2, 3].map((k) => library.out(k)));
+      return { name: library.text(library.pointer(0)), text: library.text(library.pointer(1)), patch: library.pointer(2), grave: library.pointer(3) !== 0 };
+    });
+    if (status >= Status.failed) return { frame, remarks, force: NONE };
+    frame.rail = this.placed(s, RAIL);
+    frame.wheel = this.placed(s, WHEEL);
+    frame.patches = Array.from({ length: library.ask("solution_patches", s) }, (_, k) => this.patch(s, k));
+    const force = ["x", "y", "z"].map((axis) => library.number("solution_number", s, `force_on_rail.f${axis}_tr`)) as Solved["force"];
+    return { frame, remarks, force };
+  }
+
+  /** What a function says of a place: origin [mm] and rotation by rows. */
+  private pose(name: string, ...of: number[]): { origin_mm: [number, number, number]; rotation: number[] } {
+    const { library } = this;
+    library.call(name, ...of, library.out(0), library.out(3));
+    const origin = [0, 1, 2].map((k) => MILLI * library.double(k)) as [number, number, number];
+    return { origin_mm: origin, rotation: Array.from({ length: 9 }, (_, k) => library.double(3 + k)) };
+  }
+
+  private placed(s: number, body: number): Placed | null {
+    const surface = this.shown.findIndex((one) => one.body === (body === RAIL ? "rail" : "wheel"));
+    return surface < 0 ? null : { surface, ...this.pose("solution_pose", s, body) };
+  }
+
+  private patch(s: number, k: number): Patch {
+    const { library, live } = this;
+    library.call("patch_grid", s, k, ...[0, 1, 2, 3, 4, 5].map((at) => library.out(at)));
+    const [nx, ny] = [library.pointer(0), library.pointer(1)];
+    const [x0, s0, dx, ds] = [2, 3, 4, 5].map((at) => MILLI * library.double(at)) as [number, number, number, number];
+    const pose = this.pose("patch_pose", s, k);
+    const { origin_mm: o, rotation: r } = pose;
+    const at = ["x", "y", "z"].map((axis, i) => MILLI * library.number("patch_number", s, k, `reference.${axis}_tr`) - o[i]!);
+    const reference = [0, 1].map((axis) => r[axis]! * at[0]! + r[3 + axis]! * at[1]! + r[6 + axis]! * at[2]!) as [number, number];
+    const column = (name: string): Float64Array | null => {
+      library.call("patch_field", s, k, name, library.out(0));
+      return library.pointer(0) === 0 ? null : library.doubles(library.pointer(0), nx * ny);
+    };
+    const values: Record<string, Packed> = {};
+    const keep = (name: string, f: (i: number) => number): void => void (values[name] = plain(Float32Array.from({ length: nx * ny }, (_, i) => f(i))));
+    library.call("patch_states", s, k, library.out(0));
+    const states = library.pointer(0);
+    if (states !== 0) keep("state", (i) => library.module.HEAPU8[states + i]!);
+    for (const { name, columns, factor } of live.fields) {
+      const [a, b] = columns.map(column);
+      if (!a || (columns.length > 1 && !b)) continue;
+      keep(name, b ? (i) => factor * Math.hypot(a[i]!, b[i]!) : (i) => factor * a[i]!);
+    }
+    const numbers: Patch["numbers"] = {};
+    for (const { key, name, factor } of live.numbers) {
+      const value = library.number("patch_number", s, k, name);
+      if (!Number.isNaN(value)) numbers[key] = factor * value;
+    }
+    return { name: `patch ${k + 1}`, nx, ny, x0_mm: x0, s0_mm: s0, dx_mm: dx, ds_mm: ds, ...pose, reference_mm: reference, values, numbers };
+  }
+}

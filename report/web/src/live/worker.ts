@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import type { LiveData } from "../data";
+import { Library, type Module } from "./library";
+import { Solver, type Given, type Solved } from "./solve";
+
+// The worker in which a page solves. Its text follows that of the module's own script, which makes createTreadmark.
+
+export type Task =
+  | { kind: "start"; wasm: Uint8Array; live: LiveData }
+  | { kind: "file"; name: string; bytes: Uint8Array }
+  | { kind: "solve"; given: Given; element: number | null; name: string }
+  | { kind: "said"; given: Given; names: string[] }
+  | { kind: "geometry"; given: Given }
+  | { kind: "check"; name: string; body: string };
+
+export type Answer = { solved?: Solved; said?: ReturnType<Solver["said"]>; json?: unknown; trouble?: string };
+
+declare function createTreadmark(how: { wasmBinary: Uint8Array }): Promise<Module>;
+
+let solver: Solver | null = null;
+
+async function done(task: Task): Promise<Answer> {
+  if (task.kind === "start") {
+    solver = new Solver(new Library(await createTreadmark({ wasmBinary: task.wasm })), task.live);
+    return {};
+  }
+  if (!solver) return { trouble: "the program has not started" };
+  switch (task.kind) {
+    case "file":
+      solver.addFile(task.name, task.bytes);
+      return {};
+    case "solve":
+      return { solved: solver.solve(task.given, task.element, task.name) };
+    case "said":
+      return { said: solver.said(task.given, task.names) };
+    case "geometry":
+      return { json: solver.geometry(task.given) };
+    case "check":
+      return { json: solver.check(task.name, task.body) };
+  }
+}
+
+self.addEventListener("message", (event: MessageEvent<{ id: number; task: Task }>) => {
+  const { id, task } = event.data;
+  void done(task)
+    .catch((error: unknown): Answer => ({ trouble: error instanceof Error ? error.message : String(error) }))
+    .then((answer) => self.postMessage({ id, answer }));
+});

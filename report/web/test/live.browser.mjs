@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Uses the page of treadmark live as a reader would, and runs what it saves.
+// usage: node --test test/live.browser.mjs, with TREADMARK (program), TREADMARK_WEB (folder of the program for browsers), OUT (folder) and CHROMIUM in the environment
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
+import test, { after, before } from "node:test";
+import { pathToFileURL } from "node:url";
+
+import { chromium } from "playwright-core";
+
+const folder = resolve(process.env.OUT ?? "dist/live");
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+const program = process.env.TREADMARK ?? "treadmark";
+const file = (name) => join(folder, name);
+
+function treadmark(...args) {
+  const done = spawnSync(program, ["--quiet", ...args], { encoding: "utf8", cwd: folder, env: { ...process.env, TREADMARK_MODULES: process.env.TREADMARK_WEB }, maxBuffer: 1 << 26 });
+  assert.ok([0, 1].includes(done.status), `treadmark ${args.join(" ")}: ${done.stderr}`);
+  return done.stdout;
+}
+
+const runs = (name) => JSON.parse(treadmark("run", file(name), "--json", "-")).cases[0];
+const near = (value, wanted, share, what) => assert.ok(Math.abs(value - wanted) <= share * Math.abs(wanted), `${what}: ${value}, not ${wanted}`);
+
+let browser;
+before(async () => {
+  treadmark("live", "--no-open", "-o", file("live.html"));
+  treadmark("convert", "S1002", file("own.csv"));
+  browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"] });
+});
+after(() => browser?.close());
+
+/** The page, which complains about errors and requests when it is closed. */
+class Tab {
+  static async open(address = "", size = { width: 1280, height: 900 }) {
+    const tab = new Tab();
+    tab.context = await browser.newContext({ viewport: size, acceptDownloads: true });
+    tab.page = await tab.context.newPage();
+    [tab.wrong, tab.requests] = [[], []];
+    tab.page.on("pageerror", (error) => tab.wrong.push(String(error)));
+    tab.page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && tab.wrong.push(message.text()));
+    tab.page.on("request", (request) => tab.requests.push(request.url()));
+    const begin = Date.now();
+    await tab.page.goto(pathToFileURL(file("live.html")).href + address);
+    await tab.solved();
+    tab.opened = Date.now() - begin;
+    return tab;
+  }
+
+  async close() {
+    assert.deepEqual(this.wrong, [], "errors of the page");
+    assert.deepEqual(this.requests.filter((url) => !/^(data:|blob:)/.test(url)).slice(1), [], "requests besides the page itself");
+    await this.context.close();
+  }
+
+  /** Waits for an answer, "fine" or "trouble"; the number of the largest pressure [MPa]. */
+  async solved(how = "fine") {
+    await this.page.waitForFunction((wanted) => document.body.dataset.live === wanted, how, { polling: 20, timeout: 120_000 });
+    return Number(await this.page.evaluate(() => document.body.dataset.pressure));
+  }
+
+  /** Types a value into a field, or lets do something else, and waits. */
+  async after(act, how = "fine") {
+    await this.page.evaluate(() => delete document.body.dataset.live);
+    await act();
+    return this.solved(how);
+  }
+
+  type(key, value) {
+    return this.page.locator(`input[data-control="${key}"]`).fill(value);
+  }
+
+  async saved(name) {
+    const [download] = await Promise.all([this.page.waitForEvent("download"), this.page.locator("[data-control='save']").click()]);
+    await download.saveAs(file(name));
+    return runs(name);
+  }
+}
+
+test("the page is small, opens at once and holds the answer", async () => {
+  assert.ok(statSync(file("live.html")).size < 6e6);
+  const tab = await Tab.open();
+  console.log(`live.html: ${statSync(file("live.html")).size} bytes, solved ${tab.opened} ms after it was asked for`);
+  assert.match(await tab.page.locator(".cards").first().textContent(), /Largest pressure/);
+  assert.ok((await tab.page.locator("#patches-view svg .cells").count()) > 0);
+  assert.match(await tab.page.locator("#section svg").first().getAttribute("aria-label"), /Section of wheel and rail/);
+  await tab.close();
+});
+
+test("a reader types, drags, takes back, shares, saves, and the program solves the same", async () => {
+  const tab = await Tab.open();
+  const { page } = tab;
+  const first = await tab.solved();
+  const typed = await tab.after(() => tab.type("wheelset.y_mm", "4"));
+  assert.notEqual(typed, first);
+  assert.match(page.url(), /wheelset\.y_mm=4/);
+  const slider = page.locator("[data-slider='wheelset.vertical_force_N']");
+  const loaded = await tab.after(() => slider.evaluate((one) => ((one.value = "120"), one.dispatchEvent(new Event("input", { bubbles: true })))));
+  assert.ok(loaded > typed);
+  await tab.after(() => page.locator("[data-control='rolling']").selectOption("creepage"));
+  const braked = await tab.after(() => tab.type("creepage", "-0.3"));
+  const run = await tab.saved("saved.toml");
+  near(braked, run.patches.reduce((most, { pmax_MPa: p }) => Math.max(most, p), 0), 1e-9, "pressure of the saved case");
+  // the link shows the same elsewhere
+  const other = await Tab.open(new URL(page.url()).hash);
+  near(await other.solved(), braked, 1e-12, "pressure behind the link");
+  await other.close();
+  const before = await tab.after(() => page.locator("[data-control='undo']").click());
+  assert.notEqual(before, braked);
+  near(await tab.after(() => page.keyboard.press("Control+Shift+Z")), braked, 1e-12, "pressure after redo");
+  near(await tab.after(() => page.locator("[data-control='reset']").click()), first, 1e-12, "pressure at the start");
+  await tab.close();
+});
+
+test("a stranger drops a file with two columns and reads the pressure within 30 s", async () => {
+  const begin = Date.now();
+  const tab = await Tab.open();
+  const dropped = await tab.after(() => tab.page.locator("[data-control='wheel-file']").setInputFiles(file("own.csv")));
+  assert.ok(Date.now() - begin < 30_000);
+  assert.match(await tab.page.locator(".live-evidence").first().textContent(), /own\.csv, as it is read[^]*flange/);
+  const run = await tab.saved("dropped.toml");
+  near(dropped, run.patches[0].pmax_MPa, 1e-9, "pressure of the dropped profile");
+  await tab.close();
+});
+
+test("a case that is opened is solved as the program does, and the rail of the library changes it", async () => {
+  writeFileSync(file("opened.toml"), readFileSync(file("saved.toml"), "utf8"));
+  const tab = await Tab.open();
+  const opened = await tab.after(() => tab.page.locator("[data-control='open']").setInputFiles(file("opened.toml")));
+  near(opened, Math.max(...runs("opened.toml").patches.map(({ pmax_MPa: p }) => p)), 1e-9, "pressure of the opened case");
+  assert.notEqual(await tab.after(() => tab.page.locator("select[data-control='rail']").selectOption("54E1")), opened);
+  await tab.close();
+});
+
+test("hostile input is a sentence, and the last good state stays", async () => {
+  writeFileSync(file("hostile.csv"), "<img src=x onerror=alert(1)>,".repeat(500));
+  writeFileSync(file("hostile.toml"), "[[");
+  writeFileSync(file("large.csv"), Buffer.alloc(21e6, "1,2\n"));
+  const tab = await Tab.open();
+  const { page } = tab;
+  const good = await tab.after(() => tab.type("wheelset.y_mm", "2"));
+  const says = async (act, words) => {
+    await tab.after(act, "trouble");
+    assert.match(await page.locator(".live-messages").textContent(), words);
+  };
+  await says(() => page.locator("[data-control='wheel-file']").setInputFiles(file("hostile.csv")), /hostile\.csv was not taken/);
+  await says(() => page.locator("[data-control='rail-file']").setInputFiles(file("large.csv")), /21 MB/);
+  await says(() => page.locator("[data-control='open']").setInputFiles(file("hostile.toml")), /hostile\.toml was not opened/);
+  await says(() => tab.type("wheelset.y_mm", ""), /number/);
+  await says(() => tab.type("friction.coefficient", "-1"), /friction/);
+  const run = await tab.saved("kept.toml");
+  near(good, Math.max(...run.patches.map(({ pmax_MPa: p }) => p)), 1e-9, "pressure of the state that stays");
+  await tab.after(() => tab.type("wheelset.y_mm", "300"));
+  assert.match(await page.locator(".live-messages").textContent(), /contact/);
+  await tab.close();
+});
+
+test("a move is answered at once", async () => {
+  const tab = await Tab.open("#wheelset.y_mm=0");
+  const times = [];
+  for (let k = 0; k < 20; ++k) {
+    await tab.page.evaluate(() => delete document.body.dataset.live);
+    const begin = Date.now();
+    await tab.type("wheelset.y_mm", String(0.1 * k));
+    await tab.page.waitForFunction(() => document.body.dataset.live !== undefined, undefined, { polling: "raf" });
+    times.push(Date.now() - begin);
+    await tab.solved();
+  }
+  times.sort((a, b) => a - b);
+  console.log(`from a move to the coarse answer: median ${times[10]} ms, 95 % ${times[18]} ms`);
+  assert.ok(times[10] < 2000);
+  await tab.close();
+});
+
+test("nothing stands in the way of readers with helpers, nor on a phone", async () => {
+  const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+  for (const size of [{ width: 1280, height: 900 }, { width: 390, height: 844 }]) {
+    const tab = await Tab.open("", size);
+    await tab.page.evaluate(axe);
+    const { violations } = await tab.page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+    assert.deepEqual(violations.filter(({ impact }) => ["serious", "critical"].includes(impact)).map(({ id, nodes }) => `${id}: ${nodes[0].target}`), []);
+    const [wide, window_] = await tab.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+    assert.ok(wide <= window_, `the page is ${wide} wide in a window of ${window_}`);
+    await tab.close();
+  }
+});

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import test from "node:test";
+
+import type { LiveData } from "../src/data";
+import { CallError, Library, type Module } from "../src/live/library";
+import { Solver } from "../src/live/solve";
+import { assignments, changed, CREEPAGE, fromAddress, ROLLING, shapeKey, toAddress } from "../src/live/state";
+
+test("a change takes the place of what it contradicts", () => {
+  const start = new Map([[ROLLING, "free"], ["wheel.shape.standard", "S1002"]]);
+  const braked = changed(start, CREEPAGE, "-1");
+  assert.deepEqual([...braked], [["wheel.shape.standard", "S1002"], [CREEPAGE, "-1"]]);
+  assert.deepEqual([...changed(braked, shapeKey("wheel", "file"), "worn.csv").keys()], [CREEPAGE, "wheel.shape.file"]);
+  assert.equal(changed(braked, CREEPAGE, "").has(CREEPAGE), false);
+  assert.deepEqual(assignments(braked, { "wheelset.velocity": 20, "wheelset.nominal_radius": 0.5 }), [
+    "wheel.shape.standard=S1002",
+    "wheelset.vpitch_rad_s=-39.6",
+  ]);
+});
+
+test("an address holds the changes, and nothing that the page does not offer", () => {
+  const changes = new Map([["wheelset.y_mm", "-2.5"], ["rail.shape.standard", "54E1"], [CREEPAGE, "0.2"]]);
+  assert.deepEqual(fromAddress(`#${toAddress(changes)}`), changes);
+  assert.equal(fromAddress("#contact"), null);
+  assert.deepEqual(fromAddress("#influence.file=/etc/passwd&wheelset.y_mm=1&%E0%A4%A=2"), new Map([["wheelset.y_mm", "1"]]));
+  assert.equal(toAddress(new Map([["wheel.shape.file", "own.csv"]])), "");
+});
+
+// ---- the program for browsers against the one beside it ----
+
+const { TREADMARK_WEB: web = "", TREADMARK: program = "" } = process.env;
+const skip = existsSync(join(web, "treadmark-web.wasm")) ? false : "needs the program for browsers: scripts/web.sh";
+
+const live: LiveData = {
+  toml: "",
+  files: {},
+  profiles: { wheel: [], rail: [] },
+  fields: [{ name: "pressure", columns: ["pressure"], factor: 1e-6 }],
+  numbers: [{ key: "pmax_MPa", name: "pmax", factor: 1e-6 }, { key: "fx_N", name: "fx", factor: 1 }, { key: "approach_mm", name: "approach", factor: 1e3 }],
+};
+
+async function solver(): Promise<Solver> {
+  const create = createRequire(import.meta.url)(join(web, "treadmark-web.js")) as (how: object) => Promise<Module>;
+  return new Solver(new Library(await create({ wasmBinary: readFileSync(join(web, "treadmark-web.wasm")) })), live);
+}
+
+const base = `rail.shape.standard = "60E1"
+wheel.shape.standard = "S1002"
+track = { gauge_mm = 1435, cant = "1:40" }
+wheelset = { nominal_radius_mm = 460, vertical_force_N = 80e3, velocity_m_s = 20, vpitch_rad_s = -43.5, flange_back_distance_mm = 1360, flange_back_position_mm = -70 }
+friction.coefficient = 0.3
+discretisation = { dx_mm = 1, ds_mm = 1 }
+`;
+
+/** Changes of the base case: standard, yawed, hollow, with a flat, left, canted, free, braked, fine, without contact, doubted. */
+const cases: Record<string, string[]> = {
+  "exact theory": [],
+  "fine elements": ["discretisation.dx_mm=0.5", "discretisation.ds_mm=0.5"],
+  "flange root": ["wheelset.y_mm=5.5"],
+  "flange": ["wheelset.y_mm=8"],
+  "away from the flange": ["wheelset.y_mm=-7"],
+  "yawed": ["wheelset.yaw_deg=0.5"],
+  "rolled": ["wheelset.roll_deg=0.3"],
+  "left side": ["case.side=left", "wheelset.y_mm=-3"],
+  "other cant": ["track.cant_deg=2.9"],
+  "wide gauge": ["track.gauge_mm=1445"],
+  "free": ["wheelset.rolling=free"],
+  "braked": ["wheelset.vpitch_rad_s=-43"],
+  "little friction": ["friction.coefficient=0.05"],
+  "falling friction": ["friction.law=linear", "friction.amplitude_1=0.1", "friction.half_velocity_1_m_s=0.5"],
+  "other rail": ["rail.shape.standard=54E1"],
+  "cone": ["wheel.shape.standard=cone 1:20"],
+  "flat": ["wheel.flats=[{ depth_mm = 0.5 }]", "wheelset.pitch_deg=2"],
+  "no contact": ["wheelset.y_mm=300"],
+  "unusual load": ["wheelset.vertical_force_N=2e6"],
+  "own file": ["wheel.shape.file=own.csv"],
+};
+
+interface Native {
+  cases: { status: string; patches: { pmax_MPa: number; fx_N: number; approach_mm: number }[]; remarks: { name: string }[] }[];
+}
+
+test("the program for browsers gives the numbers of the program", { skip }, async (t) => {
+  const folder = mkdtempSync(join(tmpdir(), "treadmark-live-"));
+  try {
+    const own = spawnSync(program, ["convert", "S1002", join(folder, "own.csv")]);
+    assert.equal(own.status, 0, String(own.stderr));
+    const here = await solver();
+    here.addFile("own.csv", readFileSync(join(folder, "own.csv")));
+    for (const [name, changes] of Object.entries(cases))
+      await t.test(name, () => {
+        const { frame, remarks, milliseconds } = here.solve({ toml: base, changes }, null, name);
+        // the case as the page saves it
+        writeFileSync(join(folder, "case.toml"), here.said({ toml: base, changes }, []).toml);
+        const run = spawnSync(program, ["--quiet", "run", join(folder, "case.toml"), "--json", "-"], { encoding: "utf8", maxBuffer: 1 << 26 });
+        const expected = (JSON.parse(run.stdout) as Native).cases[0]!;
+        assert.equal(frame.status, expected.status === "doubtful" ? "ok" : expected.status);
+        assert.equal(frame.patches.length, expected.patches.length);
+        expected.patches.forEach((patch, k) => {
+          for (const key of ["pmax_MPa", "fx_N", "approach_mm"] as const) {
+            const value = frame.patches[k]!.numbers[key]!;
+            assert.ok(Math.abs(value - patch[key]) <= 1e-9 * Math.max(Math.abs(patch[key]), key === "fx_N" ? 1e3 : 0), `${key}: ${value}, not ${patch[key]}`);
+          }
+        });
+        console.log(`${name}: ${milliseconds.toFixed(1)} ms`);
+        void remarks;
+      });
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
+test("what cannot be solved is a sentence, and the next case is solved", { skip }, async () => {
+  const here = await solver();
+  here.addFile("hostile.csv", new TextEncoder().encode("<script>alert(1)</script>,".repeat(1000)));
+  for (const changes of [["wheelset.y_mm=nan"], ["wheelset.y_mm=not a number"], ["wheel.shape.file=hostile.csv"], ["wheel.shape.file=nowhere.csv"], ["nonsense"]])
+    assert.throws(() => here.solve({ toml: base, changes }, null, ""), (error: unknown) => error instanceof CallError && error.message.length > 20);
+  assert.throws(() => here.solve({ toml: "[[", changes: [] }, null, ""), CallError);
+  assert.equal(here.solve({ toml: base, changes: [] }, null, "").frame.status, "ok");
+});
