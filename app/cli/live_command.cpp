@@ -43,9 +43,10 @@ std::string module_file(std::string_view name) {
 }
 
 io::CaseFile chosen_case(const LiveOptions& options) {
-  io::CaseFile file = options.case_file.empty()
-                          ? io::parse_case_text(text_of_new_case(), "case.toml", options.overrides)
-                          : io::read_any_case(options.case_file, options.overrides);
+  std::vector<std::string> overrides = options.overrides;
+  if (options.case_file.empty()) overrides.insert(overrides.begin(), "wheelset.y_mm=0");  // one of its places
+  io::CaseFile file = options.case_file.empty() ? io::parse_case_text(text_of_new_case(), "case.toml", overrides)
+                                                : io::read_any_case(options.case_file, overrides);
   if (options.number < 1 || static_cast<std::size_t>(options.number) > file.cases.size())
     throw Error(ErrorKind::configuration, "there is no case of this number", {options.case_file}, "choose with --case");
   file.cases = {file.cases[static_cast<std::size_t>(options.number) - 1]};

@@ -67,6 +67,7 @@ TEST(OwnInput, IsNoOutputOfAnyVerb) {
       {"fmu", {{"@"}, "fmu"}},
       {"report", {{"@"}, "report"}},
       {"plot", {{"@"}, "report"}},
+      {"live", {{"@", "--no-open"}, "report"}},
       {"check", {{"@"}}},
   };
   const std::set<std::string> without{"diff",       "conform", "list", "schema",

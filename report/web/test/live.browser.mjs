@@ -189,3 +189,9 @@ test("nothing stands in the way of readers with helpers, nor on a phone", async 
     await tab.close();
   }
 });
+
+test("a page that cannot be told leaves an error", () => {
+  const done = spawnSync("sh", ["-c", '"$0" --quiet live --no-open -o told.html > /dev/full', program], { cwd: folder, encoding: "utf8", env: { ...process.env, TREADMARK_MODULES: process.env.TREADMARK_WEB } });
+  assert.ok(done.status > 0);
+  assert.match(done.stderr, /could not be written to standard output/);
+});

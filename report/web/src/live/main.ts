@@ -13,7 +13,7 @@ import { assignments, changed, controls, fromAddress, shapeKey, toAddress, type 
 const COARSE_MM = 1;
 const REST = 180;
 const LARGEST_FILE = 20e6;
-const NAMES = [...controls.flatMap(({ name }) => (name === "" ? [] : [name])), "wheelset.velocity", "wheelset.nominal_radius"];
+const NAMES = [...controls.flatMap(({ name }) => (name === "" ? [] : [name])), "discretisation.dx"];
 
 interface Functions {
   y_mm: number[];
@@ -46,7 +46,8 @@ class Live implements Target {
   ) {
     this.engine = new Engine(live);
     this.toml = live.toml;
-    this.changes = this.good = fromAddress(location.hash) ?? new Map<string, string>();
+    this.good = new Map<string, string>();
+    this.changes = fromAddress(location.hash) ?? this.good;
     this.panel = new Panel(live, this);
     const bar = make("div", "controls live-bar");
     const open = make("input", "");
@@ -94,7 +95,13 @@ class Live implements Target {
 
   private async begin(): Promise<void> {
     await this.tell();
-    this.request(COARSE_MM);
+    this.request(this.first);
+  }
+
+  /** Elements of the first answer: coarser ones than the case has. */
+  private get first(): number | null {
+    const own = 1e3 * (this.numbers["discretisation.dx"] ?? NaN);
+    return own >= COARSE_MM ? null : COARSE_MM;
   }
 
   /** The numbers of the case with its changes go to the fields. */
@@ -133,7 +140,7 @@ class Live implements Target {
 
   private follow(changes: Changes): void {
     this.changes = changes;
-    void this.tell().then(() => this.request(COARSE_MM));
+    void this.tell().then(() => this.request(this.first));
   }
 
   // ---- files ----
@@ -216,8 +223,8 @@ class Live implements Target {
     this.store.renew();
     this.messages.replaceChildren(...remarks.map((remark) => this.remark(remark)));
     if (frame.status !== "ok") this.messages.prepend(make("div", "banner warning", frame.message || frame.status));
-    const pressure = Math.max(...frame.patches.map(({ numbers }) => numbers["pmax_MPa"] ?? NaN));
-    const wear = frame.patches.reduce((sum, { numbers }) => sum + (numbers["wear_number_N"] ?? NaN), 0);
+    const pressure = frame.patches.reduce((most, { numbers }) => Math.max(Number.isNaN(most) ? 0 : most, numbers["pmax_MPa"] ?? NaN), NaN);
+    const wear = frame.patches.reduce((sum, { numbers }) => sum + (numbers["t_gamma_N"] ?? NaN), 0);
     const entries: [string, string, string][] = [
       ["Largest pressure", `${formatNumber(pressure)} MPa`, frame.patches.length === 1 ? "one patch" : `${frame.patches.length} patches`],
       ["Vertical force", `${formatNumber(force[2] / 1e3)} kN`, "on the rail"],

@@ -51,7 +51,9 @@ export class Solver {
   }
 
   addFile(name: string, bytes: Uint8Array): void {
-    this.library.module.FS.writeFile(`${FOLDER}/${name}`, bytes);
+    const path = `${FOLDER}/${name}`;
+    this.library.module.FS.mkdirTree(path.slice(0, path.lastIndexOf("/")));
+    this.library.module.FS.writeFile(path, bytes);
     this.key = "";
   }
 
