@@ -123,7 +123,11 @@ function(treadmark_library folder)
   if(ARG_LIGHT)
     set(how light)
   endif()
-  treadmark_share_parsing(treadmark_${name} 8 ${how})
+  set(at_once 8)
+  if(TREADMARK_WEB)  # nobody edits there: what takes least
+    set(at_once 32)
+  endif()
+  treadmark_share_parsing(treadmark_${name} ${at_once} ${how})
   set_property(GLOBAL APPEND PROPERTY TREADMARK_LIBRARIES treadmark_${name})
 endfunction()
 

@@ -42,7 +42,11 @@ Page live_page(const std::shared_ptr<const io::RunResult>& run, Solving solving)
                     {Figure{"rolling-radii", "Rolling radius difference and places of contact", rolling_radii(),
                             "Of rigid bodies, without roll: as treadmark geometry has it."}}}};
   append(page.sections[1].blocks, body_figures("Wheel and rail"));
-  page.sections.push_back({"origin", "The case at the start", {Facts{run->inputs}, origin_facts(*run)}});
+  Facts origin = origin_facts(*run);
+  origin.entries.emplace_back("Program in this page",
+                              "Treadmark with Eigen (MPL-2.0), fmt, JSON for Modern C++, toml++, musl and Emscripten's "
+                              "runtime (MIT), LLVM's C++ library (Apache-2.0 with LLVM exceptions)");
+  page.sections.push_back({"origin", "The case at the start", {Facts{run->inputs}, std::move(origin)}});
   page.solving = std::move(solving);
   return page;
 }
