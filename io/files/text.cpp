@@ -17,6 +17,7 @@
 #include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/platform/to_chars.hpp"
 #include "treadmark/core/to_whole.hpp"
 
 namespace treadmark::io::profiles {
@@ -198,9 +199,9 @@ std::string_view cut_to_bytes(std::string_view text, std::size_t most) {
 double rounded(double value, Digits digits) {
   if (digits == Digits::all || !std::isfinite(value)) return value + 0.0;
   char text[32];
-  const auto written = std::to_chars(text, std::end(text), value, std::chars_format::general, static_cast<int>(digits));
+  const char* end = write_digits(text, std::end(text), value, static_cast<int>(digits));
   double rounded = value;
-  from_chars(text, written.ptr, rounded);
+  from_chars(text, end, rounded);
   return rounded + 0.0;
 }
 

@@ -97,7 +97,7 @@ MAY_FOLLOW_LOCALE = ("tests", "bench", "examples")
 # What LLVM's standard library of Debian 12, or that of its compiler for browsers, lacks: first what core/platform has instead, then
 # what a line of older C++ does as well.
 PLATFORM = "core/platform/"
-MISSING = re.compile(r"\bstd::(?:ranges::|from_chars\(|bit_cast\b|comp_ellint_\d)|\brenameat2\(|"
+MISSING = re.compile(r"\bstd::(?:ranges::|(?:from|to)_chars\(|bit_cast\b|comp_ellint_\d)|\brenameat2\(|"
                      r"\bstd::(?:views::|format\(|jthread\b|stop_\w+|atomic_ref\b|source_location\b|make_\w+_for_overwrite\b|execution\b|osyncstream\b|"
                      r"ellint_\d|cyl_\w+|sph_\w+|expint\b|riemann_zeta\b)|"
                      # two iterators in place of a range, which ours takes of find_if alone

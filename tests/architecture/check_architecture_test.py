@@ -78,7 +78,7 @@ class Planted(unittest.TestCase):
         self.assertEqual(self.violations({"io/a.cpp": "void f() { built.system(1); subsystem(2); a->system(3); }\n"}), [])
 
     def test_nothing_that_a_standard_library_lacks(self):
-        for text in ("std::ranges::sort(v);", "std::from_chars(a, b, x);", "std::bit_cast<double>(n)", "std::comp_ellint_1(k)",
+        for text in ("std::ranges::sort(v);", "std::from_chars(a, b, x);", "std::to_chars(a, b, x);", "std::bit_cast<double>(n)", "std::comp_ellint_1(k)",
                      "::renameat2(a, b, c, d, e);", "std::jthread t;", "std::stop_token s", "std::make_unique_for_overwrite<int[]>(3)",
                      "std::format(\"{}\", 1)", "v | std::views::reverse", "std::atomic_ref(x)", "ranges::max_element(begin, end, {}, &A::b)",
                      "ranges::sort(v.begin(), v.end());", "ranges::all_of(first, last, good)"):

@@ -19,6 +19,7 @@
 #include "treadmark/core/platform/own_from_chars.hpp"
 #include "treadmark/core/platform/own_ranges.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/platform/to_chars.hpp"
 
 // What stands in for missing parts of a standard library is tested beside every library. Where this one has the part,
 // `ranges` and std are what it is compared with.
@@ -36,6 +37,18 @@ std::vector<Ranked> some_ranked(std::mt19937& random) {
   std::vector<Ranked> out(random() % 20 + 1);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = {static_cast<int>(random() % 7), static_cast<int>(i)};
   return out;
+}
+
+TEST(OwnToChars, WritesWhatTheStandardWrites) {
+  std::mt19937_64 random(5);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double value = std::ldexp(static_cast<double>(random()) - 9e18, static_cast<int>(random() % 200) - 163);
+    for (const int digits : {1, 4, 12, 17}) {
+      char own[32], standard[32];
+      EXPECT_EQ(std::string(own, platform::own_write_digits(own, std::end(own), value, digits)),
+                std::string(standard, write_digits(standard, std::end(standard), value, digits)));
+    }
+  }
 }
 
 TEST(OwnRanges, AnswerAsThoseOfTheStandard) {
