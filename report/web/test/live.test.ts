@@ -95,7 +95,7 @@ test("the program for browsers gives the numbers of the program", { skip }, asyn
     const here = await solver();
     here.addFile("own.csv", readFileSync(join(folder, "own.csv")));
     for (const [name, changes] of Object.entries(cases))
-      await t.test(name, () => {
+      await t.test(name, (one) => {
         const { frame, remarks, milliseconds } = here.solve({ toml: base, changes }, null, name);
         // the case as the page saves it
         writeFileSync(join(folder, "case.toml"), here.said({ toml: base, changes }, []).toml);
@@ -109,8 +109,10 @@ test("the program for browsers gives the numbers of the program", { skip }, asyn
             assert.ok(Math.abs(value - patch[key]) <= 1e-9 * Math.max(Math.abs(patch[key]), key === "fx_N" ? 1e3 : 0), `${key}: ${value}, not ${patch[key]}`);
           }
         });
-        console.log(`${name}: ${milliseconds.toFixed(1)} ms`);
-        void remarks;
+        // What the program says of profiles and of smaller elements belongs to its runs.
+        const told = new Set(expected.remarks.map((remark) => remark.name));
+        for (const remark of remarks) assert.ok(told.has(remark.name), `${remark.name} is said here alone`);
+        one.diagnostic(`solved in ${milliseconds.toFixed(1)} ms`);
       });
   } finally {
     rmSync(folder, { recursive: true });

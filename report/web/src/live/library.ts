@@ -16,11 +16,9 @@ export interface Module {
   _free(pointer: number): void;
 }
 
-export const enum Status {
-  ok = 0,
-  failed = 3,
-  outOfMemory = 15,
-}
+/** Of tm_status: a call that ends with more has done nothing. */
+export const FAILED = 3;
+const OUT_OF_MEMORY = 15;
 /** Of tm_body. */
 export const RAIL = 0;
 export const WHEEL = 1;
@@ -76,7 +74,7 @@ export class Library {
         if (typeof one === "number") return one;
         const room = module.lengthBytesUTF8(one) + 1;
         const at = module._malloc(room);
-        if (at === 0) throw new CallError(Status.outOfMemory, "there is not enough memory");
+        if (at === 0) throw new CallError(OUT_OF_MEMORY, "there is not enough memory");
         lent.push(at);
         module.stringToUTF8(one, at, room);
         return at;
@@ -90,7 +88,7 @@ export class Library {
   /** The same of a function with a status: how a computation ended. Errors: CallError for what did nothing. */
   call(name: string, ...given: Argument[]): number {
     const status = this.ask(name, ...given);
-    if (status > Status.failed) throw new CallError(status, this.text(this.ask("message")));
+    if (status > FAILED) throw new CallError(status, this.text(this.ask("message")));
     return status;
   }
 
@@ -128,6 +126,6 @@ export class Library {
 
   /** A number by name of what a function knows; NaN where it does not. */
   number(name: string, ...given: Argument[]): number {
-    return this.ask(name, ...given, this.out(0)) > Status.failed ? NaN : this.double(0);
+    return this.ask(name, ...given, this.out(0)) > FAILED ? NaN : this.double(0);
   }
 }

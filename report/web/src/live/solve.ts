@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { Frame, LiveData, Packed, Patch, Placed, SurfaceData } from "../data";
 import { bodyOf, MILLI, plain } from "./bodies";
-import { RAIL, Status, WHEEL, type Library } from "./library";
+import { FAILED, RAIL, WHEEL, type Library } from "./library";
 
 // Solves cases as the worker of a page does, and gives what the views show.
 
@@ -131,7 +131,7 @@ export class Solver {
       library.call("solution_remark", s, i, ...[0, 1, 2, 3].map((k) => library.out(k)));
       return { name: library.text(library.pointer(0)), text: library.text(library.pointer(1)), patch: library.pointer(2), grave: library.pointer(3) !== 0 };
     });
-    if (status >= Status.failed) return { frame, remarks, force: NONE };
+    if (status >= FAILED) return { frame, remarks, force: NONE };
     frame.rail = this.placed(s, RAIL);
     frame.wheel = this.placed(s, WHEEL);
     frame.patches = Array.from({ length: library.ask("solution_patches", s) }, (_, k) => this.patch(s, k));
