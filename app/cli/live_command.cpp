@@ -2,22 +2,30 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "treadmark/app/cases/pages/case_figures.hpp"
 #include "treadmark/app/cases/pages/live_page.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/page_file.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/modules.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/text.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/io/results/summary.hpp"
+#include "treadmark/io/settings/key_list.hpp"
 #include "treadmark/report/write_page.hpp"
 
 namespace treadmark::cli {
@@ -30,7 +38,7 @@ struct LiveOptions {
   std::vector<std::string> overrides;  ///< key=value
   int number = 1;
   std::string output_file = "live.html";
-  bool open = true;
+  bool stay = false;  ///< open no browser
 };
 
 /// A file of the program for browsers, which scripts/web.sh makes.
@@ -57,26 +65,31 @@ io::CaseFile chosen_case(const LiveOptions& options) {
 }
 
 int live_command(const LiveOptions& options, const CommonOptions& common) {
+  require_part("report_scripts", "treadmark live");
   report::Solving solving;
   solving.module = module_file("treadmark-web.wasm");
   solving.loader = module_file("treadmark-web.js");
-  if (report::page_script().empty())
-    throw Error(ErrorKind::configuration, "this build has no Node.js, so its pages have no scripts");
   const io::CaseFile file = chosen_case(options);
   print_notes(file.notes, common.quiet);
   app::SurfaceStore store;
   io::RunResult result =
       with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
-  if (!result.complete) return kFailed;
+  if (!result.complete) throw Cancelled();
+  // What the views can show follows from what they show first.
+  if (!app::pages::has_fields(result))
+    throw Error(ErrorKind::configuration, "the page has no contact to begin with: " + io::words(result.cases.front()),
+                {options.case_file}, "choose another place, for example --set wheelset.y_mm=0");
   app::add_surfaces(result, file, store);
-  const fs::path folder = fs::absolute(file.path).parent_path();
+  const fs::path folder = file.path.parent_path();
   solving.toml = io::case_file_text(file, folder);
-  for (const auto& [name, hash] : result.geometry_sha256)
-    solving.files[fs::proximate(fs::absolute(name), folder).string()] = io::profiles::read_text(name, "file", {});
+  for (const auto& [name, hash] : result.geometry_sha256) {
+    const fs::path content = io::profile_file(name);
+    solving.files[io::relative_to(content, folder).generic_string()] = io::profiles::read_text(content, "file", {});
+  }
   const auto page = app::pages::live_page(std::make_shared<io::RunResult>(std::move(result)), std::move(solving));
   write_page(options.output_file, report::to_html(page));
   std::cout << options.output_file << '\n';
-  if (options.open) open_page(options.output_file);
+  if (!options.stay) open_page(options.output_file);
   return kOk;
 }
 
@@ -89,9 +102,9 @@ Command add_live(CLI::App& verb) {
   verb.add_option("--case", options->number, "Number of the case, of a file with several")->type_name("N");
   verb.add_option("-o,--output", options->output_file, "The page, default live.html")
       ->check(is_output(true))
-      ->type_name("FILE.html");
-  verb.add_flag("--open,!--no-open", options->open,
-                "Open it in the browser where there is a screen; --no-open: do not");
+      ->type_name("FILE.html")
+      ->each([](const std::string& name) { check_page_name(name); });
+  verb.add_flag("--no-open", options->stay, "Do not open it in the browser");
   return command(options, live_command);
 }
 

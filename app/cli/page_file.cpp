@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
+#include <initializer_list>
 #include <iterator>
 #include <span>
 #include <sstream>
@@ -31,15 +32,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty: there is none.
-fs::path find_browser() {
+/// The first of these programs on the path; empty: there is none.
+fs::path on_path(std::initializer_list<const char*> names) {
   const char* path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');)
-    for (const char* name : {"chromium", "chromium-browser", "google-chrome"})
+    for (const char* name : names)
       if (fs::path file = fs::path(folder) / name; !folder.empty() && ::access(file.c_str(), X_OK) == 0) return file;
   return {};
 }
+
+fs::path find_browser() { return on_path({"chromium", "chromium-browser", "google-chrome"}); }
 
 /// A file's address (RFC 8089): what is neither a letter nor a digit is written by its code.
 std::string url_of(const fs::path& file) {
@@ -65,7 +68,7 @@ pid_t started(std::span<std::string> words) {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_RDWR, 0);
   pid_t process = 0;
-  if (::posix_spawnp(&process, arguments.front(), &quiet, nullptr, arguments.data(), environ) != 0) process = 0;
+  if (::posix_spawn(&process, arguments.front(), &quiet, nullptr, arguments.data(), environ) != 0) process = 0;
   posix_spawn_file_actions_destroy(&quiet);
   return process;
 }
@@ -112,8 +115,8 @@ void write_page(const fs::path& file, const std::string& html) {
 
 void open_page(const fs::path& file) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  std::string words[] = {"xdg-open", fs::absolute(file).string()};
-  started(words);
+  std::string words[] = {on_path({"xdg-open"}).string(), fs::absolute(file).string()};
+  if (!words[0].empty()) started(words);
 }
 
 }  // namespace treadmark::cli

@@ -69,7 +69,7 @@ HEAVY_FREE = ("tests", "bench")
 CONTRACT_ONLY = ("analysis/", "detection/", "solvers/")
 
 # What comes from files must never reach a shell, so the program and its libraries start no other programs; but for the one that
-# holds OpenCASCADE and the browser that prints pages, by their paths and without a shell.
+# holds OpenCASCADE and what prints and opens pages, by their paths and without a shell.
 STARTS_PROGRAMS = re.compile(r"(?<![\w.>])(system|w?popen|v?fork|exec[lv]p?e?|posix_spawnp?)\s*\(")
 MAY_START = ("tests", "bench")
 STARTS_ITS_OWN = ("io/cad/cad_process.cpp", "app/cli/page_file.cpp")
