@@ -48,7 +48,7 @@ treadmark_part(scans TREADMARK_SCANS "scans" "libnanoflann-dev" "Import of raw s
 treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Triangles of scans with holes or fewer nodes, and free meshes, with CGAL (GPL)"
   NEEDS scans GPL)
 treadmark_part(expat TREADMARK_WITH_EXPAT "Expat" "libexpat1-dev" "Read scans in E57 files and spline surfaces in XML files, with Expat")
-treadmark_part(report TREADMARK_REPORT "reports" "" "HTML reports and pictures of result folders (report, plot, --report)")
+treadmark_part(report TREADMARK_REPORT "reports" "" "HTML reports, pictures of result folders, pages that solve (report, plot, live, --report)")
 treadmark_part(report_scripts TREADMARK_REPORT_SCRIPTS "report scripts" "nodejs and npm"
   "Bundle the scripts that make HTML reports live (needs Node.js, npm and a network once)" NEEDS report)
 treadmark_part(python TREADMARK_PYTHON "Python" "pybind11-dev, python3-dev and python3-numpy"

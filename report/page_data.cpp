@@ -147,20 +147,27 @@ class Writer {
     return out;
   }
 
-  /// In a shift, what has another unit there is left out: the names end in units.
-  static Json patch_numbers(const io::PatchResult& p) {
+  /// Numbers of patches that stand beside the views, in their order.
+  static std::vector<const io::Quantity<io::PatchResult>*> shown_numbers() {
     using io::Block;
-    Json out = Json::object();
+    std::vector<const io::Quantity<io::PatchResult>*> rows;
     for (const Block block :
          {Block::force, Block::pressure, Block::approach, Block::count, Block::creepage, Block::place, Block::angle,
           Block::shape, Block::refined, Block::energy, Block::relative, Block::heat})
-      for (const auto& row : io::quantities<io::PatchResult>()) {
-        if (row.block != block || row.label.page.empty() || !io::has_block(p, block) || !row.has(p)) continue;
-        if (p.shift && !row.in_shift.si.empty()) continue;
-        const double value = row.access.get(p);
-        out[std::string(row.label.page)] =
-            row.access.whole ? Json(static_cast<int>(value)) : number(row.unit.in_file(value));
-      }
+      for (const auto& row : io::quantities<io::PatchResult>())
+        if (row.block == block && !row.label.page.empty()) rows.push_back(&row);
+    return rows;
+  }
+
+  /// In a shift, what has another unit there is left out: the names end in units.
+  static Json patch_numbers(const io::PatchResult& p) {
+    Json out = Json::object();
+    for (const auto* row : shown_numbers()) {
+      if (!io::has_block(p, row->block) || !row->has(p) || (p.shift && !row->in_shift.si.empty())) continue;
+      const double value = row->access.get(p);
+      out[std::string(row->label.page)] =
+          row->access.whole ? Json(static_cast<int>(value)) : number(row->unit.in_file(value));
+    }
     return out;
   }
 
@@ -190,15 +197,19 @@ class Writer {
     for (const auto& [name, bytes] : solving.files) files[name] = io::to_base64(std::as_bytes(std::span(bytes)));
     Json& fields = out["fields"] = Json::array();
     for (const FieldInfo& field : field_catalogue()) {
-      if (field.column == nullptr || field.of_shifts) continue;
+      if (field.column == nullptr) continue;
       Json columns = Json::array({field.column->name});
       if (field.other != nullptr) columns.push_back(field.other->name);
-      fields.push_back({{"name", field.name}, {"columns", columns}, {"factor", field.factor}});
+      Json& row = fields.emplace_back(Json{{"name", field.name}, {"columns", columns}, {"factor", field.factor}});
+      if (field.column->unit != field.column->unit_shift) row["shift"] = field.of_shifts;
     }
     Json& numbers = out["numbers"] = Json::array();
-    for (const auto& row : io::quantities<io::PatchResult>())
-      if (!row.label.page.empty() && !row.key.empty())
-        numbers.push_back({{"key", row.label.page}, {"name", io::si_name(row)}, {"factor", row.unit.in_file(1.0)}});
+    for (const auto* row : shown_numbers()) {
+      if (row->key.empty()) continue;
+      Json& one = numbers.emplace_back(
+          Json{{"key", row->label.page}, {"name", io::si_name(*row)}, {"factor", row->unit.in_file(1.0)}});
+      if (!row->in_shift.si.empty()) one["shift"] = false;
+    }
     return out;
   }
 

@@ -162,10 +162,6 @@ constexpr const char* kWithoutScript =
 constexpr const char* kStatic =
     "<div class=\"banner note\" role=\"status\"><strong>Static pictures.</strong> {}</div>\n";
 
-}  // namespace
-
-namespace {
-
 /// A text that scripts read and no browser runs. Its end mark must not be in it: a loader is no place for one.
 std::string text_for_scripts(const char* id, std::string_view text) {
   if (text.find("</script") != std::string_view::npos || text.find("<!--") != std::string_view::npos)

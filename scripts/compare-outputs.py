@@ -61,6 +61,8 @@ def jobs():
     for kind in "case study vehicle track simulation import backend".split():
         yield f"new-{kind}", [["new", kind, f"OUT/{kind}.{'py' if kind == 'backend' else 'toml'}"]]
 
+    yield "live", [["live", "--no-open", "-o", "OUT/live.html"]]  # an error where there is no program for browsers
+
     for case in sorted(EXAMPLES.glob("*.toml")):
         text = case.read_text()
         yield f"check-{case.stem}", [["check", str(case)]]

@@ -96,6 +96,7 @@ ROWS = {  # name: command, target
     "report": ("report result -o @", "out.html"),
     "plot": ("plot result --what pressure -o @", "out.svg"),
     "report of two": ("report result result -o @", "out.html"),
+    "live": ("live pair.toml --no-open -o @", "out.html"),  # needs the program for browsers: scripts/web.sh
     "convert CAD to mesh": (f"convert rail.step @ --body rail {BIG}", "out.ply"),
     "convert to CAD": (f"convert waves.toml @ --body rail {BIG}", "out.step"),
     "trace": ("trace slices.slcs --line-mm 0 --step 0.01 -o @", "out.csv"),

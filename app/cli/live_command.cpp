@@ -24,6 +24,7 @@
 #include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/settings/key_list.hpp"
 #include "treadmark/report/write_page.hpp"
@@ -84,6 +85,9 @@ int live_command(const LiveOptions& options, const CommonOptions& common) {
   solving.toml = io::case_file_text(file, folder);
   for (const auto& [name, hash] : result.geometry_sha256) {
     const fs::path content = io::profile_file(name);
+    if (io::is_slices_file(content))
+      throw Error(ErrorKind::configuration, "slices name files of their own, which the page does not take along",
+                  {content.string()}, "use treadmark run --report");
     solving.files[io::relative_to(content, folder).generic_string()] = io::profiles::read_text(content, "file", {});
   }
   const auto page = app::pages::live_page(std::make_shared<io::RunResult>(std::move(result)), std::move(solving));

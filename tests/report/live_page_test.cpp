@@ -44,6 +44,13 @@ TEST(LivePage, HoldsItsCaseAndWhatTheViewsAreCalledInC) {
   EXPECT_THAT(live.at("fields"),
               Contains(nlohmann::json::parse(
                   R"({"name": "traction", "columns": ["traction_x", "traction_s"], "factor": 1e-6})")));
+  // what has another unit in a shift
+  EXPECT_THAT(live.at("fields"),
+              Contains(nlohmann::json::parse(
+                  R"({"name": "slip", "columns": ["slip_x", "slip_s"], "factor": 100, "shift": false})")));
+  EXPECT_THAT(live.at("fields"),
+              Contains(nlohmann::json::parse(
+                  R"({"name": "slip_distance", "columns": ["slip_x", "slip_s"], "factor": 1e6, "shift": true})")));
   EXPECT_THAT(live.at("numbers"),
               Contains(nlohmann::json::parse(R"({"key": "pmax_MPa", "name": "pmax", "factor": 1e-6})")));
 }
