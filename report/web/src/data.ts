@@ -30,10 +30,10 @@ export interface LiveData {
   files: Record<string, string>;
   /** Names of `treadmark list profiles`. */
   profiles: { wheel: string[]; rail: string[] };
-  /** A field is one column times the factor, or the length of two. */
-  fields: { name: string; columns: string[]; factor: number }[];
+  /** A field is one column times the factor, or the length of two. `shift`: of cases that are one, or are none. */
+  fields: { name: string; columns: string[]; factor: number; shift?: boolean }[];
   /** Of Patch.numbers. */
-  numbers: { key: string; name: string; factor: number }[];
+  numbers: { key: string; name: string; factor: number; shift?: boolean }[];
 }
 
 /** An array of numbers: plain (null = NaN), or packed in a blob. */

@@ -11,7 +11,7 @@ import test from "node:test";
 import type { LiveData } from "../src/data";
 import { CallError, Library, type Module } from "../src/live/library";
 import { Solver } from "../src/live/solve";
-import { assignments, changed, CREEPAGE, fromAddress, ROLLING, shapeKey, toAddress } from "../src/live/state";
+import { changed, CREEPAGE, fromAddress, givenOf, ROLLING, shapeKey, toAddress } from "../src/live/state";
 
 test("a change takes the place of what it contradicts", () => {
   const start = new Map([[ROLLING, "free"], ["wheel.shape.standard", "S1002"]]);
@@ -19,18 +19,18 @@ test("a change takes the place of what it contradicts", () => {
   assert.deepEqual([...braked], [["wheel.shape.standard", "S1002"], [CREEPAGE, "-1"]]);
   assert.deepEqual([...changed(braked, shapeKey("wheel", "file"), "worn.csv").keys()], [CREEPAGE, "wheel.shape.file"]);
   assert.equal(changed(braked, CREEPAGE, "").has(CREEPAGE), false);
-  assert.deepEqual(assignments(braked, { "wheelset.velocity": 20, "wheelset.nominal_radius": 0.5 }), [
-    "wheel.shape.standard=S1002",
-    "wheelset.vpitch_rad_s=-39.6",
-  ]);
+  assert.deepEqual(givenOf({ toml: "t", changes: braked }), { toml: "t", changes: ["wheel.shape.standard=S1002"], creepage: -0.01 });
+  // a name that TOML would take for a number
+  assert.deepEqual(givenOf({ toml: "", changes: new Map([["rail.shape.file", "1.5"]]) }), { toml: "", changes: ['rail.shape.file="1.5"'] });
 });
 
-test("an address holds the changes, and nothing that the page does not offer", () => {
-  const changes = new Map([["wheelset.y_mm", "-2.5"], ["rail.shape.standard", "54E1"], [CREEPAGE, "0.2"]]);
-  assert.deepEqual(fromAddress(`#${toAddress(changes)}`), changes);
-  assert.equal(fromAddress("#contact"), null);
-  assert.deepEqual(fromAddress("#influence.file=/etc/passwd&wheelset.y_mm=1&%E0%A4%A=2"), new Map([["wheelset.y_mm", "1"]]));
-  assert.equal(toAddress(new Map([["wheel.shape.file", "own.csv"]])), "");
+test("an address holds case and changes, and nothing that the page does not offer", () => {
+  const changes = new Map([["wheelset.y_mm", "-2.5"], ["rail.shape.standard", "54E1"], ["wheel.shape.file", "own.csv"], [CREEPAGE, "0.2"]]);
+  for (const toml of ["own", 'title = "another & = one"\n']) assert.deepEqual(fromAddress(`#${toAddress({ toml, changes }, "own")}`, "own"), { toml, changes });
+  assert.equal(toAddress({ toml: "own", changes: new Map() }, "own"), "");
+  assert.equal(fromAddress("#contact", "own"), null);
+  const hostile = fromAddress("#influence.file=/etc/passwd&wheelset.y_mm=1&%E0%A4%A=2", "own");
+  assert.deepEqual(hostile, { toml: "own", changes: new Map([["wheelset.y_mm", "1"]]) });
 });
 
 // ---- the program for browsers against the one beside it ----
@@ -125,5 +125,6 @@ test("what cannot be solved is a sentence, and the next case is solved", { skip 
   for (const changes of [["wheelset.y_mm=nan"], ["wheelset.y_mm=not a number"], ["wheel.shape.file=hostile.csv"], ["wheel.shape.file=nowhere.csv"], ["nonsense"]])
     assert.throws(() => here.solve({ toml: base, changes }, null, ""), (error: unknown) => error instanceof CallError && error.message.length > 20);
   assert.throws(() => here.solve({ toml: "[[", changes: [] }, null, ""), CallError);
+  assert.throws(() => here.solve({ toml: base, changes: [], creepage: NaN }, null, ""), CallError);
   assert.equal(here.solve({ toml: base, changes: [] }, null, "").frame.status, "ok");
 });

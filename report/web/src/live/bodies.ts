@@ -26,7 +26,7 @@ export function plain(values: Float32Array): Packed {
 function heights(library: Library, surface: number, body: number, station: number, y: readonly number[]): Float64Array {
   const { module } = library;
   const n = y.length;
-  const at = module._malloc(8 * (3 * n + 12));
+  const at = library.room(8 * (3 * n + 12));
   const [x, z, rest] = [at, at + 16 * n, at + 24 * n];
   const [c, s] = body === WHEEL ? [Math.cos(station), Math.sin(station)] : [1, 0];
   module.HEAPF64.fill(0, x >> 3, (x >> 3) + n);
@@ -75,8 +75,10 @@ export function bodyOf(library: Library, surface: number, body: number, left: bo
   return { body: name, name, nu, nv, x: plain(px), y: plain(py), z: plain(pz), deviation: null, closed: body === WHEEL };
 }
 
-/** Radius at y = 0, or the middle one. */
+/** Radius at y = 0, or the middle one where the wheel does not reach there. */
 function tapeLine(y: readonly number[], z: Float64Array): number {
   const at = z[y.findIndex((v) => v >= 0)]!;
-  return Number.isNaN(at) ? [...z].filter((v) => !Number.isNaN(v)).sort((a, b) => a - b)[0]! : at;
+  if (!Number.isNaN(at)) return at;
+  const radii = [...z].filter((v) => !Number.isNaN(v)).sort((a, b) => a - b);
+  return radii[radii.length >> 1]!;
 }

@@ -31,10 +31,14 @@ export class Engine {
   }
 
   private start(): Promise<Answer> {
-    const script = new Blob([textOf("treadmark-loader"), "\n", workerText], { type: "text/javascript" });
-    const url = URL.createObjectURL(script);
-    const worker = new Worker(url);
-    URL.revokeObjectURL(url);
+    let worker: Worker;
+    let url: string;
+    try {
+      url = URL.createObjectURL(new Blob([textOf("treadmark-loader"), "\n", workerText], { type: "text/javascript" }));
+      worker = new Worker(url);
+    } catch (error) {  // some browsers let no page from a disk start one
+      return Promise.resolve({ trouble: `the page cannot solve: ${error instanceof Error ? error.message : String(error)}` });
+    }
     worker.addEventListener("message", (event: MessageEvent<{ id: number; answer: Answer }>) => {
       this.waiting.get(event.data.id)?.(event.data.answer);
     });
@@ -44,6 +48,7 @@ export class Engine {
     });
     this.worker = worker;
     const started = this.send({ kind: "start", wasm: this.wasm, live: this.live });
+    void started.then(() => URL.revokeObjectURL(url));
     for (const [name, bytes] of this.files) void started.then(() => this.send({ kind: "file", name, bytes }));
     return started;
   }
@@ -81,8 +86,13 @@ export class Engine {
     return answer;
   }
 
-  async addFile(name: string, bytes: Uint8Array): Promise<void> {
-    this.files.set(name, bytes);
-    await this.ask({ kind: "file", name, bytes });
+  /** Keeps a file for the program; its name there, another one where a file of other content has it. */
+  async addFile(name: string, bytes: Uint8Array): Promise<string> {
+    const fits = (old: Uint8Array | undefined): boolean => !old || (old.length === bytes.length && old.every((byte, k) => byte === bytes[k]));
+    let free = name;
+    for (let k = 2; !fits(this.files.get(free)); ++k) free = name.replace(/(\.[^.]*)?$/, `-${k}$1`);
+    this.files.set(free, bytes);
+    await this.ask({ kind: "file", name: free, bytes });
+    return free;
   }
 }

@@ -8,7 +8,7 @@ export interface Module {
   HEAPU8: Uint8Array;
   HEAP32: Int32Array;
   HEAPF64: Float64Array;
-  FS: { writeFile(path: string, data: Uint8Array): void; mkdirTree(path: string): void; unlink(path: string): void };
+  FS: { writeFile(path: string, data: Uint8Array): void; mkdirTree(path: string): void; chdir(path: string): void };
   UTF8ToString(pointer: number): string;
   stringToUTF8(text: string, pointer: number, room: number): void;
   lengthBytesUTF8(text: string): number;
@@ -41,7 +41,22 @@ export class Library {
   private readonly places: number;
 
   constructor(readonly module: Module) {
-    this.places = module._malloc(8 * 32);
+    this.places = this.room(8 * 32);
+  }
+
+  /** Memory for a call, which the caller gives back. Errors: CallError. */
+  room(size: number): number {
+    const at = this.module._malloc(size);
+    if (at === 0) throw new CallError(OUT_OF_MEMORY, "there is not enough memory");
+    return at;
+  }
+
+  /** The same with a text in it. */
+  private written(text: string): number {
+    const size = this.module.lengthBytesUTF8(text) + 1;
+    const at = this.room(size);
+    this.module.stringToUTF8(text, at, size);
+    return at;
   }
 
   /** Address of the k-th place for an output. */
@@ -72,11 +87,8 @@ export class Library {
     try {
       const values = given.map((one) => {
         if (typeof one === "number") return one;
-        const room = module.lengthBytesUTF8(one) + 1;
-        const at = module._malloc(room);
-        if (at === 0) throw new CallError(OUT_OF_MEMORY, "there is not enough memory");
+        const at = this.written(one);
         lent.push(at);
-        module.stringToUTF8(one, at, room);
         return at;
       });
       return (module as unknown as Record<string, (...values: number[]) => number>)[`_tm_${name}`]!(...values);
@@ -109,13 +121,8 @@ export class Library {
   /** The same of a function of a list of settings. */
   textBySettings(name: string, settings: readonly string[], ...before: Argument[]): string {
     const { module } = this;
-    const texts = settings.map((text) => {
-      const room = module.lengthBytesUTF8(text) + 1;
-      const at = module._malloc(room);
-      module.stringToUTF8(text, at, room);
-      return at;
-    });
-    const list = module._malloc(4 * Math.max(1, texts.length));
+    const texts = settings.map((text) => this.written(text));
+    const list = this.room(4 * Math.max(1, texts.length));
     texts.forEach((at, k) => (module.HEAP32[(list >> 2) + k] = at));
     try {
       return this.textOf(name, ...before, list, texts.length);

@@ -7,11 +7,13 @@ import type { Store } from "../store";
 import { Engine } from "./engine";
 import { button, make, Panel, type Check, type Target } from "./panel";
 import type { Remark, Solved } from "./solve";
-import { assignments, changed, controls, fromAddress, shapeKey, toAddress, type Changes } from "./state";
+import { changed, controls, fromAddress, givenOf, shapeKey, toAddress, type State } from "./state";
 
 /** Elements of the answer while something moves [mm], and when the hand rests [ms]. */
 const COARSE_MM = 1;
 const REST = 180;
+/** Changes of one control that follow so closely are taken back together [ms]. */
+const TOGETHER = 800;
 const LARGEST_FILE = 20e6;
 const NAMES = [...controls.flatMap(({ name }) => (name === "" ? [] : [name])), "discretisation.dx"];
 
@@ -25,15 +27,19 @@ interface Functions {
 class Live implements Target {
   private readonly engine: Engine;
   private readonly panel: Panel;
-  private readonly messages = make("div", "live-messages");
+  /** What is wrong with the last change, and what the answer warns of. */
+  private readonly trouble = make("div", "");
+  private readonly warnings = make("div", "");
   private readonly cards = make("div", "cards");
-  private toml: string;
-  private changes: Changes;
+  private state: State;
   private numbers: Record<string, number> = {};
   /** What was solved last without trouble. */
-  private good: Changes;
-  private readonly past: Changes[] = [];
-  private readonly future: Changes[] = [];
+  private good: State;
+  private readonly past: State[] = [];
+  private readonly future: State[] = [];
+  /** The control that was changed last, and when. */
+  private own = "";
+  private touched = 0;
   private busy = false;
   private wanted: number | null | undefined;
   private timer = 0;
@@ -42,12 +48,11 @@ class Live implements Target {
   constructor(
     private readonly section: HTMLElement,
     private readonly store: Store,
-    live: LiveData,
+    private readonly live: LiveData,
   ) {
     this.engine = new Engine(live);
-    this.toml = live.toml;
-    this.good = new Map<string, string>();
-    this.changes = fromAddress(location.hash) ?? this.good;
+    this.good = { toml: live.toml, changes: new Map<string, string>() };
+    this.state = fromAddress(location.hash, live.toml) ?? this.good;
     this.panel = new Panel(live, this);
     const bar = make("div", "controls live-bar");
     const open = make("input", "");
@@ -63,15 +68,17 @@ class Live implements Target {
     bar.append(
       button("Undo", "undo", "Take back the last change (Ctrl Z)", () => this.step(this.past, this.future)),
       button("Redo", "redo", "Make it again (Ctrl Shift Z)", () => this.step(this.future, this.past)),
-      button("As the case says", "reset", "Take back all changes", () => this.adopt(new Map())),
+      button("As the case says", "reset", "Take back all changes", () => this.adopt({ toml: this.state.toml, changes: new Map() })),
       button("Save case.toml", "save", "A file that treadmark run solves to the same numbers", () => void this.save()),
       make("span", "", "Open a case:"),
       open,
     );
-    this.messages.setAttribute("aria-live", "polite");
-    this.section.append(bar, this.panel.element, this.messages, this.cards);
+    const messages = make("div", "live-messages");
+    messages.setAttribute("aria-live", "polite");
+    messages.append(this.trouble, this.warnings);
+    this.section.append(bar, this.panel.element, messages, this.cards);
     this.listen();
-    void this.begin();
+    this.follow(this.state);
   }
 
   private listen(): void {
@@ -88,14 +95,13 @@ class Live implements Target {
       else this.step(this.past, this.future);
     });
     window.addEventListener("hashchange", () => {
-      const changes = fromAddress(location.hash);
-      if (changes && toAddress(changes) !== toAddress(this.changes)) this.adopt(changes);
+      const state = fromAddress(location.hash, this.live.toml);
+      if (state && this.address(state) !== this.address(this.state)) this.adopt(state);
     });
   }
 
-  private async begin(): Promise<void> {
-    await this.tell();
-    this.request(this.first);
+  private address(state: State): string {
+    return `#${toAddress(state, this.live.toml)}`;
   }
 
   /** Elements of the first answer: coarser ones than the case has. */
@@ -106,40 +112,42 @@ class Live implements Target {
 
   /** The numbers of the case with its changes go to the fields. */
   private async tell(): Promise<void> {
-    const plain = [...this.changes].filter(([key]) => key !== "creepage").map(([key, value]) => `${key}=${value}`);
-    const { said } = await this.engine.ask({ kind: "said", given: { toml: this.toml, changes: plain }, names: NAMES });
+    const { said } = await this.engine.ask({ kind: "said", given: givenOf(this.state), names: NAMES });
     if (said) this.numbers = said.numbers;
-    this.panel.refresh(this.changes, this.numbers);
-  }
-
-  private get given(): { toml: string; changes: string[] } {
-    return { toml: this.toml, changes: assignments(this.changes, this.numbers) };
+    this.panel.refresh(this.state.changes, this.numbers, this.own);
   }
 
   // ---- changes ----
 
   change(key: string, value: string): void {
-    const after = changed(this.changes, key, value);
-    this.past.push(this.changes);
+    const now = performance.now();
+    if (key !== this.own || now - this.touched > TOGETHER) this.past.push(this.state);
+    [this.own, this.touched] = [key, now];
+    this.trouble.replaceChildren();
     this.future.length = 0;
-    this.follow(after);
+    const { toml, changes } = this.state;
+    this.follow({ toml, changes: changed(changes, key, value) });
   }
 
-  private adopt(changes: Changes): void {
-    this.past.push(this.changes);
+  private adopt(state: State): void {
+    this.past.push(this.state);
     this.future.length = 0;
-    this.follow(changes);
+    this.own = "";
+    this.trouble.replaceChildren();
+    this.follow(state);
   }
 
-  private step(from: Changes[], to: Changes[]): void {
+  private step(from: State[], to: State[]): void {
     const next = from.pop();
     if (!next) return;
-    to.push(this.changes);
+    to.push(this.state);
+    this.own = "";
+    this.trouble.replaceChildren();
     this.follow(next);
   }
 
-  private follow(changes: Changes): void {
-    this.changes = changes;
+  private follow(state: State): void {
+    this.state = state;
     void this.tell().then(() => this.request(this.first));
   }
 
@@ -151,28 +159,25 @@ class Live implements Target {
 
   private async read(body: string, file: File): Promise<void> {
     if (file.size > LARGEST_FILE) return this.complain(`${file.name} has ${formatNumber(file.size / 1e6, 3)} MB: no profile and no case is so large.`);
-    const name = file.name.replace(/[^\w.+-]+/g, "_");
     const bytes = new Uint8Array(await file.arrayBuffer());
-    if (/\.toml$/i.test(name)) return this.open(new TextDecoder().decode(bytes), file.name);
-    await this.engine.addFile(name, bytes);
+    if (/\.toml$/i.test(file.name)) return this.open(new TextDecoder().decode(bytes), file.name);
+    const name = await this.engine.addFile(file.name.replace(/[^\w.+-]+/g, "_"), bytes);
     const { json, trouble } = await this.engine.ask({ kind: "check", name, body });
-    if (trouble !== undefined) return this.complain(`${file.name} was not taken: ${trouble.replace(/\/case\//g, "")}`);
+    if (trouble !== undefined) return this.complain(`${file.name} was not taken: ${trouble}`);
     const check = json as Check;
     const known = check.body === "wheel" ? "wheel" : "rail";
+    this.panel.learn(known, name, check);
     this.change(shapeKey(known, "file"), name);
-    this.panel.show(known, name, check);
   }
 
   private async open(toml: string, name: string): Promise<void> {
     const { trouble } = await this.engine.ask({ kind: "said", given: { toml, changes: [] }, names: [] });
     if (trouble !== undefined) return this.complain(`${name} was not opened: ${trouble}`);
-    this.toml = toml;
-    this.past.length = this.future.length = 0;
-    this.follow(new Map());
+    this.adopt({ toml, changes: new Map() });
   }
 
   private async save(): Promise<void> {
-    const { said, trouble } = await this.engine.ask({ kind: "said", given: this.given, names: [] });
+    const { said, trouble } = await this.engine.ask({ kind: "said", given: givenOf(this.state), names: [] });
     if (said) save(new Blob([said.toml], { type: "text/plain" }), "case.toml");
     else this.complain(`The case cannot be written: ${trouble ?? ""}`);
   }
@@ -189,40 +194,49 @@ class Live implements Target {
   private async solve(element: number | null): Promise<void> {
     this.busy = true;
     this.wanted = undefined;
-    const { changes } = this;
-    const { solved, trouble } = await this.engine.ask({ kind: "solve", given: this.given, element, name: "" });
+    const { state } = this;
+    const { solved, trouble } = await this.engine.ask({ kind: "solve", given: givenOf(state), element, name: "" });
     this.busy = false;
+    const current = state === this.state;
+    if (solved) {  // on the way to another state, too: a hand that moves shall see something
+      this.good = state;
+      this.show(solved, element, current);
+      history.replaceState(null, "", this.address(state));
+    } else if (current) {
+      this.refuse(trouble ?? "nothing came back");
+    }
     if (this.wanted !== undefined) return void this.solve(this.wanted);
-    if (changes !== this.changes) return;  // its request comes
-    if (!solved) return this.refuse(trouble ?? "nothing came back");
-    this.good = changes;
-    this.show(solved, element);
-    history.replaceState(null, "", `#${toAddress(changes)}`);
+    if (!current || !solved) return;  // its request comes, or there is none
     if (element !== null) this.timer = window.setTimeout(() => this.request(null), REST);
-    else void this.showGeometry();
+    else void this.showGeometry(state);
   }
 
   /** The last good state stays, what was typed stays to be mended. */
   private refuse(trouble: string): void {
-    this.complain(trouble.replace(/\/case\//g, ""));
-    this.changes = this.good;
+    this.complain(trouble);
+    const begins = this.cards.childElementCount === 0 && this.state !== this.good;  // by an address that does not hold here
+    this.state = this.good;
+    this.own = "";
+    if (this.past[this.past.length - 1] === this.good) this.past.pop();
+    if (begins) this.follow(this.good);
   }
 
   private complain(text: string): void {
     const banner = make("div", "banner failed", text);
     banner.setAttribute("role", "alert");
-    this.messages.replaceChildren(banner);
+    this.trouble.replaceChildren(banner);
     document.body.dataset["live"] = "trouble";
   }
 
-  private show({ frame, surfaces, remarks, force, milliseconds }: Solved, element: number | null): void {
+  /** `current`: there is no other state yet. */
+  private show({ frame, surfaces, remarks, force, milliseconds }: Solved, element: number | null, current: boolean): void {
     const { data } = this.store;
     frame.name = data.sets[0]?.frames[0]?.name ?? "";
     data.sets[0]!.frames = [frame];
     if (surfaces) data.surfaces = surfaces;
     this.store.renew();
-    this.messages.replaceChildren(...remarks.map((remark) => this.remark(remark)));
-    if (frame.status !== "ok") this.messages.prepend(make("div", "banner warning", frame.message || frame.status));
+    this.warnings.replaceChildren(...remarks.map((remark) => this.remark(remark)));
+    if (frame.status !== "ok") this.warnings.prepend(make("div", "banner warning", frame.message || frame.status));
     const pressure = frame.patches.reduce((most, { numbers }) => Math.max(Number.isNaN(most) ? 0 : most, numbers["pmax_MPa"] ?? NaN), NaN);
     const wear = frame.patches.reduce((sum, { numbers }) => sum + (numbers["t_gamma_N"] ?? NaN), 0);
     const entries: [string, string, string][] = [
@@ -240,7 +254,7 @@ class Live implements Target {
         return card;
       }),
     );
-    Object.assign(document.body.dataset, { live: element === null ? "fine" : "coarse", pressure: String(pressure), milliseconds: String(milliseconds) });
+    if (current) Object.assign(document.body.dataset, { live: element === null ? "fine" : "coarse", pressure: String(pressure) });
   }
 
   private remark({ text, patch, grave }: Remark): HTMLElement {
@@ -250,13 +264,14 @@ class Live implements Target {
   }
 
   /** Rolling radii and contact over y, with the present place. */
-  private async showGeometry(): Promise<void> {
+  private async showGeometry(state: State): Promise<void> {
     const view = this.store.data.views.find((one): one is ChartView => one.type === "chart");
     if (!view) return;
     const y = 1e3 * (this.numbers["wheelset.y"] ?? NaN);
-    const key = JSON.stringify([this.toml, this.given.changes.filter((change) => /^(wheel\.|rail\.|track\.|wheelset\.nominal)/.test(change))]);
+    const given = givenOf(state);
+    const key = JSON.stringify([given.toml, given.changes.filter((change) => /^(wheel\.|rail\.|track\.|wheelset\.nominal)/.test(change))]);
     if (key !== this.geometryOf) {
-      const { json } = await this.engine.ask({ kind: "geometry", given: this.given });
+      const { json } = await this.engine.ask({ kind: "geometry", given });
       const functions = (json as { geometry?: { functions?: Functions } } | undefined)?.geometry?.functions;
       this.geometryOf = key;
       const all = functions ? [functions.delta_r_mm, functions.rail_y_right_mm, functions.wheel_y_right_mm] : [[], [], []];

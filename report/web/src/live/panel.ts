@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { LiveData } from "../data";
-import { withUnit } from "../numbers";
+import { labelWithUnit } from "../numbers";
 import { controls, CREEPAGE, ROLLING, rollings, shapeKey, shownValue, type Changes } from "./state";
 
 // The fields of a page that solves.
@@ -39,8 +39,10 @@ const FILES = ".csv,.txt,.prw,.prr,.whl,.rail,.ban,.rol,.slcs,.slcw,.toml,.dat,.
 
 export class Panel {
   readonly element = make("div", "live-panel");
-  private readonly refreshes: ((changes: Changes, numbers: Readonly<Record<string, number>>) => void)[] = [];
+  private readonly refreshes: ((changes: Changes, numbers: Readonly<Record<string, number>>, own: string) => void)[] = [];
   private readonly evidence = { wheel: make("details", "live-evidence"), rail: make("details", "live-evidence") };
+  /** By body and name. */
+  private readonly checks = new Map<string, Check>();
 
   constructor(
     live: LiveData,
@@ -53,19 +55,26 @@ export class Panel {
     this.element.append(grid);
   }
 
-  /** Shows what holds. */
-  refresh(changes: Changes, numbers: Readonly<Record<string, number>>): void {
-    for (const one of this.refreshes) one(changes, numbers);
+  /** Shows what holds. `own`: the key of the control that the reader is at, whose text stays as it is typed. */
+  refresh(changes: Changes, numbers: Readonly<Record<string, number>>, own: string): void {
+    for (const one of this.refreshes) one(changes, numbers, own);
   }
 
-  /** How a file was read. */
-  show(body: "wheel" | "rail", name: string, check: Check | null): void {
+  /** How a file was read, to be shown while it is used. */
+  learn(body: "wheel" | "rail", name: string, check: Check): void {
+    this.checks.set(`${body} ${name}`, check);
+  }
+
+  private show(body: "wheel" | "rail", name: string): void {
     const box = this.evidence[body];
+    const check = this.checks.get(`${body} ${name}`);
+    box.hidden = !check;
+    if (!check || box.dataset["name"] === name) return;
+    box.dataset["name"] = name;
     box.replaceChildren();
-    box.hidden = check === null;
-    if (!check) return;
     box.open = true;
     const facts = make("dl", "facts");
+    facts.tabIndex = 0;  // it may scroll
     for (const [term, text] of check.facts) {
       const div = make("div", "");
       div.append(make("dt", "", term), make("dd", "", text));
@@ -115,7 +124,7 @@ export class Panel {
       own.hidden = file === undefined;
       own.text = file ?? "";
       select.value = file === undefined ? (changes.get(shapeKey(body, "standard")) ?? "") : "file";
-      if (file === undefined) this.show(body, "", null);
+      this.show(body, file ?? "");
     });
     return box;
   }
@@ -146,8 +155,8 @@ export class Panel {
     [slider.min, slider.max, slider.step] = [low, high, step].map(String) as [string, string, string];
     field.dataset["control"] = key;
     slider.dataset["slider"] = key;
-    field.setAttribute("aria-label", withUnit(name, unit));
-    slider.setAttribute("aria-label", `${withUnit(name, unit)}, slider`);
+    field.setAttribute("aria-label", labelWithUnit(name, unit));
+    slider.setAttribute("aria-label", `${labelWithUnit(name, unit)}, slider`);
     const told = (from: HTMLInputElement): void => {
       const value = from.valueAsNumber;
       field.setAttribute("aria-invalid", String(!Number.isFinite(value)));
@@ -157,14 +166,15 @@ export class Panel {
     field.addEventListener("input", () => told(field));
     slider.addEventListener("input", () => told(slider));
     box.append(text, field, make("span", "unit", unit), slider);
-    this.refreshes.push((changes, numbers) => {
+    this.refreshes.push((changes, numbers, own) => {
       box.hidden = key === CREEPAGE && !changes.has(CREEPAGE);
       const value = shownValue(control, changes, numbers);
-      if (document.activeElement !== field) {
+      const kept = own === key ? document.activeElement : null;
+      if (kept !== field) {
         field.value = Number.isFinite(value) ? String(Number(value.toPrecision(8))) : "";
         field.setAttribute("aria-invalid", "false");
       }
-      if (document.activeElement !== slider && Number.isFinite(value)) slider.value = String(value);
+      if (kept !== slider && Number.isFinite(value)) slider.value = String(value);
     });
     return box;
   }

@@ -10,6 +10,8 @@ import { FAILED, RAIL, WHEEL, type Library } from "./library";
 export interface Given {
   toml: string;
   changes: readonly string[];
+  /** The wheel turns by this share faster than at its nominal radius. */
+  creepage?: number;
 }
 
 export interface Remark {
@@ -21,7 +23,7 @@ export interface Remark {
 
 export interface Solved {
   frame: Frame;
-  /** Rail and wheel, if they are others than those before. */
+  /** Rail and wheel, if they are others than those of the answer before. */
   surfaces: SurfaceData[] | null;
   remarks: Remark[];
   /** In track axes [N]. */
@@ -29,40 +31,60 @@ export interface Solved {
   milliseconds: number;
 }
 
-/** Folder of the files that were given. */
-export const FOLDER = "/case";
+/** Folder of the files that were given; deep, so that those above a case have places of their own. */
+const FOLDER = `${"/up".repeat(16)}/case`;
 const STATUS = ["ok", "no_contact", "not_converged", "failed"] as const;
 const NONE: Solved["force"] = [NaN, NaN, NaN];
 
 /** Keys on which the surfaces do not depend, where they are not sampled for their place. */
-const MOTIONS = /^(wheelset\.(y|yaw|roll|pitch|vpitch|velocity|rolling|vertical_force|longitudinal_force)\w*|friction\.\w+|discretisation\.\w+)=/;
+const MOTIONS = /^(wheelset\.(y|yaw|roll|pitch|vpitch|velocity|rolling|vertical_force|longitudinal_force)\w*|track\.(gauge|cant)\w*|friction\.\w+|discretisation\.\w+)=/;
+
+/** Where a name in the folder leads to. */
+function placeOf(name: string): string {
+  const parts: string[] = [];
+  for (const part of `${FOLDER}/${name}`.split("/"))
+    if (part === "..") parts.pop();
+    else if (part !== "" && part !== ".") parts.push(part);
+  return `/${parts.join("/")}`;
+}
 
 export class Solver {
   private key = "";
   private pair = 0;
   private surfaces: [number, number] = [0, 0];
   private shown: SurfaceData[] = [];
+  /** Whether an answer had them. */
+  private told = false;
+  /** Of the case of the surfaces: whether it is one of a shift, whose slip and creepages are lengths. */
+  private shift = false;
 
   constructor(
     private readonly library: Library,
     private readonly live: LiveData,
   ) {
     library.module.FS.mkdirTree(FOLDER);
+    library.module.FS.chdir(FOLDER);
   }
 
   addFile(name: string, bytes: Uint8Array): void {
-    const path = `${FOLDER}/${name}`;
-    this.library.module.FS.mkdirTree(path.slice(0, path.lastIndexOf("/")));
-    this.library.module.FS.writeFile(path, bytes);
+    const { FS } = this.library.module;
+    const path = placeOf(name);
+    FS.mkdirTree(path.slice(0, path.lastIndexOf("/")));
+    FS.writeFile(path, bytes);
     this.key = "";
   }
 
   /** Does something with a case; it is freed. */
-  with<T>({ toml, changes }: Given, task: (c: number) => T): T {
+  with<T>({ toml, changes, creepage }: Given, task: (c: number) => T): T {
     const { library } = this;
-    const c = library.make("case_parse", toml, new TextEncoder().encode(toml).length, FOLDER, 1);
+    const c = library.make("case_parse", toml, new TextEncoder().encode(toml).length, 0, 1);
     try {
       for (const change of changes) library.call("case_set", c, change);
+      if (creepage !== undefined) {
+        const [speed, radius] = ["velocity", "nominal_radius"].map((name) => library.number("case_get_number", c, `wheelset.${name}`)) as [number, number];
+        // As text, for the words of what is wrong with it.
+        library.call("case_set", c, `wheelset.vpitch_rad_s=${(-speed / radius) * (1 + creepage)}`);
+      }
       return task(c);
     } finally {
       library.ask("case_free", c);
@@ -79,29 +101,31 @@ export class Solver {
 
   /** As `treadmark geometry` of the case. */
   geometry(given: Given): unknown {
-    const file = `${FOLDER}/case-of-the-page.toml`;
-    this.library.module.FS.writeFile(file, new TextEncoder().encode(this.said(given, []).toml));
+    const file = "case-of-the-page.toml";
+    this.library.module.FS.writeFile(placeOf(file), new TextEncoder().encode(this.said(given, []).toml));
     return JSON.parse(this.library.textBySettings("geometry", [`case=${file}`]));
   }
 
   check(name: string, body: string): unknown {
-    return JSON.parse(this.library.textOf("check_profile", `${FOLDER}/${name}`, body === "" ? 0 : body));
+    return JSON.parse(this.library.textOf("check_profile", name, body === "" ? 0 : body));
   }
 
-  private prepare(given: Given, c: number): boolean {
+  private prepare(given: Given, c: number): void {
     const { library } = this;
     const sampled = given.toml.includes("backend");
     const key = JSON.stringify([given.toml, given.changes.filter((change) => sampled || !MOTIONS.test(change))]);
-    if (key === this.key) return false;
-    const rail = library.make("surface_of_case", c, RAIL);
-    const wheel = library.make("surface_of_case", c, WHEEL);
-    const pair = library.make("pair_create", rail, wheel);
+    if (key === this.key) return;
+    [this.key, this.told] = ["", false];
     library.ask("pair_free", this.pair);
     this.surfaces.forEach((one) => library.ask("surface_free", one));
-    [this.pair, this.surfaces, this.key] = [pair, [rail, wheel], key];
-    const left = /^side = "left"/m.test(library.textOf("case_text", c));
+    [this.pair, this.surfaces] = [0, [0, 0]];
+    for (const body of [RAIL, WHEEL]) this.surfaces[body] = library.make("surface_of_case", c, body);
+    this.pair = library.make("pair_create", ...this.surfaces);
+    const text = library.textOf("case_text", c);
+    const left = /^side = "left"$/m.test(text);
+    this.shift = /^regime = "shift"$/m.test(text);
     this.shown = [RAIL, WHEEL].flatMap((body) => bodyOf(library, this.surfaces[body]!, body, left) ?? []);
-    return true;
+    this.key = key;
   }
 
   /** As it is, or at elements of a size [mm]. Errors: CallError. */
@@ -109,14 +133,17 @@ export class Solver {
     const changes = element === null ? given.changes : [...given.changes, `discretisation.dx_mm=${element}`, `discretisation.ds_mm=${element}`];
     return this.with({ ...given, changes }, (c) => {
       const { library } = this;
-      const other = this.prepare(given, c);
+      this.prepare(given, c);
       library.call("pair_reset", this.pair);
       const begin = performance.now();
       const status = library.call("pair_solve", this.pair, c, library.out(0));
       const s = library.pointer(0);
       const milliseconds = performance.now() - begin;
       try {
-        return { ...this.shownOf(s, status, name), surfaces: other ? this.shown : null, milliseconds };
+        const shown = this.shownOf(s, status, name);
+        const surfaces = this.told ? null : this.shown;
+        this.told = true;
+        return { ...shown, surfaces, milliseconds };
       } finally {
         library.ask("solution_free", s);
       }
@@ -170,13 +197,15 @@ export class Solver {
     library.call("patch_states", s, k, library.out(0));
     const states = library.pointer(0);
     if (states !== 0) keep("state", (i) => library.module.HEAPU8[states + i]!);
-    for (const { name, columns, factor } of live.fields) {
+    for (const { name, columns, factor, shift = this.shift } of live.fields) {
+      if (shift !== this.shift) continue;
       const [a, b] = columns.map(column);
       if (!a || (columns.length > 1 && !b)) continue;
       keep(name, b ? (i) => factor * Math.hypot(a[i]!, b[i]!) : (i) => factor * a[i]!);
     }
     const numbers: Patch["numbers"] = {};
-    for (const { key, name, factor } of live.numbers) {
+    for (const { key, name, factor, shift = this.shift } of live.numbers) {
+      if (shift !== this.shift) continue;
       const value = library.number("patch_number", s, k, name);
       if (!Number.isNaN(value)) numbers[key] = factor * value;
     }

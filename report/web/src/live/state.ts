@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
+import type { Given } from "./solve";
+
 // What may be changed on a page that solves, and its changes as keys of case files and as an address.
 
 /** A number of the case. */
@@ -25,7 +27,7 @@ function row(key: string, label: string, unit: string, perSi: number, low: numbe
   return { key, name: key.replace(/_(mm|deg|N|km_h|rad_s)$/, ""), label, unit, perSi, perShown, low, high, step };
 }
 
-/** Pseudo key: longitudinal creepage of a round wheel [%], which says its pitch rate. */
+/** Pseudo key: how much faster than at its nominal radius a wheel turns [%], which says its pitch rate. */
 export const CREEPAGE = "creepage";
 
 export const controls: readonly Control[] = [
@@ -35,7 +37,7 @@ export const controls: readonly Control[] = [
   row("wheelset.pitch_deg", "Pitch", "°", DEGREES, -30, 30, 0.1),
   row("wheelset.vertical_force_N", "Wheel load", "kN", 1e-3, 5, 200, 1, 1e3),
   row("wheelset.velocity_km_h", "Speed", "km/h", 3.6, 0, 400, 1),
-  { ...row(CREEPAGE, "Creepage ξ", "%", 100, -5, 5, 0.01), name: "" },
+  { ...row(CREEPAGE, "Nominal creepage", "%", 100, -5, 5, 0.01), name: "" },
   row("friction.coefficient", "Friction", "", 1, 0.02, 0.7, 0.01),
   row("track.cant_deg", "Cant of the rail", "°", DEGREES, -4, 4, 0.01),
   row("track.gauge_mm", "Gauge", "mm", 1e3, 1420, 1470, 0.1),
@@ -53,56 +55,68 @@ export const rollings: readonly (readonly [string, string])[] = [
 
 export type Changes = ReadonlyMap<string, string>;
 
+/** What is solved: the text of a case, and what differs from it. */
+export interface State {
+  toml: string;
+  changes: Changes;
+}
+
 export const shapeKey = (body: string, kind: "standard" | "file"): string => `${body}.shape.${kind}`;
+
+/** What a change takes the place of. */
+const rivals: Readonly<Record<string, string>> = {
+  [ROLLING]: CREEPAGE,
+  [CREEPAGE]: ROLLING,
+  [shapeKey("wheel", "file")]: shapeKey("wheel", "standard"),
+  [shapeKey("wheel", "standard")]: shapeKey("wheel", "file"),
+  [shapeKey("rail", "file")]: shapeKey("rail", "standard"),
+  [shapeKey("rail", "standard")]: shapeKey("rail", "file"),
+};
 
 /** The changes with one more; what it takes the place of goes. An empty value takes a change back. */
 export function changed(before: Changes, key: string, value: string): Changes {
   const after = new Map(before);
-  const rivals: Record<string, string[]> = {
-    [ROLLING]: [CREEPAGE],
-    [CREEPAGE]: [ROLLING],
-    ...Object.fromEntries(["wheel", "rail"].flatMap((body) => [
-      [shapeKey(body, "file"), [shapeKey(body, "standard")]],
-      [shapeKey(body, "standard"), [shapeKey(body, "file")]],
-    ])),
-  };
-  for (const rival of rivals[key] ?? []) after.delete(rival);
+  const rival = rivals[key];
+  if (rival !== undefined) after.delete(rival);
   if (value === "") after.delete(key);
   else after.set(key, value);
   return after;
 }
 
-/** As assignments of the program's --set. `numbers`: of the case with the other changes, in SI. */
-export function assignments(changes: Changes, numbers: Readonly<Record<string, number>>): string[] {
-  const list = [...changes].filter(([key]) => key !== CREEPAGE).map(([key, value]) => `${key}=${value}`);
+/** As the worker takes it: assignments of the program's --set, names of files in quotes, as they may look like numbers. */
+export function givenOf({ toml, changes }: State): Given {
+  const list = [...changes].filter(([key]) => key !== CREEPAGE);
+  const given = { toml, changes: list.map(([key, value]) => `${key}=${key.endsWith(".file") ? JSON.stringify(value) : value}`) };
   const creepage = changes.get(CREEPAGE);
-  if (creepage !== undefined) {
-    const [v, r] = [numbers["wheelset.velocity"] ?? NaN, numbers["wheelset.nominal_radius"] ?? NaN];
-    list.push(`wheelset.vpitch_rad_s=${(-v / r) * (1 + Number(creepage) / 100)}`);
-  }
-  return list;
+  return creepage === undefined ? given : { ...given, creepage: Number(creepage) / 100 };
 }
 
-/** Behind "#"; files that were dropped are not in it. */
-export function toAddress(changes: Changes): string {
-  return [...changes].filter(([key]) => !key.endsWith(".file")).map((pair) => pair.map(encodeURIComponent).join("=")).join("&");
+const CASE = "case";
+
+/** Behind "#". `own`: the case of the page, which is not in it. */
+export function toAddress({ toml, changes }: State, own: string): string {
+  const pairs = [...(toml === own ? [] : [[CASE, toml]]), ...changes];
+  return pairs.map((pair) => pair.map(encodeURIComponent).join("=")).join("&");
 }
 
 /** Of an address; null: it is one of a section. Only keys that the page offers count. */
-export function fromAddress(hash: string): Changes | null {
+export function fromAddress(hash: string, own: string): State | null {
   const text = hash.replace(/^#/, "");
   if (!text.includes("=")) return null;
-  const known = new Set([...controls.map(({ key }) => key), ROLLING, shapeKey("wheel", "standard"), shapeKey("rail", "standard")]);
+  const known = new Set([...controls.map(({ key }) => key), ...Object.keys(rivals)]);
   const changes = new Map<string, string>();
+  let toml = own;
   for (const pair of text.split("&")) {
     try {
       const [key = "", value = ""] = pair.split("=").map(decodeURIComponent);
-      if (known.has(key) && value !== "") changes.set(key, value);
+      if (value === "") continue;
+      if (key === CASE) toml = value;
+      else if (known.has(key)) changes.set(key, value);
     } catch {
       continue;  // what is no text is no change
     }
   }
-  return changes;
+  return { toml, changes };
 }
 
 /** The shown value of a control. */

@@ -144,6 +144,7 @@ export class Viewer implements ControlTarget {
     this.ranges.clear();
     this.greatestTraction = this.measuredTraction();
     ++this.renewals;
+    this.ordered = "";  // a new body has no style yet
     this.frameIndex = -2;
     this.setStep();
   }
