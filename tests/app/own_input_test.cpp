@@ -67,7 +67,7 @@ TEST(OwnInput, IsNoOutputOfAnyVerb) {
       {"fmu", {{"@"}, "fmu"}},
       {"report", {{"@"}, "report"}},
       {"plot", {{"@"}, "report"}},
-      {"live", {{"@", "--no-open"}, "report"}},
+      {"live", {{"@", "--no-open"}, "report_scripts"}},
       {"check", {{"@"}}},
   };
   const std::set<std::string> without{"diff",       "conform", "list", "schema",

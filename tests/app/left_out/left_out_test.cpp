@@ -47,7 +47,7 @@ TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
       {"scans", "the schema of import reports", {"schema", "import-report"}},
       {"report", "treadmark report", {"report", "/nowhere/x", "--static"}},
       {"report", "treadmark plot", {"plot", "/nowhere/x", "--what", "pressure"}},
-      {"report", "treadmark live", {"live", nowhere, "--no-open"}},
+      {"report_scripts", "treadmark live", {"live", nowhere, "--no-open"}},
       {"report", "--report", {"run", nowhere, "--report", "/nowhere/x.html"}},
       {"report", "--report", {"compare", nowhere, "--report", "/nowhere/x.html"}},
   };
