@@ -35,8 +35,6 @@ export interface Check {
   warnings: [string, string][];
 }
 
-const FILES = ".csv,.txt,.prw,.prr,.whl,.rail,.ban,.rol,.slcs,.slcw,.toml,.dat,.mpt,.asc";
-
 export class Panel {
   readonly element = make("div", "live-panel");
   private readonly refreshes: ((changes: Changes, numbers: Readonly<Record<string, number>>, own: string) => void)[] = [];
@@ -101,7 +99,6 @@ export class Panel {
     });
     const input = make("input", "");
     input.type = "file";
-    input.accept = FILES;
     input.dataset["control"] = `${body}-file`;
     input.setAttribute("aria-label", `File with a profile of the ${body}`);
     input.addEventListener("change", () => {
