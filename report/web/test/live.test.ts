@@ -27,7 +27,7 @@ test("a change takes the place of what it contradicts", () => {
 test("an address holds case and changes, and nothing that the page does not offer", () => {
   const changes = new Map([["wheelset.y_mm", "-2.5"], ["rail.shape.standard", "54E1"], ["wheel.shape.file", "own.csv"], [CREEPAGE, "0.2"]]);
   for (const toml of ["own", 'title = "another & = one"\n']) assert.deepEqual(fromAddress(`#${toAddress({ toml, changes }, "own")}`, "own"), { toml, changes });
-  assert.equal(toAddress({ toml: "own", changes: new Map() }, "own"), "");
+  assert.equal(toAddress({ toml: "own", changes: new Map<string, string>() }, "own"), "");
   assert.equal(fromAddress("#contact", "own"), null);
   const hostile = fromAddress("#influence.file=/etc/passwd&wheelset.y_mm=1&%E0%A4%A=2", "own");
   assert.deepEqual(hostile, { toml: "own", changes: new Map([["wheelset.y_mm", "1"]]) });

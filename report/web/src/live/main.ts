@@ -68,7 +68,7 @@ class Live implements Target {
     bar.append(
       button("Undo", "undo", "Take back the last change (Ctrl Z)", () => this.step(this.past, this.future)),
       button("Redo", "redo", "Make it again (Ctrl Shift Z)", () => this.step(this.future, this.past)),
-      button("As the case says", "reset", "Take back all changes", () => this.adopt({ toml: this.state.toml, changes: new Map() })),
+      button("As the case says", "reset", "Take back all changes", () => this.adopt({ toml: this.state.toml, changes: new Map<string, string>() })),
       button("Save case.toml", "save", "A file that treadmark run solves to the same numbers", () => void this.save()),
       make("span", "", "Open a case:"),
       open,
@@ -173,7 +173,7 @@ class Live implements Target {
   private async open(toml: string, name: string): Promise<void> {
     const { trouble } = await this.engine.ask({ kind: "said", given: { toml, changes: [] }, names: [] });
     if (trouble !== undefined) return this.complain(`${name} was not opened: ${trouble}`);
-    this.adopt({ toml, changes: new Map() });
+    this.adopt({ toml, changes: new Map<string, string>() });
   }
 
   private async save(): Promise<void> {
