@@ -6,6 +6,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/version.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/summary.hpp"
@@ -192,7 +193,9 @@ class Writer {
 
   /// How treadmark.h names what the views show.
   static Json live(const Solving& solving) {
-    Json out = {{"toml", solving.toml}, {"profiles", {{"wheel", solving.wheels}, {"rail", solving.rails}}}};
+    Json out = {{"version", version() + " (" + git_revision() + ")"},
+                {"toml", solving.toml},
+                {"profiles", {{"wheel", solving.wheels}, {"rail", solving.rails}}}};
     Json& files = out["files"] = Json::object();
     for (const auto& [name, bytes] : solving.files) files[name] = io::to_base64(std::as_bytes(std::span(bytes)));
     Json& fields = out["fields"] = Json::array();

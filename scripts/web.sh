@@ -18,6 +18,7 @@ mkdir -p "$modules"
 cp build/web/interfaces/web/treadmark-web.{wasm,js} "$modules/"
 printf 'treadmark-web.wasm: %d bytes, %d compressed\n' "$(stat -c %s "$modules/treadmark-web.wasm")" "$(gzip -9 -c "$modules/treadmark-web.wasm" | wc -c)"
 
+cmake "$build" >/dev/null  # both of the same commit
 cmake --build "$build" --target treadmark_cli
 export TREADMARK=$program TREADMARK_WEB=$modules OUT=$build/live-pages
 cd "$build/report/web"

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "treadmark/core/version.hpp"
 #include "treadmark/report/page_data.hpp"
 #include "treadmark/report/write_page.hpp"
 #include "treadmark/tests/report/page_reader.hpp"
@@ -37,6 +38,7 @@ report::Page sample_live_page(const std::string& loader) {
 TEST(LivePage, HoldsItsCaseAndWhatTheViewsAreCalledInC) {
   const auto data = nlohmann::json::parse(page_data(sample_live_page(""), 1'000'000));
   const auto& live = data.at("live");
+  EXPECT_EQ(live.at("version"), version() + " (" + git_revision() + ")");
   EXPECT_EQ(live.at("toml"), "# </script>\nwheel.shape.file = \"own.csv\"\n");
   EXPECT_EQ(live.at("files").at("own.csv"), "MSwy");
   EXPECT_THAT(live.at("profiles").at("wheel"), Contains("S1002"));

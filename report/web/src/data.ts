@@ -25,6 +25,8 @@ export interface ReportData {
 
 /** What a page that solves starts from, and how treadmark.h names what the views show. */
 export interface LiveData {
+  /** Of the program that wrote the page, as tm_version_text begins. */
+  version: string;
   /** The case, and the files that it names, as base64. */
   toml: string;
   files: Record<string, string>;

@@ -39,6 +39,7 @@ const { TREADMARK_WEB: web = "", TREADMARK: program = "" } = process.env;
 const skip = existsSync(join(web, "treadmark-web.wasm")) ? false : "needs the program for browsers: scripts/web.sh";
 
 const live: LiveData = {
+  version: skip ? "" : (/^treadmark (.*)/.exec(spawnSync(program, ["--version"], { encoding: "utf8" }).stdout)?.[1] ?? ""),
   toml: "",
   files: {},
   profiles: { wheel: [], rail: [] },
@@ -46,10 +47,19 @@ const live: LiveData = {
   numbers: [{ key: "pmax_MPa", name: "pmax", factor: 1e-6 }, { key: "fx_N", name: "fx", factor: 1 }, { key: "approach_mm", name: "approach", factor: 1e3 }],
 };
 
-async function solver(): Promise<Solver> {
+async function library(): Promise<Library> {
   const create = createRequire(import.meta.url)(join(web, "treadmark-web.js")) as (how: object) => Promise<Module>;
-  return new Solver(new Library(await create({ wasmBinary: readFileSync(join(web, "treadmark-web.wasm")) })), live);
+  return new Library(await create({ wasmBinary: readFileSync(join(web, "treadmark-web.wasm")) }));
 }
+
+async function solver(): Promise<Solver> {
+  return new Solver(await library(), live);
+}
+
+test("a program of another version solves nothing", { skip }, async () => {
+  const one = await library();
+  assert.throws(() => new Solver(one, { ...live, version: `${live.version}1` }), /written by Treadmark .*, and the program in it is .*scripts\/web\.sh/);
+});
 
 const base = `rail.shape.standard = "60E1"
 wheel.shape.standard = "S1002"

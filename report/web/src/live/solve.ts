@@ -58,10 +58,14 @@ export class Solver {
   /** Of the case of the surfaces: whether it is one of a shift, whose slip and creepages are lengths. */
   private shift = false;
 
+  /** Errors: the program is of another version than the page. */
   constructor(
     private readonly library: Library,
     private readonly live: LiveData,
   ) {
+    const [own = ""] = library.text(library.ask("version_text")).split("\n");
+    if (own !== live.version)
+      throw new Error(`the page was written by Treadmark ${live.version}, and the program in it is ${own}: make that anew by scripts/web.sh`);
     library.module.FS.mkdirTree(FOLDER);
     library.module.FS.chdir(FOLDER);
   }
