@@ -87,7 +87,7 @@ const cases: Record<string, string[]> = {
   "falling friction": ["friction.law=linear", "friction.amplitude_1=0.1", "friction.half_velocity_1_m_s=0.5"],
   "other rail": ["rail.shape.standard=54E1"],
   "cone": ["wheel.shape.standard=cone 1:20"],
-  "flat": ["wheel.flats=[{ depth_mm = 0.5 }]", "wheelset.pitch_deg=2"],
+  "flat": ["wheel.flats=[{ length_mm = 40, depth_mm = 0.5 }]", "wheelset.pitch_deg=2"],
   "no contact": ["wheelset.y_mm=300"],
   "unusual load": ["wheelset.vertical_force_N=2e6"],
   "own file": ["wheel.shape.file=own.csv"],
