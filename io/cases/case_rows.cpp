@@ -64,7 +64,7 @@ void require_table(const std::filesystem::path& file) {
 /// The check sum of rows one after the other.
 std::uint64_t with_row(std::uint64_t sum, std::string_view line) {
   constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;
-  return kOdd * sum + check_sum(std::as_bytes(std::span(line)));
+  return kOdd * sum + check_sum(std::as_bytes(std::span<const char>(line)));
 }
 
 [[noreturn]] void refuse_empty(const SourcePosition& where) {
