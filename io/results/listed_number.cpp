@@ -72,7 +72,7 @@ int taken_patch(std::string_view& name) {
   const char *const first = name.data() + kOnePatch.size(), *const last = name.data() + name.size();
   const auto [end, trouble] = from_chars(first, last, patch);
   if (trouble != std::errc() || patch < 1 || end == last || *end != '.') return 0;
-  name = {end + 1, last};
+  name = name.substr(static_cast<std::size_t>(end + 1 - name.data()));
   return patch;
 }
 
