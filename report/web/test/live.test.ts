@@ -129,6 +129,33 @@ test("the program for browsers gives the numbers of the program", { skip }, asyn
   }
 });
 
+test("solving takes a few times what the program takes", { skip }, async (t) => {
+  const fine = ["discretisation.dx_mm=0.5", "discretisation.ds_mm=0.5"];
+  const folder = mkdtempSync(join(tmpdir(), "treadmark-live-"));
+  const middle = (times: number[]): number => times.sort((a, b) => a - b)[times.length >> 1]!;
+  try {
+    const here = await solver();
+    for (const [name, changes] of [
+      ["exact theory, 1 mm", []],
+      ["exact theory, 0.5 mm", fine],
+      ["KPEC and FASTSIM, 1 mm", ["solver.normal_model=kpec", "solver.tangential_model=fastsim"]],
+      ["flat, 0.5 mm", [...cases["flat"]!, ...fine]],
+    ] as const) {
+      const given = { toml: base, changes };
+      const took = middle(Array.from({ length: 15 }, () => here.solve(given, null, name).milliseconds));
+      const file = join(folder, "case.toml");
+      writeFileSync(file, here.said(given, []).toml);
+      const often = `friction.coefficient=[${Array.from({ length: 15 }, () => 0.3).join(", ")}]`;
+      const run = spawnSync(program, ["--quiet", "--threads", "1", "run", file, "--set", often, "--json", "-"], { encoding: "utf8", maxBuffer: 1 << 28 });
+      const there = middle((JSON.parse(run.stdout) as { cases: { seconds: number }[] }).cases.map(({ seconds }) => 1e3 * seconds));
+      t.diagnostic(`${name}: ${took.toFixed(1)} ms, the program ${there.toFixed(1)} ms: ratio ${(took / there).toFixed(1)}`);
+      assert.ok(took < 5000);
+    }
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
 test("what cannot be solved is a sentence, and the next case is solved", { skip }, async () => {
   const here = await solver();
   here.addFile("hostile.csv", new TextEncoder().encode("<script>alert(1)</script>,".repeat(1000)));
