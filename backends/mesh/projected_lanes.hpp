@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "treadmark/backends/mesh/kernel_types.hpp"
 #include "treadmark/core/lanes4.hpp"
 

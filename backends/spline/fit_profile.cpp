@@ -180,7 +180,7 @@ struct SecondDifference {
   double left, middle, right;
 };
 
-std::vector<SecondDifference> second_differences(const ProfileData& data) {
+std::vector<SecondDifference> differences_of_points(const ProfileData& data) {
   std::vector<SecondDifference> columns;
   const int n = static_cast<int>(data.s.size());
   for (int i = 1; i + 1 < n; ++i) {
@@ -260,7 +260,7 @@ void set_cubic(double (&c)[4], const FittedValues& f, std::size_t k, double h) {
 }  // namespace
 
 ProfileSpline fit_cubic_smoothing(const ProfileData& data, double lambda) {
-  const auto q = second_differences(data);
+  const auto q = differences_of_points(data);
   const BandedCholesky matrix = curvature_equations(data, q, lambda);
   const FittedValues y = fit(data, q, matrix, lambda, data.y), z = fit(data, q, matrix, lambda, data.z);
 

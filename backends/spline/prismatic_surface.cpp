@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -122,8 +123,8 @@ void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
   const WidthWindow seen(view, window);
   segments_over(ProfileTree(seen, profile_, hulls_), segments);
   const ViewedProfile viewed(profile_, view, segments);
-  const auto [z, dz_along, dz_across] =
-      g.along_is_y ? std::tuple(out.z, out.dzdy, out.dzdx) : std::tuple(out.z, out.dzdx, out.dzdy);
+  const std::span<double> z = out.z, dz_along = g.along_is_y ? out.dzdy : out.dzdx,
+                          dz_across = g.along_is_y ? out.dzdx : out.dzdy;
   const bool slopes = !dz_along.empty() || !dz_across.empty();
 
   const auto raster_line = [&](int line, ColumnHits& hits) {

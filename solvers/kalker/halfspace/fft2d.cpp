@@ -179,7 +179,7 @@ void for_parts(int lines, int of_part, const Body& body) {
   });
 }
 
-std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
+std::size_t area(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
 
 }  // namespace
 
@@ -218,7 +218,7 @@ void RealFft2d::rows_forward(const LoadRows& load, Complex* rows) const {
   }
   const int of_rows = rows_of_part(active_rows_, nx_, ny_);
   for_parts(active_rows_, of_rows, [&](int first, int count) {
-    double* real = kept_memory<double, kRealRows>(product(of_rows, nx_));
+    double* real = kept_memory<double, kRealRows>(area(of_rows, nx_));
     load(first, count, real);
     plan_->part_of_rows_forward(count, real, rows + static_cast<std::size_t>(first) * width);
   });
@@ -233,7 +233,7 @@ void RealFft2d::rows_inverse(Complex* rows, const StoreRows& store) const {
   }
   const int of_rows = rows_of_part(active_rows_, nx_, ny_);
   for_parts(active_rows_, of_rows, [&](int first, int count) {
-    double* real = kept_memory<double, kRealRows>(product(of_rows, nx_));
+    double* real = kept_memory<double, kRealRows>(area(of_rows, nx_));
     plan_->part_of_rows_inverse(count, rows + static_cast<std::size_t>(first) * width, real);
     store(first, count, real);
   });
@@ -244,7 +244,7 @@ void RealFft2d::rows_inverse(Complex* rows, const StoreRows& store) const {
 void RealFft2d::multiply_columns(std::span<const LoadRows> load, const Line& factor,
                                  std::span<const StoreRows> store) const {
   const int width = nx_ / 2 + 1, of_columns = columns_of_part(active_rows_, nx_, ny_);
-  const std::size_t apart = (rows_size() + 3) / 4 * 4, size = (product(of_columns, ny_) + 3) / 4 * 4;
+  const std::size_t apart = (rows_size() + 3) / 4 * 4, size = (area(of_columns, ny_) + 3) / 4 * 4;
   const auto length = static_cast<std::size_t>(ny_), active = static_cast<std::size_t>(active_rows_);
   Complex* rows = kept_memory<Complex, kSpectra>(load.size() * apart);
   for (std::size_t f = 0; f < load.size(); ++f) rows_forward(load[f], rows + f * apart);
@@ -260,7 +260,7 @@ void RealFft2d::multiply_columns(std::span<const LoadRows> load, const Line& fac
         for (std::size_t k = 0; k < columns; ++k) before[k * length + iy] = from[k];
       for (std::size_t k = 0; k < columns; ++k)
         std::fill(before + k * length + active, before + (k + 1) * length, Complex());
-      if (!large_) std::fill(before + columns * length, before + product(of_columns, ny_), Complex());
+      if (!large_) std::fill(before + columns * length, before + area(of_columns, ny_), Complex());
       plan_->part_of_columns_forward(count, before, values[f]);
     }
     for (std::size_t k = 0; k < columns; ++k) {

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
+
 #include "treadmark/core/kernel.hpp"
 #include "treadmark/core/lanes4.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_lines.hpp"
