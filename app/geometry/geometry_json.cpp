@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "treadmark/app/geometry/geometry_run.hpp"
@@ -18,7 +17,6 @@ using io::Json;
 
 constexpr const char* kGeometrySchema =
 #include "treadmark/app/geometry/geometry.schema.json.in"
-#include "treadmark/core/platform/ranges.hpp"
     ;
 
 /// The settings that results repeat.
@@ -107,7 +105,7 @@ std::string geometry_json(const GeometryResult& result) {
 std::string geometry_schema() {
   using io::schema_rows;
   io::SchemaRows numbers = schema_rows<GeometryResult>();
-  ranges::move(echoed_rows(), std::back_inserter(numbers));
+  for (auto& row : echoed_rows()) numbers.push_back(std::move(row));
   return io::filled_schema(kGeometrySchema, {{"geometry", std::move(numbers)},
                                              {"functions", function_rows()},
                                              {"conicity", io::listed(schema_rows<ConicityRow>())},

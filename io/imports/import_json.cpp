@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -129,7 +129,7 @@ SchemaRows placed_rows() {
                  {"u_mm", "number", true, false, "along a rail; one of u_deg and u_mm is there"},
                  {"y_mm", "number", true, true, "across, of the profile"},
                  {"s_mm", "number", true, true, "along the section, as in the maps; null where only y is known"}};
-  ranges::move(schema_rows<Part>(), std::back_inserter(out));
+  for (auto& row : schema_rows<Part>()) out.push_back(std::move(row));
   return out;
 }
 
