@@ -11,9 +11,9 @@
 namespace treadmark::spline {
 
 std::vector<ShapeParameter> node_parameters(const ProfileSpline& profile) {
-  // between near points little height is much curvature: some hundredths of 1/m are little beside that of a rail's
-  // crown
-  constexpr double kCurvature = 3e-3, kLeast = 1e-10, kMost = 5e-8;  // [1/m], [m], [m]
+  // between near points little height is much curvature, some four times this: little beside that of a rail's crown,
+  // while contact still moves by more than its place is uncertain
+  constexpr double kCurvature = 1e-3, kLeast = 2e-11, kMost = 5e-8;  // [1/m], [m], [m]
   const std::span<const double> s = profile.breaks();
   std::vector<ShapeParameter> out;
   for (std::size_t k = 0; k < s.size(); ++k) {

@@ -112,7 +112,7 @@ struct PairParameter {
   double step = 5e-8;
   /// Instead of both: of the surface that faces so, this one of its parameters (Surface::parameters).
   std::optional<Facing> shape_of = std::nullopt;
-  std::size_t shape = 0;
+  std::size_t shape = 0;  ///< which of them
 };
 
 /// Two solutions beside a given one, on either side of it along its tangent: with a number that is given more by the

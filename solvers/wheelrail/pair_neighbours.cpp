@@ -119,7 +119,7 @@ class Tangents {
     PairState change;
     add_change(change, 0.5 / step, *above);
     add_change(change, -0.5 / step, *below);
-    if (parameter.shape_of) out.heights = take_heights(parameter, *above, *below, step, change);
+    if (parameter.shape_of) out.heights = take_heights(parameter, {more, *above}, {less, *below}, step, change);
     double dz = 0.5 / step * (height(more) - height(less));
     if (balanced()) {
       const double load = 0.5 / step * (*more.problem.vertical_force - *less.problem.vertical_force);
@@ -175,31 +175,50 @@ class Tangents {
     return out;
   }
 
-  /// Gaps as they change with the heights over planes that stay, and with planes that move over bodies that stay;
-  /// where heights are differenced, gaps are as they were.
-  HeightsBy take_heights(const PairParameter& parameter, const PairState& above, const PairState& below, double step,
+  struct Changed {
+    const Given& given;
+    const PairState& state;
+  };
+
+  /// Gaps of the surfaces as they are, over the planes and with the bodies placed as they are with a number changed: a
+  /// rail whose top or gauge point moves is placed elsewhere.
+  std::vector<std::vector<double>> gaps_moved(const Changed& changed) const {
+    Problem p = changed.given.problem;
+    if (balanced()) p.state.position.z = solution_.z;
+    const Placement placed = place(changed.given.geometry, p);
+    detection::BodyPair bodies = bodies_;
+    bodies.X_TR = placed.X_TS, bodies.X_TW = placed.X_TA;
+    std::vector<std::vector<double>> gaps;
+    for (std::size_t k = 0; k < changed.state.size(); ++k) {
+      const PatchState& s = changed.state[k];
+      detection::UndeformedDistance u =
+          detection::undeformed_distance(bodies, {s.origin, rotation_x(s.angle)}, solution_.patches[k].grid);
+      for (double& h : u.distance) h -= u.approach;
+      gaps.push_back(std::move(u.distance));
+    }
+    return gaps;
+  }
+
+  /// Gaps as they change with the heights over planes that stay, and with planes and bodies that move while surfaces
+  /// stay; where heights are differenced, gaps are as they were.
+  HeightsBy take_heights(const PairParameter& parameter, const Changed& above, const Changed& below, double step,
                          PairState& change) const {
     if (bodies_.distance_mesh || given_.problem.solver.conventions == Conventions::contact)
       return HeightsBy::differences;
     const bool rail = *parameter.shape_of == Facing::up;
     const Surface& surface = rail ? *given_.geometry.rail : *given_.geometry.wheel;
-    detection::BodyPair bodies = bodies_;
-    bodies.X_TR = solution_.placement.X_TS, bodies.X_TW = solution_.placement.X_TA;
-    const Pose X_ST = (rail ? bodies.X_TR : bodies.X_TW).inverse();
+    const Pose X_ST = (rail ? solution_.placement.X_TS : solution_.placement.X_TA).inverse();
+    std::vector<std::vector<double>> by(change.size());
     for (std::size_t k = 0; k < change.size(); ++k) {
-      const Grid2& grid = solution_.patches[k].grid;
-      std::vector<double> by(grid.size());
-      const HeightsBy how = surface.heights_by(parameter.shape, {X_ST * solution_.patches[k].frame.X_TC, grid}, by);
-      if (how == HeightsBy::differences) return how;
-      const auto gap = [&](const PatchState& s) {
-        detection::UndeformedDistance u = detection::undeformed_distance(bodies, {s.origin, rotation_x(s.angle)}, grid);
-        for (double& h : u.distance) h -= u.approach;
-        return std::move(u.distance);
-      };
-      const std::vector<double> more = gap(above[k]), less = gap(below[k]);
-      for (std::size_t i = 0; i < by.size(); ++i)
-        change[k].gap[i] = (rail ? by[i] : -by[i]) + 0.5 / step * (more[i] - less[i]);
+      const PatchSolution& patch = solution_.patches[k];
+      by[k].resize(patch.grid.size());
+      if (surface.heights_by(parameter.shape, {X_ST * patch.frame.X_TC, patch.grid}, by[k]) != HeightsBy::exact)
+        return HeightsBy::differences;
     }
+    const std::vector<std::vector<double>> more = gaps_moved(above), less = gaps_moved(below);
+    for (std::size_t k = 0; k < change.size(); ++k)
+      for (std::size_t i = 0; i < by[k].size(); ++i)
+        change[k].gap[i] = (rail ? by[k][i] : -by[k][i]) + 0.5 / step * (more[k][i] - less[k][i]);
     return HeightsBy::exact;
   }
 
@@ -294,12 +313,16 @@ class Tangents {
   Report report_;
 };
 
-/// Whether a problem differs in nothing but what derivatives follow.
+/// Whether a problem differs in nothing but what derivatives follow. Of laws of friction that is the coefficient.
 bool is_followed(const Problem& p, Problem changed) {
-  if (changed.vertical_force.has_value() != p.vertical_force.has_value()) return false;
+  if (changed.vertical_force.has_value() != p.vertical_force.has_value() ||
+      changed.friction_laws.size() != p.friction_laws.size())
+    return false;
   changed.track = p.track, changed.roller = p.roller, changed.wheelset = p.wheelset, changed.state = p.state;
-  changed.vertical_force = p.vertical_force, changed.friction = p.friction;
-  changed.friction_inclination = p.friction_inclination, changed.friction_laws = p.friction_laws;
+  changed.vertical_force = p.vertical_force, changed.friction.kinetic = p.friction.kinetic;
+  changed.friction_inclination = p.friction_inclination;
+  for (std::size_t i = 0; i < p.friction_laws.size(); ++i)
+    changed.friction_laws[i].kinetic = p.friction_laws[i].kinetic;
   return changed == p;
 }
 
@@ -358,11 +381,16 @@ std::vector<PairNeighbours> Pair::neighbours(const Problem& problem, const PairS
       out[i].report.status = Status::failed;
       out[i].report.message =
           "derivatives by this number are not known: they are by track, wheelset, position, velocities, vertical "
-          "force, "
-          "friction and shape";
+          "force, friction and shape";
       return;
     }
-    out[i] = tangents.beside(parameter, more, less, step);
+    try {
+      out[i] = tangents.beside(parameter, more, less, step);
+    } catch (const Error& e) {  // a surface ends where contact moves to: the other parameters have derivatives
+      if (e.kind() != ErrorKind::numerical) throw;
+      out[i].report.status = Status::failed;
+      out[i].report.message = e.message();
+    }
     if (!left || out[i].report.status != Status::ok) return;
     out[i].more = mirrored(std::move(out[i].more)), out[i].less = mirrored(std::move(out[i].less));
   });
