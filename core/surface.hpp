@@ -154,7 +154,7 @@ class Surface {
  private:
   /// Of a parameter that parameters() names; null: there is no such surface.
   virtual std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const;
-  /// Exact derivatives; false: not known, and nothing was written.
+  /// Exact derivatives; false: not known, and what was written does not count.
   virtual bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const;
   virtual void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const = 0;
   /// Falls back to one-point grids; a backend that can do better overrides it.

@@ -26,6 +26,7 @@ class LimitedSurface final : public Surface, public Parametric {
   std::string_view backend() const override { return rail_->backend(); }
   Facing facing() const override { return rail_->facing(); }
   std::vector<double> data_v() const override { return rail_->data_v(); }
+  std::vector<ShapeParameter> parameters() const override { return rail_->parameters(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + rail_->memory_bytes(); }
   Box3 bounds() const override {
     Box3 box = rail_->bounds();
@@ -50,6 +51,9 @@ class LimitedSurface final : public Surface, public Parametric {
     }
   }
 
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override {
+    return std::make_shared<LimitedSurface>(rail_->changed(parameter, amount), x_min_, x_max_);
+  }
   void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
     const Grid2& g = plane.grid;
     std::vector<double> z(g.size());

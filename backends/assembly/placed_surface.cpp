@@ -39,6 +39,7 @@ class Placed : public Surface, public Parametric {
   Box3 bounds() const override { return moved(surface_->bounds(), X_SB_); }
   std::size_t memory_bytes() const override { return sizeof(*this) + surface_->memory_bytes(); }
   std::vector<double> data_v() const override { return surface_->data_v(); }
+  std::vector<ShapeParameter> parameters() const override { return surface_->parameters(); }
   bool exact_derivatives() const override { return has_exact_derivatives(*surface_); }
 
  protected:
@@ -83,6 +84,12 @@ class MovedSurface final : public Placed {
     const bool along = X_SB().rotation == Mat3::Identity();
     const bool centred = facing() == Facing::up || (X_SB().origin.x() == 0.0 && X_SB().origin.z() == 0.0);
     return along && centred;
+  }
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override {
+    return std::make_shared<MovedSurface>(surface().changed(parameter, amount), X_SB());
+  }
+  bool do_heights_by(std::size_t parameter, const PlaneGrid& g, std::span<double> by) const override {
+    return surface().heights_by(parameter, {seen_from_own(g.X_SP), g.grid}, by) == HeightsBy::exact;
   }
   void do_heights(const PlaneGrid& g, const HeightsOut& out) const override {
     surface().heights({seen_from_own(g.X_SP), g.grid}, out);
@@ -130,6 +137,9 @@ class TurnedSurface final : public Placed {
     for (double& slope : out.dzdx) slope = -slope;
   }
 
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override {
+    return std::make_shared<TurnedSurface>(surface().changed(parameter, amount), X_SB().origin.z());
+  }
   void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
     Grid2 g = plane.grid;
     g.y0 = -g.y(g.ny - 1);

@@ -25,10 +25,17 @@ class RenamedSurface final : public Surface, public Parametric {
   bool constant_profile() const override { return made_->constant_profile(); }
   bool constant_between(double u_min, double u_max) const override { return made_->constant_between(u_min, u_max); }
   std::vector<double> data_v() const override { return made_->data_v(); }
+  std::vector<ShapeParameter> parameters() const override { return made_->parameters(); }
   void do_evaluate(std::span<const Vec2> uv, std::span<SurfaceJet> out) const override { evaluate(*made_, uv, out); }
   bool exact_derivatives() const override { return has_exact_derivatives(*made_); }
 
  private:
+  std::shared_ptr<const Surface> do_change(std::size_t parameter, double amount) const override {
+    return std::make_shared<RenamedSurface>(made_->changed(parameter, amount), name_);
+  }
+  bool do_heights_by(std::size_t parameter, const PlaneGrid& plane_grid, std::span<double> by) const override {
+    return made_->heights_by(parameter, plane_grid, by) == HeightsBy::exact;
+  }
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override {
     made_->heights(plane_grid, out);
   }

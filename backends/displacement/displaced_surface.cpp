@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,10 +58,16 @@ class DisplacedSurface final : public Surface, public Parametric {
   }
   std::vector<double> data_v() const override { return base_->data_v(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + base_->memory_bytes() + field_->memory_bytes(); }
-  /// Those of the base, then those of the field.
+  /// Those of the base, then those of the field, which give way where both have a name.
   std::vector<ShapeParameter> parameters() const override {
     std::vector<ShapeParameter> all = base_->parameters();
-    for (ShapeParameter& one : field_->parameters()) all.push_back(std::move(one));
+    const auto taken = [&](const std::string& name) {
+      return std::any_of(all.begin(), all.end(), [&](const ShapeParameter& other) { return other.name == name; });
+    };
+    for (ShapeParameter& one : field_->parameters()) {
+      while (taken(one.name)) one.name += "_above";
+      all.push_back(std::move(one));
+    }
     return all;
   }
   Box3 bounds() const override {
