@@ -3,6 +3,7 @@
 #include "treadmark/app/cases/case_derivatives.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -49,8 +50,9 @@ constexpr const char* kUsualKeys[] = {
     "friction.coefficient",
 };
 
-/// Over which a number is differenced, in SI: what moves surfaces by some hundredths of a micrometre.
-double step_of(const std::string& key) {
+/// Over which a number is differenced, in SI: what moves surfaces by some hundredths of a micrometre, and of others a
+/// part of their value that rounding does not swallow.
+double step_of(const std::string& key, double value) {
   struct Step {
     std::string_view unit;
     double step;
@@ -60,7 +62,7 @@ double step_of(const std::string& key) {
   const std::string_view unit = io::unit_at_end(key).si_name;
   for (const Step& row : kSteps)
     if (row.unit == unit) return row.step;
-  return kOther;
+  return kOther * std::max(1.0, std::abs(value));
 }
 
 /// In place of a key: all parameters of the surface of a body, each with the unit that its name then ends with.
@@ -141,8 +143,9 @@ class CaseTangents {
       return;
     }
     Sides sides;
+    const double unit = io::unit_of_key(key), step = step_of(key, *value * unit);
     try {
-      sides.step = step_of(key) / io::unit_of_key(key);
+      sides.step = step / unit;
       const auto beside = [&](double amount) {
         io::Case c = case_;
         io::apply_override(c, fmt::format("{}={:.17g}", key, *value + amount));
@@ -157,7 +160,13 @@ class CaseTangents {
       return p.geometry.rail == base_->geometry.rail && p.geometry.wheel == base_->geometry.wheel;
     };
     parameter.of_surfaces = !same(*sides.more) || !same(*sides.less);
-    asked_.push_back({out.parameters.size() - 1, sides, {changes(sides), step_of(key)}});
+    const bool contact =
+        parameter.of_surfaces || sides.more->problem != base_->problem || sides.less->problem != base_->problem;
+    if (!contact) {
+      parameter.left_out = "contact does not follow from it";
+      return;
+    }
+    asked_.push_back({out.parameters.size() - 1, sides, {changes(sides), step}});
   }
 
   void add_shape(const ShapeKey& shape, io::CaseDerivatives& out) {
@@ -228,11 +237,13 @@ class CaseTangents {
                          less = to_result(sides.less->input, found.less);
     std::size_t next = 0;
     for_each_number(more, [&](const std::string& name, const auto& row, const auto& of) {
-      while (next < out.numbers.size() && out.numbers[next].name != name) ++next;
-      if (next == out.numbers.size()) return;
+      std::size_t here = next;
+      while (here < out.numbers.size() && out.numbers[here].name != name) ++here;
+      if (here == out.numbers.size()) return;  // a number that the case itself does not have
+      next = here + 1;
       // units are factors, so that the difference has a unit of its own
       const double difference = row.access.get(of(more)) - row.access.get(of(less));
-      out.numbers[next++].by[asked.place] = row.unit.in_file(difference) / (2.0 * sides.step);
+      out.numbers[here].by[asked.place] = row.unit.in_file(difference) / (2.0 * sides.step);
     });
   }
 

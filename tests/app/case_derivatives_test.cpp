@@ -81,14 +81,21 @@ TEST(CaseDerivatives, AreThoseOfWholeRuns) {
   EXPECT_THAT(d.without, Contains("elements.ncon"));
 }
 
-/// The amount of the one flat is its depth over 0.3 mm.
+/// The amount of the one flat is its depth over 0.3 mm. A wheel that is out of round too has its flats displaced.
 TEST(CaseDerivatives, ByTheSurfacesOwnParametersAgreeWithThoseByTheFile) {
-  const io::RunResult run = with_derivatives(kOnTheFlat, {"wheel.flats.0.depth_mm", "wheel.shape", "rail.shape"});
-  const io::CaseDerivatives& d = *run.cases.at(0).derivatives;
+  const std::string waves = "[[wheel.polygonizations]]\nharmonics = [{ order = 3, amplitude_um = 20 }]\n";
+  const std::string out_of_round =
+      treadmark::testing::standard_case("1.0", treadmark::testing::kWheelWithFlat + waves) +
+      "[[cases]]\nwheelset.pitch_deg = 2\n";
+  const io::RunResult run = with_derivatives(out_of_round, {"wheel.flats.0.depth_mm", "wheel.shape", "rail.shape"});
+  ASSERT_TRUE(run.cases.at(0).derivatives);
+  const io::CaseDerivatives& d = *run.cases[0].derivatives;
   ASSERT_EQ(d.message, "");
-  EXPECT_EQ(d.parameters.at(1).key, "wheel.shape_0");
+  ASSERT_EQ(d.parameters.size(), 4u) << "depth, flats, waves, rail";
+  EXPECT_EQ(d.parameters[1].key, "wheel.shape_0");
+  EXPECT_EQ(d.parameters[2].key, "wheel.shape_1");
   EXPECT_FALSE(d.parameters[1].of_surfaces) << "exact";
-  EXPECT_NE(d.parameters.at(2).left_out, "") << "arcs name no parameters";
+  EXPECT_NE(d.parameters[3].left_out, "") << "arcs name no parameters";
   const double by_depth = derivative(d, "patch_1.pmax_MPa", "wheel.flats.0.depth_mm");
   constexpr double kDifferences = 1e-4;
   EXPECT_NEAR(derivative(d, "patch_1.pmax_MPa", "wheel.shape_0"), 0.3 * by_depth, kDifferences * std::abs(by_depth));
@@ -104,10 +111,12 @@ TEST(CaseDerivatives, SayWhatIsLeftOut) {
   EXPECT_THROW(with_derivatives(kOnTheFlat, {"wheelset.y"}), Error);
   EXPECT_THROW(with_derivatives(kOnTheFlat, {"wheel.flats.1.depth_mm"}), Error);
   EXPECT_THROW(with_derivatives(kOnTheFlat, {"rail.shape.standard"}), Error);
-  const io::RunResult other = with_derivatives(kOnTheFlat, {"discretisation.dx_mm", "wheelset.y_mm"});
+  const io::RunResult other =
+      with_derivatives(kOnTheFlat, {"discretisation.dx_mm", "wheelset.y_mm", "material.rail_shear_modulus_GPa"});
   const io::CaseDerivatives& d = *other.cases.at(0).derivatives;
   EXPECT_THAT(d.parameters.at(0).left_out, HasSubstr("not known"));
   EXPECT_EQ(d.parameters.at(1).left_out, "");
+  EXPECT_NE(d.parameters.at(2).left_out, "") << "steps are not lost in rounding";
   EXPECT_TRUE(std::isnan(derivative(d, "patch_1.pmax_MPa", "discretisation.dx_mm")));
 }
 

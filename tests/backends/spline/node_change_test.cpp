@@ -43,7 +43,9 @@ void expect_slopes_of_heights(const Surface& surface, const std::vector<Pose>& p
   for (const Pose& plane : planes)
     for (std::size_t k = 0; k < all.size(); k += 7) {
       ASSERT_EQ(surface.heights_by(k, {plane, grid}, by), HeightsBy::exact);
-      const auto heights = [&](double amount) { return testing::heights(*surface.changed(k, amount), plane, grid).z; };
+      const auto heights = [&](double amount) {
+        return treadmark::testing::heights(*surface.changed(k, amount), plane, grid).z;
+      };
       const std::vector<double> more = heights(kAmount), less = heights(-kAmount);
       for (std::size_t i = 0; i < by.size(); ++i) {
         if (std::isnan(more[i]) || std::isnan(less[i]) || std::isnan(by[i])) continue;
