@@ -301,7 +301,8 @@ TEST(PairNeighbours, RefuseWhatTheyDoNotFollow) {
   const PairParameter aside{[](double by, Problem& p, Geometry&) { p.state.position.y += by; }};
   for (const PairParameter& unknown :
        {PairParameter{[](double by, Problem&p, Geometry&) { p.discretisation.dx += by; }},
-        PairParameter{[](double by, Problem&p, Geometry&) { p.material.layer_flexibility += by; }}}) {
+        PairParameter{[](double by, Problem&p, Geometry&) { p.material.layer_flexibility += by; }},
+        PairParameter{[](double by, Problem&p, Geometry&) { p.friction.amplitude_1 += by; }}}) {
     const Report report = pair.neighbours(problem, s, {&unknown, 1}).at(0).report;
     EXPECT_EQ(report.status, Status::failed);
     EXPECT_NE(report.message, "");
