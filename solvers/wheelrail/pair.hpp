@@ -174,9 +174,10 @@ class Pair {
   /// Elements stay in contact or out of it and adhere or slip, as in kalker::Gradient; so does the element of the
   /// largest pressure and that of the greatest penetration. Costs some linear systems for each patch and two searches
   /// without pressures for each parameter; parameters on all threads, with the same bits for any number of them. The
-  /// history stays as it is. A parameter that changes anything else of the problem, or contact that comes or goes with
-  /// it, is told in its report. Errors: as gradient(), Error(configuration) for transient rolling, shifts, damping, the
-  /// slip of surfaces, a shape that has no such parameter, and what changed problems and surfaces are refused for.
+  /// history stays as it is. A parameter that changes anything else of the problem, or contact that comes, goes or
+  /// leaves a surface with it, is told in its report. Errors: as gradient(), Error(configuration) for transient
+  /// rolling, shifts, damping, the slip of surfaces, a shape that has no such parameter, and what changed problems and
+  /// surfaces are refused for.
   std::vector<PairNeighbours> neighbours(const Problem& problem, const PairSolution& solution,
                                          std::span<const PairParameter> parameters);
 
