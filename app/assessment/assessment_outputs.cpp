@@ -282,7 +282,16 @@ AssessmentRequest request_in(const std::filesystem::path& json) {
     RunningLimits& limits = request.limits.emplace();
     limits.edition = given.text("edition");
     limits.verified = given.at("verified").flag();
-    for (const io::JsonTree& one : given.at("limits").items()) io::read_json(one, limits.limits.emplace_back());
+    const auto words_of = [](const auto& enumerators) {
+      std::vector<std::string_view> words{kAny};
+      words.insert(words.end(), enumerators.begin(), enumerators.end());
+      return words;
+    };
+    for (const io::JsonTree& one : given.at("limits").items()) {
+      one.at("vehicle").one_of(words_of(kVehicleKinds));
+      one.at("section").one_of(words_of(kSectionKinds));
+      io::read_json(one, limits.limits.emplace_back());
+    }
   }
   for (const io::JsonTree& one : run.at("sections").items())
     request.sections.push_back(

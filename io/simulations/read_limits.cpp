@@ -15,16 +15,15 @@ RunningLimits parse_limits_text(std::string_view text, const std::string& name) 
   const CaseTable tables = parse_toml(text, name);
   const TableOf document(tables, {name, 1, 1}, "", limit_file_keys());
   RunningLimits out = document.read();
-  if (out.edition.empty())
-    document.refuse(&RunningLimits::edition, "edition is empty", "say whose limits these are: standard, year, table");
   document.need(&RunningLimits::limits);
   using L = RunningLimit;
   for (const CaseValue* one : document.tables(&RunningLimits::limits)) {
     const TableOf table(*one, document.path_of(&RunningLimits::limits), limit_keys());
     L& limit = out.limits.emplace_back(table.read());
     limit.where = table.where();
-    if (limit.constant == 0.0 && limit.by_load == 0.0 && limit.by_curvature == 0.0)
-      table.fail(fmt::format("the limit of {} is zero", limit.quantity), "give value, by_load or by_curvature");
+    if (!(limit.constant > 0.0) && !(limit.by_load > 0.0) && !(limit.by_curvature > 0.0))
+      table.fail(fmt::format("the limit of {} is nowhere positive", limit.quantity),
+                 "give value, by_load or by_curvature");
     if (limit.to_radius && !(*limit.to_radius > limit.from_radius))
       table.refuse(&L::to_radius,
                    fmt::format("no radius lies from {:.6g} to {:.6g} m", limit.from_radius, *limit.to_radius));

@@ -182,7 +182,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
       element_step.guess = elements.of(a);
       std::optional<ElementResponse> settled = settle(elements, element_step, from.element_memory);
       if (!settled) {
-        step.why_not = "forces of dry friction and dampers did not settle within a step";
+        step.why_not = "forces of dry friction, dampers and air springs did not settle within a step";
         return step;
       }
       response = std::move(*settled);

@@ -318,7 +318,8 @@ class Assembly {
       AirSpring& air = system_.elements.air_springs[i];
       ElementColumn& column = system_.elements.columns[static_cast<std::size_t>(air.column)];
       const double preload = system_.links[static_cast<std::size_t>(column.link)].preload;
-      if (preload == 0.0)
+      constexpr double kNothing = 1e-6;  // of the load that it was given
+      if (!(std::abs(preload) > kNothing * specs[i].load))
         throw Error(ErrorKind::configuration, fmt::format("nothing lies on air spring '{}'", air.name), specs[i].where);
       air.pressure = kAtmosphere + std::abs(preload) / air.area;
       if (preload < 0.0) continue;  // b lies on a: it is compressed as b comes down

@@ -17,7 +17,7 @@
 namespace treadmark::measures {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi, kSpeedOfTrain = 20.0, kStepOfRecord = 5e-4;
+constexpr double kFullTurn = 2.0 * std::numbers::pi, kSpeedOfTrain = 20.0, kStepOfRecord = 5e-4;
 
 /// A passenger at a point that moves as said, at constant speed.
 template <class Motions>
@@ -61,7 +61,7 @@ TEST(Comfort, MeanComfortOfSinesIsInClosedForm) {
   } frequencies[] = {{1.0, 0.6, 4.0}, {2.0, 1.0, 8.0}, {5.0, 8.0, 16.0}};
   for (const auto& f : frequencies) {
     const auto sine = [](double amplitude, double frequency) {
-      return [=](double t) { return amplitude * std::sin(kTurn * frequency * t); };
+      return [=](double t) { return amplitude * std::sin(kFullTurn * frequency * t); };
     };
     const std::vector<Motion> motions{{PointMotion::longitudinal, sine(0.1, f.along)},
                                       {PointMotion::lateral, sine(0.3, f.across)},
@@ -87,7 +87,7 @@ TEST(Comfort, MeanComfortOfSinesIsInClosedForm) {
 TEST(Comfort, PercentilesAreOfWindowsThatDiffer) {
   // 21 windows with amplitudes 1 ... 21: 95 % of them lie below the twentieth
   const std::vector<Motion> motions{
-      {PointMotion::lateral, [](double t) { return (1.0 + std::floor(t / 5.0)) * std::sin(kTurn * 2.0 * t); }}};
+      {PointMotion::lateral, [](double t) { return (1.0 + std::floor(t / 5.0)) * std::sin(kFullTurn * 2.0 * t); }}};
   const RunSignals run = passenger(106.0, motions);
   const AssessmentSection section{"run", 0.0, 2100.0};
   const std::vector<Assessed> all = assess_run(run, std::span(&section, 1), VehicleKind::passenger);

@@ -174,6 +174,10 @@ TEST(AssessmentOutputs, HoldTheSameNumbersAndAreReadBack) {
   for (std::size_t i = 0; i < runs[0].quantities.size(); ++i) {
     const auto& row = json.at("runs")[0].at("assessed")[i];
     EXPECT_TRUE(json.at("quantities").contains(row.at("quantity").get<std::string>()));
+    if (row.at("status") != "ok") {  // no section holds a window of 100 m
+      EXPECT_TRUE(row.at("value").is_null()) << row;
+      continue;
+    }
     EXPECT_NEAR(row.at("value").get<double>() / runs[0].quantities[i].value, 1.0, 1e-11);
   }
   // of one run the request is read again

@@ -15,7 +15,8 @@
 namespace treadmark::app {
 namespace {
 
-/// A body on two axles 6 m apart, by a spring of 1 MN/m on each axle box, a metre from the middle.
+/// A body on two axles 6 m apart, by a spring of 3 MN/m on each axle box, a metre from the middle. It is so soft
+/// sideways that axles which roll about the rails do not push each other aside.
 const char* const kOnFourSprings = R"([vehicle]
 name = "on four springs"
 
@@ -42,7 +43,7 @@ nominal_radius_mm = 460
 
 [[springs]]
 name = "box"
-stiffness_N_per_m = [10e6, 5e6, 1e6]
+stiffness_N_per_m = [10e6, 20e3, 3e6]
 damping_N_s_per_m = [20e3, 20e3, 20e3]
 places = [
   { between = ["axle1", "car"], at_m = [[3, -1, -0.46], [3, 1, -0.46]] },
@@ -73,12 +74,13 @@ TEST(TwistTest, UnloadsWheelsOnSpringsAsByHand) {
       std::string(TREADMARK_SOURCE_DIR) + "/examples/twist-test.toml",
       std::vector<std::string>{"simulation.vehicle=" + (folder.path() / "vehicle.toml").string(),
                                "simulation.distance_m=5", "simulation.twist.period_s=10",
-                               "simulation.twist.vehicle_per_mille=6", "simulation.twist.wheelsets_per_bogie=1"});
+                               "simulation.twist.wheelsets_per_bogie=1"});
   const std::vector<measures::Assessed> wheels = unloading(file);
   ASSERT_EQ(wheels.size(), 4u);
-  constexpr double kLevel = 6e-3 * 3.0, kLost = 2.0 * 1e6 * kLevel / (1.5 * 1.5);
+  constexpr double kLevel = 3e-3 * 3.0, kLost = 2.0 * 3e6 * kLevel / (1.5 * 1.5);
   constexpr double kAtRest = 0.5 * 9.81 * (0.5 * 20e3 + 1000.0);
-  constexpr double kByContacts = 0.03;  // which stand some millimetres elsewhere, and dampers
+  // By 0.7 % for each 2.4 mm that both contacts of an axle stand aside of its middle, as it leans and profiles roll.
+  constexpr double kByContacts = 0.06;
   for (const measures::Assessed& wheel : wheels) {
     EXPECT_NEAR(wheel.value * kAtRest / kLost, 1.0, kByContacts) << wheel.place;
     EXPECT_NEAR(wheel.least * kAtRest / kLost, -1.0, kByContacts) << wheel.place;  // as much on the other side
