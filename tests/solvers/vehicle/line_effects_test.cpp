@@ -174,6 +174,9 @@ TEST(LineEffects, SteadyCurvingAgainstTheBalanceOfTheWholeVehicle) {
       const Vec3 felt = v.line->felt_acceleration({3.0, 0.0, 0.0}, 0.0);
       EXPECT_NEAR(felt.y(), hand.lateral_acceleration, 1e-9);
       EXPECT_NEAR(felt.z(), kGravity - hand.normal_acceleration, 1e-9);
+      const Vec3 spin = v.line->frame_spin(3.0, 0.0);
+      EXPECT_NEAR(spin.norm(), kSpeed / std::abs(radius), 1e-9);
+      EXPECT_NEAR(spin.x(), 0.0, 1e-9);  // the cant stays
       EXPECT_NEAR(found.left + found.right, hand.left_load + hand.right_load, 1e-4 * whole.mass * kGravity);
       const auto [of_loads, by_hand] = moments(v, e, hand, 1.0 / radius);
       EXPECT_NEAR(of_loads, by_hand, 0.002 * std::abs(by_hand) + 2e-5 * whole.mass * kGravity) << radius << ' ' << cant;
