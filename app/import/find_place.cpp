@@ -285,6 +285,8 @@ class RailOnItsLine {
         throw Error(ErrorKind::configuration, "a line in the scan's unit (placement.line) needs this unit", {},
                     "say it with --unit");
       given_points_ = read_line(settings_.placement.line, *unit);
+      if (given_points_.empty())
+        throw Error(ErrorKind::input_data, "placement.line: the file has no points", {settings_.placement.line});
       near = given_points_[given_points_.size() / 2] / metres_per(*unit);
     }
     auto found = scans::find_piece(scan_.points, scan_.keep, whole, unit, near);
@@ -332,7 +334,8 @@ class RailOnItsLine {
         scan_.doubts.push_back({doubt.name, doubt.text});
         others = others || doubt.name == "several_rails";
       }
-    if (!scan_.line->bent && !others) return;
+    // where no rail was seen as a whole it must be, once what is beside it is gone
+    if (!scan_.line->bent && !others && !must) return;
     if (scan_.line->bent) {
       scan_.line->line.straighten(scan_.points);
       drop_beside(scan_.points);
@@ -369,19 +372,23 @@ class RailOnItsLine {
     return out;
   }
 
-  /// What is beside the rail would pass for a part of it where its middle and its outermost section are looked for.
-  /// straight: the points along the line.
+  /// What is beside the rail would pass for a part of it where its middle and its outermost section are looked for;
+  /// what is far beyond its ends lies along a line that nobody has seen. straight: the points along the line.
   void drop_beside(std::span<const Vec3> straight) {
     constexpr double kBeside = 0.25;  // [m]
     if (scan_.keep.empty()) scan_.keep.assign(straight.size(), 1);
+    const double from = scan_.line->line.from() - scans::kLeastGap, to = scan_.line->line.to() + scans::kLeastGap;
     std::size_t count = 0;
     for (std::size_t i = 0; i < straight.size(); ++i) {
-      if (scan_.keep[i] == 0 || std::hypot(straight[i].y(), straight[i].z()) <= kBeside) continue;
+      const Vec3& p = straight[i];
+      if (scan_.keep[i] == 0 || (std::hypot(p.y(), p.z()) <= kBeside && p.x() >= from && p.x() <= to)) continue;
       scan_.keep[i] = 0;
       ++count;
     }
     report_.removed.push_back(
-        {"beside the line", count, fmt::format("farther than {:g} mm from the line of the rail", kMilli * kBeside)});
+        {"beside the line", count,
+         fmt::format("farther than {:g} mm from the line of the rail, or than {:g} mm beyond its ends",
+                     kMilli * kBeside, kMilli * scans::kLeastGap)});
   }
 
   void require_near(const scans::RailLine& given, const Vec3& rail) const {
@@ -467,9 +474,11 @@ void fill_line(const PlacedScan& scan, const io::ImportSettings& settings, io::I
       place.vertical_error = error.cwiseProduct(R.col(2)).norm();
     }
     place.place = frame.origin;
-    place.twist = station.turn.twist;
     place.twist_error = station.error.twist;
-    place.roll = way * (found.line.roll(station.along) - first);
+    if (found.bent) {
+      place.twist = station.turn.twist;
+      place.roll = way * (found.line.roll(station.along) - first);
+    }
     if (up) {
       place.roll = -std::asin(std::clamp(frame.rotation.col(1).dot(*up), -1.0, 1.0));
       place.gradient = std::asin(std::clamp(frame.rotation.col(0).dot(*up), -1.0, 1.0));

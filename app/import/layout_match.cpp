@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/to_whole.hpp"
@@ -21,7 +22,7 @@ namespace {
 class BesideLayout {
  public:
   BesideLayout(const LayoutLine& layout, double beside) : layout_(layout), beside_(beside) {
-    constexpr double kStep = 0.25, kMost = 100e3;  // [m]
+    constexpr double kStep = 0.25, kMost = 100e3;  // [m], places
     const auto count = to_whole<std::size_t>(std::clamp(std::ceil(layout.length / kStep), 8.0, kMost));
     Vec3 before = position_at(0.0);
     places_ = {0.0};
@@ -41,8 +42,12 @@ class BesideLayout {
     const double share = (along - lengths_[k - 1]) / (lengths_[k] - lengths_[k - 1]);
     return places_[k - 1] + share * (places_[k] - places_[k - 1]);
   }
-  Vec3 position(double along) const { return position_at(place(along)); }
-  Vec3 direction(double along) const { return layout_.frames(place(along)).rotation.col(0); }
+  /// x along the line, z into the track.
+  Pose frame(double along) const {
+    Pose out = layout_.frames(place(along));
+    out.origin = out.apply({0.0, beside_, 0.0});
+    return out;
+  }
 
  private:
   Vec3 position_at(double place) const { return layout_.frames(place).apply({0.0, beside_, 0.0}); }
@@ -52,31 +57,52 @@ class BesideLayout {
   std::vector<double> places_, lengths_;
 };
 
+/// Axes of a piece of a line by its chord, z into the track. ups: out of it, summed.
+Mat3 axes_of(const Eigen::Matrix3Xd& points, const Vec3& ups) {
+  const Vec3 x = (points.rightCols<1>() - points.leftCols<1>()).normalized(), z = -(ups - x * x.dot(ups)).normalized();
+  Mat3 out;
+  out << x, z.cross(x), z;
+  return out;
+}
+
 /// The rail laid on the layout from a place on, one way.
 class Laid {
  public:
   Laid(const BesideLayout& layout, const scans::RailLine& rail) : layout_(layout), length_(rail.length()) {
     constexpr int kPoints = 200;
     rail_.resize(3, kPoints + 1);
+    ups_.resize(3, kPoints + 1);
     for (int k = 0; k <= kPoints; ++k) {
       along_.push_back(length_ * k / kPoints);
-      rail_.col(k) = rail.position(rail.from() + along_.back());
+      const Pose frame = rail.at(rail.from() + along_.back());
+      rail_.col(k) = frame.origin;
+      ups_.col(k) = -frame.rotation.col(2);
     }
   }
 
   /// largest and rms at `at`.
   LayoutMatch match(double at, bool reversed) const {
-    Eigen::Matrix3Xd on(3, rail_.cols());
-    const auto of = [&](Eigen::Index k) {
+    check_cancelled();
+    Eigen::Matrix3Xd on(3, rail_.cols()), directions(3, rail_.cols()), up(3, rail_.cols());
+    for (Eigen::Index k = 0; k < rail_.cols(); ++k) {
       const double along = along_[static_cast<std::size_t>(k)];
-      return at + (reversed ? length_ - along : along);
-    };
-    for (Eigen::Index k = 0; k < rail_.cols(); ++k) on.col(k) = layout_.position(of(k));
+      const Pose frame = layout_.frame(at + (reversed ? length_ - along : along));
+      on.col(k) = frame.origin;
+      directions.col(k) = frame.rotation.col(0);
+      up.col(k) = -frame.rotation.col(2);
+    }
     const Eigen::Matrix4d motion = Eigen::umeyama(rail_, on, false);
+    Mat3 turn = motion.topLeftCorner<3, 3>();
+    Vec3 shift = motion.topRightCorner<3, 1>();
+    // a rail does not lie upside down, though a bend to the left would then be one to the right
+    if ((turn * ups_).cwiseProduct(up).sum() < 0.0) {
+      turn = axes_of(on, up.rowwise().sum()) * axes_of(rail_, ups_.rowwise().sum()).transpose();
+      shift = on.rowwise().mean() - turn * rail_.rowwise().mean();
+    }
     LayoutMatch out{at, reversed, 0.0, 0.0};
     for (Eigen::Index k = 0; k < rail_.cols(); ++k) {
-      const Vec3 ahead = layout_.direction(of(k));
-      Vec3 off = motion.topLeftCorner<3, 3>() * rail_.col(k) + motion.topRightCorner<3, 1>() - on.col(k);
+      const Vec3 ahead = directions.col(k);
+      Vec3 off = turn * rail_.col(k) + shift - on.col(k);
       off -= ahead * ahead.dot(off);
       out.largest = std::max(out.largest, off.norm());
       out.rms += off.squaredNorm() / static_cast<double>(rail_.cols());
@@ -89,7 +115,7 @@ class Laid {
   const BesideLayout& layout_;
   double length_;
   std::vector<double> along_;
-  Eigen::Matrix3Xd rail_;
+  Eigen::Matrix3Xd rail_, ups_;
 };
 
 }  // namespace

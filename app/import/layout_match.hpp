@@ -15,6 +15,7 @@ struct LayoutMatch {
 };
 
 /// Lays a line on a layout by a rigid motion (Umeyama 1991), at the place and in the way where they fit best.
+/// The rail's head stays above: where that motion would turn it over, chords and heads lie on each other instead.
 /// beside: of the rail from the layout's line, to the right [m]. Errors: Error(configuration) for a layout that is
 /// shorter than the rail.
 LayoutMatch match_layout(const LayoutLine& layout, double beside, const scans::RailLine& rail);

@@ -73,7 +73,7 @@ Path surface_of(const Path& truth, const Path& named) {
 }
 
 /// The line along which a rail was scanned: beside the truth, or where the scan was made.
-LineFrames line_of_scan(const Path& truth, const io::JsonTree& line) {
+LayoutLine line_of_scan(const Path& truth, const io::JsonTree& line) {
   const Path named = line.text("file");
   std::error_code ignored;
   for (const Path& place : {truth.parent_path() / named, named}) {
@@ -81,7 +81,7 @@ LineFrames line_of_scan(const Path& truth, const io::JsonTree& line) {
     if (line.text("sha256") != io::sha256_file(place))
       throw Error(ErrorKind::configuration, "the line has changed since the rail was scanned along it",
                   {place.string()}, "scan it again, or bring back the file of the line");
-    return layout_line(place).frames;
+    return layout_line(place);
   }
   throw Error(ErrorKind::configuration,
               fmt::format("the line along which the rail was scanned is not there: {}", named.string()),
@@ -306,10 +306,16 @@ Along along_of(Body body, const Pose& X_TS) {
 /// Of a surface whose frame is known in the cloud.
 Along along_in_cloud(const Truth& truth, const PlacedScan& scan) {
   const Pose X_TS = truth.X_CT->inverse() * frame_in_cloud(scan);
-  if (!truth.line) return along_of(scan.body, X_TS);
-  const double at = place_along(truth.line, X_TS.origin, X_TS.origin.x());
+  const LineFrames& line = truth.line.frames;
+  if (!line) return along_of(scan.body, X_TS);
+  // the nearest of places some apart, on or before the line or behind it
+  constexpr double kApart = 1.0, kBeyond = 20.0;  // [m]
+  double near = X_TS.origin.x(), least = (line(near).origin - X_TS.origin).squaredNorm();
+  for (double at = -kBeyond; at < truth.line.length + kBeyond; at += kApart)
+    if (const double square = (line(at).origin - X_TS.origin).squaredNorm(); square < least) least = square, near = at;
+  const double at = place_along(line, X_TS.origin, near);
   if (std::isnan(at)) return along_of(scan.body, X_TS);
-  return {at, truth.line(at).rotation.col(0).dot(X_TS.rotation.col(0)) < 0.0};
+  return {at, line(at).rotation.col(0).dot(X_TS.rotation.col(0)) < 0.0};
 }
 
 /// The shift along the band at which surface and truth vary most alike. A tie: the least shift.

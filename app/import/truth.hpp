@@ -19,7 +19,7 @@ struct Truth {
   NaturalSurface natural;
   std::optional<Pose> X_CT;           ///< the surface's frame in the cloud's [m]; nothing: only the surface is known
   std::optional<std::size_t> points;  ///< of the cloud
-  LineFrames line;  ///< along which a rail was scanned: X_CT is then that of the line's own frame; empty: straight
+  LayoutLine line;  ///< along which a rail was scanned: X_CT is then that of the line's own frame; empty: straight
 };
 
 /// Reads what `treadmark scan --truth` wrote (*.json), with the surface that it names, or a surface: anything that

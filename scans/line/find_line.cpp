@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <unordered_map>
 #include <utility>
 
@@ -16,6 +17,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parallel_sort.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/line/line_fit.hpp"
@@ -37,8 +39,13 @@ constexpr double kFarthestGap = 20.0;  // that is crossed [m]
 class Places {
  public:
   explicit Places(std::span<const Vec3> points) : points_(points) {
-    for (std::size_t i = 0; i < points.size(); ++i) cubes_[key(cube(points[i]))].push_back(i);
+    constexpr std::size_t kBlock = 65536;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (i % kBlock == 0) check_cancelled();
+      cubes_[key(cube(points[i]))].push_back(i);
+    }
   }
+  std::size_t count() const { return points_.size(); }
   /// Those between -half and half along x of a frame and no farther than kBeside beside it, in its coordinates.
   std::vector<Vec3> in_frame(const Pose& frame, double half) const {
     std::vector<Vec3> out;
@@ -60,9 +67,10 @@ class Places {
   using Cube = std::array<std::int64_t, 3>;
   static constexpr double kSize = 0.15;
   static Cube cube(const Vec3& p) {
+    constexpr double kFarthest = 1e12;  // keys have room for it
     Cube out{};
     for (std::size_t k = 0; k < 3; ++k)
-      out[k] = to_whole<std::int64_t>(std::floor(p[static_cast<Eigen::Index>(k)] / kSize));
+      out[k] = to_whole<std::int64_t>(std::floor(p[static_cast<Eigen::Index>(k)] / kSize), -kFarthest, kFarthest);
     return out;
   }
   static std::uint64_t key(const Cube& c) {
@@ -92,6 +100,10 @@ class Follower {
     std::vector<Pose> out;
     Vec3 turn = Vec3::Zero();
     double empty = 0.0;
+    const Vec3 start = frame.origin;
+    double away = 0.0;
+    // each step lies on points of its own, unless the rail runs in a circle
+    const std::size_t most = 2 * places_.count() / kFewestOfStep;
     while (empty < kFarthestGap) {
       check_cancelled();
       const Pose before = frame;
@@ -99,7 +111,7 @@ class Follower {
       // after a gap the rail may lie farther from where its bend would have it
       constexpr double kReach = 5e-3, kMore = 10e-3, kMost = 40e-3;
       const double reach = std::min(kMost, kReach + kMore * std::min(empty, 3.0));
-      const WindowFit fit = fit_window(places_.in_frame(frame, 0.5 * kStep), section_, reach, true);
+      const WindowFit fit = fit_window(places_.in_frame(frame, 0.5 * kStep), section_, reach, true, kFewestOfStep);
       if (fit.used == 0) {
         empty += kStep;
         continue;
@@ -119,12 +131,19 @@ class Follower {
       frame = found;
       empty = 0.0;
       out.push_back(frame);
+      constexpr double kGone = 4.0 * kStep;
+      const double off = (frame.origin - start).norm();
+      away = std::max(away, off);
+      if ((away > kGone && off < kStep) || out.size() > most)
+        throw Error(ErrorKind::input_data, "the rail comes back to a place where it was", {},
+                    "cut the scan, so that its line is open");
     }
     return out;
   }
 
  private:
   static constexpr double kMostTurn = 0.2;  // [rad]
+  static constexpr std::size_t kFewestOfStep = 50;
 
   Pose next(const Pose& frame, const Vec3& turn, double way) const {
     if (given_ == nullptr) return advanced(frame, turn, way * kStep);
@@ -184,10 +203,12 @@ struct Window {
 
 /// A section seen from the other way along the rail.
 Section mirrored(const Section& section) {
-  constexpr double kStep = 0.25e-3;
+  constexpr double kApart = 0.25e-3;
   std::vector<Vec2> points;
-  for (double at = section.length(); at > 0.0; at -= kStep)
-    points.emplace_back(-section.at(at).position.x(), section.at(at).position.y());
+  for (double s = section.length(); s >= 0.0; s -= kApart) {
+    const Vec2 p = section.at(s).position;
+    if (points.empty() || -p.x() > points.back().x()) points.emplace_back(-p.x(), p.y());
+  }
   return Section(points);
 }
 
@@ -229,8 +250,8 @@ class LineSearch {
           heap.emplace_back(straight[i].y(), -straight[i].z());
       section_ = fit_section(section_, heap, kFarthest, kKnots, 2).section;
     }
-    ranges::sort(straight, [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
-    std::erase_if(straight, [&](const Vec3& p) { return !(std::hypot(p.y(), p.z()) < kBeside); });
+    std::erase_if(straight, [](const Vec3& p) { return !(std::hypot(p.y(), p.z()) < kBeside); });
+    parallel_sort(straight, [](const Vec3& a, const Vec3& b) { return a.x() < b.x(); });
     find_ends(straight, reach);
     const double length = to_ - from_;
     constexpr double kFewest = 24.0, kShortest = 5e-3;
@@ -339,6 +360,7 @@ class LineSearch {
       shapes.push_back({LineShape::Kind::splines, n});
     double least = kInfinity;
     for (const LineShape& shape : shapes) {
+      check_cancelled();
       const double cost = fit_line(aims, shape, from, to, scatter_, up).loss + kPenalty * shape.numbers();
       if (cost < least) least = cost, shape_ = shape;
     }
@@ -417,6 +439,7 @@ std::optional<RoughPlace> find_piece(std::span<const Vec3> points, std::span<con
     const double reach = kPiece / metres_per(one);
     if (!near && whole.radius < 2.0 * reach) continue;
     for (const Vec3& seed : seeds) {
+      check_cancelled();
       std::vector<Vec3> piece;
       for (std::size_t i = 0; i < points.size(); ++i)
         if ((keep.empty() || keep[i] != 0) && (points[i] - seed).squaredNorm() < reach * reach)
@@ -438,22 +461,29 @@ std::optional<RoughPlace> find_piece(std::span<const Vec3> points, std::span<con
 RailLine line_through(std::span<const Vec3> points, const Vec3& up) {
   constexpr std::size_t kFewest = 2;
   if (points.size() < kFewest) throw Error(ErrorKind::input_data, "a line needs at least two points");
+  constexpr std::size_t kBetween = 8;
+  constexpr double kClose = kFinest / kBetween;  // closer points say no more of splines that are not shorter
+  std::vector<Vec3> kept{points.front()};
   std::vector<double> along{0.0};
   for (std::size_t k = 1; k < points.size(); ++k) {
-    const double apart = (points[k] - points[k - 1]).norm();
-    if (!(apart > 0.0))
+    if (!((points[k] - points[k - 1]).squaredNorm() > 0.0))
       throw Error(ErrorKind::input_data, fmt::format("point {} of the line is that before it", k + 1));
     if (k > 1 && (points[k] - points[k - 1]).dot(points[k - 1] - points[k - 2]) <= 0.0)
       throw Error(ErrorKind::input_data, fmt::format("the line turns back at its point {}", k), {},
                   "give its points in the order in which they lie along it");
+    const double apart = (points[k] - kept.back()).norm();
+    if (apart < kClose && k + 1 < points.size()) continue;
+    if (!(apart > 0.0)) continue;
+    kept.push_back(points[k]);
     along.push_back(along.back() + apart);
   }
+  points = kept;
+  if (points.size() < kFewest) throw Error(ErrorKind::input_data, "the points of the line lie at one place");
   // as many splines as points call for, through points between them too, so that none is open
   const std::size_t spans = points.size() - 1;
   const double length = along.back();
   LineShape shape{LineShape::Kind::splines, std::max<std::size_t>(1, spans)};
   while (shape.intervals > 1 && length / static_cast<double>(shape.intervals) < kFinest) shape.intervals /= 2;
-  constexpr std::size_t kBetween = 8;
   std::vector<LineTarget> targets;
   const Mat3 information = Vec3(1e6, 1e6, 1e4).asDiagonal();
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -512,6 +542,10 @@ FoundLine find_line(std::span<const Vec3> points, std::span<const std::uint8_t> 
     frames.push_back(start);
     const std::vector<Pose> ahead = follower.follow(start, 1.0);
     frames.insert(frames.end(), ahead.begin(), ahead.end());
+    constexpr std::size_t kFewestFrames = 3;
+    if (frames.size() < kFewestFrames)
+      return LineSearch(std::move(sample), least_deviation)
+          .run(straight_line(start, -0.5 * length, 0.5 * length), section);
     // x as place() has it, seen from end to end
     const Vec3 chord = frames.back().origin - frames.front().origin;
     const bool against = settings.forward ? chord.dot(*settings.forward) < 0.0 : chord[nearest_axis(chord)] < 0.0;
@@ -519,8 +553,7 @@ FoundLine find_line(std::span<const Vec3> points, std::span<const std::uint8_t> 
       ranges::reverse(frames);
       for (Pose& frame : frames) frame.rotation = frame.rotation * Mat3(Vec3(-1.0, -1.0, 1.0).asDiagonal());
     }
-    constexpr std::size_t kFewestFrames = 3;
-    line = frames.size() < kFewestFrames ? straight_line(start, -0.5 * length, 0.5 * length) : line_of(frames);
+    line = line_of(frames);
     if (against) return LineSearch(std::move(sample), least_deviation).run(std::move(line), mirrored(section));
   }
   return LineSearch(std::move(sample), least_deviation).run(std::move(line), section);

@@ -40,7 +40,21 @@ std::optional<measured::Doubt> gaps_of(const FoundLine& found) {
                   places)};
 }
 
-/// straight: points along the line, those that are kept.
+/// Behind a gap that is too long to be crossed, or where the rail could not be followed. straight: points along the
+/// line, those that are kept.
+std::optional<measured::Doubt> beyond_ends(std::span<const Vec3> straight, const RailLine& line) {
+  constexpr double kShare = 0.02;  // of the points
+  std::size_t beyond = 0;
+  for (const Vec3& p : straight) beyond += p.x() < line.from() - kLeastGap || p.x() > line.to() + kLeastGap ? 1 : 0;
+  if (beyond == 0 || static_cast<double>(beyond) < kShare * static_cast<double>(straight.size())) return std::nullopt;
+  return measured::Doubt{
+      "line_gap",
+      fmt::format("{:.0f} % of the points lie beyond the ends of the {:.2f} m along which the rail could be followed: "
+                  "nothing is known of its line there; scan what is missing between, or import the parts alone",
+                  100.0 * static_cast<double>(beyond) / static_cast<double>(straight.size()), line.length())};
+}
+
+/// straight: as above.
 std::optional<measured::Doubt> others_of(std::span<const Vec3> straight, double from) {
   constexpr double kBeside = 0.25, kShare = 0.02;  // [m]; of the points
   std::vector<double> along, across;
@@ -116,6 +130,7 @@ std::vector<measured::Doubt> line_doubts(std::span<const Vec3> points, std::span
     pass_of.push_back(passes.empty() ? std::uint16_t{0} : passes[i]);
   }
   found.line.straighten(straight);
+  if (auto doubt = beyond_ends(straight, found.line)) out.push_back(*std::move(doubt));
   if (auto doubt = others_of(straight, found.line.from())) out.push_back(*std::move(doubt));
   std::map<std::uint16_t, std::vector<double>> along;
   for (std::size_t i = 0; i < straight.size(); ++i)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
@@ -24,10 +25,9 @@ constexpr double kUsual = 1.5382, kFar = 6.0;
 // it tells across.
 constexpr double kAlong = 1e-6;
 
-/// Coefficients of the splines by free numbers: row of a coefficient, column of a number.
+/// Coefficients of a line without splines by its free numbers: row of a coefficient, column of a number.
 Eigen::MatrixXd numbers_to_coefficients(const LineShape& shape, bool roll, double step) {
   const auto count = static_cast<Eigen::Index>(shape.intervals + 3);
-  if (shape.kind == LineShape::Kind::splines) return Eigen::MatrixXd::Identity(count, count);
   // blossoms of 1, t and t^2 at the knots of one interval
   const Eigen::Index degree = (shape.kind == LineShape::Kind::straight ? 0 : 1) + (roll ? 0 : 1);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(count, degree + 1);
@@ -50,21 +50,13 @@ class Fit {
         up_(up),
         count_(shape.intervals + 3),
         step_((to - from) / static_cast<double>(shape.intervals)) {
-    const Eigen::MatrixXd place = numbers_to_coefficients(shape, false, step_),
-                          roll = numbers_to_coefficients(shape, true, step_);
-    // numbers beside each other where their splines are, which keeps the equations banded
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::Index column = 0;
-    for (Eigen::Index number = 0; number < place.cols(); ++number)
-      for (Eigen::Index part = 0; part < kParts; ++part) {
-        const Eigen::MatrixXd& by = part < 3 ? place : roll;
-        if (number >= by.cols()) continue;
-        for (Eigen::Index i = 0; i < by.rows(); ++i)
-          if (by(i, number) != 0.0) entries.emplace_back(kParts * i + part, column, by(i, number));
-        ++column;
-      }
-    to_coefficients_.resize(kParts * static_cast<Eigen::Index>(count_), column);
-    to_coefficients_.setFromTriplets(entries.begin(), entries.end());
+    if (shape.kind == LineShape::Kind::splines) {
+      // numbers beside each other where their splines are, which keeps the equations banded
+      to_coefficients_.resize(kParts * static_cast<Eigen::Index>(count_), kParts * static_cast<Eigen::Index>(count_));
+      to_coefficients_.setIdentity();
+    } else {
+      take_few_numbers(shape);
+    }
     // only its basis is used
     basis_ = RailLine(from, step_, straight(), std::vector<double>(count_, 0.0), up_guess());
     weights_.assign(targets.size(), 1.0);
@@ -73,6 +65,7 @@ class Fit {
 
   LineFit run(std::span<const double> errors_at) {
     for (int round = 0; round < kFitRounds; ++round) {
+      check_cancelled();
       solve();
       // the second one takes away rounding errors
       if (!weigh() && round > 1) break;
@@ -89,11 +82,31 @@ class Fit {
       const double u = distance(target) / scatter_;
       out.loss += std::min(u * u, kFar * kFar);
     }
-    for (const double along : errors_at) out.errors.push_back(errors(out.line, along));
+    for (const double along : errors_at) {
+      check_cancelled();
+      out.errors.push_back(errors(out.line, along));
+    }
     return out;
   }
 
  private:
+  void take_few_numbers(const LineShape& shape) {
+    const Eigen::MatrixXd place = numbers_to_coefficients(shape, false, step_),
+                          roll = numbers_to_coefficients(shape, true, step_);
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::Index column = 0;
+    for (Eigen::Index number = 0; number < place.cols(); ++number)
+      for (Eigen::Index part = 0; part < kParts; ++part) {
+        const Eigen::MatrixXd& by = part < 3 ? place : roll;
+        if (number >= by.cols()) continue;
+        for (Eigen::Index i = 0; i < by.rows(); ++i)
+          if (by(i, number) != 0.0) entries.emplace_back(kParts * i + part, column, by(i, number));
+        ++column;
+      }
+    to_coefficients_.resize(kParts * static_cast<Eigen::Index>(count_), column);
+    to_coefficients_.setFromTriplets(entries.begin(), entries.end());
+  }
+
   std::vector<Vec3> straight() const {
     std::vector<Vec3> out;
     for (std::size_t i = 0; i < count_; ++i) out.emplace_back(step_ * static_cast<double>(i), 0.0, 0.0);
@@ -139,7 +152,8 @@ class Fit {
       for (std::size_t i = 0; i < 4; ++i) {
         const double bi = b.value[static_cast<Eigen::Index>(i)];
         const auto row = kParts * static_cast<Eigen::Index>(b.first + i);
-        rhs.segment<kParts>(row) += bi * wa;
+        // not segment<4>: GCC 12 loses sums of segments (-O3)
+        for (Eigen::Index p = 0; p < kParts; ++p) rhs[row + p] += bi * wa[p];
         for (std::size_t j = 0; j < 4; ++j) {
           const double both = bi * b.value[static_cast<Eigen::Index>(j)];
           const auto column = kParts * static_cast<Eigen::Index>(b.first + j);
@@ -204,8 +218,8 @@ class Fit {
     const auto error = [&](const Eigen::Vector4d& of_part, const Eigen::Vector4d& by) {
       Eigen::VectorXd row = Eigen::VectorXd::Zero(to_coefficients_.rows());
       for (std::size_t i = 0; i < 4; ++i)
-        row.segment<kParts>(kParts * static_cast<Eigen::Index>(b.first + i)) +=
-            by[static_cast<Eigen::Index>(i)] * of_part;
+        for (Eigen::Index p = 0; p < kParts; ++p)
+          row[kParts * static_cast<Eigen::Index>(b.first + i) + p] = by[static_cast<Eigen::Index>(i)] * of_part[p];
       const Eigen::VectorXd reduced = to_coefficients_.transpose() * row;
       return scatter_ * std::sqrt(std::max(0.0, reduced.dot(solver_.solve(reduced))));
     };

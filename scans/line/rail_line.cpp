@@ -148,6 +148,8 @@ double RailLine::arc(double along) const {
 std::optional<Vec3> RailLine::locate(const Vec3& p_C, double near) const {
   constexpr int kRounds = 20;
   constexpr double kStill = 1e-12, kLeast = 0.1;  // [m]; part of the speed that the centre of the curve leaves
+  constexpr double kRounding = 4e-15;             // of coordinates, far from the origin as those of maps are
+  const double still = kStill + kRounding * p_C.cwiseAbs().maxCoeff();
   double along = near;
   for (int round = 0; round < kRounds; ++round) {
     const Local here = local(along);
@@ -157,10 +159,9 @@ std::optional<Vec3> RailLine::locate(const Vec3& p_C, double near) const {
     const double step = apart.dot(here.first) / slope;
     along += step;
     if (!std::isfinite(along)) return std::nullopt;
-    if (std::fabs(step) > kStill * (1.0 + std::fabs(along))) continue;
-    const Pose frame = at(along);
-    const Vec3 local = frame.apply_inverse(p_C);
-    return Vec3(along, local.y(), local.z());
+    if (std::fabs(step) > still + kStill * std::fabs(along)) continue;
+    const Vec3 p_L = at(along).apply_inverse(p_C);
+    return Vec3(along, p_L.y(), p_L.z());
   }
   return std::nullopt;
 }

@@ -26,7 +26,7 @@ using ::testing::HasSubstr;
 using treadmark::testing::run_program;
 using Json = nlohmann::json;
 
-const char* kRail = R"(
+const char* kRailWithSquat = R"(
 [wheel]
 shape.standard = "S1002"
 [rail]
@@ -47,7 +47,7 @@ ds_mm = 0.8
 
 class ImportAlongALine : public ::testing::Test {
  protected:
-  ImportAlongALine() { input.write("case.toml", kRail); }
+  ImportAlongALine() { input.write("case.toml", kRailWithSquat); }
 
   std::string path(const std::string& name) const { return (input.folder() / name).string(); }
   Json json(const std::string& name) const {
@@ -108,7 +108,7 @@ TEST_F(ImportAlongALine, ASquatInACurveIsTheOnlyDamage) {
       EXPECT_NEAR(1e-3 * place["roll_mrad"].get<double>(), point.cant_angle.value, 1e-3);
       EXPECT_NEAR(place["gradient_mrad"].get<double>(), 0.0, 0.2);
     }
-    EXPECT_THAT(r.out, HasSubstr("straightened along the rail"));
+    EXPECT_THAT(r.out, HasSubstr(" 1/m, known to "));
     const Json schema = Json::parse(io::import_report_schema());
     EXPECT_EQ(treadmark::testing::first_violation(found, schema, schema), "");
     EXPECT_THAT(treadmark::testing::content_of(path("found.slcs")), HasSubstr("straightened along the rail"));
@@ -148,6 +148,7 @@ radius_m = RADIUS
   };
   input.write("line.toml", layout("300"));
   input.write("other.toml", layout("200"));
+  input.write("left.toml", layout("-300"));
   scan("rail.ply", "0,10000", "300000", {"--frame", "random"});
   const auto off = [&](const std::string& file) {
     const auto r = import({path("rail.ply"), "-o", path("found.slcs"), "--json", path("found.json"), "--set",
@@ -157,6 +158,7 @@ radius_m = RADIUS
   };
   EXPECT_LT(off("line.toml"), 0.2);
   EXPECT_GT(off("other.toml"), 1.0);
+  EXPECT_GT(off("left.toml"), 1.0) << "a rail does not lie upside down";
   // too short
   input.write("short.toml", "[layout]\n[[layout.elements]]\nkind = \"straight\"\nlength_m = 5\n");
   const auto r = import({path("rail.ply"), "-o", path("found.slcs"), "--set", "placement.line=" + path("short.toml")});
