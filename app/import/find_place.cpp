@@ -252,7 +252,7 @@ LengthUnit find_unit(const Clouds& clouds, const io::ImportSettings& settings, B
   return unit;
 }
 
-/// The line that was given, in the unit of its file and else of the scan: points along it [m].
+/// The line that was given, in the unit of its file or of such files, else of the scan: points along it [m].
 std::vector<Vec3> read_line(const std::string& name, LengthUnit unit) {
   const std::filesystem::path file = name;
   if (!io::is_scan_file(file))
@@ -261,7 +261,7 @@ std::vector<Vec3> read_line(const std::string& name, LengthUnit unit) {
         "give points along the rail, x y z in the scan's frame, in a file as scans are, or a file (.toml) with a "
         "[layout]; or say auto or straight");
   io::Scan scan = io::read_scan(file);
-  const double factor = metres_per(scan.unit.value_or(unit));
+  const double factor = metres_per(scan.unit.value_or(scan.usual_unit.value_or(unit)));
   for (Vec3& p : scan.cloud.points) p *= factor;
   return std::move(scan.cloud.points);
 }
@@ -293,6 +293,9 @@ class RailOnItsLine {
     long_ = found.has_value();
     return found;
   }
+
+  /// Somebody wants to know.
+  bool is_asked_for() const { return is_given() || layout_.has_value(); }
 
   /// By points; a layout is for later.
   bool is_given() const {
@@ -565,7 +568,9 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
       scan.placement = scans::place(scan.points, scan.keep, rough, how);
     }
   }
-  if (look_along && !piece) {
+  // of shorter rails even tight curves bend less than damage begins at, and damage may be all along them
+  constexpr double kShortest = 0.25;  // [m]
+  if (look_along && !piece && (2.0 * rough.elements.radius >= kShortest || on_line.is_asked_for())) {
     on_line.follow(rough, rough, how, false);
     if (scan.straightened()) scan.placement = scans::place(scan.points, scan.keep, rough, how);
   }
