@@ -34,6 +34,7 @@ constexpr double kFinest = 2.0;        // shortest splines: shorter waves are th
 constexpr double kWindow = 0.2;        // windows along a long line [m]
 constexpr double kStep = 0.25;         // of following a rail [m]
 constexpr double kFarthestGap = 20.0;  // that is crossed [m]
+constexpr double kLongest = 20e3;      // of lines [m]
 
 /// Points by cubes, to find those about a place.
 class Places {
@@ -479,6 +480,10 @@ RailLine line_through(std::span<const Vec3> points, const Vec3& up) {
   }
   points = kept;
   if (points.size() < kFewest) throw Error(ErrorKind::input_data, "the points of the line lie at one place");
+  if (!(along.back() < kLongest))
+    throw Error(ErrorKind::input_data,
+                fmt::format("the line is {:.4g} km long, {:g} km are the most", 1e-3 * along.back(), 1e-3 * kLongest),
+                {}, "are its points in the scan's unit?");
   // as many splines as points call for, through points between them too, so that none is open
   const std::size_t spans = points.size() - 1;
   const double length = along.back();
@@ -504,8 +509,9 @@ RailLine line_through(std::span<const Vec3> points, const Vec3& up) {
       return (points[high] - points[low]) / (along[high] - along[low]);
     };
     const Vec3 leaving = span * direction(k), arriving = span * direction(k + 1);
-    for (std::size_t j = 1; j < kBetween; ++j) {
-      const double t = static_cast<double>(j) / kBetween, tt = t * t, ttt = tt * t;
+    const auto between = to_whole<std::size_t>(std::ceil(span / kClose), 2.0, kBetween);
+    for (std::size_t j = 1; j < between; ++j) {
+      const double t = static_cast<double>(j) / static_cast<double>(between), tt = t * t, ttt = tt * t;
       target(along[k] + t * span,
              (2.0 * ttt - 3.0 * tt + 1.0) * points[k] + (ttt - 2.0 * tt + t) * leaving +
                  (3.0 * tt - 2.0 * ttt) * points[k + 1] + (ttt - tt) * arriving,
@@ -545,7 +551,7 @@ FoundLine find_line(std::span<const Vec3> points, std::span<const std::uint8_t> 
     constexpr std::size_t kFewestFrames = 3;
     if (frames.size() < kFewestFrames)
       return LineSearch(std::move(sample), least_deviation)
-          .run(straight_line(start, -0.5 * length, 0.5 * length), section);
+          .run(straight_line(start, -0.5 * std::min(length, kLongest), 0.5 * std::min(length, kLongest)), section);
     // x as place() has it, seen from end to end
     const Vec3 chord = frames.back().origin - frames.front().origin;
     const bool against = settings.forward ? chord.dot(*settings.forward) < 0.0 : chord[nearest_axis(chord)] < 0.0;

@@ -61,7 +61,7 @@ FoundLine find_line(std::span<const Vec3> points, std::span<const std::uint8_t> 
 
 /// A smooth line through points in their order, for find_line to follow; nothing is known of its roll. up: out of the
 /// rail, roughly. Errors: Error(input_data) for fewer than two points, equal neighbours, or turns of more than a right
-/// angle, with the number of the point.
+/// angle, with the number of the point; for more than 20 km.
 RailLine line_through(std::span<const Vec3> points, const Vec3& up);
 
 }  // namespace treadmark::scans
