@@ -32,8 +32,9 @@ TriangleMesh near_region(TriangleMesh mesh, Body body, const Region& region, dou
     const double half = 0.5 * (region.u_max - region.u_min);
     if (!std::isfinite(half)) return false;
     const Vec3 middle = 0.5 * (low + high);
-    const double radius = std::max(std::hypot(middle.x(), middle.z()), margin);
-    const double reach = half + (margin + 0.5 * (high - low).norm()) / radius;
+    const double radius = std::hypot(middle.x(), middle.z()), size = margin + 0.5 * (high - low).norm();
+    if (!(size < radius)) return false;
+    const double reach = half + std::asin(size / radius);
     return std::fabs(wrap_angle(std::atan2(middle.x(), middle.z()) - 0.5 * (region.u_min + region.u_max))) > reach;
   };
   std::erase_if(mesh.triangles, outside);

@@ -318,6 +318,7 @@ Crossing DistanceField::first_crossing(Reader& reader, const LatticeView& view,
                                        const std::vector<Candidate>& candidates, double x, double y,
                                        double beyond) const {
   Crossing best;
+  if (!std::isfinite(x) || !std::isfinite(y)) return best;
   for (const Candidate& c : candidates) {
     if (c.depth > best.depth) break;
     meet(reader, view, c.block, x, y, beyond, best);

@@ -57,7 +57,7 @@ std::shared_ptr<const Surface> make_level_set_surface(const TriangleMesh& mesh, 
 
 std::shared_ptr<const Surface> make_level_set_surface(const SolidShape& shape, Body body, double nominal_radius,
                                                       std::string backend) {
-  TriangleDistances distances = distances_of(shape, kDefaultVoxel);
+  TriangleDistances distances = distances_of(shape, kDefaultVoxel, body);
   const std::string name = distances.grid.name;
   auto surface = surface_of(std::move(distances), body, std::move(backend));
   check_size(*surface, body, nominal_radius, name);

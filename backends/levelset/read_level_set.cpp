@@ -80,13 +80,15 @@ class LevelSetReader final : public offset::VdbTreeReader {
   }
 
   void take_leaf(const Leaf& leaf) override {
+    constexpr double kMostVoxels = 1e6;
     DistanceGrid::Block block;
     block.first = leaf.origin;
     std::size_t next = 0;
     bool any = false;
     for_each_on(leaf.active, [&](unsigned n) {
       const float value = leaf.values[leaf.all ? n : next++];
-      if (!std::isfinite(value)) refuse("a distance of the level set is not a number");
+      if (!(std::fabs(value) < kMostVoxels * world_))
+        refuse("a distance of the level set is not a number, or far beyond any narrow band");
       block.value[n] = static_cast<float>(value / world_);
       block.known[n >> 6] |= std::uint64_t{1} << (n & 63u);
       any = true;

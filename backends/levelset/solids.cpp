@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -70,14 +71,14 @@ class Filled {
     for (std::size_t i = 0; i < front.size(); ++i) {
       const int n = front[i];
       for (const int step : {1, 8, 64})
-        for (const int side : {-step, step}) {
-          const int along = n / step % kAlong + (side > 0 ? 1 : -1);
+        for (const int apart : {-step, step}) {
+          const int along = n / step % kAlong + (apart > 0 ? 1 : -1);
           if (along < 0 || along >= kAlong) continue;
-          const auto other = static_cast<std::size_t>(n + side);
+          const auto other = static_cast<std::size_t>(n + apart);
           if (seen[other] != 0) continue;
           seen[other] = 1;
           block.value[other] = std::copysign(kFar, block.value[static_cast<std::size_t>(n)]);
-          front.push_back(n + side);
+          front.push_back(n + apart);
         }
     }
   }
@@ -138,7 +139,7 @@ class Resampler {
                 double& value) const {
     constexpr double kFarthest = 5.0, kBehind = 1.0, kSame = 1e-9;
     constexpr int kMost = 8;
-    Vec3 normal;
+    Vec3 normal = Vec3::Zero();
     double near = 0.0;
     if (!estimate(place, near, normal) || std::fabs(near) > kFarthest) return false;
     const double side = near < 0.0 ? -1.0 : 1.0;
@@ -180,7 +181,8 @@ class Resampler {
     for (int axis = 0; axis < 3; ++axis)
       middle[static_cast<std::size_t>(axis)] = to_whole<std::int32_t>(std::floor(place[axis] + 0.5));
     double best = std::numeric_limits<double>::infinity(), there = 0.0;
-    for (int i = -kReach; i <= kReach; ++i)
+    if (known(middle, there)) best = 0.0, nearest = middle;  // none is nearer
+    for (int i = -kReach; i <= kReach && best > 0.0; ++i)
       for (int j = -kReach; j <= kReach; ++j)
         for (int k = -kReach; k <= kReach; ++k) {
           const Place at{middle[0] + i, middle[1] + j, middle[2] + k};
@@ -193,7 +195,7 @@ class Resampler {
       Place below = nearest, above = nearest;
       --below[static_cast<std::size_t>(axis)], ++above[static_cast<std::size_t>(axis)];
       double low = there, high = there;
-      const int steps = static_cast<int>(known(below, low)) + static_cast<int>(known(above, high));
+      const int steps = (known(below, low) ? 1 : 0) + (known(above, high) ? 1 : 0);
       normal[axis] = steps == 0 ? 0.0 : (high - low) / steps;
     }
     if (!(normal.norm() > 0.0)) return false;
@@ -207,9 +209,11 @@ class Resampler {
   DistanceField field_;
 };
 
-/// The same level set on another lattice.
+/// The same level set on another lattice. Blocks that its voxels, so much finer, would take are counted before they are
+/// made.
 DistanceGrid on_lattice(const DistanceGrid& given, const Pose& place, double voxel) {
-  constexpr double kFinest = 1.0 + 1e-9;
+  constexpr double kFinest = 1.0 + 1e-9, kFarthest = 1 << 29;  // of nodes from the origin of their lattice
+  constexpr std::size_t kMostPlaces = std::size_t{1} << 21;
   if (voxel > kFinest * given.voxel)
     throw Error(ErrorKind::input_data,
                 fmt::format("the level set '{}' has voxels of {:.4g} mm: its band is too narrow for those of {:.4g} mm",
@@ -223,6 +227,10 @@ DistanceGrid on_lattice(const DistanceGrid& given, const Pose& place, double vox
     const Vec3 middle = Vec3(block.first[0], block.first[1], block.first[2]) + Vec3::Constant(0.5 * (kAlong - 1));
     const Vec3 centre = to_new.origin / voxel + to_new.rotation * middle / ratio;
     const Vec3 half = to_new.rotation.cwiseAbs() * Vec3::Constant(0.5 * kAlong + 1.0) / ratio;
+    if (!((centre.cwiseAbs() + half).maxCoeff() < kFarthest))
+      throw Error(ErrorKind::input_data,
+                  fmt::format("the level set '{}' lies too far from the others for voxels of {:.4g} mm", given.name,
+                              1e3 * voxel));
     std::array<std::int32_t, 3> low{}, high{};
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
@@ -231,7 +239,14 @@ DistanceGrid on_lattice(const DistanceGrid& given, const Pose& place, double vox
     }
     for (std::int32_t i = low[0]; i <= high[0]; ++i)
       for (std::int32_t j = low[1]; j <= high[1]; ++j)
-        for (std::int32_t k = low[2]; k <= high[2]; ++k) places.insert({kAlong * i, kAlong * j, kAlong * k});
+        for (std::int32_t k = low[2]; k <= high[2]; ++k) {
+          places.insert({kAlong * i, kAlong * j, kAlong * k});
+          if (places.size() > kMostPlaces)
+            throw Error(ErrorKind::configuration,
+                        fmt::format("the level set '{}' is too large for voxels of {:.4g} mm, its own are {:.4g} mm",
+                                    given.name, 1e3 * voxel, 1e3 * given.voxel),
+                        {}, "choose greater voxels (voxel_mm)");
+        }
   }
   const std::vector<Place> all(places.begin(), places.end());
   std::vector<Block> blocks(all.size());
@@ -261,12 +276,13 @@ DistanceGrid on_lattice(const DistanceGrid& given, const Pose& place, double vox
   return out;
 }
 
-TriangleDistances on_lattice(const Solid& solid, const Pose& place, double voxel) {
+/// alone: of a single body, which open triangles need.
+TriangleDistances on_lattice(const Solid& solid, const Pose& place, double voxel, std::optional<Body> alone = {}) {
   const auto* given = std::get_if<DistanceGrid>(&solid.shape);
   if (given == nullptr) {
     TriangleMesh mesh = std::get<TriangleMesh>(solid.shape);
     for (Vec3& v : mesh.vertices) v = place.apply_inverse(v + solid.offset);
-    TriangleDistances out = distances_of(mesh, voxel);
+    TriangleDistances out = distances_of(mesh, voxel, alone);
     out.grid.place = place;
     return out;
   }
@@ -280,7 +296,7 @@ TriangleDistances on_lattice(const Solid& solid, const Pose& place, double voxel
 
 }  // namespace
 
-TriangleDistances distances_of(const SolidShape& shape, double default_voxel) {
+TriangleDistances distances_of(const SolidShape& shape, double default_voxel, std::optional<Body> body) {
   if (shape.solids.empty()) throw Error(ErrorKind::configuration, "a shape of solids needs at least one");
   if (shape.solids.front().use != Solid::Use::join)
     throw Error(ErrorKind::configuration,
@@ -297,7 +313,8 @@ TriangleDistances distances_of(const SolidShape& shape, double default_voxel) {
   if (voxel == 0.0) voxel = default_voxel;
   if (!(voxel > 0.0) || !std::isfinite(voxel))
     throw Error(ErrorKind::configuration, "the voxel of a shape of solids must be positive");
-  TriangleDistances all = on_lattice(shape.solids.front(), place, voxel);
+  TriangleDistances all =
+      on_lattice(shape.solids.front(), place, voxel, shape.solids.size() == 1 ? body : std::nullopt);
   const auto require_closed = [](const TriangleDistances& one) {
     if (!one.closed)
       throw Error(ErrorKind::configuration,

@@ -117,14 +117,25 @@ void Skin::merge(const TriangleMesh& mesh, double voxel) {
     if (fresh) vertices_.push_back(p / voxel);
     number[v] = at->second;
   }
+  constexpr double kLong = 16.0, kMostCovered = 2.5e7;  // voxels, and their squares: some 5 GB while they are made
+  double covered = 0.0;
   for (const Corners& c : mesh.triangles) {
     const Corners merged{number[c[0]], number[c[1]], number[c[2]]};
     const Vec3 a = vertices_[merged[1]] - vertices_[merged[0]], b = vertices_[merged[2]] - vertices_[merged[0]];
     constexpr double kFlat = 1e-12;
-    if (a.cross(b).norm() > kFlat * std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}))
-      triangles_.push_back(merged);
+    const double area = 0.5 * a.cross(b).norm(),
+                 longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+    if (!(area > kFlat * longest)) continue;
+    triangles_.push_back(merged);
+    // a sliver takes what is along it
+    covered += std::max(area, longest > kLong * kLong ? std::sqrt(longest) : 0.0);
   }
   if (triangles_.empty()) refuse(mesh, "has only triangles without area");
+  if (!(covered < kMostCovered))
+    throw Error(ErrorKind::configuration,
+                fmt::format("the mesh '{}' is {:.3g} m^2 large, too much for voxels of {:.4g} mm", mesh.name,
+                            covered * voxel * voxel, 1e3 * voxel),
+                {}, "is it in metres? or choose greater voxels, or a smaller region");
 }
 
 void Skin::connect(const TriangleMesh& mesh) {
@@ -166,9 +177,11 @@ void Skin::connect(const TriangleMesh& mesh) {
   }
 }
 
-/// Closed triangles enclose a positive volume; most of open ones face away from the axle, or up.
+/// Closed triangles enclose a positive volume; most of open ones face away from the axle, or up. Those that are left of
+/// a closed body face all ways: they enclose what they enclosed.
 void Skin::orient(std::optional<Body> body) {
-  double volume = 0.0, outwards = 0.0;
+  constexpr double kDecisive = 1e-3;
+  double volume = 0.0, outwards = 0.0, all = 0.0;
   bool open = false;
   const Vec3& base = vertices_[triangles_[0][0]];
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
@@ -176,9 +189,11 @@ void Skin::orient(std::optional<Body> body) {
     const Corners& c = triangles_[t];
     const Vec3 &p = vertices_[c[0]], area = (vertices_[c[1]] - p).cross(vertices_[c[2]] - p);
     volume += (p - base).dot(area);
-    outwards += body == Body::wheel ? area.dot(Vec3(p.x(), 0.0, p.z()).normalized()) : -area.z();
+    const double facing = body == Body::wheel ? area.dot(Vec3(p.x(), 0.0, p.z()).normalized()) : -area.z();
+    outwards += facing, all += std::fabs(facing);
   }
-  if (!((open ? (body ? outwards : 0.0) : volume) < 0.0)) return;
+  if (open && !body) return;
+  if (!((open && std::fabs(outwards) > kDecisive * all ? outwards : volume) < 0.0)) return;
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
     std::swap(triangles_[t][1], triangles_[t][2]);
     std::swap(neighbours_[t][1], neighbours_[t][2]);

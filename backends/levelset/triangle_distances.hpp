@@ -25,7 +25,8 @@ struct TriangleDistances {
 /// says that it is not there. Triangles must agree with each other; closed ones that face their inside are turned,
 /// and open ones of a body that face its inside.
 /// Errors: Error(input_data) for an empty mesh, corners that are not finite or out of range, edges of more than two
-/// triangles, triangles that do not agree, and a mesh of more than 2^24 voxels along an axis.
+/// triangles, triangles that do not agree, and a mesh of more than 2^24 voxels along an axis; Error(configuration) for
+/// one that is too large for voxels so small.
 TriangleDistances distances_of(const TriangleMesh& mesh, double voxel, std::optional<Body> body = {});
 
 /// Of the band about triangles [voxels]: what splines and their coefficients need about each cell with a zero.

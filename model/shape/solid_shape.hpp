@@ -28,10 +28,10 @@ struct DistanceGrid {
     bool knows(int node) const { return (known[static_cast<std::size_t>(node >> 6)] >> (node & 63) & 1u) != 0; }
   };
 
-  std::string name;    ///< where it comes from, for messages
-  Pose place;          ///< of the lattice in the frame of the surface; node (i, j, k) lies at voxel (i, j, k)
-  double voxel = 0.0;  ///< distance of neighbouring nodes [m]
-  std::vector<Block> blocks;
+  std::string name;           ///< where it comes from, for messages
+  Pose place;                 ///< of the lattice in the frame of the surface; node (i, j, k) lies at voxel (i, j, k)
+  double voxel = 0.0;         ///< distance of neighbouring nodes [m]
+  std::vector<Block> blocks;  ///< in any order, none twice
 };
 
 /// One of the bodies that make up a shape.
@@ -42,7 +42,7 @@ struct Solid {
     cut,     ///< it is taken away
     common,  ///< only what lies in it as well stays
   };
-  Use use = Use::join;
+  Use use = Use::join;                             ///< what is done with it
   std::variant<TriangleMesh, DistanceGrid> shape;  ///< closed triangles, or a level set
   Vec3 offset = Vec3::Zero();                      ///< of its frame in that of the surface [m]
 };
@@ -51,7 +51,7 @@ struct Solid {
 struct SolidShape {
   std::string name;    ///< for messages
   double voxel = 0.0;  ///< of the common lattice [m]; 0: that of the first level set, else the default resolution
-  std::vector<Solid> solids;
+  std::vector<Solid> solids;  ///< the first one is joined
 };
 
 }  // namespace treadmark

@@ -27,8 +27,9 @@ struct Contestant {
 // at 0.5 mm. mesh-flat: h^2/(8 r) and h/r on the arc of r = 12 mm. offset: exact where nothing is damaged. The ends of
 // the fresh flat turn by k = 44 mrad: facets and bilinear offsets cut up to k h/4 = 5.4 um off there, splines up to
 // about k h/8 = 2.7 um. chords: h^2/(8 r) = 2.6 um and h/(2 r) on the arc of r = 12 mm, and splines along. prismatic:
-// as spline at 0.5 mm, against the shape that has the section in the middle of the region everywhere. chebyshev: as
-// offset; its waves near the joints of curvature die away slowly.
+// as spline at 0.5 mm, against the shape that has the section in the middle of the region everywhere. level-set:
+// triangles and splines both at 0.5 mm, each of which rounds the joints off as mesh does. chebyshev: as offset; its
+// waves near the joints of curvature die away slowly.
 std::vector<Contestant> contestants() {
   [[maybe_unused]] static const bool registered = (register_chebyshev(), true);
   return {

@@ -132,7 +132,7 @@ struct Triangles {
   std::size_t vertexCount(std::size_t) const { return 3; }
   void getIndexSpacePoint(std::size_t n, std::size_t v, openvdb::Vec3d& at) const {
     const double* p = vertices + 3 * std::size_t{corners[3 * n + v]};
-    at = {p[0], p[1], p[2]};
+    at = openvdb::Vec3d(p[0], p[1], p[2]);
   }
 };
 
@@ -147,6 +147,7 @@ SheetFault nearest(const double* vertices, std::size_t vertex_count, const std::
     openvdb::tools::meshToVolume<openvdb::FloatGrid>(triangles, *transform, width, width,
                                                      openvdb::tools::UNSIGNED_DISTANCE_FIELD, &numbers);
     for (auto leaf = numbers.tree().cbeginLeaf(); leaf; ++leaf) {
+      if (leaf->isEmpty()) continue;
       NearestBlock& block = out.emplace_back();
       block.first = {leaf->origin().x(), leaf->origin().y(), leaf->origin().z()};
       for (openvdb::Index k = 0; k < block.triangle.size(); ++k)

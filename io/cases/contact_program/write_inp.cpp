@@ -273,6 +273,8 @@ class InputWriter {
     });
     refuse_if(!s.offsets.file.empty(), fmt::format("a table of deviations ({}.offsets)", body), advice);
     const auto* file = std::get_if<GeometryFile>(&s.geometry);
+    refuse_if(std::holds_alternative<SolidsInput>(s.geometry),
+              fmt::format("the {0} made of solids ({0}.shape.solids)", body), advice);
     refuse_if(file == nullptr, fmt::format("the shape of the {} by formula ({}.shape)", body, body), advice);
     if (const auto row = shape_extension(file->file))
       refuse_if((row->kinds & (kTriangleFile | kSplineFile | kCadFile | kOffsetFile)) != 0,

@@ -21,8 +21,6 @@ namespace {
 using levelset::make_level_set_surface;
 using ::testing::HasSubstr;
 
-constexpr double kTenthOfVoxel = 0.1;
-
 std::shared_ptr<const Surface> of_formula(const Distance& distance, const Vec3& low, const Vec3& high, double voxel,
                                           Facing facing, double half_width = 3.5) {
   return std::make_shared<const levelset::LevelSetSurface>(

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -15,8 +16,11 @@
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/model/shape/solid_shape.hpp"
+#include "treadmark/model/shape/triangle_mesh.hpp"
 
 namespace treadmark::testing {
+
+inline constexpr double kTenthOfVoxel = 0.1;  ///< of heights off, as docs/representations.md promises
 
 /// A distance from a surface by formula [m], positive outside.
 using Distance = std::function<double(const Vec3&)>;

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "treadmark/backends/levelset/make.hpp"
 #include "treadmark/tests/backends/levelset/shapes.hpp"
@@ -15,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using Use = Solid::Use;
 
-constexpr double kVoxel = 0.5e-3, kTenthOfVoxel = 0.1, kNearEdge = 3.0 * kVoxel;
+constexpr double kVoxel = 0.5e-3, kNearEdge = 3.0 * kVoxel;
 
 std::shared_ptr<const Surface> rail_of(std::vector<Solid> solids, double voxel = kVoxel) {
   return levelset::make_level_set_surface(SolidShape{"", voxel, std::move(solids)}, Body::rail, 0.0, "level-set");
