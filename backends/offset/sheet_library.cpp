@@ -41,7 +41,8 @@ const SheetLibrary& load() {
     if (std::string_view(library.version) == TREADMARK_MODULE_VERSION) return library;
     tried += "\n  " + file.string() + " is of version " + library.version;
   }
-  throw Error(ErrorKind::configuration, std::string("cannot load ") + kFileName + ", which offsets need:" + tried, {},
+  throw Error(ErrorKind::configuration,
+              std::string("cannot load ") + kFileName + ", which offsets and level sets need:" + tried, {},
               module_advice("openvdb"));
 }
 
