@@ -144,8 +144,11 @@ SheetFault nearest(const double* vertices, std::size_t vertex_count, const std::
     const auto transform = openvdb::math::Transform::createLinearTransform(1.0);
     openvdb::Int32Grid numbers(-1);
     const float width = static_cast<float>(half_width);
-    openvdb::tools::meshToVolume<openvdb::FloatGrid>(triangles, *transform, width, width,
-                                                     openvdb::tools::UNSIGNED_DISTANCE_FIELD, &numbers);
+    // as parallel_for: a thread that waits here begins no part of another loop
+    tbb::this_task_arena::isolate([&] {
+      openvdb::tools::meshToVolume<openvdb::FloatGrid>(triangles, *transform, width, width,
+                                                       openvdb::tools::UNSIGNED_DISTANCE_FIELD, &numbers);
+    });
     for (auto leaf = numbers.tree().cbeginLeaf(); leaf; ++leaf) {
       if (leaf->isEmpty()) continue;
       NearestBlock& block = out.emplace_back();
