@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -72,15 +73,27 @@ std::array<Drawn, 2> drawn_of(const ResponseRun& run) {
   return moved ? std::array{kMoved, kTurned} : std::array{kForces, kAccelerations};
 }
 
+double largest(const ResponseCurve& curve) {
+  double most = 0.0;
+  for (const auto& value : curve.values) most = std::max(most, std::abs(value));
+  return most;
+}
+
 /// Magnitudes of those under one input.
 std::optional<pictures::Chart> chart_of(const ResponseRun& run, const std::string& input, const Drawn& drawn) {
   constexpr std::size_t kMost = 8;  // that can be told apart
+  // What a symmetric vehicle does not feel is rounding.
+  constexpr double kNothing = 1e-9;
+  std::map<std::string, double> most;  // by unit
+  for (const ResponseCurve& curve : run.curves)
+    if (curve.input == input) most[curve.unit] = std::max(most[curve.unit], largest(curve));
   pictures::Chart chart;
   chart.x_label = "frequency [Hz]";
   chart.x_scale = chart.y_scale = pictures::AxisScale::log;
   chart.x_range = {run.frequency.front(), run.frequency.back()};
   for (const ResponseCurve& curve : run.curves) {
     if (curve.input != input || !curve.channel.ends_with(drawn.ending)) continue;
+    if (!(largest(curve) > kNothing * most[curve.unit])) continue;
     if (chart.series.size() == kMost) break;
     chart.title = fmt::format("{}: {}", input, drawn.what);
     chart.y_label = '[' + curve.unit + ']';
@@ -89,18 +102,7 @@ std::optional<pictures::Chart> chart_of(const ResponseRun& run, const std::strin
     series.style = static_cast<int>(chart.series.size());
     for (std::size_t i = 0; i < run.frequency.size(); ++i)
       series.curve.push_back({run.frequency[i], std::abs(curve.values[i])});
-    // What a symmetric vehicle does not feel is rounding.
-    constexpr double kNothing = 1e-9;
-    const auto largest = [](const pictures::Curve& c) {
-      double most = 0.0;
-      for (const auto& point : c) most = std::max(most, point[1]);
-      return most;
-    };
-    double most = 0.0;
-    for (const ResponseCurve& other : run.curves)
-      if (other.input == input && other.unit == curve.unit)
-        for (const auto& value : other.values) most = std::max(most, std::abs(value));
-    if (largest(series.curve) > kNothing * most) chart.series.push_back(std::move(series));
+    chart.series.push_back(std::move(series));
   }
   if (chart.series.empty()) return std::nullopt;
   return chart;

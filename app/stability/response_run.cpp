@@ -17,6 +17,7 @@
 #include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/model/vehicle/assessment.hpp"
+#include "treadmark/solvers/vehicle/frequencies.hpp"
 #include "treadmark/solvers/vehicle/stability/response.hpp"
 #include "treadmark/solvers/vehicle/stability/stability.hpp"
 
@@ -27,20 +28,8 @@ using Complex = std::complex<double>;
 using vehicle::FrequencyResponse;
 using vehicle::ResponseInput;
 
-std::vector<double> frequencies_of(const ResponseRequest& r) {
-  if (!(r.from > 0.0) || !(r.to > r.from) || r.count < 2)
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} frequencies from {:g} to {:g} Hz make no range", r.count, r.from, r.to));
-  std::vector<double> all;
-  all.reserve(static_cast<std::size_t>(r.count));
-  for (int i = 0; i < r.count; ++i) all.push_back(r.from * std::pow(r.to / r.from, i / (r.count - 1.0)));
-  all.back() = r.to;
-  return all;
-}
-
-struct Channel {
-  std::function<Complex(const FrequencyResponse&, double omega)> value;
-};
+/// Of a response at an angular frequency [rad/s].
+using Channel = std::function<Complex(const FrequencyResponse&, double omega)>;
 
 /// Parts with their names and units.
 template <class Part>
@@ -87,8 +76,8 @@ Named<ResponseInput> all_inputs(const vehicle::VehicleOnTrack& v) {
 Named<Channel> all_channels(const io::SimulationFile& file, const vehicle::VehicleOnTrack& v) {
   Named<Channel> all;
   for (std::size_t i = 0; i < v.wheels.size(); ++i) {
-    all.add(v.wheels[i].name + ".Q_N", "N", {[i](const FrequencyResponse& r, double) { return r.vertical[i]; }});
-    all.add(v.wheels[i].name + ".Y_N", "N", {[i](const FrequencyResponse& r, double) { return r.lateral[i]; }});
+    all.add(v.wheels[i].name + ".Q_N", "N", [i](const FrequencyResponse& r, double) { return r.vertical[i]; });
+    all.add(v.wheels[i].name + ".Y_N", "N", [i](const FrequencyResponse& r, double) { return r.lateral[i]; });
   }
   const auto add_point = [&](const std::string& name, const vehicle::Multibody::Body& body, const Vec3& arm) {
     const auto of = [at = body.coordinate](const FrequencyResponse& r, Freedom f) {
@@ -96,16 +85,14 @@ Named<Channel> all_channels(const io::SimulationFile& file, const vehicle::Vehic
       return c < 0 ? Complex(0.0) : r.coordinate[c];
     };
     // As instruments on the body show it, which lean with it.
-    all.add(name + ".ay_m_s2", "m/s2", {[=, g = file.settings.gravity](const FrequencyResponse& r, double omega) {
-              return -omega * omega *
-                         (of(r, Freedom::y) + of(r, Freedom::yaw) * arm.x() - of(r, Freedom::roll) * arm.z()) -
-                     g * of(r, Freedom::roll);
-            }});
+    all.add(name + ".ay_m_s2", "m/s2", [=, g = file.settings.gravity](const FrequencyResponse& r, double omega) {
+      return -omega * omega * (of(r, Freedom::y) + of(r, Freedom::yaw) * arm.x() - of(r, Freedom::roll) * arm.z()) -
+             g * of(r, Freedom::roll);
+    });
     const double pitching = body.wheelset < 0 ? arm.x() : 0.0;  // axle boxes do not turn with the axle
-    all.add(name + ".az_m_s2", "m/s2", {[=](const FrequencyResponse& r, double omega) {
-              return -omega * omega *
-                     (of(r, Freedom::z) + of(r, Freedom::roll) * arm.y() - of(r, Freedom::pitch) * pitching);
-            }});
+    all.add(name + ".az_m_s2", "m/s2", [=](const FrequencyResponse& r, double omega) {
+      return -omega * omega * (of(r, Freedom::z) + of(r, Freedom::roll) * arm.y() - of(r, Freedom::pitch) * pitching);
+    });
   };
   for (const vehicle::WheelOnRail& wheel : v.wheels) {
     const double y = wheel.side == wheelrail::Side::left ? -file.history.axle_box_y : file.history.axle_box_y;
@@ -120,7 +107,7 @@ Named<Channel> all_channels(const io::SimulationFile& file, const vehicle::Vehic
     if (c.body < 0) continue;
     const std::string unit = static_cast<int>(c.freedom) < 3 ? "m" : "rad";
     all.add(c.name + '_' + unit, unit,
-            {[i](const FrequencyResponse& r, double) { return r.coordinate[static_cast<Eigen::Index>(i)]; }});
+            [i](const FrequencyResponse& r, double) { return r.coordinate[static_cast<Eigen::Index>(i)]; });
   }
   return all;
 }
@@ -130,7 +117,7 @@ Named<Channel> all_channels(const io::SimulationFile& file, const vehicle::Vehic
 ResponseRun run_response(const ResponseRequest& request, const Progress& progress) {
   ResponseRun run;
   run.request = request;
-  run.frequency = frequencies_of(request);
+  run.frequency = vehicle::frequencies(request.from, request.to, request.count);
   io::SimulationFile file = straight_vehicle(request.file, request.overrides);
   run.title = file.title.empty() ? file.vehicle.name : file.title;
   run.notes = file.notes;
@@ -176,7 +163,7 @@ ResponseRun run_response(const ResponseRequest& request, const Progress& progres
     auto curve = run.curves.begin();
     for (const FrequencyResponse& r : all)
       for (const std::size_t c : chosen)
-        (curve++)->values.push_back(channels.parts[c].value(r, 2.0 * std::numbers::pi * frequency));
+        (curve++)->values.push_back(channels.parts[c](r, 2.0 * std::numbers::pi * frequency));
   }
   return run;
 }

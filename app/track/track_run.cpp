@@ -10,6 +10,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/solvers/vehicle/frequencies.hpp"
 #include "treadmark/solvers/vehicle/track/lateral_track.hpp"
 #include "treadmark/solvers/vehicle/track/rail_on_seats.hpp"
 #include "treadmark/solvers/vehicle/track/track_receptance.hpp"
@@ -21,18 +22,6 @@ using Complex = std::complex<double>;
 
 /// Heights of the parts of a lumped track [m]: of no influence on vertical motion.
 constexpr double kRailHeight = 0.09, kFootHeight = 0.17, kSleeperHeight = 0.28, kBedHeight = 0.39;
-
-std::vector<double> frequencies_of(const TrackRequest& request) {
-  if (!(request.from > 0.0) || !(request.to > request.from) || request.count < 2)
-    throw Error(ErrorKind::configuration, fmt::format("{} frequencies from {:g} to {:g} Hz make no range",
-                                                      request.count, request.from, request.to));
-  std::vector<double> f;
-  f.reserve(static_cast<std::size_t>(request.count));
-  for (int i = 0; i < request.count; ++i)
-    f.push_back(request.from * std::pow(request.to / request.from, i / (request.count - 1.0)));
-  f.back() = request.to;
-  return f;
-}
 
 std::vector<TrackCurve> lateral_curve(const std::optional<TrackModel>& track, const std::vector<double>& frequency) {
   if (!track) return {};
@@ -190,14 +179,14 @@ TrackModel lumped_track(const std::string& name, const std::vector<vehicle::Lump
 }
 
 TrackResult run_track(const TrackRequest& request) {
-  frequencies_of(request);  // refused before a file is read
+  vehicle::frequencies(request.from, request.to, request.count);  // refused before a file is read
   return run_track(request, io::read_any_track_file(request.file, request.overrides));
 }
 
 TrackResult run_track(const TrackRequest& request, const io::AnyTrack& any) {
   TrackResult result;
   result.request = request;
-  result.frequency = frequencies_of(request);
+  result.frequency = vehicle::frequencies(request.from, request.to, request.count);
   double distance = 0.0;
   std::optional<LateralSupport> lateral;
   if (const auto* flexible = std::get_if<FlexibleTrack>(&any)) {
