@@ -5,13 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// A head of 70 mm about y = 0, a groove to one side of it, and a keeper of 20 mm whose top is at z = keeper.
 struct Grooved {

@@ -122,6 +122,7 @@ inline TriangleMesh cylinder_mesh(double x, double z, double radius, double y_lo
 /// The largest distance of heights over a grid from a formula, and how many there are.
 struct HeightError {
   double largest = 0.0;  ///< [m]
+  double rms = 0.0;      ///< [m]
   int count = 0;
 };
 
@@ -133,9 +134,12 @@ inline HeightError error_of(const Surface& surface, const Pose& X_SP, const Grid
     for (int ix = 0; ix < grid.nx; ++ix) {
       const double height = z[grid.index(ix, iy)];
       if (std::isnan(height)) continue;
-      error.largest = std::max(error.largest, std::fabs(distance(X_SP.apply({grid.x(ix), grid.y(iy), height}))));
+      const double off = std::fabs(distance(X_SP.apply({grid.x(ix), grid.y(iy), height})));
+      error.largest = std::max(error.largest, off);
+      error.rms += off * off;
       ++error.count;
     }
+  error.rms = std::sqrt(error.rms / std::max(error.count, 1));
   return error;
 }
 

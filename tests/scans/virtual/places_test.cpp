@@ -50,7 +50,7 @@ TEST(VirtualScanner, RailPointsLieOnTheCylinderEvenly) {
 }
 
 TEST(VirtualScanner, RailAlongACircle) {
-  constexpr double kRadius = 20.0, kCant = 0.1;
+  static constexpr double kRadius = 20.0, kCant = 0.1;
   ScannerSettings settings = rail_settings(50'000);
   settings.line = [](double s) {
     const double psi = s / kRadius;

@@ -54,7 +54,7 @@ TEST(AirSpring, TangentsAreDerivatives) {
   constexpr double h = 1e-8;
   for (const double c : {-0.02, 0.001, 0.04})
     for (const double duration : {1e-3, 0.1, kInfinity})
-      for (const double gone : {-0.002, 0.003}) {
+      for (const double gone : {-0.0015, 0.003}) {  // there is flow: about none, differences see its square
         const ForceElements e = air(1.4, 1e8);
         Vector memory = e.fresh_memory();
         memory[e.memory_of_air(0)] = gone;

@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kSolved = 1e-11;     ///< accuracy of solutions that are differenced
 constexpr double kSameSlope = 1e-5;   ///< against central differences of whole solutions
-constexpr double kLeftOpen = 3e-11;   ///< of a number, by the accuracy of solutions
-constexpr double kZero = 1e-6;        ///< of a number's usual size within a parameter's usual range: nothing
+constexpr double kLeftOpen = 5e-11;   ///< of a number, by the accuracy of solutions and rounding of heights
+constexpr double kZero = 3e-6;        ///< of a number's usual size within a parameter's usual range: nothing
 constexpr double kLengthStep = 1e-6;  ///< of whole solutions [m]
 
 /// A parameter, and over what whole solutions are differenced.
