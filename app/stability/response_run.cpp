@@ -155,7 +155,7 @@ ResponseRun run_response(const ResponseRequest& request, const Progress& progres
   if (!balance.report.message.empty()) run.notes.push_back(balance.report.message);
   for (const vehicle::Eigenmode& mode : vehicle::all_eigenmodes(v, balance.state))
     if (mode.value.real() > vehicle::StabilitySettings{}.neutral) run.stable = false;
-  if (!run.stable) run.notes.push_back(kUnstable);
+  if (!run.stable) run.notes.emplace_back(kUnstable);
   const vehicle::LinearVehicle linear(v, balance.state, base);
   for (const double frequency : run.frequency) {
     check_cancelled();
