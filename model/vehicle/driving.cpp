@@ -74,8 +74,9 @@ std::vector<RailShift> twist_shifts(const TwistTest& test, std::span<const doubl
       shift.wheelset = static_cast<int>(from_front[i]);
       shift.left = left;
       const double most = left ? -0.5 * level : 0.5 * level;  // the left rail rises
-      shift.time = {0.0, 0.25 * test.period, 0.75 * test.period, test.period};
-      shift.displacement = {0.0, most, -most, 0.0};
+      // points of rest before and behind: a run begins on rails that do not move yet
+      shift.time = {-0.25 * test.period, 0.0, 0.25 * test.period, 0.75 * test.period, test.period, 1.25 * test.period};
+      shift.displacement = {0.0, 0.0, most, -most, 0.0, 0.0};
     }
   }
   return shifts;
