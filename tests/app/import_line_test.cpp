@@ -170,7 +170,7 @@ TEST_F(ImportAlongALine, AStraightRailStaysAsItWas) {
   circle(1e5, 0.0);  // the sagitta of 0.5 m is 0.3 um
   scan("rail.ply", "-250,250", "150000");
   for (const char* line : {"auto", "straight"}) {
-    const auto r = import({path("rail.ply"), "-o", path(std::string(line) + ".ply"), "--json",
+    const auto r = import({path("rail.ply"), "--body", "rail", "-o", path(std::string(line) + ".ply"), "--json",
                            path(std::string(line) + ".json"), "--set", std::string("placement.line=") + line});
     ASSERT_EQ(r.status, 0) << r.err;
   }
