@@ -181,7 +181,7 @@ TEST_F(ImportFiles, ScansOfOthersAreRefusedForWhatTheyAre) {
         Real{"las/plane.laz", "rail", "laszip -i plane.laz -o plane.las"},
         Real{"points/autzen-utm.pcd", "rail", "autzen-utm.pcd: "},
         Real{"points/utm17_comma.pcd", "rail", "10 points are too few"},
-        Real{"points/rail.pcd", "rail", "is that of no rail in any unit"},
+        Real{"points/rail.pcd", "rail", "is it the right object, body and unit?"},
         Real{"points/ColouredCubeFloat.e57", "wheel", "ColouredCubeFloat.e57: "},
         Real{"points/result_ball.ply", "wheel", "is that of no wheel in any unit"},
         Real{"points/axle_tof.ply", "wheel", "do not form a surface"}}) {
