@@ -22,7 +22,14 @@ constexpr int kEdge = DistanceGrid::kEdge;
 /// A cell whose hull only just keeps off zero counts as one that holds it: rounding decides nothing.
 constexpr double kMargin = 1e-9;
 
-std::size_t index_of(const std::array<int, 3>& n) { return static_cast<std::size_t>(64 * n[0] + 8 * n[1] + n[2]); }
+std::size_t as_index(int n) { return static_cast<std::size_t>(n); }
+std::size_t index_of(const std::array<int, 3>& n) { return as_index(64 * n[0] + 8 * n[1] + n[2]); }
+
+/// Of the 27 nodes about a cell, from it.
+Vec3 offset_of(int k) {
+  const int i = k / 9 - 1, j = k / 3 % 3 - 1, l = k % 3 - 1;
+  return Vec3(i, j, l);
+}
 
 /// Coordinate of a node in its own block or in the neighbour: which neighbour (0, 1, 2), and where in it.
 std::pair<int, int> wrapped(int n) { return {(n + kEdge) / kEdge, (n + kEdge) % kEdge}; }
@@ -71,7 +78,7 @@ DistanceField::DistanceField(DistanceGrid grid, const RimBlocks& rim) : grid_(st
     std::array<int, 3> where{};
     std::array<int, 3> local{};
     for (std::size_t a = 0; a < 3; ++a) std::tie(where[a], local[a]) = wrapped(n[a]);
-    const std::int32_t other = blocks_[b].around[static_cast<std::size_t>(9 * where[0] + 3 * where[1] + where[2])];
+    const std::int32_t other = blocks_[b].around[as_index(9 * where[0] + 3 * where[1] + where[2])];
     if (other < 0) return false;
     const auto at = static_cast<int>(index_of(local));
     const DistanceGrid::Block& from = given[static_cast<std::size_t>(other)];
@@ -130,8 +137,7 @@ DistanceField::DistanceField(DistanceGrid grid, const RimBlocks& rim) : grid_(st
       for_each_marked(blocks_[b].marked, [&](const std::array<int, 3>& n) {
         const Vec3 at = node(leaf.block, n) - leaf.centre;
         gather(leaf.block, n, c);
-        for (int k = 0; k < 27; ++k)
-          c[static_cast<std::size_t>(k)] -= slab.normal.dot(at + Vec3(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1));
+        for (int k = 0; k < 27; ++k) c[static_cast<std::size_t>(k)] -= slab.normal.dot(at + offset_of(k));
         const auto [least, most] = cell_range(c);
         slab.low = std::min(slab.low, least), slab.high = std::max(slab.high, most);
         for (int axis = 0; axis < 3; ++axis) {
@@ -182,8 +188,7 @@ void DistanceField::read(const Values& values_of, std::uint32_t block, const std
     values += index_of(cell);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        for (int k = 0; k < 3; ++k)
-          out[static_cast<std::size_t>(9 * i + 3 * j + k)] = values[64 * (i - 1) + 8 * (j - 1) + k - 1];
+        for (int k = 0; k < 3; ++k) out[as_index(9 * i + 3 * j + k)] = values[64 * (i - 1) + 8 * (j - 1) + k - 1];
     return;
   }
   std::array<std::array<std::pair<int, int>, 3>, 3> w;
@@ -193,7 +198,7 @@ void DistanceField::read(const Values& values_of, std::uint32_t block, const std
   for (const auto& [bi, i] : w[0])
     for (const auto& [bj, j] : w[1])
       for (const auto& [bk, k] : w[2]) {
-        const std::int32_t other = own.around[static_cast<std::size_t>(9 * bi + 3 * bj + bk)];
+        const std::int32_t other = own.around[as_index(9 * bi + 3 * bj + bk)];
         const float* values = other < 0 ? nullptr : values_of(other);
         out[at++] = values == nullptr ? missing : values[64 * i + 8 * j + k];
       }
@@ -226,7 +231,7 @@ void DistanceField::mark(const std::vector<DistanceGrid::Block>& given, std::uin
       const auto [bi, i] = wrapped(n[0] + k / 9 - 1);
       const auto [bj, j] = wrapped(n[1] + k / 3 % 3 - 1);
       const auto [bk, l] = wrapped(n[2] + k % 3 - 1);
-      const std::int32_t other = own.around[static_cast<std::size_t>(9 * bi + 3 * bj + bk)];
+      const std::int32_t other = own.around[as_index(9 * bi + 3 * bj + bk)];
       whole = other >= 0 && given[static_cast<std::size_t>(other)].knows(64 * i + 8 * j + l);
     }
     if (own.rim >= 0) {
@@ -425,8 +430,7 @@ bool DistanceField::depths(const LatticeView& view, const Rectangle& r, double& 
       slab.normal = cell_gradient(c, Vec3::Zero());
       slab.constant = -slab.normal.dot(at);
       slab.turn = 2.0 * slab.normal.norm();  // not asked: what faces away is as rare as its blocks
-      for (int k = 0; k < 27; ++k)
-        c[static_cast<std::size_t>(k)] -= slab.normal.dot(Vec3(k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1));
+      for (int k = 0; k < 27; ++k) c[static_cast<std::size_t>(k)] -= slab.normal.dot(offset_of(k));
       std::tie(slab.low, slab.high) = cell_range(c);
       if (!clip(one, slab, at, from, to)) return;
       least = std::min(least, from), greatest = std::max(greatest, to);

@@ -16,7 +16,8 @@ using Block = std::array<float, std::size_t{kBlockI} * kBlockJ>;
 
 struct BlockKey {
   std::int32_t bi = 0, bj = 0;  ///< i / 8 and j / 64, rounded down
-  friend auto operator<=>(const BlockKey&, const BlockKey&) = default;
+  // clang-tidy 14 takes its comparisons with zero for pointers
+  friend auto operator<=>(const BlockKey&, const BlockKey&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A stored block; the values are those of the grid.
