@@ -50,12 +50,25 @@ bool grown(const Rectangle& now, const Rectangle& before) {
          now.y_max - now.y_min > kGrown * (before.y_max - before.y_min);
 }
 
+bool in_time(const Problem& p) {
+  return p.damping || p.regime == kalker::Regime::transient || p.regime == kalker::Regime::shift;
+}
+
+/// Whether the height is sought by the normal problem itself, with nothing left to a later instant but start values.
+bool under_load(const Problem& p) {
+  return height_sought(p) && !in_time(p) && p.normal_model == kalker::NormalModel::full &&
+         p.reference_surface == ReferenceSurface::plane;
+}
+
 }  // namespace
+
+bool height_sought(const Problem& p) {
+  return p.vertical_force || (p.rail_springs && p.rail_springs->stiffness_z > 0.0);
+}
 
 bool chooses_elements(const Problem& p) {
   const Discretisation& d = p.discretisation;
-  const bool in_time = p.damping || p.regime == kalker::Regime::transient || p.regime == kalker::Regime::shift;
-  return (d.choose_dx || d.choose_ds) && !in_time && d.search == Discretisation::SearchGrid::refined;
+  return (d.choose_dx || d.choose_ds) && !in_time(p) && d.search == Discretisation::SearchGrid::refined;
 }
 
 ElementSize elements_for(double length, double width, double longest) {
@@ -68,9 +81,10 @@ ElementSize elements_for(double length, double width, double longest) {
   return {rounded_down(std::max(dx, kShortestElement)), rounded_down(std::max(ds, kShortestElement))};
 }
 
-ElementChoice::ElementChoice(const Geometry& geometry, const Problem& problem)
+ElementChoice::ElementChoice(const Geometry& geometry, const Problem& problem, bool known)
     : given_(problem.discretisation),
       active_(chooses_elements(problem)),
+      rough_(!active_ && !known && under_load(problem)),
       longest_(geometry.constant_profiles() ? kInfinity : kLongestOnVarying) {}
 
 ElementSize ElementChoice::told(ElementSize size) const {
@@ -79,8 +93,25 @@ ElementSize ElementChoice::told(ElementSize size) const {
   return size;
 }
 
+ElementSize ElementChoice::first(double length, double width) const {
+  const double dx = length / kFirstAcross, ds = width / kFirstAcross;
+  if (active_) return told({std::max(dx, kShortestElement), std::max(ds, kShortestElement)});
+  const auto whole = [](double side, double given) { return given * std::max(1.0, std::floor(side / given)); };
+  return {whole(dx, given_.dx), whole(ds, given_.ds)};
+}
+
+void ElementChoice::expect(std::span<const detection::ContactPatch> regions) {
+  constexpr double kWorthIt = 3.0;  // as many elements as few ones
+  for (const detection::ContactPatch& region : regions) {
+    if (!rough_) return;
+    const Rectangle& box = region.extent.box;
+    const ElementSize size = first(box.x_max - box.x_min, (box.y_max - box.y_min) / std::cos(region.inclination));
+    rough_ = size.dx * size.ds >= kWorthIt * given_.dx * given_.ds;
+  }
+}
+
 ElementSize ElementChoice::of(const detection::ContactPatch& region, double angle) {
-  if (!active_) return {given_.dx, given_.ds};
+  if (!active_ && !rough_) return {given_.dx, given_.ds};
   const Rectangle& box = region.extent.box;
   ElementSize least{kInfinity, kInfinity};
   for (const Kept& one : kept_)
@@ -89,12 +120,15 @@ ElementSize ElementChoice::of(const detection::ContactPatch& region, double angl
   if (least.dx < kInfinity) return least;
   std::erase_if(kept_, [&](const Kept& one) { return overlap(box, one.box); });
   const double length = box.x_max - box.x_min, width = (box.y_max - box.y_min) / std::cos(angle);
-  kept_.push_back({box, told({std::max(length / kFirstAcross, kShortestElement),
-                              std::max(width / kFirstAcross, kShortestElement)})});
+  kept_.push_back({box, first(length, width)});
   return kept_.back().size;
 }
 
 bool ElementChoice::learn(std::span<const PatchSolution* const> patches) {
+  if (std::exchange(rough_, false)) {
+    kept_.clear();
+    return true;
+  }
   if (!active_ || rounds_ >= kMostRounds || patches.empty()) return false;
   std::vector<Kept> chosen;
   bool changed = false;

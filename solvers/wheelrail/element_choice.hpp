@@ -20,6 +20,9 @@ constexpr double kLongestElement = 4.0, kShortestElement = 1e-5;
 /// later instant. Damping, transient rolling and shifts need one raster, search grids other than refined dx, ds.
 bool chooses_elements(const Problem& problem);
 
+/// Whether a force may ask for another height of the wheelset than that of its state.
+bool height_sought(const Problem& problem);
+
 /// Sides of the elements of one patch [m].
 struct ElementSize {
   double dx = 0.0, ds = 0.0;
@@ -31,12 +34,19 @@ struct ElementSize {
 ElementSize elements_for(double length, double width, double longest);
 
 /// The elements of the patches of one instant while the height of the wheel is being sought: few ones, from where the
-/// undeformed bodies interpenetrate, until learn() has seen a contact.
+/// undeformed bodies interpenetrate, until learn() has seen a contact. Where sizes are given few ones are whole
+/// multiples of them.
 class ElementChoice {
  public:
-  ElementChoice(const Geometry& geometry, const Problem& problem);
+  /// known: about at which height forces balance, so that elements of given size are those from the first.
+  ElementChoice(const Geometry& geometry, const Problem& problem, bool known);
 
+  /// Whether sizes are chosen.
   bool active() const { return active_; }
+  /// Whether the elements are few ones, made to look at a contact and to learn from it.
+  bool few() const { return rough_ || (active_ && rounds_ == 0); }
+  /// What interpenetrates, before its elements are laid: small contacts have few enough as they are given.
+  void expect(std::span<const detection::ContactPatch> regions);
   /// Elements of a patch with this contact angle [rad]. They stay with the patches that overlap it.
   ElementSize of(const detection::ContactPatch& region, double angle);
   /// Chooses by what is in contact. False: nothing changes, or it has changed often enough.
@@ -48,9 +58,10 @@ class ElementChoice {
     ElementSize size;
   };
   ElementSize told(ElementSize size) const;
+  ElementSize first(double length, double width) const;
 
   Discretisation given_;
-  bool active_ = false;
+  bool active_ = false, rough_ = false;
   double longest_;
   int rounds_ = 0;
   std::vector<Kept> kept_;

@@ -17,6 +17,9 @@
 namespace treadmark::wheelrail {
 namespace {
 
+/// How far heights may be from one another that are about the same, as a share of the depth.
+constexpr double kNearEnough = 5e-3;
+
 class Iteration {
  public:
   Iteration(PairStep& step, const Problem& problem, double stiffness, double end_slope, bool known)
@@ -148,11 +151,11 @@ class Iteration {
   double stiffness_for(const ForceBalance::Target& target) {
     if (known_ || p_.normal_model != kalker::NormalModel::full) return out_.stiffness;
     const double z = ForceBalance(target, p_.solver.eps, out_.stiffness).first(step_.touching_z());
-    const double guess = step_.stiffness_guess(z);
-    return guess > 0.0 ? guess : out_.stiffness;
+    if (!guess_) guess_ = step_.stiffness_guess(z);
+    return *guess_ > 0.0 ? *guess_ : out_.stiffness;
   }
 
-  bool elements_missing() { return step_.chooses_elements() && !std::exchange(elements_sought_, true); }
+  bool elements_missing() { return step_.few_elements() && !std::exchange(elements_sought_, true); }
 
   /// Vertical force on the elements that are there; too deep for contact mechanics, any large one sends the search up.
   double force_at_height() const {
@@ -166,18 +169,35 @@ class Iteration {
     if (balance) out_.end_slope = balance->end_slope(depth);
   }
 
-  /// About the height, without tractions: near enough for the size of patches, and for the next search to start from.
+  bool near(double z, double laid, double share) const {
+    return std::abs(z - laid) <= share * (z - step_.touching_z());
+  }
+
+  /// About the height and, of one patch on elements that are given, what tractions add to the force: near enough for
+  /// the size of patches, and for the next search to start from.
   void seek_height(const ForceBalance::Target& target) {
-    constexpr double kNearEnough = 5e-3;
+    constexpr double kAccuracy = 1e-3;
+    constexpr int kMostLooks = 6;
     ForceBalance balance(target, kNearEnough, stiffness_for(target), out_.end_slope);
     double z = balance.first(step_.touching_z());
+    // A longitudinal force takes a search of its own, chosen elements follow pressures.
+    bool shares_known = p_.longitudinal_force || step_.chooses_elements();
     for (int i = 0; i < p_.max_force_iterations; ++i) {
       check_cancelled();
       step_.evaluate(z, target.at(z));
+      if (!step_.few_elements()) {
+        laid_ = z;
+        return;
+      }
+      if (step_.carries_load() && !shares_known && near(step_.z(), z, kNearEnough)) {
+        step_.solve_tangential(out_.pitch_rate, kAccuracy);
+        step_.carry(target.at(step_.z()));
+        shares_known = true;
+      }
       if (step_.carries_load()) {
         const double laid = std::exchange(z, step_.z());
         keep_stiffness(target, z);
-        if (std::abs(z - laid) <= kNearEnough * (z - step_.touching_z())) return;
+        if (i >= kMostLooks || (shares_known && near(z, laid, kNearEnough))) return;
         continue;
       }
       const ForceBalance::State state = balance.add(z, force_at_height(), step_.least_gap());
@@ -195,18 +215,21 @@ class Iteration {
     constexpr int kMost = 16;
     const double touching = step_.touching_z(), still = 4.0 * eps_;
     double laid = z;
+    const auto lies_elsewhere = [&] {
+      return !near(z, laid, still) && !(near(z, laid, kNearEnough) && step_.stays(eps_));
+    };
     bool lay = true, shares_known = step_.knows_earlier_shares();
     for (int i = 0; i < std::min(kMost, p_.max_force_iterations); ++i) {
       check_cancelled();
-      if (lay)
-        step_.evaluate(laid = z, target.at(z));
-      else
+      if (!lay)
         step_.carry(target.at(z));
+      else if (laid = z; !std::exchange(evaluated, false))
+        step_.evaluate(z, target.at(z));
       evaluated = lay && !step_.carries_load();
       if (!step_.carries_load()) return std::nullopt;
       z = step_.z();
       out_.iterations.emplace_back(z, step_.force_T().z());
-      lay = shares_known && std::abs(z - laid) > still * (z - touching);
+      lay = shares_known && lies_elsewhere();
       // Under far too large a load few elements sink in far too deep.
       z = std::min(z, touching + kDeeper * (laid - touching));
       if (lay) continue;
@@ -224,7 +247,8 @@ class Iteration {
   bool iterate_height(const ForceBalance::Target& target) {
     ForceBalance balance(target, eps_, stiffness_for(target), out_.end_slope);
     double z = balance.first(step_.touching_z());
-    bool evaluated = false;
+    bool evaluated = laid_.has_value();
+    if (evaluated) z = *std::exchange(laid_, std::nullopt);
     if (const std::optional<bool> done = iterate_under_load(target, z, evaluated)) return *done;
     ForceBalance::State state = ForceBalance::State::search;
     bool tangential_done = false, shares_known = false, exact = false;
@@ -364,6 +388,8 @@ class Iteration {
   double eps_;  ///< of forces, relative
   bool known_;  ///< the stiffness, from a balance
   bool elements_sought_ = false;
+  std::optional<double> guess_;  ///< of the stiffness, before any balance
+  std::optional<double> laid_;   ///< where the step stands that was to have few elements, but has those that are given
   Balance out_;
 };
 

@@ -137,7 +137,7 @@ void resolve_loads(PairSolution& solution) {
 PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
   search_s += other.search_s, distance_s += other.distance_s, normal_s += other.normal_s,
       tangential_s += other.tangential_s;
-  searches += other.searches, distances += other.distances;
+  searches += other.searches, distances += other.distances, looks += other.looks;
   normal_solves += other.normal_solves, tangential_solves += other.tangential_solves;
   return *this;
 }
@@ -202,7 +202,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   if (geometry_.wheel->constant_profile() && !bodies_.wheel_lines &&
       p.discretisation.search == Discretisation::SearchGrid::reference_locus)
     bodies_.wheel_lines = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
-  PairStep step(geometry_, p, next->previous, solvers_, solution.times, bodies_, *rail_memory_);
+  PairStep step(geometry_, p, next->previous, solvers_, few_solvers_, solution.times, bodies_, *rail_memory_);
   const double known = next->previous.stiffness;
   Balance balance =
       find_balance(step, p, known > 0.0 ? known : stiffest(p.material), next->previous.end_slope, known > 0.0);

@@ -76,6 +76,8 @@ struct PatchSolution {
 struct PhaseTimes {
   double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< as used_seconds() counts
   int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;    ///< how often each was done
+  /// Searches for places alone, and searches and solutions on few elements; the other numbers do not count them.
+  int looks = 0;
 
   PhaseTimes& operator+=(const PhaseTimes& other);
 };
@@ -198,8 +200,9 @@ class Pair {
   Geometry geometry_;
   detection::BodyPair bodies_;  ///< without places; wheel_lines from the first search that wants them
   std::unique_ptr<RailMemory> rail_memory_;
-  std::vector<kalker::ContactSolver> solvers_;  ///< by number of the patch; keep coefficients
-  kalker::ContactSolver coarse_solver_;         ///< to estimate what refining would change
+  std::vector<kalker::ContactSolver> solvers_;      ///< by number of the patch; keep coefficients
+  std::vector<kalker::ContactSolver> few_solvers_;  ///< the same of few elements
+  kalker::ContactSolver coarse_solver_;             ///< to estimate what refining would change
   std::shared_ptr<const State> state_;
 };
 

@@ -158,7 +158,7 @@ class Tangents {
     std::vector<kalker::ContactSolver> none;
     PhaseTimes times;
     const Instant before;
-    PairStep step(given.geometry, p, before, none, times, bodies, memory);
+    PairStep step(given.geometry, p, before, none, none, times, bodies, memory);
     if (!step.place(0.0)) return std::nullopt;
     std::vector<LaidPatch> laid = step.lay(z, solution_.patches);
     if (laid.size() < solution_.patches.size()) return std::nullopt;

@@ -29,17 +29,18 @@ constexpr double kDeepestOfRadius = 0.02;
 }  // namespace
 
 PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous,
-                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies,
-                   RailMemory& rail_memory)
+                   std::vector<kalker::ContactSolver>& solvers, std::vector<kalker::ContactSolver>& few_solvers,
+                   PhaseTimes& times, detection::BodyPair bodies, RailMemory& rail_memory)
     : geometry_(geometry),
       problem_(problem),
       previous_(previous),
       solvers_(solvers),
+      few_solvers_(few_solvers),
       times_(times),
       rail_memory_(rail_memory),
       bodies_(std::move(bodies)),
       tangential_share_(previous.shares),
-      elements_(geometry, problem) {}
+      elements_(geometry, problem, previous.stiffness > 0.0) {}
 
 /// What is deeper lies beyond all contact mechanics [m].
 double PairStep::deepest() const { return kDeepestOfRadius * problem_.wheelset.nominal_radius; }
@@ -69,10 +70,7 @@ bool PairStep::place(double rail_dy) {
   return !std::isnan(gap);
 }
 
-bool PairStep::at_given_height() const {
-  const auto& springs = problem_.rail_springs;
-  return !problem_.vertical_force && !(springs && springs->stiffness_z > 0.0);
-}
+bool PairStep::at_given_height() const { return !height_sought(problem_); }
 
 /// Conventions::contact has one creepage for all parts, strip theory one for every row.
 bool PairStep::parts_creep_apart() const {
@@ -100,16 +98,20 @@ void PairStep::move(Patch& patch) const {
 }
 
 kalker::ContactSolver& PairStep::solver(std::size_t i, const Patch& patch) {
-  while (solvers_.size() <= i) solvers_.emplace_back();
-  warm_.resize(std::max(warm_.size(), i + 1), 0);
-  if (!warm_[i]) {
-    warm_[i] = 1;
-    if (patch.before.size() == 1 && patch.before.front()->solver)
-      solvers_[i].restore(patch.before.front()->solver);
+  const bool few = elements_.few();
+  std::vector<kalker::ContactSolver>& solvers = few ? few_solvers_ : solvers_;
+  std::vector<char>& warm = few ? few_warm_ : warm_;
+  while (solvers.size() <= i) solvers.emplace_back();
+  warm.resize(std::max(warm.size(), i + 1), 0);
+  if (!std::exchange(warm[i], 1)) {
+    if (!few && patch.before.size() == 1 && patch.before.front()->solver)
+      solvers[i].restore(patch.before.front()->solver);
+    else if (!few && i < few_warm_.size())
+      solvers[i].start_like(few_solvers_[i]);
     else
-      solvers_[i].reset();
+      solvers[i].reset();
   }
-  return solvers_[i];
+  return solvers[i];
 }
 
 kalker::ContactProblem contact_problem_of(const Problem& p, const PatchSolution& s) {
@@ -170,8 +172,23 @@ void PairStep::resolve_forces(Patch& patch) const {
   s.moment_C = Vec3(c.moment_x, c.moment_y, c.moment_n) - arm.cross(s.force_C);
 }
 
+bool PairStep::stays(double eps) {
+  // Forces of a measured flat change by about eps then (docs/method.md).
+  constexpr double kOfElement = 400.0, kTurn = 1.0;
+  const Stopwatch watch(times_.search_s);
+  ++times_.looks;
+  const std::vector<detection::ContactPatch> found = search_->at(z_ - start_z_).patches;
+  const PatchSolution& s = patches_.front().solution;
+  if (found.size() != 1 || found.front().parts.size() != s.region.parts.size()) return false;
+  const detection::ContactPatch& here = found.front();
+  return std::abs(here.x - s.region.x) <= kOfElement * eps * s.grid.dx &&
+         std::abs(here.y - s.region.y) <= kOfElement * eps * s.grid.dy &&
+         std::abs(here.inclination - s.region.inclination) <= kTurn * eps;
+}
+
 double PairStep::stiffness_guess(double z) {
   const Stopwatch watch(times_.search_s);
+  ++times_.looks;
   const detection::SearchResult found = search_->at(z - start_z_);
   if (!(found.least_gap < 0.0)) return 0.0;
   // A sphere's force by the volume and depth of its interpenetration: F = 4/3 e* sqrt(V d / pi), V = pi R d^2.
@@ -209,7 +226,7 @@ void PairStep::press(std::size_t i, Patch& patch, std::optional<double> load) {
   PatchSolution& s = patch.solution;
   {
     const Stopwatch watch(times_.normal_s);
-    ++times_.normal_solves;
+    ++(few_elements() ? times_.looks : times_.normal_solves);
     kalker::ContactProblem problem = contact_problem(patch);
     const std::optional<double> force = load ? normal_load(patch, *load) : std::nullopt;
     problem.force_prescribed = force.has_value(), problem.normal_force = force.value_or(0.0);
@@ -238,8 +255,9 @@ void PairStep::evaluate(double z, std::optional<double> load) {
   detection::SearchResult found;
   {
     const Stopwatch watch(times_.search_s);
-    ++times_.searches;
     found = search_->at(dz);
+    elements_.expect(found.patches);
+    ++(few_elements() ? times_.looks : times_.searches);
   }
   least_gap_ = found.least_gap;
   closest_ = found.closest;
@@ -258,7 +276,7 @@ void PairStep::evaluate(double z, std::optional<double> load) {
   for (Patch& patch : located) {
     {
       const Stopwatch watch(times_.distance_s);
-      ++times_.distances;
+      if (!few_elements()) ++times_.distances;
       measure_distance(bodies, patch);
     }
     // Interpenetration between the element centres only: no contact on this grid.
@@ -315,7 +333,8 @@ void PairStep::solve_tangential(double pitch_rate, double eps) {
     s.contact = patch.normal;
     kalker::ContactProblem problem = contact_problem(patch);
     problem.settings.eps = eps;
-    if (problem.regime != kalker::Regime::frictionless) ++times_.tangential_solves;
+    problem.sensitivities = problem.sensitivities && !few_elements();
+    if (problem.regime != kalker::Regime::frictionless) ++(few_elements() ? times_.looks : times_.tangential_solves);
     kalker::ContactSolver& contact_solver = solver(i, patch);
     if (patch.history) contact_solver.continue_from(*patch.history);
     contact_solver.solve_tangential(problem, s.contact);
@@ -381,9 +400,10 @@ Instant PairStep::finish() {
     PatchMemory m;
     m.id = s.id;
     m.box = patch.box;
-    m.history = solvers_[i].history();
+    const kalker::ContactSolver& contact_solver = solver(i, patch);
+    m.history = contact_solver.history();
     m.force_C = s.force_C;
-    if (remember_solver) m.solver = solvers_[i].save();
+    if (remember_solver) m.solver = contact_solver.save();
     const double shift_x = s.frame.X_TC.origin.x() - s.reference_C.x(), shift_y = s.reference_s - s.reference_C.y();
     m.box.x_min += shift_x, m.box.x_max += shift_x;
     m.box.y_min += shift_y, m.box.y_max += shift_y;

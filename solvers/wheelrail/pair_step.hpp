@@ -34,8 +34,8 @@ struct LaidPatch {
 class PairStep {
  public:
   PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous,
-           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, detection::BodyPair bodies,
-           RailMemory& rail_memory);
+           std::vector<kalker::ContactSolver>& solvers, std::vector<kalker::ContactSolver>& few_solvers,
+           PhaseTimes& times, detection::BodyPair bodies, RailMemory& rail_memory);
 
   /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other; at a given height evaluate()
   /// finds that out, its least_gap() is no number then.
@@ -48,8 +48,13 @@ class PairStep {
   /// Vertical force of paraboloids that interpenetrate as the bodies do with the wheelset at height z, over the depth
   /// there to the power 1.5 [N/m^1.5]; 0: nothing interpenetrates. A guess, without patches or pressures.
   double stiffness_guess(double z);
-  /// Whether elements are sought, from few ones on: evaluate() before learn_elements() is a first guess.
+  /// Of a step that carries its load: whether its elements lie where those laid for z() would, as far as forces of
+  /// relative accuracy eps can tell.
+  bool stays(double eps);
+  /// Whether elements are chosen by the contact.
   bool chooses_elements() const { return elements_.active(); }
+  /// Whether elements are few: evaluate() before learn_elements() is a first guess.
+  bool few_elements() const { return elements_.few(); }
   /// Chooses elements by the contact of the last evaluate(). False: they stay.
   bool learn_elements();
   /// Patches and pressures with the wheelset at height z over the undeflected rail. One patch on a plane is solved
@@ -134,7 +139,7 @@ class PairStep {
   const Geometry& geometry_;
   Problem problem_;
   const Instant& previous_;
-  std::vector<kalker::ContactSolver>& solvers_;
+  std::vector<kalker::ContactSolver>&solvers_, &few_solvers_;
   PhaseTimes& times_;
   RailMemory& rail_memory_;
 
@@ -149,7 +154,7 @@ class PairStep {
   ElementChoice elements_;
   int hidden_ = 0;
   std::optional<detection::ContactPatch> between_;
-  std::vector<char> warm_;  ///< solvers that have started from the previous instant
+  std::vector<char> warm_, few_warm_;  ///< solvers that have started, from the previous instant or anew
 };
 
 /// Loads of solved patches and their sum, and where they lie in the axes of the bodies.
