@@ -317,7 +317,7 @@ TEST(TableContact, WhereTheSolverFailsNothingHasDerailed) {
   const wheelrail::Geometry bodies = standard_geometry();
   const wheelrail::Problem good = standard_problem(0.025);
   wheelrail::Problem hurried = good;
-  hurried.max_force_iterations = 1;
+  hurried.max_force_iterations = hurried.solver.max_iterations = 1;
   const ContactTableOptions options{.lateral_range = 2e-3, .step = 0.5e-3, .relative_loads = {1.0}, .heavier = {}};
   const auto table_of = [&](const wheelrail::Problem& beyond) {
     return contact_table_of(solve_contact_sheets(bodies, good, kLoad, options), bodies, good, kLoad, options,
