@@ -26,13 +26,17 @@ export function sectionAt(surface: SurfaceData, at: Placed, x: number, blobs: st
   const out: Section = [];
   for (let iv = 0; iv < nv; ++iv) {
     let best: [number, number] = [NaN, NaN];
-    for (let iu = 0; iu + 1 < nu + (closed ? 1 : 0); ++iu) {
+    let xb = along(iv);
+    for (let iu = 0; iu + 1 < nu + (closed ? 1 : 0); ++iu) {  // no lists in here: it takes most of the time of a picture
       const a = iu * nv + iv;
       const b = ((iu + 1) % nu) * nv + iv;
-      const [xa, xb] = [along(a), along(b)];
+      const xa = xb;
+      xb = along(b);
       if (!((xa - x) * (xb - x) <= 0) || xa === xb) continue;
       const t = (x - xa) / (xb - xa);
-      const [qx, qy, qz] = [px, py, pz].map((p) => p[a]! + t * (p[b]! - p[a]!)) as Vector;
+      const qx = px[a]! + t * (px[b]! - px[a]!);
+      const qy = py[a]! + t * (py[b]! - py[a]!);
+      const qz = pz[a]! + t * (pz[b]! - pz[a]!);
       const z = o[2] + r[6]! * qx + r[7]! * qy + r[8]! * qz;
       if (z <= best[1]) continue;
       best = [o[1] + r[3]! * qx + r[4]! * qy + r[5]! * qz, z];
@@ -117,6 +121,8 @@ const NORMAL = 46;
 class SectionFigure {
   private readonly drawing = svg("svg", { class: "section-view", "font-family": "var(--sans)", "font-size": 11.5, role: "img" });
   private drawnWidth = 0;
+  private visible = true;
+  private stale = false;
   private shown: Cut | null = null;
   private others: { name: string; cut: Cut }[] = [];
 
@@ -134,7 +140,17 @@ class SectionFigure {
     };
     new ResizeObserver(fit).observe(frame);
     store.onStep(() => this.draw(this.drawnWidth));
-    store.onRenewal(() => this.draw(this.drawnWidth));
+    new IntersectionObserver(
+      (entries) => {
+        this.visible = entries.some(({ isIntersecting }) => isIntersecting);
+        if (this.visible && this.stale) this.draw(this.drawnWidth);
+      },
+      { rootMargin: "300px" },
+    ).observe(frame);
+    store.onRenewal(() => {
+      if (this.visible) this.draw(this.drawnWidth);
+      else this.stale = true;
+    });
     window.addEventListener("beforeprint", () => this.draw(PAPER_WIDTH));
     onPaper(figure, store, (suffix) => {
       this.draw(PAPER_WIDTH);
@@ -145,6 +161,7 @@ class SectionFigure {
 
   private draw(width: number): void {
     this.drawnWidth = width;
+    this.stale = false;
     const { drawing, view } = this;
     const { data } = this.store;
     const frame = data.sets[view.set]?.frames[this.store.frame() ?? -1];

@@ -108,7 +108,7 @@ test("the program for browsers gives the numbers of the program", { skip }, asyn
       await t.test(name, (one) => {
         const { frame, remarks, milliseconds } = here.solve({ toml: base, changes }, null, name);
         // the case as the page saves it
-        writeFileSync(join(folder, "case.toml"), here.said({ toml: base, changes }, []).toml);
+        writeFileSync(join(folder, "case.toml"), here.text({ toml: base, changes }));
         const run = spawnSync(program, ["--quiet", "run", join(folder, "case.toml"), "--json", "-"], { encoding: "utf8", maxBuffer: 1 << 26 });
         const expected = (JSON.parse(run.stdout) as Native).cases[0]!;
         assert.equal(frame.status, expected.status === "doubtful" ? "ok" : expected.status);
@@ -144,7 +144,7 @@ test("solving takes a few times what the program takes", { skip }, async (t) => 
       const given = { toml: base, changes };
       const took = middle(Array.from({ length: 15 }, () => here.solve(given, null, name).milliseconds));
       const file = join(folder, "case.toml");
-      writeFileSync(file, here.said(given, []).toml);
+      writeFileSync(file, here.text(given));
       const often = `friction.coefficient=[${Array.from({ length: 15 }, () => 0.3).join(", ")}]`;
       const run = spawnSync(program, ["--quiet", "--threads", "1", "run", file, "--set", often, "--json", "-"], { encoding: "utf8", maxBuffer: 1 << 28 });
       const there = middle((JSON.parse(run.stdout) as { cases: { seconds: number }[] }).cases.map(({ seconds }) => 1e3 * seconds));

@@ -15,7 +15,7 @@ const REST = 180;
 /** Changes of one control that follow so closely are taken back together [ms]. */
 const TOGETHER = 800;
 const LARGEST_FILE = 20e6;
-const NAMES = [...controls.flatMap(({ name }) => (name === "" ? [] : [name])), "discretisation.dx"];
+const NAMES = controls.flatMap(({ name }) => (name === "" ? [] : [name]));
 
 interface Functions {
   y_mm: number[];
@@ -43,7 +43,9 @@ class Live implements Target {
   private busy = false;
   private wanted: number | null | undefined;
   private timer = 0;
+  /** Over the lateral place: of which wheel and rail it is, and what. */
   private geometryOf = "";
+  private geometry: Functions | null = null;
 
   constructor(
     private readonly section: HTMLElement,
@@ -104,19 +106,6 @@ class Live implements Target {
     return `#${toAddress(state, this.live.toml)}`;
   }
 
-  /** Elements of the first answer: coarser ones than the case has. */
-  private get first(): number | null {
-    const own = 1e3 * (this.numbers["discretisation.dx"] ?? NaN);
-    return own >= COARSE_MM ? null : COARSE_MM;
-  }
-
-  /** The numbers of the case with its changes go to the fields. */
-  private async tell(): Promise<void> {
-    const { said } = await this.engine.ask({ kind: "said", given: givenOf(this.state), names: NAMES });
-    if (said) this.numbers = said.numbers;
-    this.panel.refresh(this.state.changes, this.numbers, this.own);
-  }
-
   // ---- changes ----
 
   change(key: string, value: string): void {
@@ -148,7 +137,12 @@ class Live implements Target {
 
   private follow(state: State): void {
     this.state = state;
-    void this.tell().then(() => this.request(this.first));
+    this.request(COARSE_MM);  // before the fields, so that it is solved while they are drawn
+    this.refresh();
+  }
+
+  private refresh(): void {
+    this.panel.refresh(this.state.changes, this.numbers, this.own);
   }
 
   // ---- files ----
@@ -171,14 +165,14 @@ class Live implements Target {
   }
 
   private async open(toml: string, name: string): Promise<void> {
-    const { trouble } = await this.engine.ask({ kind: "said", given: { toml, changes: [] }, names: [] });
+    const { trouble } = await this.engine.ask({ kind: "text", given: { toml, changes: [] } });
     if (trouble !== undefined) return this.complain(`${name} was not opened: ${trouble}`);
     this.adopt({ toml, changes: new Map<string, string>() });
   }
 
   private async save(): Promise<void> {
-    const { said, trouble } = await this.engine.ask({ kind: "said", given: givenOf(this.state), names: [] });
-    if (said) save(new Blob([said.toml], { type: "text/plain" }), "case.toml");
+    const { text, trouble } = await this.engine.ask({ kind: "text", given: givenOf(this.state) });
+    if (text !== undefined) save(new Blob([text], { type: "text/plain" }), "case.toml");
     else this.complain(`The case cannot be written: ${trouble ?? ""}`);
   }
 
@@ -195,20 +189,32 @@ class Live implements Target {
     this.busy = true;
     this.wanted = undefined;
     const { state } = this;
-    const { solved, trouble } = await this.engine.ask({ kind: "solve", given: givenOf(state), element, name: "" });
+    const { solved, trouble } = await this.engine.ask({ kind: "solve", given: givenOf(state), element, name: "", names: NAMES });
     this.busy = false;
     const current = state === this.state;
     if (solved) {  // on the way to another state, too: a hand that moves shall see something
       this.good = state;
-      this.show(solved, element, current);
-      history.replaceState(null, "", this.address(state));
+      this.show(solved, current);
+      if (current) this.learn(solved.numbers);
     } else if (current) {
       this.refuse(trouble ?? "nothing came back");
     }
     if (this.wanted !== undefined) return void this.solve(this.wanted);
     if (!current || !solved) return;  // its request comes, or there is none
-    if (element !== null) this.timer = window.setTimeout(() => this.request(null), REST);
-    else void this.showGeometry(state);
+    if (solved.coarse) this.timer = window.setTimeout(() => this.request(null), REST);
+    else this.rest(state);
+  }
+
+  /** What the case says goes to the fields. */
+  private learn(numbers: Record<string, number>): void {
+    this.numbers = numbers;
+    this.refresh();
+  }
+
+  /** What can wait until nothing moves: browsers take few changes of an address in a second. */
+  private rest(state: State): void {
+    history.replaceState(null, "", this.address(state));
+    void this.renewGeometry(state);
   }
 
   /** The last good state stays, what was typed stays to be mended. */
@@ -229,11 +235,12 @@ class Live implements Target {
   }
 
   /** `current`: there is no other state yet. */
-  private show({ frame, surfaces, remarks, force, milliseconds }: Solved, element: number | null, current: boolean): void {
+  private show({ frame, surfaces, remarks, force, milliseconds, numbers, coarse }: Solved, current: boolean): void {
     const { data } = this.store;
     frame.name = data.sets[0]?.frames[0]?.name ?? "";
     data.sets[0]!.frames = [frame];
     if (surfaces) data.surfaces = surfaces;
+    this.mark(1e3 * (numbers["wheelset.y"] ?? NaN));
     this.store.renew();
     this.warnings.replaceChildren(...remarks.map((remark) => this.remark(remark)));
     if (frame.status !== "ok") this.warnings.prepend(make("div", "banner warning", frame.message || frame.status));
@@ -245,7 +252,7 @@ class Live implements Target {
       ["Lateral force", `${formatNumber(force[1] / 1e3)} kN`, "on the rail"],
       ["Longitudinal force", `${formatNumber(force[0] / 1e3)} kN`, "on the rail"],
       ["Wear number Tγ", `${formatNumber(wear)} N`, "of all patches"],
-      ["Solved in", `${formatNumber(milliseconds, 3)} ms`, element === null ? "elements as the case says" : `elements of ${element} mm`],
+      ["Solved in", `${formatNumber(milliseconds, 3)} ms`, coarse ? `elements of ${COARSE_MM} mm` : "elements as the case says"],
     ];
     this.cards.replaceChildren(
       ...entries.map(([label, value, note]) => {
@@ -254,7 +261,7 @@ class Live implements Target {
         return card;
       }),
     );
-    if (current) Object.assign(document.body.dataset, { live: element === null ? "fine" : "coarse", pressure: String(pressure) });
+    if (current) Object.assign(document.body.dataset, { live: coarse ? "coarse" : "fine", pressure: String(pressure) });
   }
 
   private remark({ text, patch, grave }: Remark): HTMLElement {
@@ -263,27 +270,37 @@ class Live implements Target {
     return banner;
   }
 
-  /** Rolling radii and contact over y, with the present place. */
-  private async showGeometry(state: State): Promise<void> {
-    const view = this.store.data.views.find((one): one is ChartView => one.type === "chart");
-    if (!view) return;
-    const y = 1e3 * (this.numbers["wheelset.y"] ?? NaN);
+  private get chart(): ChartView | undefined {
+    return this.store.data.views.find((one): one is ChartView => one.type === "chart");
+  }
+
+  /** The present place [mm] among the rolling radii. */
+  private mark(y: number): void {
+    const here = this.chart?.panels[0]?.series[1];
+    const { geometry } = this;
+    if (!here || !geometry) return;
+    const at = geometry.y_mm.reduce((best, value, k) => (Math.abs(value - y) < Math.abs(geometry.y_mm[best]! - y) ? k : best), 0);
+    [here.x, here.y] = [[y], [geometry.delta_r_mm[at] ?? null]];
+  }
+
+  /** Rolling radii and contact over y, where wheel or rail are others. */
+  private async renewGeometry(state: State): Promise<void> {
+    const { chart: view } = this;
     const given = givenOf(state);
     const key = JSON.stringify([given.toml, given.changes.filter((change) => /^(wheel\.|rail\.|track\.|wheelset\.nominal)/.test(change))]);
-    if (key !== this.geometryOf) {
-      const { json } = await this.engine.ask({ kind: "geometry", given });
-      const functions = (json as { geometry?: { functions?: Functions } } | undefined)?.geometry?.functions;
-      this.geometryOf = key;
-      const all = functions ? [functions.delta_r_mm, functions.rail_y_right_mm, functions.wheel_y_right_mm] : [[], [], []];
-      view.x!.values = functions?.y_mm ?? [];
-      [view.panels[0]?.series[0], view.panels[1]?.series[0], view.panels[1]?.series[1]].forEach((series, k) => {
-        if (series) series.y = all[k]!;
-      });
-    }
-    const mark = view.panels[0]?.series[1];
-    const places = view.x!.values as number[];
-    const at = places.reduce((best, value, k) => (Math.abs(value - y) < Math.abs(places[best]! - y) ? k : best), 0);
-    if (mark) [mark.x, mark.y] = [[y], [(view.panels[0]!.series[0]!.y as (number | null)[])[at] ?? null]];
+    if (!view || key === this.geometryOf) return;
+    const { json } = await this.engine.ask({ kind: "geometry", given });
+    this.geometry = (json as { geometry?: { functions?: Functions } } | undefined)?.geometry?.functions ?? null;
+    this.geometryOf = key;
+    const { y_mm = [], delta_r_mm = [], rail_y_right_mm = [], wheel_y_right_mm = [] } = this.geometry ?? {};
+    view.x!.values = y_mm;
+    for (const [series, values] of [
+      [view.panels[0]?.series[0], delta_r_mm],
+      [view.panels[1]?.series[0], rail_y_right_mm],
+      [view.panels[1]?.series[1], wheel_y_right_mm],
+    ] as const)
+      if (series) series.y = values;
+    this.mark(1e3 * (this.numbers["wheelset.y"] ?? NaN));
     this.store.renew();
   }
 }

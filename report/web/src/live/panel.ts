@@ -168,8 +168,9 @@ export class Panel {
       const value = shownValue(control, changes, numbers);
       const kept = own === key ? document.activeElement : null;
       if (kept !== field) {
-        field.value = Number.isFinite(value) ? String(Number(value.toPrecision(8))) : "";
-        field.setAttribute("aria-invalid", "false");
+        const text = Number.isFinite(value) ? String(Number(value.toPrecision(8))) : "";
+        if (field.value !== text) field.value = text;  // what is written anew is laid out anew
+        if (field.getAttribute("aria-invalid") === "true") field.setAttribute("aria-invalid", "false");
       }
       if (kept !== slider && Number.isFinite(value)) slider.value = String(value);
     });

@@ -29,6 +29,10 @@ export interface Solved {
   /** In track axes [N]. */
   force: [number, number, number];
   milliseconds: number;
+  /** Of the case, in SI by their names in treadmark.h. */
+  numbers: Record<string, number>;
+  /** Its elements are coarser than those of the case. */
+  coarse: boolean;
 }
 
 /** Folder of the files that were given; deep, so that those above a case have places of their own. */
@@ -95,18 +99,15 @@ export class Solver {
     }
   }
 
-  /** The case as a file, and its numbers in SI by their names in treadmark.h. */
-  said(given: Given, names: readonly string[]): { toml: string; numbers: Record<string, number> } {
-    return this.with(given, (c) => ({
-      toml: this.library.textOf("case_text", c),
-      numbers: Object.fromEntries(names.map((name) => [name, this.library.number("case_get_number", c, name)])),
-    }));
+  /** The case as a file. */
+  text(given: Given): string {
+    return this.with(given, (c) => this.library.textOf("case_text", c));
   }
 
   /** As `treadmark geometry` of the case. */
   geometry(given: Given): unknown {
     const file = "case-of-the-page.toml";
-    this.library.module.FS.writeFile(placeOf(file), new TextEncoder().encode(this.said(given, []).toml));
+    this.library.module.FS.writeFile(placeOf(file), new TextEncoder().encode(this.text(given)));
     return JSON.parse(this.library.textBySettings("geometry", [`case=${file}`]));
   }
 
@@ -114,10 +115,10 @@ export class Solver {
     return JSON.parse(this.library.textOf("check_profile", name, body === "" ? 0 : body));
   }
 
-  private prepare(given: Given, c: number): void {
+  private prepare(toml: string, changes: readonly string[], c: number): void {
     const { library } = this;
-    const sampled = given.toml.includes("backend");
-    const key = JSON.stringify([given.toml, given.changes.filter((change) => sampled || !MOTIONS.test(change))]);
+    const sampled = toml.includes("backend");
+    const key = JSON.stringify([toml, changes.filter((change) => sampled || !MOTIONS.test(change))]);
     if (key === this.key) return;
     [this.key, this.told] = ["", false];
     library.ask("pair_free", this.pair);
@@ -132,12 +133,16 @@ export class Solver {
     this.key = key;
   }
 
-  /** As it is, or at elements of a size [mm]. Errors: CallError. */
-  solve(given: Given, element: number | null, name: string): Solved {
-    const changes = element === null ? given.changes : [...given.changes, `discretisation.dx_mm=${element}`, `discretisation.ds_mm=${element}`];
-    return this.with({ ...given, changes }, (c) => {
+  /** As it is, or at elements of a size [mm] where its own are smaller. names: numbers that the answer tells. Errors: CallError. */
+  solve(given: Given, element: number | null, name: string, names: readonly string[] = []): Solved {
+    return this.with(given, (c) => {
       const { library } = this;
-      this.prepare(given, c);
+      const of = (number: string): number => library.number("case_get_number", c, number);
+      const numbers = Object.fromEntries(names.map((one) => [one, of(one)]));
+      const coarse = element !== null && !(MILLI * of("discretisation.dx") >= element);
+      const sizes = coarse ? ["dx", "ds"].map((size) => `discretisation.${size}_mm=${element}`) : [];
+      for (const size of sizes) library.call("case_set", c, size);
+      this.prepare(given.toml, [...given.changes, ...sizes], c);
       library.call("pair_reset", this.pair);
       const begin = performance.now();
       const status = library.call("pair_solve", this.pair, c, library.out(0));
@@ -147,7 +152,7 @@ export class Solver {
         const shown = this.shownOf(s, status, name);
         const surfaces = this.told ? null : this.shown;
         this.told = true;
-        return { ...shown, surfaces, milliseconds };
+        return { ...shown, surfaces, milliseconds, numbers, coarse };
       } finally {
         library.ask("solution_free", s);
       }
@@ -197,7 +202,11 @@ export class Solver {
       return library.pointer(0) === 0 ? null : library.doubles(library.pointer(0), nx * ny);
     };
     const values: Record<string, Packed> = {};
-    const keep = (name: string, f: (i: number) => number): void => void (values[name] = plain(Float32Array.from({ length: nx * ny }, (_, i) => f(i))));
+    const keep = (name: string, f: (i: number) => number): void => {
+      const kept = new Float32Array(nx * ny);
+      for (let i = 0; i < kept.length; ++i) kept[i] = f(i);
+      values[name] = plain(kept);
+    };
     library.call("patch_states", s, k, library.out(0));
     const states = library.pointer(0);
     if (states !== 0) keep("state", (i) => library.module.HEAPU8[states + i]!);
@@ -205,7 +214,7 @@ export class Solver {
       if (shift !== this.shift) continue;
       const [a, b] = columns.map(column);
       if (!a || (columns.length > 1 && !b)) continue;
-      keep(name, b ? (i) => factor * Math.hypot(a[i]!, b[i]!) : (i) => factor * a[i]!);
+      keep(name, b ? (i) => factor * Math.sqrt(a[i]! * a[i]! + b[i]! * b[i]!) : (i) => factor * a[i]!);
     }
     const numbers: Patch["numbers"] = {};
     for (const { key, name, factor, shift = this.shift } of live.numbers) {

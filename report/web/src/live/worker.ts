@@ -9,12 +9,12 @@ import { Solver, type Given, type Solved } from "./solve";
 export type Task =
   | { kind: "start"; wasm: Uint8Array; live: LiveData }
   | { kind: "file"; name: string; bytes: Uint8Array }
-  | { kind: "solve"; given: Given; element: number | null; name: string }
-  | { kind: "said"; given: Given; names: string[] }
+  | { kind: "solve"; given: Given; element: number | null; name: string; names: string[] }
+  | { kind: "text"; given: Given }
   | { kind: "geometry"; given: Given }
   | { kind: "check"; name: string; body: string };
 
-export type Answer = { solved?: Solved; said?: ReturnType<Solver["said"]>; json?: unknown; trouble?: string };
+export type Answer = { solved?: Solved; text?: string; json?: unknown; trouble?: string };
 
 declare function createTreadmark(how: { wasmBinary: Uint8Array }): Promise<Module>;
 
@@ -31,9 +31,9 @@ async function done(task: Task): Promise<Answer> {
       solver.addFile(task.name, task.bytes);
       return {};
     case "solve":
-      return { solved: solver.solve(task.given, task.element, task.name) };
-    case "said":
-      return { said: solver.said(task.given, task.names) };
+      return { solved: solver.solve(task.given, task.element, task.name, task.names) };
+    case "text":
+      return { text: solver.text(task.given) };
     case "geometry":
       return { json: solver.geometry(task.given) };
     case "check":
