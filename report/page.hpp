@@ -211,6 +211,7 @@ struct Solving {
   std::string toml;                          ///< text of its case
   std::map<std::string, std::string> files;  ///< bytes of the files that it names
   std::vector<std::string> wheels, rails;    ///< names of profiles
+  std::vector<std::string> backends;         ///< names of representations that need no further library
   std::string module, loader;                ///< of interfaces/web: the program, and the script that starts it
 };
 

@@ -195,7 +195,8 @@ class Writer {
   static Json live(const Solving& solving) {
     Json out = {{"version", version() + " (" + git_revision() + ")"},
                 {"toml", solving.toml},
-                {"profiles", {{"wheel", solving.wheels}, {"rail", solving.rails}}}};
+                {"profiles", {{"wheel", solving.wheels}, {"rail", solving.rails}}},
+                {"backends", solving.backends}};
     Json& files = out["files"] = Json::object();
     for (const auto& [name, bytes] : solving.files) files[name] = io::to_base64(std::as_bytes(std::span(bytes)));
     Json& fields = out["fields"] = Json::array();

@@ -43,6 +43,11 @@ TEST(LivePage, HoldsItsCaseAndWhatTheViewsAreCalledInC) {
   EXPECT_EQ(live.at("files").at("own.csv"), "MSwy");
   EXPECT_THAT(live.at("profiles").at("wheel"), Contains("S1002"));
   EXPECT_THAT(live.at("profiles").at("rail"), Contains("60E1"));
+  EXPECT_THAT(live.at("backends"), Contains("spline"));
+  EXPECT_THAT(live.at("backends"), Not(Contains("level-set")));  // needs OpenVDB
+  // here and beside it, which the page fills
+  ASSERT_EQ(data.at("sets").size(), 2U);
+  EXPECT_EQ(data.at("sets").at(1).at("name"), "beside");
   EXPECT_THAT(live.at("fields"),
               Contains(nlohmann::json::parse(
                   R"({"name": "traction", "columns": ["traction_x", "traction_s"], "factor": 1e-6})")));

@@ -10,7 +10,7 @@
 namespace treadmark::app::pages {
 
 /// The page of one case that solves what its reader changes; it opens with the case as the run has it. run: of one
-/// wheel on a rail, with its surfaces. solving.wheels and rails are filled in.
+/// wheel on a rail, with its surfaces. solving.wheels, rails and backends are filled in.
 report::Page live_page(const std::shared_ptr<const io::RunResult>& run, report::Solving solving);
 
 }  // namespace treadmark::app::pages

@@ -32,6 +32,8 @@ export interface LiveData {
   files: Record<string, string>;
   /** Names of `treadmark list profiles`. */
   profiles: { wheel: string[]; rail: string[] };
+  /** Of `treadmark list backends`, what needs no further library. */
+  backends: string[];
   /** A field is one column times the factor, or the length of two. `shift`: of cases that are one, or are none. */
   fields: { name: string; columns: string[]; factor: number; shift?: boolean }[];
   /** Of Patch.numbers. */

@@ -137,6 +137,36 @@ test("a case that is opened is solved as the program does, and the rail of the l
   await tab.close();
 });
 
+test("two profiles and two representations stand side by side, with their difference", async () => {
+  const tab = await Tab.open();
+  const { page } = tab;
+  const beside = (wanted) => page.waitForFunction((one) => (one ? Number(document.body.dataset.beside) > 0 : document.body.dataset.beside === ""), wanted, { polling: 20, timeout: 120_000 });
+  const figures = page.locator("#beside > figure:visible");
+  const here = await tab.solved();
+  assert.equal(await figures.count(), 0);
+  await tab.after(() => page.locator("[data-control='beside.wheel-file']").setInputFiles(file("own.csv")));
+  await beside(true);
+  assert.equal(await figures.count(), 2);
+  near(Number(await page.evaluate(() => document.body.dataset.beside)), here, 1e-3, "pressure of the same profile read from a file");
+  assert.match(await page.locator("#beside .live-evidence:visible").textContent(), /own\.csv, as it is read/);
+  await tab.after(() => page.locator("[data-control='beside.wheel']").selectOption("EPS"));
+  await page.waitForFunction((one) => Math.abs(document.body.dataset.beside / one - 1) > 0.05, here);
+  assert.match(await page.locator(".cards").first().textContent(), /beside [^]*Equivalent conicity[^]*beside/);
+  await page.locator("#beside-patches").scrollIntoViewIfNeeded();
+  await page.locator("#beside-patches").getByLabel(/^Difference/).check();
+  await page.waitForFunction(() => /difference/.test(document.querySelector("#beside-patches svg").textContent));
+  // both move, and the link holds both
+  await tab.after(() => tab.type("wheelset.y_mm", "2"));
+  assert.match(page.url(), /beside\.wheel\.shape\.standard=EPS/);
+  await tab.after(() => page.locator("[data-control='beside.wheel']").selectOption(""));
+  await beside(false);
+  assert.equal(await figures.count(), 0);
+  await page.locator("[data-control='beside.wheel.backend']").selectOption("spline");
+  await beside(true);
+  near(Number(await page.evaluate(() => document.body.dataset.beside)), await tab.solved(), 1e-3, "pressure in another representation");
+  await tab.close();
+});
+
 test("hostile input is a sentence, and the last good state stays", async () => {
   writeFileSync(file("hostile.csv"), "<img src=x onerror=alert(1)>,".repeat(500));
   writeFileSync(file("hostile.toml"), "[[");

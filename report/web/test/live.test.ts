@@ -11,7 +11,7 @@ import test from "node:test";
 import type { LiveData } from "../src/data";
 import { CallError, Library, type Module } from "../src/live/library";
 import { Solver } from "../src/live/solve";
-import { changed, CREEPAGE, fromAddress, givenOf, ROLLING, shapeKey, toAddress } from "../src/live/state";
+import { besideOf, changed, CREEPAGE, fromAddress, givenOf, ROLLING, shapeKey, toAddress } from "../src/live/state";
 
 test("a change takes the place of what it contradicts", () => {
   const start = new Map([[ROLLING, "free"], ["wheel.shape.standard", "S1002"]]);
@@ -33,6 +33,17 @@ test("an address holds case and changes, and nothing that the page does not offe
   assert.deepEqual(hostile, { toml: "own", changes: new Map([["wheelset.y_mm", "1"]]) });
 });
 
+test("beside it is the same case with other shapes", () => {
+  const changes = new Map([["wheelset.y_mm", "2"], ["wheel.shape.standard", "S1002"], ["beside.wheel.shape.file", "worn.csv"], ["beside.rail.backend", "spline"]]);
+  const state = { toml: "t", number: 3, changes };
+  assert.deepEqual(givenOf(state), { toml: "t", number: 3, changes: ["wheelset.y_mm=2", "wheel.shape.standard=S1002"] });
+  assert.deepEqual(givenOf(besideOf(state)!), { toml: "t", number: 3, changes: ["wheelset.y_mm=2", 'wheel.shape.file="worn.csv"', "rail.backend=spline"] });
+  assert.equal(besideOf({ toml: "t", changes: new Map([["wheelset.y_mm", "2"]]) }), null);
+  assert.deepEqual([...changed(changes, "beside.wheel.shape.standard", "EPS").keys()], ["wheelset.y_mm", "wheel.shape.standard", "beside.rail.backend", "beside.wheel.shape.standard"]);
+  assert.deepEqual(fromAddress(`#${toAddress(state, "own")}`, "own"), state);
+  for (const number of ["0", "-1", "1.5", "x"]) assert.equal(fromAddress(`#number=${number}`, "own")?.number, undefined);
+});
+
 // ---- the program for browsers against the one beside it ----
 
 const { TREADMARK_WEB: web = "", TREADMARK: program = "" } = process.env;
@@ -43,6 +54,7 @@ const live: LiveData = {
   toml: "",
   files: {},
   profiles: { wheel: [], rail: [] },
+  backends: [],
   fields: [{ name: "pressure", columns: ["pressure"], factor: 1e-6 }],
   numbers: [{ key: "pmax_MPa", name: "pmax", factor: 1e-6 }, { key: "fx_N", name: "fx", factor: 1 }, { key: "approach_mm", name: "approach", factor: 1e3 }],
 };
@@ -127,6 +139,26 @@ test("the program for browsers gives the numbers of the program", { skip }, asyn
   } finally {
     rmSync(folder, { recursive: true });
   }
+});
+
+test("two at a time keep their surfaces", { skip }, async () => {
+  const both = await library();
+  const [here, there] = [new Solver(both, live), new Solver(both, live)];
+  const wheel = (name: string): string[] => [`wheel.shape.standard=${name}`];
+  const pressure = (one: Solver, changes: string[]): number => one.solve({ toml: base, changes }, null, "").frame.patches[0]!.numbers["pmax_MPa"]!;
+  const [own, other] = [pressure(here, wheel("S1002")), pressure(there, wheel("cone 1:20"))];
+  assert.notEqual(own, other);
+  const again = here.solve({ toml: base, changes: wheel("S1002") }, 2, "", ["discretisation.dx", "wheelset.y"]);
+  assert.equal(again.surfaces, null);
+  assert.equal(again.coarse, true);
+  assert.deepEqual(again.numbers, { "discretisation.dx": 1e-3, "wheelset.y": 0 });  // of the case, not of the coarser elements
+  assert.equal(here.solve({ toml: base, changes: wheel("S1002") }, 0.5, "").coarse, false);
+  assert.equal(pressure(here, wheel("S1002")), own);
+  assert.equal(pressure(there, wheel("cone 1:20")), other);
+  // another representation of the same surface
+  const sampled = pressure(there, [...wheel("S1002"), "wheel.backend=spline"]);
+  assert.ok(sampled !== own && Math.abs(sampled / own - 1) < 1e-3, `${sampled}, not ${own}`);
+  assert.throws(() => here.solve({ toml: base, number: 2, changes: [] }, null, ""), /no case of this number/);
 });
 
 test("solving takes a few times what the program takes", { skip }, async (t) => {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-import type { ChartView, LiveData, ReportData } from "../data";
+import type { ChartView, LiveData, Placed, ReportData, Series, SurfaceData } from "../data";
 import { save } from "../download";
 import { formatNumber } from "../numbers";
 import type { Store } from "../store";
 import { Engine } from "./engine";
 import { button, make, Panel, type Check, type Target } from "./panel";
-import type { Remark, Solved } from "./solve";
-import { changed, controls, fromAddress, givenOf, shapeKey, toAddress, type State } from "./state";
+import type { Given, Remark, Solved } from "./solve";
+import { BESIDE, besideOf, changed, controls, fromAddress, givenOf, shapeKey, toAddress, type State } from "./state";
 
 /** Elements of the answer while something moves [mm], and when the hand rests [ms]. */
 const COARSE_MM = 1;
@@ -15,13 +15,53 @@ const REST = 180;
 /** Changes of one control that follow so closely are taken back together [ms]. */
 const TOGETHER = 800;
 const LARGEST_FILE = 20e6;
+/** Of a number: what solvers leave open is no difference [%]. */
+const LEAST_SHARE = 0.01;
 const NAMES = controls.flatMap(({ name }) => (name === "" ? [] : [name]));
 
-interface Functions {
-  y_mm: number[];
-  delta_r_mm: (number | null)[];
-  wheel_y_right_mm: (number | null)[];
-  rail_y_right_mm: (number | null)[];
+/** Of `treadmark geometry`. */
+interface Geometry {
+  functions: { y_mm: number[]; delta_r_mm: (number | null)[]; wheel_y_right_mm: (number | null)[]; rail_y_right_mm: (number | null)[] };
+  conicity: { amplitude_mm: number[]; tan_gamma_e: (number | null)[] };
+  conicity_3mm: number | null;
+}
+const NOTHING: Geometry = {
+  functions: { y_mm: [], delta_r_mm: [], wheel_y_right_mm: [], rail_y_right_mm: [] },
+  conicity: { amplitude_mm: [], tan_gamma_e: [] },
+  conicity_3mm: null,
+};
+
+/** What is known of what the reader is at, and of what is beside it. */
+class Side {
+  /** The last answer, with its wheel and rail. */
+  solved: Solved | null = null;
+  surfaces: SurfaceData[] = [];
+  /** Over the lateral place, and of which wheel and rail that is. */
+  geometry: Geometry = NOTHING;
+  geometryOf = "";
+
+  take(solved: Solved): void {
+    this.solved = solved;
+    if (solved.surfaces) this.surfaces = solved.surfaces;
+  }
+}
+
+/** Numbers of an answer: label, value, unit, note. */
+function numbersOf({ frame, force }: Solved, { conicity_3mm }: Geometry): [string, number, string, string][] {
+  const pressure = frame.patches.reduce((most, { numbers }) => Math.max(Number.isNaN(most) ? 0 : most, numbers["pmax_MPa"] ?? NaN), NaN);
+  const wear = frame.patches.reduce((sum, { numbers }) => sum + (numbers["t_gamma_N"] ?? NaN), 0);
+  return [
+    ["Largest pressure", pressure, "MPa", frame.patches.length === 1 ? "one patch" : `${frame.patches.length} patches`],
+    ["Vertical force", force[2] / 1e3, "kN", "on the rail"],
+    ["Lateral force", force[1] / 1e3, "kN", "on the rail"],
+    ["Longitudinal force", force[0] / 1e3, "kN", "on the rail"],
+    ["Wear number Tγ", wear, "N", "of all patches"],
+    ["Equivalent conicity", conicity_3mm ?? NaN, "", "amplitude 3 mm"],
+  ];
+}
+
+function moved(placed: Placed | null, by: number): Placed | null {
+  return placed && { ...placed, surface: placed.surface + by };
 }
 
 class Live implements Target {
@@ -43,9 +83,9 @@ class Live implements Target {
   private busy = false;
   private wanted: number | null | undefined;
   private timer = 0;
-  /** Over the lateral place: of which wheel and rail it is, and what. */
-  private geometryOf = "";
-  private geometry: Functions | null = null;
+  private readonly here = new Side();
+  private readonly there = new Side();
+  private besideTrouble = "";
 
   constructor(
     private readonly section: HTMLElement,
@@ -59,9 +99,9 @@ class Live implements Target {
     const bar = make("div", "controls live-bar");
     const open = make("input", "");
     open.type = "file";
-    open.accept = ".toml";
+    open.accept = ".toml,.json";
     open.dataset["control"] = "open";
-    open.setAttribute("aria-label", "Open a case file");
+    open.setAttribute("aria-label", "Open a case file, or the result file of a run");
     open.addEventListener("change", () => {
       const file = open.files?.[0];
       if (file) this.file("", file);
@@ -79,6 +119,8 @@ class Live implements Target {
     messages.setAttribute("aria-live", "polite");
     messages.append(this.trouble, this.warnings);
     this.section.append(bar, this.panel.element, messages, this.cards);
+    document.querySelector("#beside > h2")?.after(this.panel.beside);
+    this.reveal();
     this.listen();
     this.follow(this.state);
   }
@@ -147,21 +189,23 @@ class Live implements Target {
 
   // ---- files ----
 
-  file(body: string, file: File): void {
-    void this.read(body, file).catch((error: unknown) => this.complain(error instanceof Error ? error.message : String(error)));
+  file(where: string, file: File): void {
+    void this.read(where, file).catch((error: unknown) => this.complain(error instanceof Error ? error.message : String(error)));
   }
 
-  private async read(body: string, file: File): Promise<void> {
+  private async read(where: string, file: File): Promise<void> {
     if (file.size > LARGEST_FILE) return this.complain(`${file.name} has ${formatNumber(file.size / 1e6, 3)} MB: no profile and no case is so large.`);
     const bytes = new Uint8Array(await file.arrayBuffer());
     if (/\.toml$/i.test(file.name)) return this.open(new TextDecoder().decode(bytes), file.name);
+    if (/\.json$/i.test(file.name)) return this.open(caseOf(new TextDecoder().decode(bytes)), file.name);
+    const side = where.startsWith(BESIDE) ? BESIDE : "";
     const name = await this.engine.addFile(file.name.replace(/[^\w.+-]+/g, "_"), bytes);
-    const { json, trouble } = await this.engine.ask({ kind: "check", name, body });
+    const { json, trouble } = await this.engine.ask({ kind: "check", name, body: where.slice(side.length) });
     if (trouble !== undefined) return this.complain(`${file.name} was not taken: ${trouble}`);
     const check = json as Check;
     const known = check.body === "wheel" ? "wheel" : "rail";
     this.panel.learn(known, name, check);
-    this.change(shapeKey(known, "file"), name);
+    this.change(shapeKey(side + known, "file"), name);
   }
 
   private async open(toml: string, name: string): Promise<void> {
@@ -189,20 +233,35 @@ class Live implements Target {
     this.busy = true;
     this.wanted = undefined;
     const { state } = this;
-    const { solved, trouble } = await this.engine.ask({ kind: "solve", given: givenOf(state), element, name: "", names: NAMES });
-    this.busy = false;
-    const current = state === this.state;
+    const { solved, trouble } = await this.engine.ask({ kind: "solve", given: givenOf(state), element, name: "", names: NAMES, beside: false });
     if (solved) {  // on the way to another state, too: a hand that moves shall see something
       this.good = state;
-      this.show(solved, current);
-      if (current) this.learn(solved.numbers);
-    } else if (current) {
+      this.here.take(solved);
+      this.show(state === this.state);
+      if (state === this.state) this.learn(solved.numbers);
+      await this.solveBeside(state, element);
+    } else if (state === this.state) {
       this.refuse(trouble ?? "nothing came back");
     }
+    this.busy = false;
     if (this.wanted !== undefined) return void this.solve(this.wanted);
-    if (!current || !solved) return;  // its request comes, or there is none
-    if (solved.coarse) this.timer = window.setTimeout(() => this.request(null), REST);
+    if (state !== this.state || !solved) return;  // its request comes, or there is none
+    if (solved.coarse || this.there.solved?.coarse) this.timer = window.setTimeout(() => this.request(null), REST);
     else this.rest(state);
+  }
+
+  /** The same place with what the reader chose beside it, unless there is another place by now. */
+  private async solveBeside(state: State, element: number | null): Promise<void> {
+    const other = besideOf(state);
+    const shown = this.there.solved !== null || this.besideTrouble !== "";
+    if ((!other && !shown) || this.wanted !== undefined || state !== this.state) return;
+    const { solved, trouble = "nothing came back" } = other
+      ? await this.engine.ask({ kind: "solve", given: givenOf(other), element, name: "", names: [], beside: true })
+      : { trouble: "" };
+    this.besideTrouble = solved ? "" : trouble;
+    if (solved) this.there.take(solved);
+    else this.there.solved = null;
+    this.show(state === this.state);
   }
 
   /** What the case says goes to the fields. */
@@ -234,26 +293,63 @@ class Live implements Target {
     document.body.dataset["live"] = "trouble";
   }
 
-  /** `current`: there is no other state yet. */
-  private show({ frame, surfaces, remarks, force, milliseconds, numbers, coarse }: Solved, current: boolean): void {
-    const { data } = this.store;
-    frame.name = data.sets[0]?.frames[0]?.name ?? "";
-    data.sets[0]!.frames = [frame];
-    if (surfaces) data.surfaces = surfaces;
-    this.mark(1e3 * (numbers["wheelset.y"] ?? NaN));
-    this.store.renew();
-    this.warnings.replaceChildren(...remarks.map((remark) => this.remark(remark)));
-    if (frame.status !== "ok") this.warnings.prepend(make("div", "banner warning", frame.message || frame.status));
-    const pressure = frame.patches.reduce((most, { numbers }) => Math.max(Number.isNaN(most) ? 0 : most, numbers["pmax_MPa"] ?? NaN), NaN);
-    const wear = frame.patches.reduce((sum, { numbers }) => sum + (numbers["t_gamma_N"] ?? NaN), 0);
-    const entries: [string, string, string][] = [
-      ["Largest pressure", `${formatNumber(pressure)} MPa`, frame.patches.length === 1 ? "one patch" : `${frame.patches.length} patches`],
-      ["Vertical force", `${formatNumber(force[2] / 1e3)} kN`, "on the rail"],
-      ["Lateral force", `${formatNumber(force[1] / 1e3)} kN`, "on the rail"],
-      ["Longitudinal force", `${formatNumber(force[0] / 1e3)} kN`, "on the rail"],
-      ["Wear number Tγ", `${formatNumber(wear)} N`, "of all patches"],
-      ["Solved in", `${formatNumber(milliseconds, 3)} ms`, coarse ? `elements of ${COARSE_MM} mm` : "elements as the case says"],
-    ];
+  /** Answers go to the views. `current`: there is no other state yet. */
+  private show(current: boolean): void {
+    const { here, there, store } = this;
+    const { data } = store;
+    const { solved } = here;
+    if (!solved) return;
+    const name = data.sets[0]?.frames[0]?.name ?? "";
+    data.sets[0]!.frames = [{ ...solved.frame, name }];
+    if (data.sets[1]) {
+      const frame = there.solved?.frame;
+      const by = here.surfaces.length;
+      data.sets[1].frames = frame ? [{ ...frame, name, wheel: moved(frame.wheel, by), rail: moved(frame.rail, by) }] : [];
+    }
+    data.surfaces = [...here.surfaces, ...there.surfaces];
+    this.mark();
+    store.renew();
+    this.reveal();
+    this.warn();
+    this.fillCards();
+    if (!current) return;
+    const { dataset } = document.body;
+    Object.assign(dataset, { live: solved.coarse ? "coarse" : "fine", pressure: String(numbersOf(solved, NOTHING)[0]![1]) });
+    dataset["beside"] = there.solved ? String(numbersOf(there.solved, NOTHING)[0]![1]) : this.besideTrouble;
+  }
+
+  /** What is beside it is there to be seen where there is anything. */
+  private reveal(): void {
+    for (const figure of document.querySelectorAll<HTMLElement>("#beside > figure")) figure.hidden = !this.there.solved;
+  }
+
+  /** What answers warn of. */
+  private warn(): void {
+    const banners: HTMLElement[] = [];
+    for (const [before, { solved }] of [["", this.here], ["Beside it: ", this.there]] as const) {
+      if (!solved) continue;
+      const { frame, remarks } = solved;
+      if (frame.status !== "ok") banners.push(make("div", "banner warning", before + (frame.message || frame.status)));
+      banners.push(...remarks.map((remark) => this.remark(remark, before)));
+    }
+    if (this.besideTrouble !== "") banners.unshift(make("div", "banner failed", `Beside it: ${this.besideTrouble}`));
+    this.warnings.replaceChildren(...banners);
+  }
+
+  private fillCards(): void {
+    const { here, there } = this;
+    if (!here.solved) return;
+    const others = there.solved && numbersOf(there.solved, there.geometry);
+    const said = (value: number, unit: string): string => (Number.isNaN(value) ? "–" : unit === "" ? formatNumber(value) : `${formatNumber(value)} ${unit}`);
+    const entries = numbersOf(here.solved, here.geometry).map(([label, value, unit, note], k): [string, string, string] => {
+      const other = others?.[k]?.[1];
+      if (other === undefined) return [label, said(value, unit), note];
+      const share = (100 * (other - value)) / Math.abs(value);
+      const differ = Math.abs(share) >= LEAST_SHARE && Number.isFinite(share) ? ` (${share < 0 ? "−" : "+"}${formatNumber(Math.abs(share), 3)} %)` : "";
+      return [label, said(value, unit), `${note}; beside ${said(other, unit)}${differ}`];
+    });
+    const { milliseconds, coarse } = here.solved;
+    entries.push(["Solved in", `${formatNumber(milliseconds, 3)} ms`, coarse ? `elements of ${COARSE_MM} mm` : "elements as the case says"]);
     this.cards.replaceChildren(
       ...entries.map(([label, value, note]) => {
         const card = make("div", "card");
@@ -261,48 +357,80 @@ class Live implements Target {
         return card;
       }),
     );
-    if (current) Object.assign(document.body.dataset, { live: coarse ? "coarse" : "fine", pressure: String(pressure) });
   }
 
-  private remark({ text, patch, grave }: Remark): HTMLElement {
+  private remark({ text, patch, grave }: Remark, before: string): HTMLElement {
     const banner = make("div", grave ? "banner warning" : "banner note");
-    banner.append(make("strong", "", grave ? "Warning:" : "Minor warning:"), ` ${patch > 0 ? `patch ${patch}: ` : ""}${text}`);
+    banner.append(make("strong", "", grave ? "Warning:" : "Minor warning:"), ` ${before}${patch > 0 ? `patch ${patch}: ` : ""}${text}`);
     return banner;
   }
 
-  private get chart(): ChartView | undefined {
-    return this.store.data.views.find((one): one is ChartView => one.type === "chart");
+  // ---- over the lateral place ----
+
+  private chart(id: string): ChartView | undefined {
+    return this.store.data.views.find((one): one is ChartView => one.type === "chart" && one.id === id);
   }
 
-  /** The present place [mm] among the rolling radii. */
-  private mark(y: number): void {
-    const here = this.chart?.panels[0]?.series[1];
-    const { geometry } = this;
-    if (!here || !geometry) return;
-    const at = geometry.y_mm.reduce((best, value, k) => (Math.abs(value - y) < Math.abs(geometry.y_mm[best]! - y) ? k : best), 0);
-    [here.x, here.y] = [[y], [geometry.delta_r_mm[at] ?? null]];
+  /** The present place among the rolling radii. */
+  private mark(): void {
+    const y = 1e3 * (this.here.solved?.numbers["wheelset.y"] ?? NaN);
+    const { y_mm, delta_r_mm } = this.here.geometry.functions;
+    const at = y_mm.reduce((best, value, k) => (Math.abs(value - y) < Math.abs(y_mm[best]! - y) ? k : best), 0);
+    const place = this.chart("rolling-radii")?.panels[0]?.series[1];
+    if (place) [place.x, place.y] = [[y], [delta_r_mm[at] ?? null]];
   }
 
-  /** Rolling radii and contact over y, where wheel or rail are others. */
+  /** Rolling radii, contact and conicity, where wheel or rail are others. */
   private async renewGeometry(state: State): Promise<void> {
-    const { chart: view } = this;
-    const given = givenOf(state);
-    const key = JSON.stringify([given.toml, given.changes.filter((change) => /^(wheel\.|rail\.|track\.|wheelset\.nominal)/.test(change))]);
-    if (!view || key === this.geometryOf) return;
-    const { json } = await this.engine.ask({ kind: "geometry", given });
-    this.geometry = (json as { geometry?: { functions?: Functions } } | undefined)?.geometry?.functions ?? null;
-    this.geometryOf = key;
-    const { y_mm = [], delta_r_mm = [], rail_y_right_mm = [], wheel_y_right_mm = [] } = this.geometry ?? {};
-    view.x!.values = y_mm;
-    for (const [series, values] of [
-      [view.panels[0]?.series[0], delta_r_mm],
-      [view.panels[1]?.series[0], rail_y_right_mm],
-      [view.panels[1]?.series[1], wheel_y_right_mm],
-    ] as const)
-      if (series) series.y = values;
-    this.mark(1e3 * (this.numbers["wheelset.y"] ?? NaN));
+    let renewed = false;
+    for (const [side, one] of [[this.here, state], [this.there, besideOf(state)]] as const) {
+      const given = one && givenOf(one);
+      const key = given ? JSON.stringify([given.toml, given.number, given.changes.filter((change) => /^(wheel\.|rail\.|track\.|wheelset\.nominal)/.test(change))]) : "";
+      if (key === side.geometryOf) continue;
+      side.geometryOf = key;
+      side.geometry = given ? await this.geometry(given) : NOTHING;
+      renewed = true;
+    }
+    if (!renewed) return;
+    const [here, there] = [this.here.geometry, this.there.geometry];
+    const { y_mm, delta_r_mm, rail_y_right_mm, wheel_y_right_mm } = here.functions;
+    this.fill("rolling-radii", y_mm, [
+      [{ y: delta_r_mm }, {}, { x: there.functions.y_mm, y: there.functions.delta_r_mm }],
+      [{ y: rail_y_right_mm }, { y: wheel_y_right_mm }],
+    ]);
+    const at3 = here.conicity_3mm === null ? [] : [3];
+    this.fill("conicity", here.conicity.amplitude_mm, [
+      [{ y: here.conicity.tan_gamma_e }, { x: at3, y: at3.map(() => here.conicity_3mm) }, { x: there.conicity.amplitude_mm, y: there.conicity.tan_gamma_e }],
+    ]);
+    this.mark();
+    this.fillCards();
     this.store.renew();
   }
+
+  /** Other numbers for a chart: its abscissae, and of each panel what of its series is new. */
+  private fill(id: string, x: number[], panels: Pick<Partial<Series>, "x" | "y">[][]): void {
+    const view = this.chart(id);
+    if (!view) return;
+    if (view.x) view.x.values = x;
+    panels.forEach((rows, p) => rows.forEach((row, k) => Object.assign(view.panels[p]?.series[k] ?? {}, row)));
+  }
+
+  private async geometry(given: Given): Promise<Geometry> {
+    const { json } = await this.engine.ask({ kind: "geometry", given });
+    return (json as { geometry?: Geometry } | undefined)?.geometry ?? NOTHING;
+  }
+}
+
+/** The case in a result file of a run. Errors: words for who opened it. */
+function caseOf(json: string): string {
+  let toml: unknown;
+  try {
+    toml = (JSON.parse(json) as { input?: { toml?: unknown } } | null)?.input?.toml;
+  } catch {
+    throw new Error("the file is no JSON");
+  }
+  if (typeof toml !== "string") throw new Error("the file holds no case: result.json of treadmark run has one, where the run is of a wheel on a rail");
+  return toml;
 }
 
 window.addEventListener("treadmark-report", (event) => {

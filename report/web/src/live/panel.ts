@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { LiveData } from "../data";
 import { labelWithUnit } from "../numbers";
-import { controls, CREEPAGE, ROLLING, rollings, shapeKey, shownValue, type Changes } from "./state";
+import { backendKey, BESIDE, controls, CREEPAGE, ROLLING, rollings, shapeKey, shownValue, type Changes } from "./state";
 
 // The fields of a page that solves.
 
@@ -24,7 +24,8 @@ export function button(text: string, name: string, hint: string, pressed: () => 
 
 export interface Target {
   change(key: string, value: string): void;
-  file(body: string, file: File): void;
+  /** where: "wheel", "rail", either behind BESIDE, or empty: what it is decides. */
+  file(where: string, file: File): void;
 }
 
 /** What `treadmark check` says of a profile. */
@@ -37,16 +38,20 @@ export interface Check {
 
 export class Panel {
   readonly element = make("div", "live-panel");
+  /** What is solved at the same place to compare with. */
+  readonly beside = make("div", "live-panel");
   private readonly refreshes: ((changes: Changes, numbers: Readonly<Record<string, number>>, own: string) => void)[] = [];
-  private readonly evidence = { wheel: make("details", "live-evidence"), rail: make("details", "live-evidence") };
   /** By body and name. */
   private readonly checks = new Map<string, Check>();
 
   constructor(
-    live: LiveData,
+    private readonly live: LiveData,
     private readonly target: Target,
   ) {
-    for (const body of ["wheel", "rail"] as const) this.element.append(this.shape(body, live.profiles[body]));
+    for (const body of ["wheel", "rail"] as const) {
+      this.element.append(this.shape(body));
+      this.beside.append(this.shape(body, BESIDE));
+    }
     const grid = make("div", "live-fields");
     grid.append(this.rolling());
     for (const control of controls) grid.append(this.number(control));
@@ -63,8 +68,7 @@ export class Panel {
     this.checks.set(`${body} ${name}`, check);
   }
 
-  private show(body: "wheel" | "rail", name: string): void {
-    const box = this.evidence[body];
+  private show(box: HTMLDetailsElement, body: "wheel" | "rail", name: string): void {
     const check = this.checks.get(`${body} ${name}`);
     box.hidden = !check;
     if (!check || box.dataset["name"] === name) return;
@@ -83,27 +87,36 @@ export class Panel {
     for (const [kind, text] of check.warnings) box.append(make("div", "banner warning", `${kind}: ${text}`));
   }
 
-  private shape(body: "wheel" | "rail", names: readonly string[]): HTMLElement {
-    const box = make("fieldset", "live-shape");
-    box.append(make("legend", "", body === "wheel" ? "Wheel" : "Rail"));
+  /** A choice of names; the first one says nothing of the case. */
+  private choice(control: string, label: string, nothing: string, names: readonly string[], key: string): HTMLSelectElement {
     const select = make("select", "");
-    select.dataset["control"] = body;
-    select.setAttribute("aria-label", `Profile of the ${body}`);
-    select.add(new Option("as the case says", ""));
+    select.dataset["control"] = control;
+    select.setAttribute("aria-label", label);
+    select.add(new Option(nothing, ""));
     for (const name of names) select.add(new Option(name, name));
+    select.addEventListener("change", () => {
+      if (select.value !== "file") this.target.change(key, select.value);
+    });
+    return select;
+  }
+
+  private shape(body: "wheel" | "rail", side = ""): HTMLElement {
+    const where = side + body;
+    const beside = side === "" ? "" : ", beside";
+    const box = make("fieldset", "live-shape");
+    box.append(make("legend", "", (body === "wheel" ? "Wheel" : "Rail") + beside));
+    const nothing = side === "" ? "as the case says" : "the same";
+    const select = this.choice(where, `Profile of the ${body}${beside}`, nothing, this.live.profiles[body], shapeKey(where, "standard"));
     const own = new Option("", "file");
     own.hidden = true;
     select.add(own);
-    select.addEventListener("change", () => {
-      if (select.value !== "file") this.target.change(shapeKey(body, "standard"), select.value);
-    });
     const input = make("input", "");
     input.type = "file";
-    input.dataset["control"] = `${body}-file`;
-    input.setAttribute("aria-label", `File with a profile of the ${body}`);
+    input.dataset["control"] = `${where}-file`;
+    input.setAttribute("aria-label", `File with a profile of the ${body}${beside}`);
     input.addEventListener("change", () => {
       const file = input.files?.[0];
-      if (file) this.target.file(body, file);
+      if (file) this.target.file(where, file);
       input.value = "";
     });
     for (const name of ["dragover", "drop"] as const)
@@ -111,17 +124,22 @@ export class Panel {
         event.preventDefault();
         event.stopPropagation();
         const file = event.dataTransfer?.files[0];
-        if (name === "drop" && file) this.target.file(body, file);
+        if (name === "drop" && file) this.target.file(where, file);
       });
-    const evidence = this.evidence[body];
+    const evidence = make("details", "live-evidence");
     evidence.hidden = true;
-    box.append(select, input, evidence);
+    box.append(select, input);
+    const key = backendKey(where);
+    const backend = side === "" ? null : this.choice(key, `Representation of the ${body}${beside}`, "in the same representation", this.live.backends, key);
+    if (backend) box.append(backend);
+    box.append(evidence);
     this.refreshes.push((changes) => {
-      const file = changes.get(shapeKey(body, "file"));
+      const file = changes.get(shapeKey(where, "file"));
       own.hidden = file === undefined;
       own.text = file ?? "";
-      select.value = file === undefined ? (changes.get(shapeKey(body, "standard")) ?? "") : "file";
-      this.show(body, file ?? "");
+      select.value = file === undefined ? (changes.get(shapeKey(where, "standard")) ?? "") : "file";
+      if (backend) backend.value = changes.get(key) ?? "";
+      this.show(evidence, body, file ?? "");
     });
     return box;
   }

@@ -9,6 +9,8 @@ import { FAILED, RAIL, WHEEL, type Library } from "./library";
 /** A case: the text of its file, and keys that differ. */
 export interface Given {
   toml: string;
+  /** Of the case in its file, 1 unless said. */
+  number?: number;
   changes: readonly string[];
   /** The wheel turns by this share faster than at its nominal radius. */
   creepage?: number;
@@ -83,9 +85,9 @@ export class Solver {
   }
 
   /** Does something with a case; it is freed. */
-  with<T>({ toml, changes, creepage }: Given, task: (c: number) => T): T {
+  with<T>({ toml, number = 1, changes, creepage }: Given, task: (c: number) => T): T {
     const { library } = this;
-    const c = library.make("case_parse", toml, new TextEncoder().encode(toml).length, 0, 1);
+    const c = library.make("case_parse", toml, new TextEncoder().encode(toml).length, 0, number);
     try {
       for (const change of changes) library.call("case_set", c, change);
       if (creepage !== undefined) {
@@ -115,10 +117,10 @@ export class Solver {
     return JSON.parse(this.library.textOf("check_profile", name, body === "" ? 0 : body));
   }
 
-  private prepare(toml: string, changes: readonly string[], c: number): void {
+  private prepare({ toml, number }: Given, changes: readonly string[], c: number): void {
     const { library } = this;
-    const sampled = toml.includes("backend");
-    const key = JSON.stringify([toml, changes.filter((change) => sampled || !MOTIONS.test(change))]);
+    const sampled = [toml, ...changes].some((text) => text.includes("backend"));
+    const key = JSON.stringify([toml, number, changes.filter((change) => sampled || !MOTIONS.test(change))]);
     if (key === this.key) return;
     [this.key, this.told] = ["", false];
     library.ask("pair_free", this.pair);
@@ -142,7 +144,7 @@ export class Solver {
       const coarse = element !== null && !(MILLI * of("discretisation.dx") >= element);
       const sizes = coarse ? ["dx", "ds"].map((size) => `discretisation.${size}_mm=${element}`) : [];
       for (const size of sizes) library.call("case_set", c, size);
-      this.prepare(given.toml, [...given.changes, ...sizes], c);
+      this.prepare(given, [...given.changes, ...sizes], c);
       library.call("pair_reset", this.pair);
       const begin = performance.now();
       const status = library.call("pair_solve", this.pair, c, library.out(0));

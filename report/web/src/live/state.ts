@@ -55,23 +55,28 @@ export const rollings: readonly (readonly [string, string])[] = [
 
 export type Changes = ReadonlyMap<string, string>;
 
-/** What is solved: the text of a case, and what differs from it. */
+/** What is solved: the text of a file with cases, which one of them (the first unless said), and what differs from it. */
 export interface State {
   toml: string;
+  number?: number;
   changes: Changes;
 }
 
 export const shapeKey = (body: string, kind: "standard" | "file"): string => `${body}.shape.${kind}`;
+export const backendKey = (body: string): string => `${body}.backend`;
+
+/** Before keys of what is solved at the same place to compare with. */
+export const BESIDE = "beside.";
+const SIDES = ["", BESIDE].flatMap((side) => ["wheel", "rail"].map((body) => side + body));
 
 /** What a change takes the place of. */
-const rivals: Readonly<Record<string, string>> = {
-  [ROLLING]: CREEPAGE,
-  [CREEPAGE]: ROLLING,
-  [shapeKey("wheel", "file")]: shapeKey("wheel", "standard"),
-  [shapeKey("wheel", "standard")]: shapeKey("wheel", "file"),
-  [shapeKey("rail", "file")]: shapeKey("rail", "standard"),
-  [shapeKey("rail", "standard")]: shapeKey("rail", "file"),
-};
+const rivals: Readonly<Record<string, string>> = Object.fromEntries(
+  [[ROLLING, CREEPAGE], ...SIDES.map((body) => [shapeKey(body, "file"), shapeKey(body, "standard")])].flatMap(([a, b]) => [
+    [a!, b!],
+    [b!, a!],
+  ]),
+);
+const known = new Set([...controls.map(({ key }) => key), ...Object.keys(rivals), ...SIDES.map(backendKey)]);
 
 /** The changes with one more; what it takes the place of goes. An empty value takes a change back. */
 export function changed(before: Changes, key: string, value: string): Changes {
@@ -84,18 +89,25 @@ export function changed(before: Changes, key: string, value: string): Changes {
 }
 
 /** As the worker takes it: assignments of the program's --set, names of files in quotes, as they may look like numbers. */
-export function givenOf({ toml, changes }: State): Given {
-  const list = [...changes].filter(([key]) => key !== CREEPAGE);
-  const given = { toml, changes: list.map(([key, value]) => `${key}=${key.endsWith(".file") ? JSON.stringify(value) : value}`) };
+export function givenOf({ toml, number, changes }: State): Given {
+  const list = [...changes].filter(([key]) => key !== CREEPAGE && !key.startsWith(BESIDE));
+  const given = { toml, ...(number === undefined ? {} : { number }), changes: list.map(([key, value]) => `${key}=${key.endsWith(".file") ? JSON.stringify(value) : value}`) };
   const creepage = changes.get(CREEPAGE);
   return creepage === undefined ? given : { ...given, creepage: Number(creepage) / 100 };
 }
 
-const CASE = "case";
+/** The same but for what the reader chose to see beside it; null: nothing. */
+export function besideOf({ changes, ...rest }: State): State | null {
+  const own = [...changes].filter(([key]) => key.startsWith(BESIDE));
+  if (own.length === 0) return null;
+  return { ...rest, changes: own.reduce((all, [key, value]) => changed(all, key.slice(BESIDE.length), value), changes) };
+}
+
+const [CASE, NUMBER] = ["case", "number"];
 
 /** Behind "#". `own`: the case of the page, which is not in it. */
-export function toAddress({ toml, changes }: State, own: string): string {
-  const pairs = [...(toml === own ? [] : [[CASE, toml]]), ...changes];
+export function toAddress({ toml, number, changes }: State, own: string): string {
+  const pairs = [...(toml === own ? [] : [[CASE, toml]]), ...(number === undefined ? [] : [[NUMBER, String(number)]]), ...changes];
   return pairs.map((pair) => pair.map(encodeURIComponent).join("=")).join("&");
 }
 
@@ -103,20 +115,21 @@ export function toAddress({ toml, changes }: State, own: string): string {
 export function fromAddress(hash: string, own: string): State | null {
   const text = hash.replace(/^#/, "");
   if (!text.includes("=")) return null;
-  const known = new Set([...controls.map(({ key }) => key), ...Object.keys(rivals)]);
   const changes = new Map<string, string>();
   let toml = own;
+  let number: number | undefined;
   for (const pair of text.split("&")) {
     try {
       const [key = "", value = ""] = pair.split("=").map(decodeURIComponent);
       if (value === "") continue;
       if (key === CASE) toml = value;
+      else if (key === NUMBER) number = Number(value);
       else if (known.has(key)) changes.set(key, value);
     } catch {
       continue;  // what is no text is no change
     }
   }
-  return { toml, changes };
+  return { toml, ...(number !== undefined && number > 0 && Number.isSafeInteger(number) ? { number } : {}), changes };
 }
 
 /** The shown value of a control. */

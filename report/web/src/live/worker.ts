@@ -9,7 +9,7 @@ import { Solver, type Given, type Solved } from "./solve";
 export type Task =
   | { kind: "start"; wasm: Uint8Array; live: LiveData }
   | { kind: "file"; name: string; bytes: Uint8Array }
-  | { kind: "solve"; given: Given; element: number | null; name: string; names: string[] }
+  | { kind: "solve"; given: Given; element: number | null; name: string; names: string[]; beside: boolean }
   | { kind: "text"; given: Given }
   | { kind: "geometry"; given: Given }
   | { kind: "check"; name: string; body: string };
@@ -18,20 +18,23 @@ export type Answer = { solved?: Solved; text?: string; json?: unknown; trouble?:
 
 declare function createTreadmark(how: { wasmBinary: Uint8Array }): Promise<Module>;
 
-let solver: Solver | null = null;
+/** What the reader is at, and what is solved beside it: each keeps its surfaces. */
+let solvers: [Solver, Solver] | null = null;
 
 async function done(task: Task): Promise<Answer> {
   if (task.kind === "start") {
-    solver = new Solver(new Library(await createTreadmark({ wasmBinary: task.wasm })), task.live);
+    const library = new Library(await createTreadmark({ wasmBinary: task.wasm }));
+    solvers = [new Solver(library, task.live), new Solver(library, task.live)];
     return {};
   }
-  if (!solver) return { trouble: "the program has not started" };
+  if (!solvers) return { trouble: "the program has not started" };
+  const [solver, other] = solvers;
   switch (task.kind) {
     case "file":
-      solver.addFile(task.name, task.bytes);
+      for (const one of solvers) one.addFile(task.name, task.bytes);
       return {};
     case "solve":
-      return { solved: solver.solve(task.given, task.element, task.name, task.names) };
+      return { solved: (task.beside ? other : solver).solve(task.given, task.element, task.name, task.names) };
     case "text":
       return { text: solver.text(task.given) };
     case "geometry":
