@@ -266,6 +266,7 @@ struct RunResult : Origin {
   std::vector<std::string> doubts;   ///< about profiles: "wheel profile w.csv: flange_side: ..."; empty: none
   bool complete = true;              ///< false when interrupted: then fewer cases than asked
   int cases_total = 0;               ///< asked for
+  std::string toml;                  ///< the cases as a case file, for who has the result alone; may be empty
   std::vector<CaseResult> cases;
   std::vector<SampledSurface> sampled;  ///< of what the cases used; empty where nobody asked for them
 };

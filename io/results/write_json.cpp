@@ -171,6 +171,7 @@ Json head_json(const RunResult& run) {
   if (!run.title.empty()) out["input"]["title"] = run.title;
   for (const auto& [name, value] : run.inputs) out["input"]["values"][name] = value;
   if (!run.doubts.empty()) out["input"]["doubts"] = run.doubts;
+  if (!run.toml.empty()) out["input"]["toml"] = run.toml;
   out["surfaces"] = Json::array();
   for (const SurfaceUse& use : run.surfaces) out["surfaces"].push_back(surface_json(use));
   out["settings"] = run.settings;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { mountAgain } from "./again";
 import { mountChart } from "./chart/index";
 import { mountContact } from "./contact/index";
 import type { ReportData, View } from "./data";
@@ -69,6 +70,7 @@ function start(): void {
   mountTables(store);
   mountPaperTables();
   mountAll(store);
+  mountAgain(store);
   mountNavigation();
   const footer = document.querySelector<HTMLElement>("body > footer");
   if (footer) mountLicences(footer);

@@ -137,6 +137,27 @@ test("a case that is opened is solved as the program does, and the rail of the l
   await tab.close();
 });
 
+test("the page of a run leads to the page that solves, with the case that is shown, and so does its result file", async () => {
+  writeFileSync(file("both.toml"), 'rail.shape.standard = "60E1"\nwheel.shape.standard = "S1002"\ntrack.cant = "1:40"\nwheelset = { vertical_force_N = 100e3, velocity_km_h = 100, rolling = "nominal" }\n[[cases]]\nwheelset.y_mm = 0\n[[cases]]\nwheelset.y_mm = 4\n');
+  treadmark("run", "both.toml", "-o", "both", "--report", "both.html");
+  const { cases } = JSON.parse(readFileSync(file("both/result.json"), "utf8"));
+  const largest = ({ patches }) => Math.max(...patches.map(({ pmax_MPa: p }) => p));
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(pathToFileURL(file("both.html")).href);
+  const link = page.getByRole("link", { name: "Change and solve again" });
+  const worst = cases.findIndex((one) => largest(one) === Math.max(...cases.map(largest)));  // is shown first
+  const tab = await Tab.open(new URL(await link.getAttribute("href"), page.url()).hash);
+  near(await tab.solved(), largest(cases[worst]), 1e-9, "pressure of the case that was shown");
+  await context.close();
+  const opened = await tab.after(() => tab.page.locator("[data-control='open']").setInputFiles(file("both/result.json")));
+  near(opened, largest(cases[0]), 1e-9, "pressure of the first case of a result file");
+  writeFileSync(file("other.json"), "{}");
+  await tab.after(() => tab.page.locator("[data-control='open']").setInputFiles(file("other.json")), "trouble");
+  assert.match(await tab.page.locator(".live-messages").textContent(), /holds no case/);
+  await tab.close();
+});
+
 test("two profiles and two representations stand side by side, with their difference", async () => {
   const tab = await Tab.open();
   const { page } = tab;

@@ -11,7 +11,7 @@ import test from "node:test";
 import type { LiveData } from "../src/data";
 import { CallError, Library, type Module } from "../src/live/library";
 import { Solver } from "../src/live/solve";
-import { besideOf, changed, CREEPAGE, fromAddress, givenOf, ROLLING, shapeKey, toAddress } from "../src/live/state";
+import { besideOf, changed, CREEPAGE, fromAddress, givenOf, ROLLING, shapeKey, toAddress, tomlOf } from "../src/live/state";
 
 test("a change takes the place of what it contradicts", () => {
   const start = new Map([[ROLLING, "free"], ["wheel.shape.standard", "S1002"]]);
@@ -31,6 +31,11 @@ test("an address holds case and changes, and nothing that the page does not offe
   assert.equal(fromAddress("#contact", "own"), null);
   const hostile = fromAddress("#influence.file=/etc/passwd&wheelset.y_mm=1&%E0%A4%A=2", "own");
   assert.deepEqual(hostile, { toml: "own", changes: new Map([["wheelset.y_mm", "1"]]) });
+});
+
+test("a result holds its case, or none", () => {
+  assert.equal(tomlOf({ input: { file: "a.toml", toml: "title = 'a'" } }), "title = 'a'");
+  for (const other of [null, 3, [], {}, { input: null }, { input: { toml: 3 } }]) assert.equal(tomlOf(other), null);
 });
 
 test("beside it is the same case with other shapes", () => {

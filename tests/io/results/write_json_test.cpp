@@ -107,7 +107,11 @@ TEST(WriteJson, KeepsTwelveDigits) {
 TEST(WriteJson, SaysWhereTheResultCameFromAndWhetherItIsWhole) {
   io::RunResult run = testing::sample_run();
   run.complete = false;
+  run.toml = "title = 'flat'\n";
   const json document = json::parse(io::to_json(run));
+  const json schema = json::parse(io::result_schema());
+  EXPECT_EQ(testing::first_violation(document, schema, schema), "");
+  EXPECT_EQ(document["input"]["toml"], run.toml);
   EXPECT_EQ(document["treadmark"]["version"], "0.1.0");
   EXPECT_EQ(document["treadmark"]["threads"], 2);
   EXPECT_EQ(document["input"]["file"], "flat \"one\".toml");

@@ -7,7 +7,7 @@ import type { Store } from "../store";
 import { Engine } from "./engine";
 import { button, make, Panel, type Check, type Target } from "./panel";
 import type { Given, Remark, Solved } from "./solve";
-import { BESIDE, besideOf, changed, controls, fromAddress, givenOf, shapeKey, toAddress, type State } from "./state";
+import { BESIDE, besideOf, changed, controls, fromAddress, givenOf, shapeKey, toAddress, tomlOf, type State } from "./state";
 
 /** Elements of the answer while something moves [mm], and when the hand rests [ms]. */
 const COARSE_MM = 1;
@@ -421,15 +421,16 @@ class Live implements Target {
   }
 }
 
-/** The case in a result file of a run. Errors: words for who opened it. */
+/** The case of a result file as text. Errors: words for who opened it. */
 function caseOf(json: string): string {
-  let toml: unknown;
+  let result: unknown = null;
   try {
-    toml = (JSON.parse(json) as { input?: { toml?: unknown } } | null)?.input?.toml;
+    result = JSON.parse(json);
   } catch {
     throw new Error("the file is no JSON");
   }
-  if (typeof toml !== "string") throw new Error("the file holds no case: result.json of treadmark run has one, where the run is of a wheel on a rail");
+  const toml = tomlOf(result);
+  if (toml === null) throw new Error("the file holds no case: result.json of treadmark run does, of up to 100 of a wheel on a rail");
   return toml;
 }
 

@@ -103,6 +103,12 @@ export function besideOf({ changes, ...rest }: State): State | null {
   return { ...rest, changes: own.reduce((all, [key, value]) => changed(all, key.slice(BESIDE.length), value), changes) };
 }
 
+/** The case of a result file of a run (result.json); null: it holds none. */
+export function tomlOf(result: unknown): string | null {
+  const toml = (result as { input?: { toml?: unknown } } | null)?.input?.toml;
+  return typeof toml === "string" ? toml : null;
+}
+
 const [CASE, NUMBER] = ["case", "number"];
 
 /** Behind "#". `own`: the case of the page, which is not in it. */
