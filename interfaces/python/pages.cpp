@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cases/pages/run_page.hpp"
+#include "treadmark/app/cases/pages/solving_page.hpp"
 #include "treadmark/app/geometry/pages/geometry_page.hpp"
 #include "treadmark/app/pages/read_report.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -17,6 +18,11 @@ void add_pages(py::module_& module) {
       run.whole();
       write_file(file, report::to_html(app::pages::run_page(run.result, io::to_json(*run.result))));
     });
+  });
+  module.def("live_page", [](const Source& source, int number, const py::object& progress, int threads) {
+    return py::bytes(with_progress(progress, threads, [&](const Progress& said) {
+      return report::to_html(app::pages::solving_page(cases_of(source), number, said));
+    }));
   });
   module.def("report_geometry", [](const FoundGeometry& found, const std::filesystem::path& file) {
     const py::gil_scoped_release free;

@@ -6,7 +6,7 @@
 namespace treadmark::python {
 
 void add_pages(py::module_& module) {
-  for (const char* name : {"report_run", "report_folder", "report_geometry", "report_measures"})
+  for (const char* name : {"report_run", "report_folder", "report_geometry", "report_measures", "live_page"})
     module.def(name, [](const py::args&) { left_out("report", "reports"); });
 }
 

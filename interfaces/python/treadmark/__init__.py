@@ -18,8 +18,8 @@ from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, Limi
 from ._solving import Pair, PatchSolver, Problem, Solution, State, hertz, settings
 from ._surfaces import Evaluated, Line, Located, Surface, backends, load_plugins, register_backend
 from ._tables import ForceTable, TableError
-from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, Mode, Position, ScanImport, Simulation,
-                     Stability, Sweep, SweepRun, Track, Value, assess, bench, check, compare, evolve, import_scan, read_bench, read_comparison,
+from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, LivePage, Mode, Position, ScanImport, Simulation,
+                     Stability, Sweep, SweepRun, Track, Value, assess, bench, check, compare, evolve, import_scan, live, read_bench, read_comparison,
                      read_import, read_result, read_simulation, read_sweep, report, run, simulate, stability, sweep, track)
 
 __version__: str = _treadmark.version()

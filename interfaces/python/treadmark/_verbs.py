@@ -3,6 +3,7 @@
 """What the program's verbs do, and readers of the files that they write."""
 from __future__ import annotations
 
+import base64
 import csv
 import dataclasses
 import difflib
@@ -733,6 +734,37 @@ def read_sweep(folder: Path) -> Sweep:
 def report(folder: Path, file: Path) -> None:
     """Writes the HTML report of a folder of results of any verb."""
     _treadmark.report_folder(pathlib.Path(folder), pathlib.Path(file))
+
+
+@checked
+class LivePage:
+    """A page that solves the contact of a wheel on a rail in the browser and needs nothing else: notebooks show it. See docs/live.md."""
+
+    def __init__(self, page: bytes) -> None:
+        self._page = page
+
+    @property
+    def html(self) -> str:
+        """The whole page."""
+        return self._page.decode("utf-8", "replace")
+
+    def report(self, file: Path) -> None:
+        """Writes the page as a file."""
+        pathlib.Path(file).write_bytes(self._page)
+
+    def __repr__(self) -> str:
+        return f"<LivePage: {1e-6 * len(self._page):.1f} MB>"
+
+    def _repr_html_(self) -> str:
+        # An address of its own: links within a frame without one would lead out of it.
+        data = base64.b64encode(self._page).decode("ascii")
+        return f'<iframe title="Contact that is solved in this frame" width="100%" height="900" style="border: 0" src="data:text/html;base64,{data}"></iframe>'
+
+
+@checked
+def live(source: Input, *, set: Changes = None, folder: Path | None = None, number: int = 1, progress: Progress = None, threads: int = 0) -> LivePage:
+    """The page of ``treadmark live`` for one case (number: of its file, from 1) of a wheel on a rail. Needs the program for browsers (scripts/web.sh)."""
+    return LivePage(_treadmark.live_page(_source(source, set, folder), number, progress, threads))
 
 
 def _left_out(name: str, function: str) -> None:

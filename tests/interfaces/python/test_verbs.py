@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 """compare, bench, import, simulate, assess, stability and sweep, against the program and the files that it writes."""
+import base64
 import csv
 import json
 import pickle
@@ -17,6 +18,27 @@ FLAT = {**CASE, "wheel.flats": [{"length_mm": 30.0, "depth_mm": 0.3}]}
 def needs(*parts):
     missing = [part for part in parts if not tm.parts()[part]]
     return pytest.mark.skipif(bool(missing), reason=f"this build leaves out {missing}")
+
+
+@needs("report", "report_scripts")
+def test_page_that_solves(tmp_path, monkeypatch):
+    monkeypatch.setenv("TREADMARK_MODULES", str(tmp_path))
+    with pytest.raises(tm.InputError, match="no program for browsers"):
+        tm.live(CASE)
+    (tmp_path / "treadmark-web.wasm").write_bytes(b"\0asm")
+    (tmp_path / "treadmark-web.js").write_text("var createTreadmark;")
+    page = tm.live({"title": "of a notebook", **CASE})
+    assert "var createTreadmark;" in page.html and "<title>of a notebook</title>" in page.html
+    shown = page._repr_html_()
+    assert shown.startswith("<iframe title=") and base64.b64decode(shown.partition("base64,")[2].partition('"')[0]).decode() == page.html
+    page.report(tmp_path / "live.html")
+    assert (tmp_path / "live.html").read_text(encoding="utf-8") == page.html
+    with pytest.raises(tm.InputError, match="no case of this number"):
+        tm.live(CASE, number=2)
+    with pytest.raises(tm.InputError, match="no contact"):
+        tm.live(CASE, set={"wheelset.y_mm": 300.0})
+    with pytest.raises(tm.MissingFileError):
+        tm.live(tmp_path / "nothing.toml")
 
 
 def test_comparison(tmp_path):
