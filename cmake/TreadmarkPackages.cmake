@@ -62,8 +62,9 @@ endforeach()
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/examples" COMPONENT program
   PATTERN CMakeLists.txt EXCLUDE)
-# The documents as pages for browsers (Debian packages python3-sphinx, python3-myst-parser, furo); installed where they were made.
-add_custom_target(site COMMAND /usr/bin/python3 -m sphinx -q -W --keep-going -d "${PROJECT_BINARY_DIR}/site-cache" -c docs . "${PROJECT_BINARY_DIR}/site"
+# The documents as pages for browsers (Debian packages python3-sphinx, python3-myst-parser, furo), with the page that solves where scripts/web.sh
+# has made it; installed where they were made.
+add_custom_target(site COMMAND "${CMAKE_COMMAND}" -E env "TREADMARK_LIVE_PAGE=${TREADMARK_MODULES}/live.html" /usr/bin/python3 -m sphinx -q -W --keep-going -d "${PROJECT_BINARY_DIR}/site-cache" -c docs . "${PROJECT_BINARY_DIR}/site"
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" VERBATIM)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/site/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/html" COMPONENT documents OPTIONAL
   PATTERN .buildinfo EXCLUDE PATTERN objects.inv EXCLUDE)

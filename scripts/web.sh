@@ -21,6 +21,7 @@ printf 'treadmark-web.wasm: %d bytes, %d compressed\n' "$(stat -c %s "$modules/t
 cmake "$build" >/dev/null  # both of the same commit
 cmake --build "$build" --target treadmark_cli
 export TREADMARK=$program TREADMARK_WEB=$modules OUT=$build/live-pages
+TREADMARK_MODULES=$modules "$program" --quiet live --no-open -o "$modules/live.html"  # for the site of the documents
 cd "$build/report/web"
 node test/run.mjs live
 if command -v chromium >/dev/null; then

@@ -88,7 +88,7 @@ with tempfile.TemporaryDirectory() as name:
             target = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
             if not target.exists():
                 wrong.append(f"{path.relative_to(site)}: no {link}")
-            elif parts.fragment and target in pages and urllib.parse.unquote(parts.fragment) not in pages[target].names:
+            elif parts.fragment and "=" not in parts.fragment and target in pages and urllib.parse.unquote(parts.fragment) not in pages[target].names:
                 wrong.append(f"{path.relative_to(site)}: no place {link}")
     wrong += wrong_finds(site) if shutil.which("node") else []
     assert not wrong, "\n".join(sorted(set(wrong)))
