@@ -19,10 +19,12 @@ void add_pages(py::module_& module) {
       write_file(file, report::to_html(app::pages::run_page(run.result, io::to_json(*run.result))));
     });
   });
-  module.def("live_page", [](const Source& source, int number, const py::object& progress, int threads) {
-    return py::bytes(with_progress(progress, threads, [&](const Progress& said) {
-      return report::to_html(app::pages::solving_page(cases_of(source), number, said));
-    }));
+  module.def("live_page", [](const Source& source, int number, const std::filesystem::path& file,
+                             const py::object& progress, int threads) {
+    with_progress(progress, threads, [&](const Progress& said) {
+      write_file(file, report::to_html(app::pages::solving_page(cases_of(source), number, said)));
+      return true;
+    });
   });
   module.def("report_geometry", [](const FoundGeometry& found, const std::filesystem::path& file) {
     const py::gil_scoped_release free;

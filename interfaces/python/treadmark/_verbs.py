@@ -3,7 +3,6 @@
 """What the program's verbs do, and readers of the files that they write."""
 from __future__ import annotations
 
-import base64
 import csv
 import dataclasses
 import difflib
@@ -14,6 +13,7 @@ import math
 import os
 import pathlib
 import re
+import urllib.parse
 from typing import TYPE_CHECKING, Annotated, Any, Callable, Iterable, NamedTuple, Optional, Sequence
 
 import numpy as np
@@ -736,35 +736,25 @@ def report(folder: Path, file: Path) -> None:
     _treadmark.report_folder(pathlib.Path(folder), pathlib.Path(file))
 
 
-@checked
+@dataclasses.dataclass(frozen=True)
 class LivePage:
     """A page that solves the contact of a wheel on a rail in the browser and needs nothing else: notebooks show it. See docs/live.md."""
 
-    def __init__(self, page: bytes) -> None:
-        self._page = page
-
-    @property
-    def html(self) -> str:
-        """The whole page."""
-        return self._page.decode("utf-8", "replace")
-
-    def report(self, file: Path) -> None:
-        """Writes the page as a file."""
-        pathlib.Path(file).write_bytes(self._page)
-
-    def __repr__(self) -> str:
-        return f"<LivePage: {1e-6 * len(self._page):.1f} MB>"
+    file: pathlib.Path  #: shown in a frame by notebooks that lie in the current folder, or above the file
 
     def _repr_html_(self) -> str:
-        # An address of its own: links within a frame without one would lead out of it.
-        data = base64.b64encode(self._page).decode("ascii")
-        return f'<iframe title="Contact that is solved in this frame" width="100%" height="900" style="border: 0" src="data:text/html;base64,{data}"></iframe>'
+        source = html.escape(urllib.parse.quote(pathlib.Path(os.path.relpath(self.file)).as_posix()))
+        return f'<iframe title="Contact that is solved in this frame" width="100%" height="900" style="border: 0" src="{source}"></iframe>'
 
 
 @checked
-def live(source: Input, *, set: Changes = None, folder: Path | None = None, number: int = 1, progress: Progress = None, threads: int = 0) -> LivePage:
-    """The page of ``treadmark live`` for one case (number: of its file, from 1) of a wheel on a rail. Needs the program for browsers (scripts/web.sh)."""
-    return LivePage(_treadmark.live_page(_source(source, set, folder), number, progress, threads))
+def live(source: Input, file: Path = "live.html", *, set: Changes = None, folder: Path | None = None, number: int = 1, progress: Progress = None,
+         threads: int = 0) -> LivePage:
+    """Writes the page of ``treadmark live`` for one case (number: of its file, from 1) of a wheel on a rail. Needs the program for browsers
+    (scripts/web.sh)."""
+    page = pathlib.Path(file)
+    _treadmark.live_page(_source(source, set, folder), number, page, progress, threads)
+    return LivePage(page)
 
 
 def _left_out(name: str, function: str) -> None:
