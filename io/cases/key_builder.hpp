@@ -54,7 +54,7 @@ void add_simplified_theory(KeyList& list, const std::string& prefix) {
 
 /// The number of a part that a case need not have, and that asking for the number would make: without the part the key
 /// says nothing.
-inline void say_only_where(CaseKey& key, std::function<bool(const Case&)> has) {
+inline void say_only_where(CaseKey& key, KeyFunction<bool(const Case&)> has) {
   key.get = [has, get = key.get](const Case& c) { return has(c) ? get(c) : kNaN; };
   key.written = [has, written = key.written](const Case& c, const std::filesystem::path& folder) {
     return has(c) ? written(c, folder) : std::string();

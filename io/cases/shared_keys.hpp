@@ -85,11 +85,11 @@ void shared_flag(KeyList& list, const std::string& path, const std::string& doc,
 template <class Element>
 struct ElementKey {
   KeyInfo info;
-  std::function<void(Element&, const CaseValue&)> set;
+  KeyFunction<void(Element&, const CaseValue&)> set;
   /// table_list only: changes one key of one of its tables; rest is "number.key".
-  std::function<void(Element&, std::string_view rest, const CaseEntry&)> set_nested = {};
+  KeyFunction<void(Element&, std::string_view rest, const CaseEntry&)> set_nested = {};
   /// As SettingKey::written.
-  std::function<std::string(const Element&)> written = {};
+  KeyFunction<std::string(const Element&)> written = {};
 };
 
 /// One table of a list as TOML, inline; of several ways to say the same the shortest one. What is as in a fresh element

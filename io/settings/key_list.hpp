@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/settings/exact_text.hpp"
+#include "treadmark/io/settings/key_function.hpp"
 #include "treadmark/io/settings/key_info.hpp"
 
 namespace treadmark::io {
@@ -24,21 +25,21 @@ template <class Root>
 struct SettingKey {
   KeyInfo info;
   /// value has been checked against info; relative paths count from folder.
-  std::function<void(Root&, const CaseValue& value, const std::filesystem::path& folder)> set = {};
+  KeyFunction<void(Root&, const CaseValue& value, const std::filesystem::path& folder)> set = {};
   /// Numbers that are stored as they are: the value in the unit of the key. Empty for all other keys.
-  std::function<double(const Root&)> get = {};
+  KeyFunction<double(const Root&)> get = {};
   /// table_list only: changes some keys of the element with this index (which exists, or Error). A key of a nested list
   /// has the rest of its path as name: "waves.1.phase_deg".
-  std::function<void(Root&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element = {};
+  KeyFunction<void(Root&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element = {};
   /// The value as TOML, for flags, texts and directions.
-  std::function<std::string(const Root&)> text = {};
+  KeyFunction<std::string(const Root&)> text = {};
   /// The value as a file writes it, as TOML, from which the reader makes this value; empty text where the key
   /// says nothing of this Root. Relative paths count from folder. Without it text is written.
-  std::function<std::string(const Root&, const std::filesystem::path& folder)> written = {};
+  KeyFunction<std::string(const Root&, const std::filesystem::path& folder)> written = {};
   /// The member that the key sets, by its address: so readers find the key of a member, whose name stands here only.
-  std::function<const void*(const Root&)> member = {};
+  KeyFunction<const void*(const Root&)> member = {};
   /// The numbers of a number or a triple, which factors change.
-  std::function<std::span<double>(Root&)> numbers = {};
+  KeyFunction<std::span<double>(Root&)> numbers = {};
   /// Which factors change it, as bits that the reader of the table knows.
   unsigned factors = 0;
 };
@@ -225,7 +226,7 @@ class SettingKeys {
   }
 
   /// A number that at finds; compiled once, not once a key. fresh: the default in SI units.
-  KeyInfo& number_at(KeyInfo info, double fresh, std::function<double&(Root&)> at) {
+  KeyInfo& number_at(KeyInfo info, double fresh, KeyFunction<double&(Root&)> at) {
     const double unit = unit_of(info.path);
     info.default_text = fmt::format("{:.10g}", fresh / unit);
     Key& key = add(std::move(info));
@@ -250,7 +251,7 @@ class SettingKeys {
     return add(std::move(info));
   }
   template <class Content, class Place>
-  static std::function<const void*(const Root&)> member_at(Place place) {
+  static KeyFunction<const void*(const Root&)> member_at(Place place) {
     return [place](const Root& c) -> const void* {
       return &std::invoke(place, content_of<Content>(const_cast<Root&>(c)));
     };

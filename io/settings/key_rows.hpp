@@ -62,12 +62,12 @@ class KeyRows : private SettingKeys<Root> {
       key.info.option = words;
       return *this;
     }
-    Row written(std::function<std::string(const Root&)> text) const {
+    Row written(KeyFunction<std::string(const Root&)> text) const {
       key.text = std::move(text);
       key.written = {};
       return *this;
     }
-    Row read_by(std::function<void(Root&, const CaseValue&)> set) const {
+    Row read_by(KeyFunction<void(Root&, const CaseValue&)> set) const {
       key.set = [set = std::move(set)](Root& root, const CaseValue& value, Folder) { set(root, value); };
       return *this;
     }
