@@ -131,7 +131,7 @@ function(treadmark_library folder)
   set_property(GLOBAL APPEND PROPERTY TREADMARK_LIBRARIES treadmark_${name})
 endfunction()
 
-# treadmark_not_in_web(<target> <regular expression>): sources that draw or write files, which nothing calls there.
+# treadmark_not_in_web(<target> <regular expression>): sources that nothing calls there, as they draw, write files or are about vehicles.
 function(treadmark_not_in_web target pattern)
   if(TREADMARK_WEB)
     get_target_property(sources ${target} SOURCES)

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "treadmark/app/geometry/geometry_run.hpp"
-#include "treadmark/app/measure/measure_files.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/interfaces/c/calls.hpp"
 #include "treadmark/interfaces/c/surfaces.hpp"
@@ -13,32 +12,15 @@
 using namespace treadmark;
 using namespace treadmark::c;
 
-namespace {
-
-io::GivenSettings given_by(const char* const* settings, size_t n) {
-  return io::given_settings(texts_of(settings, n, "settings must be n texts"));
-}
-
-}  // namespace
-
 extern "C" {
 
 tm_status tm_geometry(const char* const* settings, size_t n, char** json) {
   if (json != nullptr) *json = nullptr;
   return guarded([&] {
     app::SectionStore store;
-    const app::GeometryResult result = app::run_geometry(app::geometry_request(given_by(settings, n)), store);
+    const app::GeometryResult result = app::run_geometry(
+        app::geometry_request(io::given_settings(texts_of(settings, n, "settings must be n texts"))), store);
     if (json != nullptr) *json = lasting(app::geometry_json(result));
-  });
-}
-
-tm_status tm_measure(tm_body body, const char* file, const char* const* settings, size_t n, char** json) {
-  if (json != nullptr) *json = nullptr;
-  return guarded([&] {
-    require(file != nullptr, "file must not be null");
-    const app::MeasureRequest request = app::measure_request(body_of(body), given_by(settings, n));
-    const app::MeasuredFile measured = app::measure_file(file, request);
-    if (json != nullptr) *json = lasting(app::measure_json(measured, request));
   });
 }
 
