@@ -9,6 +9,7 @@
 #include "treadmark/app/cases/pages/solving_page.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/page_file.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/report/write_page.hpp"
@@ -32,6 +33,7 @@ io::CaseFile given_case(const LiveOptions& options) {
 }
 
 int live_command(const LiveOptions& options, const CommonOptions& common) {
+  require_part("report_scripts", "treadmark live");
   io::CaseFile file = given_case(options);
   print_notes(file.notes, common.quiet);
   const report::Page page = with_progress(common.quiet, [&](const Progress& progress) {

@@ -149,6 +149,9 @@ test("the page of a run leads to the page that solves, with the case that is sho
   const worst = cases.findIndex((one) => largest(one) === Math.max(...cases.map(largest)));  // is shown first
   const tab = await Tab.open(new URL(await link.getAttribute("href"), page.url()).hash);
   near(await tab.solved(), largest(cases[worst]), 1e-9, "pressure of the case that was shown");
+  const softer = await tab.after(() => tab.type("wheelset.vertical_force_N", "50"));
+  assert.equal(await tab.page.locator("input[data-control='wheelset.y_mm']").inputValue(), String([0, 4][worst]));  // it is still that case
+  assert.ok(softer < largest(cases[worst]));
   await context.close();
   const opened = await tab.after(() => tab.page.locator("[data-control='open']").setInputFiles(file("both/result.json")));
   near(opened, largest(cases[0]), 1e-9, "pressure of the first case of a result file");
@@ -178,7 +181,7 @@ test("two profiles and two representations stand side by side, with their differ
   await page.waitForFunction(() => /difference/.test(document.querySelector("#beside-patches svg").textContent));
   // both move, and the link holds both
   await tab.after(() => tab.type("wheelset.y_mm", "2"));
-  assert.match(page.url(), /beside\.wheel\.shape\.standard=EPS/);
+  await page.waitForFunction(() => /y_mm=2.*beside\.wheel\.shape\.standard=EPS|beside\.wheel\.shape\.standard=EPS.*y_mm=2/.test(location.hash), undefined, { timeout: 120_000 });
   await tab.after(() => page.locator("[data-control='beside.wheel']").selectOption(""));
   await beside(false);
   assert.equal(await figures.count(), 0);

@@ -110,7 +110,7 @@ class Live implements Target {
     bar.append(
       button("Undo", "undo", "Take back the last change (Ctrl Z)", () => this.step(this.past, this.future)),
       button("Redo", "redo", "Make it again (Ctrl Shift Z)", () => this.step(this.future, this.past)),
-      button("As the case says", "reset", "Take back all changes", () => this.adopt({ toml: this.state.toml, changes: new Map<string, string>() })),
+      button("As the case says", "reset", "Take back all changes", () => this.adopt({ ...this.state, changes: new Map<string, string>() })),
       button("Save case.toml", "save", "A file that treadmark run solves to the same numbers", () => void this.save()),
       make("span", "", "Open a case:"),
       open,
@@ -156,8 +156,7 @@ class Live implements Target {
     [this.own, this.touched] = [key, now];
     this.trouble.replaceChildren();
     this.future.length = 0;
-    const { toml, changes } = this.state;
-    this.follow({ toml, changes: changed(changes, key, value) });
+    this.follow({ ...this.state, changes: changed(this.state.changes, key, value) });
   }
 
   private adopt(state: State): void {
