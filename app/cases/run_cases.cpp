@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,6 +24,8 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/never_cancelled.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/solvers/wheelrail/usual_values.hpp"
 
 namespace treadmark::app {
@@ -45,6 +48,14 @@ void describe_results(const io::CaseFile& file, const ProfilesOfRun& profiles, S
     cases.push_back(&*c);
   }
   parallel_for(cases.size(), [&](std::size_t i) { notes.add(*cases[i], *cases[i], run.cases[i]); });
+}
+
+/// The cases as a page that solves opens them: of a wheel on a rail, and not so many that nobody reads them.
+std::string text_for_page(const io::CaseFile& file) {
+  constexpr std::size_t kMost = 100;
+  const auto on_rail = [](const io::Case& c) { return std::holds_alternative<io::WheelRailCase>(c.content); };
+  if (file.cases.size() > kMost || !ranges::all_of(file.cases, on_rail)) return {};
+  return io::case_file_text(file, file.path.parent_path());
 }
 
 }  // namespace
@@ -75,6 +86,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
     run = head_of(file);
   }
   describe_results(file, profiles, store, run);
+  run.toml = text_for_page(file);
   run.geometry_sha256 = store.hashes();
   run.surfaces = store.uses();
   run.seconds = seconds_since(start);

@@ -7,7 +7,6 @@
 #include <optional>
 #include <system_error>
 #include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 
@@ -25,9 +24,7 @@
 #include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/cases/writing/write_cases.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_json.hpp"
 
@@ -75,14 +72,6 @@ std::vector<std::string> settings_of(const RunOptions& options) {
   if (!options.rail_backend.empty()) settings.push_back("rail.backend=" + options.rail_backend);
   if (options.resolution_mm > 0.0) settings.push_back(fmt::format("resolution_mm={}", options.resolution_mm));
   return settings;
-}
-
-/// The cases as a page that solves opens them: of a wheel on a rail, and not so many that nobody reads them.
-std::string text_for_page(const io::CaseFile& file) {
-  constexpr std::size_t kMost = 100;
-  const auto on_rail = [](const io::Case& c) { return std::holds_alternative<io::WheelRailCase>(c.content); };
-  if (file.cases.size() > kMost || !ranges::all_of(file.cases, on_rail)) return {};
-  return io::case_file_text(file, file.path.parent_path());
 }
 
 int exit_status(const io::RunResult& result) {
@@ -197,8 +186,6 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     io::RunResult result =
         with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
     result.settings = settings_of(options);
-    if (!folders.empty() || !options.report_file.empty() || !options.json_file.empty())
-      result.toml = text_for_page(file);
     if (options.sensitivities && result.complete)
       with_progress(common.quiet,
                     [&](const Progress& progress) { app::add_derivatives(result, file, store, options.by, progress); });

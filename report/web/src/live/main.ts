@@ -33,15 +33,16 @@ const NOTHING: Geometry = {
 
 /** What is known of what the reader is at, and of what is beside it. */
 class Side {
-  /** The last answer, with its wheel and rail. */
+  /** The last answer, of what, with its wheel and rail. */
   solved: Solved | null = null;
+  state: State | null = null;
   surfaces: SurfaceData[] = [];
   /** Over the lateral place, and of which wheel and rail that is. */
   geometry: Geometry = NOTHING;
   geometryOf = "";
 
-  take(solved: Solved): void {
-    this.solved = solved;
+  take(solved: Solved, state: State): void {
+    [this.solved, this.state] = [solved, state];
     if (solved.surfaces) this.surfaces = solved.surfaces;
   }
 }
@@ -235,7 +236,7 @@ class Live implements Target {
     const { solved, trouble } = await this.engine.ask({ kind: "solve", given: givenOf(state), element, name: "", names: NAMES, beside: false });
     if (solved) {  // on the way to another state, too: a hand that moves shall see something
       this.good = state;
-      this.here.take(solved);
+      this.here.take(solved, state);
       this.show(state === this.state);
       if (state === this.state) this.learn(solved.numbers);
       await this.solveBeside(state, element);
@@ -258,7 +259,7 @@ class Live implements Target {
       ? await this.engine.ask({ kind: "solve", given: givenOf(other), element, name: "", names: [], beside: true })
       : { trouble: "" };
     this.besideTrouble = solved ? "" : trouble;
-    if (solved) this.there.take(solved);
+    if (solved) this.there.take(solved, state);
     else this.there.solved = null;
     this.show(state === this.state);
   }
@@ -283,6 +284,8 @@ class Live implements Target {
     this.own = "";
     if (this.past[this.past.length - 1] === this.good) this.past.pop();
     if (begins) this.follow(this.good);
+    else if (this.here.solved?.coarse) this.request(null);
+    else if (this.here.solved) this.rest(this.good);
   }
 
   private complain(text: string): void {
@@ -344,7 +347,7 @@ class Live implements Target {
       const other = others?.[k]?.[1];
       if (other === undefined) return [label, said(value, unit), note];
       const share = (100 * (other - value)) / Math.abs(value);
-      const differ = Math.abs(share) >= LEAST_SHARE && Number.isFinite(share) ? ` (${share < 0 ? "−" : "+"}${formatNumber(Math.abs(share), 3)} %)` : "";
+      const differ = here.state === there.state && Math.abs(share) >= LEAST_SHARE && Number.isFinite(share) ? ` (${share < 0 ? "−" : "+"}${formatNumber(Math.abs(share), 3)} %)` : "";
       return [label, said(value, unit), `${note}; beside ${said(other, unit)}${differ}`];
     });
     const { milliseconds, coarse } = here.solved;
