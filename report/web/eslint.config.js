@@ -8,7 +8,7 @@ import tseslint from "typescript-eslint";
 const nodeGlobals = { console: "readonly", process: "readonly", URL: "readonly", Buffer: "readonly", setTimeout: "readonly" };
 // What browser tests hand to the page.
 const pageGlobals = Object.fromEntries(
-  ["document", "window", "performance", "requestAnimationFrame", "getComputedStyle", "Event"].map((name) => [name, "readonly"]),
+  ["document", "window", "performance", "requestAnimationFrame", "getComputedStyle", "Event", "MutationObserver"].map((name) => [name, "readonly"]),
 );
 
 export default tseslint.config(

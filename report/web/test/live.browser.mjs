@@ -181,7 +181,7 @@ test("two profiles and two representations stand side by side, with their differ
   await page.waitForFunction(() => /difference/.test(document.querySelector("#beside-patches svg").textContent));
   // both move, and the link holds both
   await tab.after(() => tab.type("wheelset.y_mm", "2"));
-  await page.waitForFunction(() => /y_mm=2.*beside\.wheel\.shape\.standard=EPS|beside\.wheel\.shape\.standard=EPS.*y_mm=2/.test(location.hash), undefined, { timeout: 120_000 });
+  await page.waitForFunction(() => /y_mm=2.*beside\.wheel\.shape\.standard=EPS|beside\.wheel\.shape\.standard=EPS.*y_mm=2/.test(document.location.hash), undefined, { timeout: 120_000 });
   await tab.after(() => page.locator("[data-control='beside.wheel']").selectOption(""));
   await beside(false);
   assert.equal(await figures.count(), 0);
