@@ -19,6 +19,7 @@ vehicle::SystemState equilibrium_of(const app::BuiltVehicle& built) {
   const vehicle::Equilibrium found = vehicle::find_equilibrium(built.vehicle, {}, built.easy ? &*built.easy : nullptr);
   if (found.report.status != Status::ok)
     throw Error(ErrorKind::numerical, found.report.message, {}, vehicle::kNoEquilibriumAdvice);
+  for (const auto& chosen : built.chosen) chosen->begin();
   return found.state;
 }
 

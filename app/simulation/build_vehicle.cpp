@@ -87,6 +87,8 @@ double rail_place(const io::SimulationFile& file, int wheelset) {
 
 namespace {
 
+bool is_chosen(const io::WheelContactInput& wheel) { return wheel.model == io::ContactModelInput::automatic; }
+
 /// Where a wheel's contact is found in full.
 vehicle::FullStretch stretch_of(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -104,10 +106,11 @@ class Builder {
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
     wheelrail::Geometry bodies = geometry(wheel_source(file_, wheel), file_.rail(wheel.side), rail_region(wheel.side));
-    if (wheel.changes_over() && !bodies.round_wheel)
+    if ((wheel.changes_over() || is_chosen(wheel)) && !bodies.round_wheel)
       throw Error(ErrorKind::configuration,
                   fmt::format("{} is not round: its contact cannot change over to a table", wheel_name(wheel)),
-                  file_.contact.wheel.where, "leave out full_from_m and full_to_m, or say defects = false");
+                  file_.contact.wheel.where,
+                  "give it contact = \"full\" without full_from_m and full_to_m, or say defects = false");
     return bodies;
   }
 
@@ -115,6 +118,7 @@ class Builder {
   void require_section(const io::WheelContactInput& wheel) {
     const io::SurfaceSource& own = file_.rail(wheel.side);
     const io::SurfaceSource source = table_rail(wheel.side);
+    if (is_chosen(wheel)) return;
     const bool is_full = wheel.model == io::ContactModelInput::full;
     // Rails without their defects are what tables are of.
     if (is_full ? !wheel.changes_over() : natural_rail(undamaged(own)).constant_profile()) return;
@@ -126,6 +130,27 @@ class Builder {
     if (!is_full) return require(begin, end);
     require(begin, std::min(end, stretch.from + stretch.blend));
     require(std::max(begin, stretch.to - stretch.blend), end);
+  }
+
+  /// Where the rail below a wheel is another one than that of its table [m], a little more.
+  std::vector<std::pair<double, double>> damaged_places(const io::WheelContactInput& wheel) {
+    constexpr double kPiece = 10.0, kBeside = 0.03;  // [m]
+    const Rails rails{natural_rail(file_.rail(wheel.side)), natural_rail(table_rail(wheel.side))};
+    std::vector<std::pair<double, double>> places;
+    if (rails.own.constant_profile()) return places;
+    const double begin = rail_place(file_, wheel.wheelset) - kBeside,
+                 end = begin + file_.settings.distance + 2.0 * kBeside;
+    for (double from = begin; from < end; from += kPiece) {
+      const RailsCompared compared = compare_rails(rails, from, std::min(end, from + kPiece));
+      if (compared.apart > kSamePlace) refuse_place(wheel, compared.apart);
+      for (int ix = 0; ix < compared.grid.nx; ++ix) {
+        if (!(compared.most[static_cast<std::size_t>(ix)] > kSameHeight)) continue;
+        const double x = compared.grid.x(ix);
+        if (places.empty() || x - kBeside > places.back().second) places.emplace_back(x - kBeside, 0.0);
+        places.back().second = x + kBeside;
+      }
+    }
+    return places;
   }
 
   /// As the wheels are given, whatever represents them in the analysis.
@@ -221,7 +246,7 @@ class Builder {
     Region region;
     bool any = false;
     for (const io::WheelContactInput& wheel : file_.wheels) {
-      if (wheel.side != side || wheel.model != io::ContactModelInput::full) continue;
+      if (wheel.side != side || wheel.model == io::ContactModelInput::table) continue;
       const vehicle::FullStretch stretch = stretch_of(file_, wheel);
       const double low = std::max(stretch.rail_x, stretch.from) - kRailBeyond,
                    high = std::min(stretch.rail_x + file_.settings.distance, stretch.to) + kRailBeyond;
@@ -238,8 +263,13 @@ class Builder {
     const NaturalSurface& of_table;
   };
 
-  void require_section(const io::WheelContactInput& wheel, const Rails& rails, double from, double to) {
-    constexpr double kSame = 1e-5, kSamePlace = 1e-5;                // [m]
+  static constexpr double kSameHeight = 1e-5, kSamePlace = 1e-5;  // [m]
+  struct RailsCompared {
+    Grid2 grid;
+    std::vector<double> most;  ///< by x: what heights differ by at most
+    double apart = 0.0;        ///< of their origins
+  };
+  RailsCompared compare_rails(const Rails& rails, double from, double to) const {
     constexpr double kAside = 0.036, kAcross = 1e-3, kAlong = 5e-3;  // looked at, about the profile's origin [m]
     constexpr int kMost = 2000;
     wheelrail::Problem problem = to_problem(file_.contact, true);
@@ -248,35 +278,52 @@ class Builder {
       return wheelrail::place({rail.surface, nullptr, rail.constant_profile(), true}, problem).X_TR;
     };
     const Pose X_TR = origin(rails.own), X_TR_table = origin(rails.of_table);
-    const double apart = (X_TR.origin - X_TR_table.origin).norm();
     const int nx = 2 + std::clamp(to_whole<int>((to - from) / kAlong), 0, kMost - 2);
     const int ny = 2 * to_whole<int>(kAside / kAcross) + 1;
-    const Grid2 grid{from, X_TR.origin.y() - kAside, (to - from) / (nx - 1), kAcross, nx, ny};
+    RailsCompared out{{from, X_TR.origin.y() - kAside, (to - from) / (nx - 1), kAcross, nx, ny},
+                      std::vector<double>(static_cast<std::size_t>(nx), 0.0),
+                      (X_TR.origin - X_TR_table.origin).norm()};
+    const Grid2& grid = out.grid;
     std::vector<double> z(grid.size()), z_table(grid.size()), slope(grid.size());
     rails.own.surface->heights({X_TR.inverse(), grid}, {z, {}, {}});
     rails.of_table.surface->heights({X_TR_table.inverse(), grid}, {z_table, {}, slope});
-    double most = 0.0, at = from;
     for (int iy = 0; iy < ny; ++iy)
       for (int ix = 0; ix < nx; ++ix) {
         const std::size_t i = grid.index(ix, iy);
         if (!(std::abs(slope[i]) <= 1.0)) continue;
         const double off = std::isnan(z[i]) ? std::numeric_limits<double>::infinity() : std::abs(z[i] - z_table[i]);
-        if (off > most) most = off, at = grid.x(ix);
+        double& most = out.most[static_cast<std::size_t>(ix)];
+        most = std::max(most, off);
       }
-    if (most <= kSame && apart <= kSamePlace) return;
-    SourcePosition where = file_.rail(wheel.side).where;
-    if (where.file.empty()) where = {file_.path.string(), 1, 1};
-    if (apart > kSamePlace)
-      throw Error(
-          ErrorKind::configuration,
-          fmt::format("the rail below {} and that of its table lie {:.3g} mm apart", wheel_name(wheel), 1e3 * apart),
-          where, "their gauge is measured at x = 0: begin where both are the same, or place them by rail_y_mm");
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} takes its forces from a table at x = {:.6g} m along the rail, which differs there by "
-                            "{:.3g} mm from the rail of the table",
-                            wheel_name(wheel), at, 1e3 * most),
-                where,
-                "give the wheel contact = \"full\" there (full_from_m, full_to_m), or another simulation.table_rail");
+    return out;
+  }
+
+  SourcePosition place_of_rail(const io::WheelContactInput& wheel) const {
+    const SourcePosition where = file_.rail(wheel.side).where;
+    return where.file.empty() ? SourcePosition{file_.path.string(), 1, 1} : where;
+  }
+
+  [[noreturn]] void refuse_place(const io::WheelContactInput& wheel, double apart) const {
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("the rail below {} and that of its table lie {:.3g} mm apart", wheel_name(wheel), 1e3 * apart),
+        place_of_rail(wheel),
+        "their gauge is measured at x = 0: begin where both are the same, or place them by rail_y_mm");
+  }
+
+  void require_section(const io::WheelContactInput& wheel, const Rails& rails, double from, double to) const {
+    const RailsCompared compared = compare_rails(rails, from, to);
+    if (compared.apart > kSamePlace) refuse_place(wheel, compared.apart);
+    const auto most = ranges::max_element(compared.most);
+    if (*most <= kSameHeight) return;
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("{} takes its forces from a table at x = {:.6g} m along the rail, which differs there by "
+                    "{:.3g} mm from the rail of the table",
+                    wheel_name(wheel), compared.grid.x(static_cast<int>(most - compared.most.begin())), 1e3 * *most),
+        place_of_rail(wheel),
+        "give the wheel contact = \"full\" there (full_from_m, full_to_m) or \"auto\", or another "
+        "simulation.table_rail");
   }
 
   wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source,
@@ -293,6 +340,19 @@ class Builder {
   /// By the rail that they are of; null: simulation.table_rail.
   std::map<const io::SurfaceSource*, std::shared_ptr<const vehicle::ContactTable>> tables_;
 };
+
+/// Of a step with a full contact [m].
+double full_travel(const io::SimulationFile& file) {
+  constexpr double kWithin = 0.99;  // a wheelset may run a little ahead of the vehicle
+  return kWithin * file.settings.max_step_elements * file.contact.discretisation.dx;
+}
+
+vehicle::ChoiceSettings choice_settings(const io::SimulationFile& file, const io::WheelContactInput& wheel, double load,
+                                        std::vector<std::pair<double, double>> always_full) {
+  const io::SimulationSettings& s = file.settings;
+  return {
+      {s.force_error, s.wear_error}, load, full_travel(file), std::move(always_full), rail_place(file, wheel.wheelset)};
+}
 
 /// What moves below each wheelset beside rails that bend: nothing where they bend sideways, too.
 std::optional<TrackModel> track_below(const io::SimulationFile& file) {
@@ -404,8 +464,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
     vehicle::WheelOnRail& on = v.wheels[i];
     if (wheel.pitch) v.pitch_at_start.at(static_cast<std::size_t>(wheel.wheelset)) = *wheel.pitch;
     std::shared_ptr<vehicle::TableContact> from_table;
-    const bool is_full = wheel.model == io::ContactModelInput::full;
-    if (!is_full || wheel.changes_over()) {
+    const bool is_full = wheel.model != io::ContactModelInput::table;
+    if (wheel.model != io::ContactModelInput::full || wheel.changes_over()) {
       builder.require_section(wheel);
       from_table = tabulated(on.side);
       on.rail_marker = builder.table(on.side, load)->nominal().X_TR.origin;
@@ -415,11 +475,15 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       const wheelrail::Geometry geometry = builder.full_geometry(wheel);
       const wheelrail::Problem problem = to_problem(contact_input(file, wheel), geometry.round_wheel);
       on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
-      built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem, rail_place(file, wheel.wheelset),
-                                                                  integration_settings(file).max_travel));
+      built.full.push_back(
+          std::make_shared<vehicle::FullContact>(geometry, problem, rail_place(file, wheel.wheelset),
+                                                 std::min(full_travel(file), integration_settings(file).max_travel)));
       built.bodies.push_back(bodies_of(geometry, file, wheel.side));
       on.element = built.full.back();
-      if (from_table)
+      if (is_chosen(wheel))
+        on.element = built.chosen.emplace_back(std::make_shared<vehicle::ChosenContact>(
+            built.full.back(), from_table, choice_settings(file, wheel, load, builder.damaged_places(wheel))));
+      else if (from_table)
         on.element = std::make_shared<vehicle::SwitchedContact>(built.full.back(), from_table, stretch_of(file, wheel));
     } else {
       built.full.push_back(nullptr);
@@ -429,7 +493,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
     on.element = mounted(on.element, i);
   }
   v.connect();
-  const bool any_full = ranges::any_of(built.full, [](const auto& full) { return full != nullptr; });
+  const bool any_full = ranges::any_of(
+      file.wheels, [](const io::WheelContactInput& wheel) { return wheel.model == io::ContactModelInput::full; });
   const auto easy_start = [&]() -> std::optional<vehicle::VehicleOnTrack> {
     try {
       if (!builder.has_section(Side::left) || !builder.has_section(Side::right)) return std::nullopt;
@@ -462,10 +527,10 @@ void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   const vehicle::VehicleOnTrack vehicle = outline(file, false);
   if (file.flexible_track) RailsBelow(file, vehicle.system).below({0});
   for (const io::WheelContactInput& wheel : file.wheels) {
-    const bool full = wheel.model == io::ContactModelInput::full;
+    const bool full = wheel.model != io::ContactModelInput::table, changes = wheel.changes_over() || is_chosen(wheel);
     const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry(wheel.side);
-    if (full && wheel.changes_over()) builder.table_geometry(wheel.side);
-    if (!full || wheel.changes_over()) builder.require_creep_table();
+    if (full && changes) builder.table_geometry(wheel.side);
+    if (!full || changes) builder.require_creep_table();
     builder.require_section(wheel);
     vehicle::rail_marker_at_rest(geometry, to_problem(contact_input(file, wheel), geometry.round_wheel));
   }
@@ -481,9 +546,7 @@ vehicle::SimulationSettings integration_settings(const io::SimulationFile& file)
   const bool any_full =
       ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
   constexpr double kNoLimit = 0.1;  // [m]
-  // A wheelset may run a little ahead of the vehicle.
-  constexpr double kWithin = 0.99;
-  out.max_travel = any_full ? kWithin * s.max_step_elements * file.contact.discretisation.dx : kNoLimit;
+  out.max_travel = any_full ? full_travel(file) : kNoLimit;
   if (file.flexible_track) {
     // The error of a rail's motion is not estimated: steps are short against its waves and elements.
     constexpr double kShortest = 5e-5, kOfBay = 0.02;

@@ -14,7 +14,7 @@
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
-#include "treadmark/solvers/vehicle/contacts/full_contact.hpp"
+#include "treadmark/solvers/vehicle/contacts/chosen_contact.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 
 namespace treadmark::app {
@@ -25,6 +25,8 @@ struct BuiltVehicle {
   /// By wheel: the element, where the contact is solved in full; else null.
   std::vector<std::shared_ptr<vehicle::FullContact>> full;
   std::vector<UsedBodies> bodies;  ///< by wheel, as its full contact sees them
+  /// Of wheels whose contact is chosen: tables until a simulation begins them.
+  std::vector<std::shared_ptr<vehicle::ChosenContact>> chosen;
   /// Of the wheels with defects; null where there are none.
   std::shared_ptr<const DefectDepth> defect_depth;
   double table_seconds = 0.0;  ///< spent on contact tables

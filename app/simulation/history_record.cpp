@@ -69,7 +69,14 @@ std::size_t watched_wheel(const io::SimulationFile& file) {
 }
 
 bool is_full(const io::SimulationFile& file, std::size_t wheel) {
-  return file.wheels.at(wheel).model == io::ContactModelInput::full;
+  return file.wheels.at(wheel).model != io::ContactModelInput::table;
+}
+
+std::vector<std::size_t> chosen_wheels(const io::SimulationFile& file) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < file.wheels.size(); ++i)
+    if (file.wheels[i].model == io::ContactModelInput::automatic) out.push_back(i);
+  return out;
 }
 
 }  // namespace
@@ -98,6 +105,7 @@ HistoryRecord::HistoryRecord(const io::SimulationFile& file, const vehicle::Vehi
     add((i == watched ? "" : wheels[i].name + '.') + "check_N", "N",
         "of a check rail on the flange of " + wheels[i].name,
         [this, i] { return simulation_->reactions()[i].check_force; });
+  for (const std::size_t i : chosen_wheels(file)) add_choice(i, i == watched ? "" : wheels[i].name + '.');
   add_energies();
   add_bodies();
   add_elements();
@@ -181,6 +189,17 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
       add_bending(reaction(), m);
       return place(m);
     });
+}
+
+void HistoryRecord::add_choice(std::size_t wheel, const std::string& prefix) {
+  const auto reaction = [this, wheel]() -> const ContactReaction& { return simulation_->reactions()[wheel]; };
+  const std::string of = " of " + vehicle_.wheels[wheel].name;
+  add(prefix + "full_share", "1", "of the contact in full in the forces" + of + ", the rest from a table",
+      [=] { return reaction().full_share; });
+  add(prefix + "table_error", "1", "what forces of the table" + of + " are wrong by, over the normal force",
+      [=] { return reaction().table_error; });
+  add(prefix + "table_wear_error", "1", "what the wear number of the table" + of + " is wrong by, over it",
+      [=] { return reaction().table_wear_error; });
 }
 
 void HistoryRecord::add_energies() {
@@ -332,8 +351,40 @@ void HistoryRecord::append(std::vector<double>& values) const {
   for (const Column& column : columns_) values.push_back(column.value());
 }
 
+namespace {
+
+/// Of a wheel whose contact is chosen, behind its name.
+constexpr const char* kOfChoice[][3] = {
+    {"full_share", "1", "share of the way in full contact"},
+    {"table_error_max", "1", "largest error of forces that came from the table, over the normal force"},
+    {"table_error_rms", "1", "the same over the way"},
+    {"table_wear_error_max", "1", "largest error of wear numbers that came from the table"}};
+
+}  // namespace
+
 HistorySummary::HistorySummary(const io::SimulationFile& file, const vehicle::Simulation& simulation)
-    : simulation_(simulation), watched_(watched_wheel(file)), has_pressure_(is_full(file, watched_)) {}
+    : simulation_(simulation), watched_(watched_wheel(file)), has_pressure_(is_full(file, watched_)) {
+  for (const std::size_t wheel : chosen_wheels(file)) chosen_.push_back({wheel});
+}
+
+void HistorySummary::note_choices() {
+  const double x = simulation_.vehicle().travel(simulation_.state().time).distance, way = x - at_;
+  for (Chosen& c : chosen_) {
+    const vehicle::ContactReaction& r = simulation_.reactions()[c.wheel];
+    const bool full = r.full_share > 0.5;
+    if (begun_ ? full != c.is_full : full) changes_.push_back({simulation_.state().time, c.wheel, full});
+    c.is_full = full;
+    if (begun_) {
+      c.way += way;
+      c.full += r.full_share * way;
+    }
+    if (full) continue;
+    if (begun_) c.square += r.table_error * r.table_error * (1.0 - r.full_share) * way;
+    c.worst = std::max(c.worst, r.table_error);
+    c.worst_wear = std::max(c.worst_wear, r.table_wear_error);
+  }
+  at_ = x;
+}
 
 void HistorySummary::note() {
   const vehicle::ContactReaction& r = simulation_.reactions()[watched_];
@@ -351,6 +402,7 @@ void HistorySummary::note() {
   smaller(ty_min_, r.lateral_creep_force);
   larger(pmax_, r.max_pressure);
   if (r.doubts > 0) ++doubtful_;
+  note_choices();
   if (!begun_) at_rest_ = q;
   begun_ = true;
 }
@@ -403,12 +455,22 @@ std::vector<io::NamedValue> HistorySummary::values() const {
   std::vector<io::NamedValue> summary;
   if (!begun_) return summary;
   for (const Row& row : rows(has_pressure_)) summary.push_back({row.name, row.value(*this), row.unit, row.description});
+  for (const Chosen& c : chosen_) {
+    const double table = c.way - c.full;
+    const double numbers[] = {c.way > 0.0 ? c.full / c.way : 1.0 * c.is_full, c.worst,
+                              table > 0.0 ? std::sqrt(c.square / table) : 0.0, c.worst_wear};
+    for (std::size_t i = 0; i < std::size(numbers); ++i)
+      summary.push_back({simulation_.vehicle().wheels[c.wheel].name + '.' + kOfChoice[i][0], numbers[i],
+                         kOfChoice[i][1], kOfChoice[i][2]});
+  }
   return summary;
 }
 
 std::vector<std::string> HistorySummary::names(const io::SimulationFile& file) {
   std::vector<std::string> names;
   for (const Row& row : rows(is_full(file, watched_wheel(file)))) names.emplace_back(row.name);
+  for (const std::size_t wheel : chosen_wheels(file))
+    for (const auto& row : kOfChoice) names.push_back(wheel_name(file.wheels[wheel]) + '.' + row[0]);
   return names;
 }
 
@@ -417,6 +479,13 @@ void HistorySummary::save(ByteWriter& out) const {
   out.put(at_rest_);
   out.put(doubtful_);
   for (const Extreme* e : {&highest_, &lowest_, &ty_max_, &ty_min_, &pmax_}) out.put(e->value), out.put(e->time);
+  out.put(at_);
+  for (const Chosen& c : chosen_) {
+    out.put(c.is_full);
+    for (const double value : {c.way, c.full, c.square, c.worst, c.worst_wear}) out.put(value);
+  }
+  out.put(changes_.size());
+  for (const ContactChange& c : changes_) out.put(c.time), out.put(c.wheel), out.put(c.full);
 }
 
 void HistorySummary::restore(ByteReader& in) {
@@ -424,6 +493,16 @@ void HistorySummary::restore(ByteReader& in) {
   in.get(at_rest_);
   in.get(doubtful_);
   for (Extreme* e : {&highest_, &lowest_, &ty_max_, &ty_min_, &pmax_}) in.get(e->value), in.get(e->time);
+  in.get(at_);
+  for (Chosen& c : chosen_) {
+    in.get(c.is_full);
+    for (double* value : {&c.way, &c.full, &c.square, &c.worst, &c.worst_wear}) in.get(*value);
+  }
+  changes_.clear();
+  for (auto left = in.get<std::size_t>(); left > 0; --left) {
+    ContactChange& c = changes_.emplace_back();
+    in.get(c.time), in.get(c.wheel), in.get(c.full);
+  }
 }
 
 }  // namespace treadmark::app

@@ -51,6 +51,7 @@ class HistoryRecord {
   void add_wheel(std::size_t wheel, const std::string& prefix, bool full);
   void add_bodies();
   void add_line(bool irregular);
+  void add_choice(std::size_t wheel, const std::string& prefix);
   void add_energies();
   void add_elements();
   void add_running(std::size_t watched);
@@ -61,6 +62,13 @@ class HistoryRecord {
   const vehicle::Simulation* simulation_;  ///< null: only names of columns are asked for
   double wheel_y_;                         ///< from the middle of a wheelset to its tape circles [m]
   std::vector<Column> columns_;
+};
+
+/// A wheel whose contact is chosen goes over into the full contact, or back.
+struct ContactChange {
+  double time = 0.0;      ///< [s]
+  std::size_t wheel = 0;  ///< index in VehicleOnTrack::wheels
+  bool full = false;
 };
 
 /// Numbers that sum up a simulation: largest and least forces of the watched wheel, where and when, energies and
@@ -76,6 +84,8 @@ class HistorySummary {
   std::vector<io::NamedValue> values() const;
   /// What they are called.
   static std::vector<std::string> names(const io::SimulationFile& file);
+  /// In the order of time.
+  const std::vector<ContactChange>& changes() const { return changes_; }
 
   void save(ByteWriter& out) const;
   /// Errors: Error(input_data) where bytes end too early.
@@ -85,6 +95,15 @@ class HistorySummary {
   struct Extreme {
     double value = 0.0, time = 0.0;  ///< SI, [s]
   };
+  /// Of a wheel whose contact is chosen.
+  struct Chosen {
+    std::size_t wheel = 0;
+    bool is_full = false;
+    double way = 0.0, full = 0.0;          ///< in all, in full contact [m]
+    double square = 0.0;                   ///< of errors of the table, over the way [m]
+    double worst = 0.0, worst_wear = 0.0;  ///< errors where the table counts
+  };
+  void note_choices();
   struct Row;
   static std::vector<Row> rows(bool has_pressure);
   double turnover() const;
@@ -94,6 +113,9 @@ class HistorySummary {
   bool has_pressure_, begun_ = false;
   double at_rest_ = 0.0;       ///< vertical force [N]
   std::int64_t doubtful_ = 0;  ///< instants with a grave remark
+  double at_ = 0.0;            ///< distance travelled [m]
+  std::vector<Chosen> chosen_;
+  std::vector<ContactChange> changes_;
   Extreme highest_, lowest_, ty_max_, ty_min_, pmax_;
 };
 

@@ -41,7 +41,7 @@ io::CaseFile cases_at(const io::SimulationFile& file, const io::SimulationResult
   out.path = file.path;
   out.title = fmt::format("{}, t = {:.9g} s", file.title, times[row]);
   for (std::size_t wheel = 0; wheel < file.wheels.size(); ++wheel) {
-    if (file.wheels[wheel].model != io::ContactModelInput::full) continue;
+    if (file.wheels[wheel].model == io::ContactModelInput::table) continue;
     vehicle::PairMotion motion;
     motion.time = times[row];
     for (const MotionColumn& column : motion_columns())

@@ -176,6 +176,7 @@ class Run {
   }
 
   void begin() {
+    for (const auto& chosen : built_.chosen) chosen->begin();
     simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
     record_.emplace(file_, *simulation_);
     summary_.emplace(file_, *simulation_);
@@ -251,6 +252,10 @@ class Run {
     for (const vehicle::ContactEvent& e : simulation_->events())
       result_.events.push_back({e.time, built_.vehicle.travel(e.time).distance, built_.vehicle.wheels[e.wheel].name,
                                 e.regained ? "contact regained" : "contact lost"});
+    for (const ContactChange& c : summary_->changes())
+      result_.events.push_back({c.time, built_.vehicle.travel(c.time).distance, built_.vehicle.wheels[c.wheel].name,
+                                c.full ? "full contact from here" : "table from here"});
+    ranges::stable_sort(result_.events, {}, &io::HistoryEvent::time);
     result_.summary = summary_->values();
     snapshots_.put_results(result_);
     result_.snapshots.version = result_.version;

@@ -12,7 +12,7 @@ namespace treadmark::app {
 
 io::SimulationFile straight_vehicle(const std::filesystem::path& path, std::span<const std::string> overrides) {
   io::SimulationFile file = io::read_simulation_file(path, overrides);
-  for (const io::WheelContactInput& wheel : file.wheels)
+  for (io::WheelContactInput& wheel : file.wheels) {
     if (wheel.model == io::ContactModelInput::full)
       throw Error(
           ErrorKind::configuration,
@@ -20,6 +20,8 @@ io::SimulationFile straight_vehicle(const std::filesystem::path& path, std::span
                       "derivatives",
                       wheel_name(wheel)),
           {}, "give it contact = \"table\", or all of them: --set simulation.wheels=[]");
+    wheel.model = io::ContactModelInput::table;  // where it is chosen, too
+  }
   if (file.flexible_track)
     throw Error(ErrorKind::configuration, "eigenvalues and responses of a vehicle on rails that bend are not known", {},
                 "take a lumped track: treadmark track --fit makes one");

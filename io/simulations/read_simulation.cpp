@@ -197,7 +197,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
   require_rails_to_share(simulation, result);
-  result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
+  result.wheels = read_wheels(simulation, result);
   read_history(simulation, result);
   result.torques = read_torques(simulation, result.vehicle);
   read_motions(simulation, result);

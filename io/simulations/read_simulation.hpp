@@ -52,8 +52,8 @@ std::vector<AxleTorque> read_torques(const SimulationTable& simulation, const Ve
 void read_motions(const SimulationTable& simulation, SimulationFile& out);
 /// [simulation.twist]; out.vehicle and out.settings are set.
 void read_twist(const SimulationTable& simulation, SimulationFile& out);
-/// One entry for every wheel of the vehicle.
-std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, std::size_t wheelsets);
+/// One entry for every wheel of the vehicle; file.vehicle and file.settings are set.
+std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, const SimulationFile& file);
 
 /// A file that a key names, from the folder of the simulation file, with its text.
 struct FileText {

@@ -102,6 +102,15 @@ const KeyTable<SimulationFile>& simulation_keys() {
                 "place of the leading wheelset along the rails at the start, from where x of rails that vary, their "
                 "defects and friction along the track count; the other wheelsets stand behind it as in the vehicle",
                 setting(&S::rail_start));
+    list.choice("contact", kContactModels, "of wheels that `[[simulation.wheels]]` does not name; they are round",
+                setting(&S::contact));
+    list.number("auto_force_error", kPositive,
+                "with contact = \"auto\": what forces of a table may be wrong by, over the normal force",
+                setting(&S::force_error));
+    list.number("auto_wear_error", kPositive,
+                "with contact = \"auto\": what the wear number of a table may be wrong by, over that of the full "
+                "contact",
+                setting(&S::wear_error));
     list.choice("creep_forces",
                 {{"shen_hedrick_elkins", CreepForcesInput::shen_hedrick_elkins},
                  {"exact_table", CreepForcesInput::exact_table}},
@@ -281,8 +290,9 @@ const KeyTable<WheelContactInput>& wheel_keys() {
   static const auto keys = key_table<W>([](auto& list) {
     add_wheelset(list);
     list.choice("side", {{"left", Side::left}, {"right", Side::right}}, "of the wheelset", &W::side, kNeeded);
-    list.choice("contact", {{"full", ContactModelInput::full}, {"table", ContactModelInput::table}},
-                "the contact problem itself, or a table of solutions", &W::model, kNeeded);
+    list.choice("contact", kContactModels,
+                "the contact problem itself, a table of solutions, or by itself the table where that is right",
+                &W::model, kNeeded);
     list.flag("defects", "false: the wheel is round", &W::defects).shown("true");
     list.number("pitch_deg", kAnyNumber, "pitch of the wheelset at the start, the same for both its wheels", &W::pitch)
         .shown("0");

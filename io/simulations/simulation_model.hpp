@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
@@ -21,9 +23,12 @@ namespace treadmark::io {
 
 /// How the force of one wheel is found.
 enum class ContactModelInput {
-  full,   ///< the contact problem itself, at every instant
-  table,  ///< a table of solutions made beforehand
+  full,       ///< the contact problem itself, at every instant
+  table,      ///< a table of solutions made beforehand
+  automatic,  ///< the table where it agrees with the contact problem, else that
 };
+/// Their words.
+inline constexpr std::array<std::string_view, 3> kContactModels{"full", "table", "auto"};
 
 /// Creep forces of wheels whose contact is a table.
 enum class CreepForcesInput {
@@ -95,6 +100,10 @@ struct SimulationSettings {
   double rail_start = 0.0;       ///< place of the leading wheelset along the rails at the start [m]
   double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0.5 ... 1
   CreepForcesInput creep_forces = CreepForcesInput::shen_hedrick_elkins;
+  ContactModelInput contact = ContactModelInput::table;  ///< of wheels that are not named
+  /// What a table may be wrong by where the contact is chosen: of forces over the normal force, of wear numbers over
+  /// that of the full contact.
+  double force_error = 0.03, wear_error = 0.1;
   double checkpoint = 10.0;   ///< time of the computer between two checkpoints [s]
   double output_every = 0.0;  ///< distance between two lines of output [m]; 0 = every step
 

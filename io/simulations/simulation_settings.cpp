@@ -203,11 +203,13 @@ void read_twist(const SimulationTable& simulation, SimulationFile& out) {
   }
 }
 
-std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, std::size_t wheelsets) {
+std::vector<WheelContactInput> read_wheels(const SimulationTable& simulation, const SimulationFile& file) {
+  const std::size_t wheelsets = file.vehicle.wheelsets.size();
   std::vector<WheelContactInput> wheels(2 * wheelsets);
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     wheels[i].wheelset = static_cast<int>(i / 2);
     wheels[i].side = i % 2 == 0 ? Side::left : Side::right;
+    wheels[i].model = file.settings.contact;
   }
   std::vector<bool> given(wheels.size());
   const auto list = &SimulationFile::wheels;

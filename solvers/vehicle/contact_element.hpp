@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,8 @@ struct ContactReaction {
   double rail_power = 0.0;                  ///< of this, by dampers of a rail that bends [W]
   double corrected = 0.0;                   ///< what a linearisation inside the element changed the force by [N]
   double check_force = 0.0;                 ///< of a check rail on the back of the flange, part of both loads [N]
+  double full_share = 0.0;                  ///< of a contact in full, where the element has a table, too; 0 to 1
+  double table_error = 0.0, table_wear_error = 0.0;  ///< as TableError, where the element finds it
   RailMotion bending;                       ///< of the rail at the contact, beside the motion of its body
   std::vector<PatchTangent> tangents;
 };
@@ -90,6 +93,8 @@ class ContactElement {
 
   /// Whether an evaluation takes so long that several of them are worth a thread each.
   virtual bool costly() const { return false; }
+  /// How far the next step may go [m].
+  virtual double longest_travel() const { return std::numeric_limits<double>::infinity(); }
 
   /// Everything on which following evaluations depend, to the last bit.
   virtual void save(ByteWriter& out) const = 0;

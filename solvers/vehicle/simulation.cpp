@@ -129,7 +129,9 @@ Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const S
 }
 
 double Simulation::longest_step() const {
-  return std::min({settings_.max_step, settings_.max_travel / vehicle_->travel(motion_.state.time).speed,
+  double travel = settings_.max_travel;
+  for (const WheelOnRail& wheel : vehicle_->wheels) travel = std::min(travel, wheel.element->longest_travel());
+  return std::min({settings_.max_step, travel / vehicle_->travel(motion_.state.time).speed,
                    settings_.duration - motion_.state.time});
 }
 

@@ -185,7 +185,7 @@ Table named_table(const char* id, const char* caption, const Simulations& all, c
 }
 
 Table event_table(const Simulations& all) {
-  Table table{"events", "Loss of contact.", {{"simulation"}}};
+  Table table{"events", "Contacts: lost and regained, full and from tables.", {{"simulation"}}};
   for (const auto& [name, simulation] : all) {
     Table own = report::table_of("", "", simulation.events, 6);
     if (table.columns.size() == 1) ranges::copy(own.columns, std::back_inserter(table.columns));

@@ -152,7 +152,8 @@ Section tables(const Result& result) {
   section.blocks.emplace_back(named_table("summary", "Summary", result.summary));
   section.blocks.emplace_back(named_table("static", "Static equilibrium at the start", result.statics));
   if (!result.events.empty())
-    section.blocks.emplace_back(report::table_of("events", "Loss of contact", result.events, 6));
+    section.blocks.emplace_back(
+        report::table_of("events", "Contacts: lost and regained, full and from tables", result.events, 6));
   if (!result.modes.empty())
     section.blocks.emplace_back(
         report::table_of("modes", "Modes of the vehicle on the track about its equilibrium", result.modes));
@@ -171,8 +172,10 @@ void add_simulation_banners(const Result& result, Section& overview, const std::
                     result.message.empty() ? "" : ". "));
   if (result.status == "derailed") add(Banner::Kind::failed, "Derailed.", result.message);
   if (result.status == "failed") add(Banner::Kind::failed, "Failed.", result.message);
-  if (!result.events.empty())
-    add(Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below.");
+  const auto lost = ranges::count_if(result.events, [](const auto& e) { return e.kind.starts_with("contact "); });
+  if (lost > 0)
+    add(Banner::Kind::note, "Loss of contact.",
+        counted(static_cast<std::size_t>(lost), "event") + " in the table below.");
 }
 
 Page simulation_page(const std::shared_ptr<const Result>& result, std::string document, const AssessedRun* assessed) {

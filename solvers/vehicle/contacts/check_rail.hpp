@@ -39,6 +39,7 @@ class ContactWithCheckRail : public ContactElement {
   bool settle(ContactReaction& evaluated) override { return contact_->settle(evaluated); }
   void accept() override { contact_->accept(); }
   bool costly() const override { return contact_->costly(); }
+  double longest_travel() const override { return contact_->longest_travel(); }
   void save(ByteWriter& out) const override { contact_->save(out); }
   void restore(ByteReader& in) override { contact_->restore(in); }
 

@@ -29,6 +29,7 @@ class ContactOnRail : public ContactElement {
   bool settle(ContactReaction& reaction) override;
   void accept() override;
   bool costly() const override { return contact_->costly(); }
+  double longest_travel() const override { return contact_->longest_travel(); }
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
 

@@ -9,9 +9,8 @@
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::vehicle {
-namespace {
 
-double smooth(double t) {
+double smooth_share(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
@@ -19,6 +18,7 @@ double smooth(double t) {
 ContactReaction mixed(const ContactReaction& table, const ContactReaction& full, double share) {
   ContactReaction out = full.normal_force > 0.0 ? full : table;
   out.doubts = full.doubts;
+  out.full_share = share;
   for (auto value : {&ContactReaction::lateral_creep_force, &ContactReaction::longitudinal_creep_force,
                      &ContactReaction::normal_force, &ContactReaction::least_gap, &ContactReaction::elastic_energy,
                      &ContactReaction::frictional_power, &ContactReaction::check_force})
@@ -36,11 +36,9 @@ ContactReaction mixed(const ContactReaction& table, const ContactReaction& full,
   return out;
 }
 
-}  // namespace
-
 double FullStretch::share(double travelled) const {
   const double x = rail_x + travelled;
-  return smooth((x - from) / blend) * smooth((to - x) / blend);
+  return smooth_share((x - from) / blend) * smooth_share((to - x) / blend);
 }
 
 SwitchedContact::SwitchedContact(std::shared_ptr<FullContact> full, std::shared_ptr<ContactElement> table,

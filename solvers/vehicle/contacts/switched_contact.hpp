@@ -8,6 +8,11 @@
 
 namespace treadmark::vehicle {
 
+/// 0 to 1 between t = 0 and 1, with continuous slope.
+double smooth_share(double t);
+/// Both contacts in one, forces mixed linearly. share: of the full one.
+ContactReaction mixed(const ContactReaction& table, const ContactReaction& full, double share);
+
 /// Where a wheel's contact is found in full, by the place along the rail.
 struct FullStretch {
   double from = 0.0, to = 0.0;  ///< [m]; may be infinite, else at least two blends apart

@@ -109,6 +109,13 @@ TEST_F(Resume, WithContactsThatChangeOver) {
   expect_kills_to_change_nothing();
 }
 
+TEST_F(Resume, WithContactsThatAreChosen) {
+  input.edit("simulation.toml", "contact = \"full\"\ndefects = false\n", "contact = \"auto\"\ndefects = false\n");
+  input.edit("simulation.toml", "distance_m = 0.15", "distance_m = 0.15\nauto_force_error = 1e-9");
+  expect_kills_to_change_nothing();
+  EXPECT_NE(input.read("killed/events.csv").find("full contact from here"), std::string::npos);
+}
+
 TEST_F(Resume, OnALineWithChangingSpeed) {
   input.edit("simulation.toml", "[case]",
              "[simulation.speed_profile]\ntime_s = [1]\nspeed_m_s = [19]\n[layout]\n[[layout.elements]]\n"

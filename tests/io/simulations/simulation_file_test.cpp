@@ -135,6 +135,17 @@ TEST_F(SimulationText, EveryWheelHasAnEntry) {
   EXPECT_DOUBLE_EQ(file.wheels[1].pitch.value(), 30 * kDegree) << "both wheels turn with the axle";
 }
 
+TEST_F(SimulationText, WheelsThatAreNotNamedHaveOneContactAmongThem) {
+  const SimulationFile file =
+      parse(with(kSimulation, "distance_m = 3\n",
+                 "distance_m = 3\ncontact = \"auto\"\nauto_force_error = 0.02\nauto_wear_error = 0.3\n"));
+  EXPECT_EQ(file.wheels[0].model, ContactModelInput::full);
+  EXPECT_EQ(file.wheels[1].model, ContactModelInput::automatic);
+  EXPECT_FALSE(file.wheels[1].defects);
+  EXPECT_EQ(file.settings.force_error, 0.02);
+  EXPECT_EQ(file.settings.wear_error, 0.3);
+}
+
 TEST_F(SimulationText, TrackMayBeRigid) {
   const SimulationFile file = parse(with(kSimulation, "track = \"track.toml\"\n", ""));
   EXPECT_FALSE(file.track);
