@@ -42,6 +42,21 @@ constexpr Column<ResponseRow> kResponse[] = {
     {"phase_deg", {"deg"}, "", {[](R r) { return kDegree * std::arg(r.value); }}, "", kInTable, "phase"},
     {"unit", unit::kOne, "", of<&ResponseRow::unit>(), "", kInTable, "unit"}};
 
+/// Of one channel at one frequency.
+struct SpectrumRow {
+  std::string channel, unit;
+  double frequency = 0.0, density = 0.0;  ///< [Hz], [unit^2/Hz]
+};
+constexpr Column<SpectrumRow> kSpectrum[] = {{"channel", unit::kOne, "", of<&SpectrumRow::channel>()},
+                                             {"frequency_Hz", {"Hz"}, "", of<&SpectrumRow::frequency>()},
+                                             {"density", unit::kOne, "", of<&SpectrumRow::density>()},
+                                             {"unit", unit::kOne, "", of<&SpectrumRow::unit>()}};
+
+constexpr Column<app::ResponseSpectrum> kRms[] = {
+    {"channel", unit::kOne, "", of<&app::ResponseSpectrum::channel>(), "", kInTable, "channel"},
+    {"rms", unit::kOne, "", of<&app::ResponseSpectrum::rms>(), "", kInTable, "rms"},
+    {"unit", unit::kOne, "", of<&app::ResponseSpectrum::unit>(), "", kInTable, "unit"}};
+
 ResponseRow row_of(const app::ResponseRun& run, const app::ResponseCurve& curve, std::size_t i) {
   return {curve.input, curve.channel, curve.unit, run.frequency[i], curve.values[i]};
 }
@@ -51,6 +66,14 @@ ResponseRow row_of(const app::ResponseRun& run, const app::ResponseCurve& curve,
 template <>
 std::span<const Column<ResponseRow>> columns() {
   return kResponse;
+}
+template <>
+std::span<const Column<SpectrumRow>> columns() {
+  return kSpectrum;
+}
+template <>
+std::span<const Column<app::ResponseSpectrum>> columns() {
+  return kRms;
 }
 
 namespace app {
@@ -73,35 +96,53 @@ std::array<Drawn, 2> drawn_of(const ResponseRun& run) {
   return moved ? std::array{kMoved, kTurned} : std::array{kForces, kAccelerations};
 }
 
-double largest(const ResponseCurve& curve) {
-  double most = 0.0;
-  for (const auto& value : curve.values) most = std::max(most, std::abs(value));
-  return most;
+/// Values over the frequency, above 0.
+struct DrawnCurve {
+  std::string channel, unit;
+  std::vector<double> values;
+};
+
+/// Magnitudes under one input.
+std::vector<DrawnCurve> magnitudes(const ResponseRun& run, const std::string& input) {
+  std::vector<DrawnCurve> out;
+  for (const ResponseCurve& curve : run.curves) {
+    if (curve.input != input) continue;
+    DrawnCurve& to = out.emplace_back(DrawnCurve{curve.channel, curve.unit, {}});
+    for (const auto& value : curve.values) to.values.push_back(std::abs(value));
+  }
+  return out;
 }
 
-/// Magnitudes of those under one input.
-std::optional<pictures::Chart> chart_of(const ResponseRun& run, const std::string& input, const Drawn& drawn) {
+std::string density_unit(const std::string& unit) { return '(' + unit + ")^2/Hz"; }
+
+std::vector<DrawnCurve> densities(const ResponseRun& run) {
+  std::vector<DrawnCurve> out;
+  for (const ResponseSpectrum& s : run.spectra) out.push_back({s.channel, density_unit(s.unit), s.density});
+  return out;
+}
+
+std::optional<pictures::Chart> chart_of(const ResponseRun& run, const std::string& title,
+                                        const std::vector<DrawnCurve>& curves, const Drawn& drawn) {
   constexpr std::size_t kMost = 8;  // that can be told apart
   // What a symmetric vehicle does not feel is rounding.
   constexpr double kNothing = 1e-9;
+  const auto largest = [](const DrawnCurve& curve) { return *ranges::max_element(curve.values); };
   std::map<std::string, double> most;  // by unit
-  for (const ResponseCurve& curve : run.curves)
-    if (curve.input == input) most[curve.unit] = std::max(most[curve.unit], largest(curve));
+  for (const DrawnCurve& curve : curves) most[curve.unit] = std::max(most[curve.unit], largest(curve));
   pictures::Chart chart;
   chart.x_label = "frequency [Hz]";
   chart.x_scale = chart.y_scale = pictures::AxisScale::log;
   chart.x_range = {run.frequency.front(), run.frequency.back()};
-  for (const ResponseCurve& curve : run.curves) {
-    if (curve.input != input || !curve.channel.ends_with(drawn.ending)) continue;
+  for (const DrawnCurve& curve : curves) {
+    if (!curve.channel.ends_with(drawn.ending)) continue;
     if (!(largest(curve) > kNothing * most[curve.unit])) continue;
     if (chart.series.size() == kMost) break;
-    chart.title = fmt::format("{}: {}", input, drawn.what);
+    chart.title = fmt::format("{}: {}", title, drawn.what);
     chart.y_label = '[' + curve.unit + ']';
     pictures::ChartSeries series;
     series.name = curve.channel;
     series.style = static_cast<int>(chart.series.size());
-    for (std::size_t i = 0; i < run.frequency.size(); ++i)
-      series.curve.push_back({run.frequency[i], std::abs(curve.values[i])});
+    for (std::size_t i = 0; i < run.frequency.size(); ++i) series.curve.push_back({run.frequency[i], curve.values[i]});
     chart.series.push_back(std::move(series));
   }
   if (chart.series.empty()) return std::nullopt;
@@ -121,7 +162,9 @@ std::string response_table(const ResponseRun& run) {
   }
   return fmt::format("{} at {:g} m/s, {:g} to {:g} Hz; each at its highest\n", run.title, run.speed,
                      run.frequency.front(), run.frequency.back()) +
-         io::table_of(rows) + (run.stable ? "" : fmt::format("{}\n", kUnstable));
+         io::table_of(rows) +
+         (run.spectra.empty() ? "" : "on this track, between these frequencies\n" + io::table_of(run.spectra)) +
+         (run.stable ? "" : fmt::format("{}\n", kUnstable));
 }
 
 std::string response_csv(const ResponseRun& run) {
@@ -129,6 +172,14 @@ std::string response_csv(const ResponseRun& run) {
   rows.reserve(run.curves.size() * run.frequency.size());
   for (const ResponseCurve& curve : run.curves)
     for (std::size_t i = 0; i < run.frequency.size(); ++i) rows.push_back(row_of(run, curve, i));
+  return io::csv_of(rows, Digits::all);
+}
+
+std::string spectra_csv(const ResponseRun& run) {
+  std::vector<SpectrumRow> rows;
+  for (const ResponseSpectrum& s : run.spectra)
+    for (std::size_t i = 0; i < run.frequency.size(); ++i)
+      rows.push_back({s.channel, density_unit(s.unit), run.frequency[i], s.density[i]});
   return io::csv_of(rows, Digits::all);
 }
 
@@ -155,6 +206,16 @@ std::string response_json(const ResponseRun& run) {
                                 {"real", io::numbers(real)},
                                 {"imaginary", io::numbers(imaginary)}});
   }
+  for (const ResponseSpectrum& s : run.spectra) {
+    Json one = io::json_of(s, Digits::all);
+    one["density"] = io::numbers(s.density);
+    out["spectra"].push_back(std::move(one));
+  }
+  out["modes"] = Json::array();
+  for (const vehicle::Eigenmode& mode : run.modes)
+    out["modes"].push_back({{"frequency_Hz", io::number(mode.frequency)},
+                            {"damping_ratio", io::number(mode.damping_ratio)},
+                            {"motion", vehicle::describe(mode, run.system)}});
   return io::dumped(out, 2) + '\n';
 }
 
@@ -172,8 +233,13 @@ std::string response_svg(const ResponseRun& run) {
     if (curve.input == last) continue;
     last = curve.input;
     for (const Drawn& drawn : drawn_of(run))
-      if (auto chart = chart_of(run, curve.input, drawn)) sheet.charts.push_back(std::move(*chart));
+      if (auto chart = chart_of(run, curve.input, magnitudes(run, curve.input), drawn))
+        sheet.charts.push_back(std::move(*chart));
   }
+  if (!run.spectra.empty())
+    for (const Drawn& drawn : drawn_of(run))
+      if (auto chart = chart_of(run, "power spectral density on this track", densities(run), drawn))
+        sheet.charts.push_back(std::move(*chart));
   return pictures::draw_sheet(sheet);
 }
 
@@ -181,6 +247,8 @@ void write_response_folder(const std::filesystem::path& folder, const ResponseRu
   OutputFolder output(folder, OutputFolder::Old::kept);
   write_file(output.path() / "response.csv", response_csv(run));
   write_file(output.path() / "response.svg", response_svg(run));
+  if (!run.spectra.empty()) write_file(output.path() / "spectra.csv", spectra_csv(run));
+  if (const std::string modes = modes_svg(run); !modes.empty()) write_file(output.path() / "modes.svg", modes);
   write_file(output.path() / "response.json", response_json(run));
   output.move_into("response.json");
 }

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
+#include "treadmark/analysis/measures/bands.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/stability/straight_vehicle.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -60,6 +62,11 @@ struct Named {
   }
 };
 
+ResponseInput rough_rail(const vehicle::VehicleOnTrack& v, wheelrail::Side side) {
+  const auto wheel = ranges::find(v.wheels, side, &vehicle::WheelOnRail::side);
+  return {ResponseInput::Kind::rail_roughness, {}, static_cast<std::size_t>(wheel - v.wheels.begin())};
+}
+
 Named<ResponseInput> all_inputs(const vehicle::VehicleOnTrack& v) {
   using Kind = ResponseInput::Kind;
   Named<ResponseInput> all;
@@ -68,7 +75,10 @@ Named<ResponseInput> all_inputs(const vehicle::VehicleOnTrack& v) {
   for (std::size_t i = 0; i < v.wheels.size(); ++i) {
     all.add(v.wheels[i].name + ".lateral_force", "N", {Kind::lateral_force, {}, i});
     all.add(v.wheels[i].name + ".vertical_force", "N", {Kind::vertical_force, {}, i});
+    all.add(v.wheels[i].name + ".roughness", "m", {Kind::wheel_roughness, {}, i});
   }
+  for (const wheelrail::Side side : {wheelrail::Side::left, wheelrail::Side::right})
+    all.add(side == wheelrail::Side::left ? "left_rail.roughness" : "right_rail.roughness", "m", rough_rail(v, side));
   return all;
 }
 
@@ -112,6 +122,56 @@ Named<Channel> all_channels(const io::SimulationFile& file, const vehicle::Vehic
   return all;
 }
 
+/// An input with its power spectral density over the wavenumber [m2/(rad/m)].
+struct Source {
+  ResponseInput input;
+  std::function<double(double wavenumber)> density;
+};
+
+/// Of the roughness of a rail that ISO 3095:2013 allows: the same within each third of an octave.
+double iso_3095_density(double wavenumber) {
+  const double wavelength = 2.0 * std::numbers::pi / wavenumber;
+  for (const double nominal : measures::third_octaves()) {
+    const measures::BandEnds ends = measures::ends_of(nominal);
+    if (!(wavelength > ends.shortest && wavelength <= ends.longest)) continue;
+    const double level = measures::iso_3095_limit(nominal);
+    if (std::isnan(level)) return 0.0;
+    constexpr double kReference = 1e-6;  // [m]
+    return kReference * kReference * std::pow(10.0, level / 10.0) /
+           (2.0 * std::numbers::pi * (1.0 / ends.shortest - 1.0 / ends.longest));
+  }
+  return 0.0;
+}
+
+/// What spectra are known of, each independent of the others.
+std::vector<Source> sources_of(const std::optional<IrregularitySpec>& spec, bool iso_3095,
+                               const vehicle::VehicleOnTrack& v) {
+  using Kind = ResponseInput::Kind;
+  std::vector<Source> out;
+  for (std::size_t i = 0; spec && !spec->table && i < kIrregularityNames.size(); ++i) {
+    const SpectralIrregularities& all = spec->spectral;
+    if (!all.spectra[i]) continue;
+    const double least = 2.0 * std::numbers::pi / all.longest, most = 2.0 * std::numbers::pi / all.shortest;
+    out.push_back({{Kind::irregularity, static_cast<Irregularity>(i), 0},
+                   [spectrum = *all.spectra[i], factor = spec->factor[i], least, most](double wavenumber) {
+                     const bool occurs = wavenumber >= least && wavenumber <= most;
+                     return occurs ? factor * factor * density(spectrum, wavenumber) : 0.0;
+                   }});
+  }
+  if (iso_3095)
+    for (const wheelrail::Side side : {wheelrail::Side::left, wheelrail::Side::right})
+      out.push_back({rough_rail(v, side), iso_3095_density});
+  return out;
+}
+
+/// By the trapezoidal rule.
+double rms_of(const std::vector<double>& frequency, const std::vector<double>& density) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < frequency.size(); ++i)
+    sum += 0.5 * (density[i] + density[i - 1]) * (frequency[i] - frequency[i - 1]);
+  return std::sqrt(sum);
+}
+
 }  // namespace
 
 ResponseRun run_response(const ResponseRequest& request, const Progress& progress) {
@@ -122,12 +182,16 @@ ResponseRun run_response(const ResponseRequest& request, const Progress& progres
   run.title = file.title.empty() ? file.vehicle.name : file.title;
   run.notes = file.notes;
   run.speed = file.settings.speed;
+  const std::optional<IrregularitySpec> irregularities = std::exchange(file.irregularities, {});
+  if (irregularities && irregularities->table)
+    run.notes.push_back(
+        "irregularities measured place by place have no spectrum here: spectra of responses need spectra");
   const double base = file.layout ? file.layout->cant_base : TrackLayout{}.cant_base;
   file.layout.reset();
   SurfaceStore store;
   ContactTables tables(request.cache);
   const CancellationScope scope(progress.stop);
-  const vehicle::VehicleOnTrack v = build_vehicle(file, store, &tables).vehicle;
+  vehicle::VehicleOnTrack v = build_vehicle(file, store, &tables).vehicle;
   const Named<ResponseInput> inputs = all_inputs(v);
   const Named<Channel> channels = all_channels(file, v);
   std::vector<std::string> wanted = request.inputs;
@@ -149,22 +213,38 @@ ResponseRun run_response(const ResponseRequest& request, const Progress& progres
       run.curves.push_back({inputs.names[i], channels.names[c], channels.units[c] + '/' + inputs.units[i], {}});
   }
 
+  const std::vector<Source> sources = sources_of(irregularities, request.iso_3095, v);
+  for (const Source& source : sources) shakers.push_back(source.input);
+  for (std::size_t i = 0; i < chosen.size() && !sources.empty(); ++i)
+    run.spectra.push_back({channels.names[chosen[i]], channels.units[chosen[i]], {}});
+
   const vehicle::Equilibrium balance = vehicle::find_equilibrium(v);
   if (balance.report.status != Status::ok)
     throw Error(ErrorKind::numerical, balance.report.message, {}, vehicle::kNoEquilibriumAdvice);
   if (!balance.report.message.empty()) run.notes.push_back(balance.report.message);
-  for (const vehicle::Eigenmode& mode : vehicle::all_eigenmodes(v, balance.state))
+  for (vehicle::Eigenmode& mode : vehicle::all_eigenmodes(v, balance.state)) {
     if (mode.value.real() > vehicle::StabilitySettings{}.neutral) run.stable = false;
+    if (mode.frequency > 0.0 && mode.frequency <= request.to) run.modes.push_back(std::move(mode));
+  }
   if (!run.stable) run.notes.emplace_back(kUnstable);
   const vehicle::LinearVehicle linear(v, balance.state, base);
   for (const double frequency : run.frequency) {
     check_cancelled();
     const std::vector<FrequencyResponse> all = linear.at(frequency, shakers);
+    const double omega = 2.0 * std::numbers::pi * frequency, wavenumber = omega / run.speed;
     auto curve = run.curves.begin();
-    for (const FrequencyResponse& r : all)
-      for (const std::size_t c : chosen)
-        (curve++)->values.push_back(channels.parts[c](r, 2.0 * std::numbers::pi * frequency));
+    for (std::size_t i = 0; i < chosen_inputs.size(); ++i)
+      for (const std::size_t c : chosen) (curve++)->values.push_back(channels.parts[c](all[i], omega));
+    for (std::size_t k = 0; k < run.spectra.size(); ++k) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < sources.size(); ++i)
+        sum += std::norm(channels.parts[chosen[k]](all[chosen_inputs.size() + i], omega)) *
+               sources[i].density(wavenumber) * 2.0 * std::numbers::pi / run.speed;
+      run.spectra[k].density.push_back(sum);
+    }
   }
+  for (ResponseSpectrum& s : run.spectra) s.rms = rms_of(run.frequency, s.density);
+  run.system = std::move(v.system);
   return run;
 }
 

@@ -36,6 +36,7 @@ StabilityRun run_stability(const StabilityRequest& request, const Progress& prog
   run.title = file.title.empty() ? file.vehicle.name : file.title;
   run.notes = file.notes;
   file.layout.reset();
+  file.irregularities.reset();
   SurfaceStore store;
   ContactTables tables(request.cache);
   {

@@ -25,7 +25,6 @@ io::SimulationFile straight_vehicle(const std::filesystem::path& path, std::span
   if (file.flexible_track)
     throw Error(ErrorKind::configuration, "eigenvalues and responses of a vehicle on rails that bend are not known", {},
                 "take a lumped track: treadmark track --fit makes one");
-  file.irregularities.reset();
   file.torques.clear();
   file.forces.clear();
   file.spring_motions.clear();

@@ -10,8 +10,8 @@
 
 namespace treadmark::app {
 
-/// A simulation file whose vehicle is to be linearised on straight, even track: without irregularities and what acts
-/// from outside; its layout stays for who asks. Errors: Error(configuration) for wheels with full contact (differences
+/// A simulation file whose vehicle is to be linearised on straight, even track: without what acts from outside; its
+/// layout and irregularities stay for who asks. Errors: Error(configuration) for wheels with full contact (differences
 /// over a discretised contact are no derivatives) and rails that bend; those of the file.
 io::SimulationFile straight_vehicle(const std::filesystem::path& file, std::span<const std::string> overrides);
 

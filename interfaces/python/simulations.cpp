@@ -17,6 +17,7 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/app/stability/response_run.hpp"
 #include "treadmark/app/stability/stability_run.hpp"
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
@@ -190,6 +191,7 @@ struct Found {
 };
 using FoundTrack = Found<app::TrackResult>;
 using FoundEvolution = Found<io::EvolutionResult>;
+using FoundResponse = Found<app::ResponseRun>;
 using FoundStability = Found<app::StabilityRun>;
 struct AssessedRuns {
   std::vector<app::AssessedRun> runs;
@@ -248,6 +250,23 @@ FoundStability stability(const std::filesystem::path& file, const Strings& overr
     request.tolerance = tolerance;
     request.shown = shown;
     return FoundStability{std::make_shared<const app::StabilityRun>(app::run_stability(request, report))};
+  });
+}
+
+FoundResponse response(const std::filesystem::path& file, const Strings& overrides,
+                       const std::pair<double, double>& range, int count, const Strings& inputs,
+                       const Strings& channels, bool iso_3095, int threads) {
+  return with_progress(py::none(), threads, [&](const Progress& report) {
+    app::ResponseRequest request;
+    request.file = file;
+    request.overrides = overrides;
+    std::tie(request.from, request.to) = range;
+    request.count = count;
+    request.inputs = inputs;
+    request.channels = channels;
+    request.iso_3095 = iso_3095;
+    request.cache = io::ContentCache::from_environment();
+    return FoundResponse{std::make_shared<const app::ResponseRun>(app::run_response(request, report))};
   });
 }
 
@@ -329,6 +348,10 @@ void add_simulations(py::module_& module) {
   found_class<app::StabilityRun>(module, "Stability", app::stability_json, app::stability_csv, app::stability_table,
                                  app::write_stability_folder)
       .def("svg", [](const FoundStability& t) { return app::stability_svg(*t.result); });
+  found_class<app::ResponseRun>(module, "Response", app::response_json, app::response_csv, app::response_table,
+                                app::write_response_folder)
+      .def("svg", [](const FoundResponse& r) { return app::response_svg(*r.result); })
+      .def("modes_svg", [](const FoundResponse& r) { return app::modes_svg(*r.result); });
   found_class<AssessedRuns>(
       module, "Assessment", [](const AssessedRuns& a) { return app::assessment_json(a.runs); },
       [](const AssessedRuns& a) { return app::assessment_csv(a.runs); },
@@ -343,6 +366,7 @@ void add_simulations(py::module_& module) {
   module.def("evolve", evolve);
   module.def("track", track);
   module.def("stability", stability);
+  module.def("response", response);
   module.def("assess", assess);
   module.def("simulate", simulate);
   module.def("sweep", sweep);

@@ -7,7 +7,7 @@ namespace treadmark::python {
 
 void add_simulations(py::module_& module) {
   for (const char* name :
-       {"simulate", "sweep", "read_sweep", "check_simulation", "evolve", "track", "stability", "assess"})
+       {"simulate", "sweep", "read_sweep", "check_simulation", "evolve", "track", "stability", "response", "assess"})
     module.def(name, [](const py::args&) { left_out("vehicle", "simulations and studies"); });
 }
 

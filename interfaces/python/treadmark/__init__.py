@@ -3,7 +3,7 @@
 """Contact of wheels and rails, of any shape.
 
 All numbers are in SI units (m, N, Pa, rad, s); axes are x along the track, y to the right, z down; forces act on the rail. Whole files:
-``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``assess``, ``stability``, ``sweep``, ``evolve``, ``track``. Profiles:
+``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``assess``, ``stability``, ``response``, ``sweep``, ``evolve``, ``track``. Profiles:
 ``geometry``, ``measure``, ``profiles``. Single instants: ``Surface``, ``Pair``, ``Problem``; tabulated: ``ForceTable``.
 The handbook is docs/python.md.
 """
@@ -18,9 +18,10 @@ from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, Limi
 from ._solving import Pair, PatchSolver, Problem, Solution, State, hertz, settings
 from ._surfaces import Evaluated, Line, Located, Surface, backends, load_plugins, register_backend
 from ._tables import ForceTable, TableError
-from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, LivePage, Mode, Position, ScanImport, Simulation,
-                     Stability, Sweep, SweepRun, Track, Value, assess, bench, check, compare, evolve, import_scan, live, read_bench, read_comparison,
-                     read_import, read_result, read_simulation, read_sweep, report, run, simulate, stability, sweep, track)
+from ._verbs import (Assessment, BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Evolution, LivePage, Mode, Position, Response,
+                     ScanImport, Simulation, Stability, Sweep, SweepRun, Track, Value, assess, bench, check, compare, evolve, import_scan, live,
+                     read_bench, read_comparison, read_import, read_result, read_simulation, read_sweep, report, response, run, simulate, stability,
+                     sweep, track)
 
 __version__: str = _treadmark.version()
 

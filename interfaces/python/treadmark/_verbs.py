@@ -524,6 +524,37 @@ def stability(file: Path, *, set: Changes = None, from_m_s: Annotated[float, "m/
     return Stability(_treadmark.stability(pathlib.Path(file), assignments(set), (from_m_s, to_m_s), count, tolerance, shown_Hz, threads))
 
 
+class Response(_Drawn):
+    """Transfer functions of a vehicle that runs steadily: a row an input, channel and frequency."""
+
+    @property
+    def frequencies(self) -> npt.NDArray[np.float64]:
+        """[Hz]"""
+        return np.array(self.document["frequency_Hz"])
+
+    @property
+    def curves(self) -> dict[tuple[str, str], npt.NDArray[np.complex128]]:
+        """Complex amplitudes of a channel per unit of an input, by (input, channel), over the frequencies [SI]."""
+        return {(one["input"], one["channel"]): np.array(one["real"]) + 1j * np.array(one["imaginary"]) for one in self.document["responses"]}
+
+    @property
+    def spectra(self) -> dict[str, npt.NDArray[np.float64]]:
+        """One-sided power spectral density of each channel on the track of the file [SI squared per Hz]; empty without spectra of the track."""
+        return {one["channel"]: np.array(one["density"]) for one in self.document.get("spectra", [])}
+
+    def modes_svg(self) -> str:
+        """The vibrations as pictures; empty without any."""
+        return str(self._held.modes_svg())
+
+
+@checked
+def response(file: Path, *, set: Changes = None, from_Hz: Annotated[float, "Hz"] = 0.5, to_Hz: Annotated[float, "Hz"] = 50.0, count: int = 201,
+             inputs: Sequence[str] = (), channels: Sequence[str] = (), iso_3095: bool = False, threads: int = 0) -> Response:
+    """How the vehicle of a simulation file answers to irregularities, roughness and forces at its wheels, as ``treadmark response`` does; inputs,
+    channels: names, * for any letters; iso_3095: spectra also of both rails as rough as that standard allows."""
+    return Response(_treadmark.response(pathlib.Path(file), assignments(set), (from_Hz, to_Hz), count, list(inputs), list(channels), iso_3095, threads))
+
+
 class Evolution(_Table):
     """Surfaces that contact changes: a row a generation."""
 

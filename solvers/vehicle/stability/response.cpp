@@ -37,29 +37,32 @@ LinearVehicle::LinearVehicle(const VehicleOnTrack& vehicle, const SystemState& s
   }
 }
 
-/// What an irregularity moves the coordinates of a pair by, and their rates.
+/// What an irregularity or roughness moves the coordinates of a pair by, and their rates.
 ComplexVector LinearVehicle::shaken(const Wheel& wheel, const ResponseInput& input, double omega,
                                     ComplexVector& rates) const {
   ComplexVector by = ComplexVector::Zero(kPairCoordinates);
   rates = by;
-  if (input.kind != ResponseInput::Kind::irregularity) return by;
+  using Kind = ResponseInput::Kind;
   const Complex here = std::exp(Complex(0.0, omega * wheel.ahead / speed_));
   const double half = wheel.left ? -0.5 : 0.5;
-  switch (input.which) {
-    case Irregularity::longitudinal_level:
-      by[kRailZ] = here;
-      break;
-    case Irregularity::cross_level:
-      by[kRailZ] = half * here;
-      by[kRailRoll] = here / base_;
-      break;
-    case Irregularity::alignment:
-      by[kRailY] = here;
-      break;
-    case Irregularity::gauge:
-      by[kRailY] = half * here;
-      break;
-  }
+  const Wheel* const on = input.kind == Kind::irregularity ? nullptr : &wheels_.at(input.wheel);
+  if (input.kind == Kind::wheel_roughness && on == &wheel) by[kRailZ] = 1.0;
+  if (input.kind == Kind::rail_roughness && on->left == wheel.left) by[kRailZ] = here;
+  if (input.kind == Kind::irregularity) switch (input.which) {
+      case Irregularity::longitudinal_level:
+        by[kRailZ] = here;
+        break;
+      case Irregularity::cross_level:
+        by[kRailZ] = half * here;
+        by[kRailRoll] = here / base_;
+        break;
+      case Irregularity::alignment:
+        by[kRailY] = here;
+        break;
+      case Irregularity::gauge:
+        by[kRailY] = half * here;
+        break;
+    }
   rates = Complex(0.0, omega) * by;
   // Yaw counts from the direction of the rail.
   by[kYaw] = -Complex(0.0, omega / speed_) * by[kRailY];
@@ -84,9 +87,10 @@ std::vector<FrequencyResponse> LinearVehicle::at(double frequency, std::span<con
       const ComplexVector by = shaken(wheel, input, omega, rates);
       of_pair.emplace_back(-(wheel.tangent.stiffness * by + wheel.tangent.damping * rates));
       force += wheel.map.transpose() * of_pair.back();
-      if (input.kind == ResponseInput::Kind::irregularity || input.wheel != w) continue;
+      using Kind = ResponseInput::Kind;
+      if (input.wheel != w || (input.kind != Kind::vertical_force && input.kind != Kind::lateral_force)) continue;
       PairVector push = PairVector::Zero();
-      if (input.kind == ResponseInput::Kind::vertical_force) {
+      if (input.kind == Kind::vertical_force) {
         push[2] = 1.0;
         push[3] = wheel.contact_y;
       } else {

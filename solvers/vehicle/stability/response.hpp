@@ -13,15 +13,16 @@ namespace treadmark::vehicle {
 
 /// What shakes a vehicle.
 struct ResponseInput {
-  /// An irregularity of the track, or a force on a wheel where it touches.
-  enum class Kind { irregularity, lateral_force, vertical_force };
+  /// An irregularity of the track; a force on a wheel where it touches; by how much wheel and rail are further apart
+  /// there, as one of them is rough: below one wheel, or along a rail, where all wheels of its side pass it.
+  enum class Kind { irregularity, lateral_force, vertical_force, wheel_roughness, rail_roughness };
   Kind kind = Kind::irregularity;
   Irregularity which = Irregularity::longitudinal_level;
-  std::size_t wheel = 0;  ///< of a force, in VehicleOnTrack::wheels
+  std::size_t wheel = 0;  ///< of a force or a roughness, in VehicleOnTrack::wheels; of a rail any one on it
 };
 
-/// Complex amplitudes per unit of an input, e^(i w t) of all: of an irregularity [1/m], whose own phase is that below
-/// the leading wheelset; of a force [1/N].
+/// Complex amplitudes per unit of an input, e^(i w t) of all: of an irregularity or roughness [1/m], whose own phase is
+/// that below the leading wheelset, of one wheel that below it; of a force [1/N].
 struct FrequencyResponse {
   Eigen::VectorXcd coordinate;                ///< of the system [m], [rad]
   std::vector<std::complex<double>> lateral;  ///< forces of the wheels on the rails, track axes [N]

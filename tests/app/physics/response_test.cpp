@@ -255,6 +255,80 @@ TEST(Response, IsWhatASimulationMeasures) {
   }
 }
 
+/// Wheels pass the roughness of their rail one after the other, as they pass a level.
+TEST(Response, RoughRailsTogetherAreALevel) {
+  ResponseRequest request;
+  request.file = kVehicleRuns;
+  request.overrides = round_wheels(1.0);
+  request.from = 2.0, request.to = 40.0, request.count = 3;
+  request.inputs = {"*_rail.roughness", "longitudinal_level", "ws1_left.roughness"};
+  request.channels = {"ws*.Q_N", "car.*_m"};
+  const ResponseRun run = run_response(request);
+  for (const std::string channel : {"ws1_left.Q_N", "ws4_right.Q_N", "car.z_m"}) {
+    const std::vector<Complex>&left = curve(run, "left_rail.roughness", channel),
+          &right = curve(run, "right_rail.roughness", channel), &level = curve(run, "longitudinal_level", channel);
+    for (std::size_t i = 0; i < level.size(); ++i)
+      EXPECT_LT(std::abs(left[i] + right[i] - level[i]), 1e-9 * std::abs(level[i])) << channel;
+  }
+  // Below one wheel alone it moves others little, and at 40 Hz that wheel as if there were no others.
+  const Complex alone = curve(run, "ws1_left.roughness", "ws1_left.Q_N").back(),
+                together = curve(run, "left_rail.roughness", "ws1_left.Q_N").back();
+  EXPECT_LT(std::abs(alone - together), 0.1 * std::abs(alone));
+}
+
+/// Independent inputs: densities of a channel add up, each times the square of its transfer function.
+TEST(Response, SpectraAreThoseOfTheTrackTimesSquares) {
+  ResponseRequest request;
+  request.file = std::string(TREADMARK_SOURCE_DIR) + "/examples/curve.toml";
+  constexpr double kSpeed = 25.0;
+  request.from = 0.2, request.to = 12.0, request.count = 40;
+  request.inputs = {"longitudinal_level", "alignment"};
+  request.channels = {"ws1_left.Q_N", "ws1_left.Y_N"};
+  const ResponseRun run = run_response(request);
+  ASSERT_EQ(run.spectra.size(), 2u);
+  double sum = 0.0, before = 0.0;
+  for (const ResponseSpectrum& s : run.spectra)
+    for (std::size_t i = 0; i < run.frequency.size(); ++i) {
+      const double f = run.frequency[i], k = 2.0 * pi * f / kSpeed;
+      const bool occurs = kSpeed / f >= 3.0 && kSpeed / f <= 70.0;
+      const double c = 0.8246 * 0.8246, form = c / ((k * k + c) * (k * k + 0.0206 * 0.0206));
+      const double level = std::norm(curve(run, "longitudinal_level", s.channel)[i]),
+                   alignment = std::norm(curve(run, "alignment", s.channel)[i]);
+      const double truth =
+          occurs ? (4.032e-7 * level + 2.119e-7 * alignment) * form * 2.0 * pi / kSpeed : 0.0;  // a hertz is 2 pi/V
+      EXPECT_NEAR(s.density[i], truth, 1e-9 * truth) << s.channel << ' ' << f << " Hz";
+      if (&s != run.spectra.data()) continue;
+      if (i > 0) sum += 0.5 * (s.density[i] + before) * (f - run.frequency[i - 1]);
+      before = s.density[i];
+    }
+  EXPECT_NEAR(run.spectra.front().rms, std::sqrt(sum), 1e-9 * std::sqrt(sum));
+  EXPECT_EQ(run.spectra.front().unit, "N");
+  EXPECT_FALSE(run.modes.empty());
+  for (const vehicle::Eigenmode& mode : run.modes) EXPECT_LE(mode.frequency, request.to);
+  const std::string picture = modes_svg(run);
+  EXPECT_TRUE(picture.find("car.") != std::string::npos && picture.ends_with("</svg>\n")) << picture.size();
+}
+
+/// 13 dB in the third of an octave about 0.25 m, which 25 m/s makes 100 Hz.
+TEST(Response, RoughnessOfBothRailsIsThatOfTheStandard) {
+  ResponseRequest request;
+  request.file = kVehicleRuns;
+  request.overrides = {"simulation.wheels=[]", "simulation.speed_m_s=25", "simulation.distance_m=1"};
+  request.from = 10.0, request.to = 100.0, request.count = 2;
+  request.inputs = {"*_rail.roughness"};
+  request.channels = {"ws1_left.Q_N"};
+  EXPECT_TRUE(run_response(request).spectra.empty());
+  request.iso_3095 = true;
+  const ResponseRun run = run_response(request);
+  ASSERT_EQ(run.spectra.size(), 1u);
+  const double middle = std::pow(10.0, -0.6), side = std::pow(10.0, 0.05);
+  const double of_track = 1e-12 * std::pow(10.0, 1.3) / (2.0 * pi * (side - 1.0 / side) / middle) * 2.0 * pi / 25.0;
+  const double truth = of_track * (std::norm(curve(run, "left_rail.roughness", "ws1_left.Q_N")[1]) +
+                                   std::norm(curve(run, "right_rail.roughness", "ws1_left.Q_N")[1]));
+  EXPECT_NEAR(run.spectra.front().density[1], truth, 1e-9 * truth);
+  EXPECT_EQ(run.spectra.front().density[0], 0.0) << "2.5 m: the standard says nothing";
+}
+
 TEST(Response, RefusesWhatItCannotDo) {
   ResponseRequest request;
   request.file = kVehicleRuns;

@@ -60,6 +60,28 @@ TEST(ResponseCommand, WritesEveryCurveOfWhatWasAskedFor) {
               AllOf(HasSubstr("longitudinal_level: forces"), HasSubstr("ws1_right.Q_N"), HasSubstr("</svg>")));
 }
 
+TEST(ResponseCommand, WritesSpectraOnTheTrackAndModes) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult r =
+      response_of({"--from", "1", "--to", "200", "--count", "5", "--channels", "ws1_*.Q_N", "--iso-3095", "-o", out});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("on this track"));
+  const auto json = nlohmann::json::parse(io::read_text(out + "/response.json"));
+  const auto& spectra = json.at("spectra");
+  ASSERT_EQ(spectra.size(), 2u);
+  EXPECT_EQ(spectra[0].at("channel"), "ws1_left.Q_N");
+  EXPECT_EQ(spectra[0].at("density").size(), 5u);
+  EXPECT_GT(spectra[0].at("rms").get<double>(), 0.0);
+  EXPECT_GT(json.at("modes").size(), 0u);
+  EXPECT_GT(json.at("modes")[0].at("frequency_Hz").get<double>(), 0.0);
+  const std::string csv = io::read_text(out + "/spectra.csv");
+  EXPECT_THAT(csv, StartsWith("channel,frequency_Hz,density,unit\n"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 5);
+  EXPECT_THAT(io::read_text(out + "/response.svg"), HasSubstr("power spectral density on this track: forces"));
+  EXPECT_THAT(io::read_text(out + "/modes.svg"), AllOf(HasSubstr("from above"), HasSubstr("</svg>")));
+}
+
 TEST(ResponseCommand, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(response_of({"--from", "5", "--to", "2"}).status, 2);
   const ProgramResult input = response_of({"--inputs", "longitudinal_levl"});

@@ -140,6 +140,22 @@ def test_stability(tmp_path, examples, program):
         tm.stability(file, set=wheels, from_m_s=90.0, to_m_s=60.0)
 
 
+@needs("vehicle")
+def test_response(tmp_path, examples, program):
+    file, wheels = examples / "curve.toml", {"simulation.vehicle": str(examples / "vehicles" / "single-wheelset.toml")}
+    found = tm.response(file, set=wheels, from_Hz=1.0, to_Hz=30.0, count=4, inputs=["longitudinal_level", "ws1_left.*"], channels=["ws1_left.Q_N"])
+    told = json.loads(program("response", file, "--set", f"simulation.vehicle={wheels['simulation.vehicle']}", "--from", "1", "--to", "30", "--count", "4",
+                              "--inputs", "longitudinal_level,ws1_left.*", "--channels", "ws1_left.Q_N", "--json", "-"))
+    assert found.document == told and found.frequencies.shape == (4,)
+    curve = found.curves["longitudinal_level", "ws1_left.Q_N"]
+    assert curve.shape == (4,) and (abs(curve) > 0.0).all() and ("ws1_left.roughness", "ws1_left.Q_N") in found.curves
+    assert found.spectra["ws1_left.Q_N"].shape == (4,)
+    found.write(tmp_path)
+    assert (tmp_path / "spectra.csv").exists() and found.svg().startswith("<svg") and found.modes_svg().startswith("<svg")
+    with pytest.raises(tm.InputError):
+        tm.response(file, set=wheels, inputs=["no_such_input"])
+
+
 @needs("vehicle", "hdf5")
 def test_assessment(tmp_path, examples, program):
     tm.simulate(examples / "flat-at-speed.toml", set={"simulation.wheels": [], "simulation.distance_m": 3.0}).write(tmp_path / "run")

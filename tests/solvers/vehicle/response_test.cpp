@@ -45,7 +45,9 @@ TEST(LinearVehicle, RespondsAsByHand) {
   using Kind = ResponseInput::Kind;
   const std::vector<ResponseInput> inputs{{Kind::irregularity, Irregularity::longitudinal_level, 0},
                                           {Kind::vertical_force, {}, 0},
-                                          {Kind::irregularity, Irregularity::cross_level, 0}};
+                                          {Kind::irregularity, Irregularity::cross_level, 0},
+                                          {Kind::wheel_roughness, {}, 0},
+                                          {Kind::rail_roughness, {}, 1}};
   for (const double frequency : {0.3, 2.0, 5.0, 30.0, 60.0, 200.0, 900.0}) {
     const std::vector<FrequencyResponse> r = linear.at(frequency, inputs);
     const Amplitudes level = by_hand(frequency, 1.0, 0.0), pushed = by_hand(frequency, 0.0, 1.0);
@@ -60,6 +62,9 @@ TEST(LinearVehicle, RespondsAsByHand) {
     // Rails that go up and down against each other press with opposite forces on what cannot roll.
     EXPECT_LT(std::abs(r[2].vertical[0] + r[2].vertical[1]), 1e-6 * std::abs(r[2].vertical[0]));
     EXPECT_GT(std::abs(r[2].vertical[0]), 1e6);
+    // Of both rails together it is a level.
+    EXPECT_LT(std::abs(r[3].vertical[0] + r[4].vertical[0] - r[0].vertical[0]), 1e-9 * std::abs(r[0].vertical[0]));
+    EXPECT_LT(std::abs(r[3].vertical[0] - r[4].vertical[1]), 1e-6 * std::abs(r[3].vertical[0]));
   }
 }
 
