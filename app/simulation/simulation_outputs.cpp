@@ -63,7 +63,7 @@ std::vector<pictures::PatchesPanel> patches_panels(const io::SimulationResult& r
                               snapshot.force_tr.z() * 1e-3 + 0.0);
     double pmax = 0.0;
     for (const io::PatchResult& patch : snapshot.patches) pmax = std::max(pmax, patch.pmax);
-    panel.remark = fmt::format("at most {:.0f} MPa", pmax * 1e-6);
+    panel.remark = snapshot.patches.empty() ? "no contact" : fmt::format("at most {:.0f} MPa", pmax * 1e-6);
     panels.push_back(std::move(panel));
   }
   return panels;

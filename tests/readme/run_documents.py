@@ -20,7 +20,7 @@ from documented_commands import commands_of, pages_of
 
 ONLY_TAKEN = {
     r".*--plugin": "needs a plug-in: tests/app/plugins builds one",
-    r"^sweep examples/figure6": "80 runs, as the figure needs; a study runs on the page of studies",
+    r"^sweep examples/figure6": "240 runs, as the figure needs; a study runs on the page of studies",
     r"^sweep .*(--slurm|--status|/shared/)": "needs a cluster: tests of Slurm run these",
     r"^sweep .*--runs 1-400": "a sample of a study of 100 000 runs",
     r"^stability .*--falling": "a run of several kilometres: tests of stability shorten it through the library",

@@ -107,7 +107,7 @@ TEST(ShippedFigures, AnInterruptedRunDrawsTheSame) {
 
 TEST(ShippedFigures, StudiesAreValid) {
   EXPECT_EQ(io::read_study_file(example("figure5.toml"), {}).runs.size(), 6u);
-  EXPECT_EQ(io::read_study_file(example("figure6.toml"), {}).runs.size(), 80u);
+  EXPECT_EQ(io::read_study_file(example("figure6.toml"), {}).runs.size(), 240u);
   EXPECT_EQ(io::read_study_file(example("figure6-track.toml"), {}).runs.size(), 20u);
   EXPECT_EQ(io::read_study_file(example("flat-between-sleepers.toml"), {}).runs.size(), 24u);
 }
@@ -143,6 +143,7 @@ TEST(ShippedFigures, SpeedsArePointsAndSomeOfThemPanels) {
   const testing::TemporaryFolder folder;
   draw("figure6.toml",
        with({"study.vary.0.values=[20, 40, 60]", "simulation.distance_m=0.06",
+             R"(study.vary.2.values=[{ label = "fitted", set = ["simulation.track=tracks/zhai-fitted.toml"] }])",
              R"(study.figures.1.only=["V [m/s]=20", "simulation.speed_m_s=60"])", "study.figures.1.x_range=[0, 0.06]"}),
        folder.path());
   const std::string speeds = io::read_text(folder.path() / "figure6-speed.svg"),
