@@ -66,8 +66,8 @@ const KeyTable<SimulationFile>& simulation_keys() {
     list.table("speed_profile", KeyType::table, "speeds behind the start; without it the speed is constant",
                speed_profile_keys().infos, setting(&S::profile));
     list.table("torques", KeyType::table_list, "motors and brakes on axles", torque_keys().infos, &F::torques);
-    list.table("forces", KeyType::table_list, "from outside on bodies: wind, couplers, a push", force_keys().infos,
-               &F::forces);
+    list.table("forces", KeyType::table_list, "from outside on bodies and rails: wind, couplers, a push",
+               force_keys().infos, &F::forces);
     list.table("spring_motions", KeyType::table_list, "ground ends of springs that move: actuators, shakers",
                spring_motion_keys().infos, &F::spring_motions);
     list.table("rail_shifts", KeyType::table_list, "rails that move in time below wheels", rail_shift_keys().infos,
@@ -196,6 +196,16 @@ const KeyTable<AxleTorque>& torque_keys() {
 
 namespace {
 
+/// Which rails, left and right below which wheelsets.
+template <class Root>
+void add_rails_below(KeyRows<Root>& list, const std::string& side) {
+  list.value(
+          key_info("wheelset", KeyType::integer, "below which one, 1 = leading; without it below all", {{}, 1.0, 1e6}),
+          &Root::wheelset)
+      .read_by([](Root& root, const CaseValue& value) { root.wheelset = static_cast<int>(value.integer()) - 1; });
+  list.value(key_info("side", KeyType::text, side), &Root::left);
+}
+
 /// time_s and a list of displacements.
 template <class Root>
 void add_motion(KeyRows<Root>& list, const std::string& displacement) {
@@ -210,7 +220,8 @@ void add_motion(KeyRows<Root>& list, const std::string& displacement) {
 const KeyTable<BodyForce>& force_keys() {
   using B = BodyForce;
   static const auto keys = key_table<B>([](auto& list) {
-    list.text("body", "of the vehicle", &B::body, kNeeded);
+    list.text("body", "of the vehicle; this or `side` is required", &B::body, kNoDefault);
+    add_rails_below(list, "of a rail: \"left\" or \"right\", which runs along with the wheelset");
     list.value(key_info("at_m", KeyType::triple,
                         "where it acts, of the vehicle at rest; without it at the centre of mass"),
                &B::point)
@@ -249,11 +260,7 @@ const KeyTable<SpringMotion>& spring_motion_keys() {
 const KeyTable<RailShift>& rail_shift_keys() {
   using R = RailShift;
   static const auto keys = key_table<R>([](auto& list) {
-    list.value(key_info("wheelset", KeyType::integer, "below which one, 1 = leading; without it below all",
-                        {{}, 1.0, 1e6}),
-               &R::wheelset)
-        .read_by([](R& shift, const CaseValue& value) { shift.wheelset = static_cast<int>(value.integer()) - 1; });
-    list.value(key_info("side", KeyType::text, "\"left\" or \"right\"; without it both rails"), &R::left);
+    add_rails_below(list, "\"left\" or \"right\"; without it both rails");
     list.choice("direction", {{"y", Freedom::y}, {"z", Freedom::z}}, "of the motion, y to the right, z down",
                 &R::direction, kNeeded);
     add_motion(list, "displacement_mm");

@@ -145,9 +145,27 @@ void read_motions(const SimulationTable& simulation, SimulationFile& out) {
     check_points(table, part, &Part::time, &Part::displacement);
     if (part.time.size() < 2) table.refuse(&Part::time, fmt::format("{} needs two times", table.path_of(&Part::time)));
   };
-  read_list(&SimulationFile::forces, force_keys(), [&](const TableOf<BodyForce>& table, const BodyForce& force) {
+  // Of parts that say which rails they are for.
+  const auto read_rails_below = [&](const auto& table, auto& part) {
+    using Part = std::remove_cvref_t<decltype(part)>;
+    if (const CaseValue* side = table.checked_if(table.key(&Part::left))) {
+      check_name(table.path_of(&Part::left), side->text(), std::vector<std::string>{"left", "right"}, side->where);
+      part.left = side->text() == "left";
+    }
+    if (part.wheelset && static_cast<std::size_t>(*part.wheelset) >= out.vehicle.wheelsets.size())
+      table.refuse(&Part::wheelset, fmt::format("{} = {}, but the vehicle has {}", table.path_of(&Part::wheelset),
+                                                *part.wheelset + 1, out.vehicle.wheelsets.size()));
+  };
+  read_list(&SimulationFile::forces, force_keys(), [&](const TableOf<BodyForce>& table, BodyForce& force) {
     using B = BodyForce;
-    check_name(table.path_of(&B::body), force.body, names_of(out.vehicle.bodies), table.need(&B::body).where);
+    read_rails_below(table, force);
+    const bool on_rails = table.find(&B::body) == nullptr;
+    if (on_rails == !force.left || (!on_rails && force.wheelset))
+      table.fail(fmt::format("{} acts on a body, or on rails", table.path()),
+                 "give body, or side and maybe wheelset of the rails");
+    if (!on_rails)
+      check_name(table.path_of(&B::body), force.body, names_of(out.vehicle.bodies), table.need(&B::body).where);
+    if (on_rails && force.point) table.refuse(&B::point, "a force on rails acts at their centres of mass");
     const bool moment = static_cast<int>(force.direction) >= 3;
     if (table.key(&B::force) != (moment ? "moment_N_m" : "force_N") || table.find(&B::force) == nullptr)
       table.fail(fmt::format("{}: {} must be given along with this direction", table.path(),
@@ -166,14 +184,7 @@ void read_motions(const SimulationTable& simulation, SimulationFile& out) {
               check_motion(table, motion);
             });
   read_list(&SimulationFile::rail_shifts, rail_shift_keys(), [&](const TableOf<RailShift>& table, RailShift& shift) {
-    using R = RailShift;
-    if (const CaseValue* side = table.checked_if(table.key(&R::left))) {
-      check_name(table.path_of(&R::left), side->text(), std::vector<std::string>{"left", "right"}, side->where);
-      shift.left = side->text() == "left";
-    }
-    if (shift.wheelset && static_cast<std::size_t>(*shift.wheelset) >= out.vehicle.wheelsets.size())
-      table.refuse(&R::wheelset, fmt::format("{} = {}, but the vehicle has {}", table.path_of(&R::wheelset),
-                                             *shift.wheelset + 1, out.vehicle.wheelsets.size()));
+    read_rails_below(table, shift);
     check_motion(table, shift);
   });
 }

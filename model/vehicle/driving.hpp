@@ -47,9 +47,12 @@ struct AxleTorque {
 /// [N m]
 double torque_at(const AxleTorque& torque, double time);
 
-/// A force from outside on a point of a body.
+/// A force from outside on a point of a body of the vehicle, or on the centres of mass of rails of one side, which run
+/// along with the wheelsets above them.
 struct BodyForce {
-  std::string body;
+  std::string body;                ///< empty: on rails
+  std::optional<int> wheelset;     ///< of rails: below which one, from 0; none: below all
+  std::optional<bool> left;        ///< of rails
   std::optional<Vec3> point;       ///< of the vehicle at rest [m]; none: the centre of mass
   Freedom direction = Freedom::y;  ///< a moment about a rotation's axis
   std::vector<double> time;        ///< increasing [s]

@@ -3,6 +3,7 @@
 #include "treadmark/solvers/vehicle/line_effects.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -73,7 +74,7 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
     }
     torque_on_.emplace_back(axle, reaction);
   }
-  place_motions();
+  place_motions(system);
   if (setup_.path) check_curves();
 }
 
@@ -101,16 +102,51 @@ void LineEffects::check_curves() const {
   }
 }
 
+namespace {
+
+Vector unit_on_body(const Multibody& system, const Multibody::Body& body, const BodyForce& f) {
+  Vector out = Vector::Zero(system.size());
+  const int d = static_cast<int>(f.direction);
+  const Vec3 linear = d < 3 ? Vec3(Vec3::Unit(d)) : Vec3(Vec3::Zero());
+  Vec3 moment = d < 3 ? Vec3(Vec3::Zero()) : Vec3(Vec3::Unit(d - 3));
+  if (f.point) moment += (*f.point - body.position).cross(linear);
+  // Axle boxes, which the point of a wheelset is on, do not turn with the axle.
+  if (d < 3 && body.wheelset >= 0) moment.y() = 0.0;
+  add(out, body.coordinate, linear, moment);
+  return out;
+}
+
+Vector unit_on_rails(const Multibody& system, const BodyForce& f) {
+  constexpr std::array kOfRail{Freedom::y, Freedom::z, Freedom::roll};
+  const auto at = static_cast<std::size_t>(ranges::find(kOfRail, f.direction) - kOfRail.begin());
+  Vector out = Vector::Zero(system.size());
+  for (std::size_t set = 0; set < system.wheelsets.size(); ++set) {
+    if (f.wheelset && static_cast<std::size_t>(*f.wheelset) != set) continue;
+    const int rail = *f.left ? system.wheelsets[set].left_rail : system.wheelsets[set].right_rail;
+    const int c = rail < 0 || at == kOfRail.size() ? -1 : system.rails[static_cast<std::size_t>(rail)].coordinate[at];
+    if (c < 0)
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("the {} rail below wheelset {} has no motion of its own in the direction of the force on it",
+                      *f.left ? "left" : "right", set + 1),
+          f.where, "a lumped track (simulation.track) says how rails move, in y, z and roll");
+    out[c] = 1.0;
+  }
+  return out;
+}
+
+}  // namespace
+
 /// Forces from outside, springs and rails that are moved.
-void LineEffects::place_motions() {
+void LineEffects::place_motions(const Multibody& system) {
   const auto fail = [](std::string message, const SourcePosition& where) {
     throw Error(ErrorKind::configuration, std::move(message), where);
   };
   for (const BodyForce& f : setup_.forces) {
     const auto body = ranges::find(bodies_, f.body, &Multibody::Body::name);
-    if (body == bodies_.end()) fail(fmt::format("there is no body '{}' for a force to act on", f.body), f.where);
-    force_on_.emplace_back(static_cast<std::size_t>(body - bodies_.begin()),
-                           f.point ? Vec3(*f.point - body->position) : Vec3(Vec3::Zero()));
+    if (body == bodies_.end() && (!f.body.empty() || !f.left))
+      fail(fmt::format("there is no body '{}' for a force to act on", f.body), f.where);
+    force_by_.push_back(body == bodies_.end() ? unit_on_rails(system, f) : unit_on_body(system, *body, f));
   }
   for (const SpringMotion& m : setup_.spring_motions) {
     const auto link = ranges::find(links_, m.spring, &Multibody::Link::spring);
@@ -149,17 +185,8 @@ LineState LineEffects::state(double time) const {
     out.force[torque_on_[i].first] -= torque;
     if (torque_on_[i].second >= 0) out.force[torque_on_[i].second] += torque;
   }
-  for (std::size_t i = 0; i < force_on_.size(); ++i) {
-    const BodyForce& f = setup_.forces[i];
-    const auto& [body, arm] = force_on_[i];
-    const int d = static_cast<int>(f.direction);
-    const double value = force_at(f, clock(time));
-    const Vec3 linear = d < 3 ? Vec3(value * Vec3::Unit(d)) : Vec3(Vec3::Zero());
-    Vec3 moment = d < 3 ? Vec3(arm.cross(linear)) : Vec3(value * Vec3::Unit(d - 3));
-    // Axle boxes, which the point of a wheelset is on, do not turn with the axle.
-    if (d < 3 && bodies_[body].wheelset >= 0) moment.y() = 0.0;
-    add(out.force, bodies_[body].coordinate, linear, moment);
-  }
+  for (std::size_t i = 0; i < force_by_.size(); ++i)
+    out.force += force_at(setup_.forces[i], clock(time)) * force_by_[i];
   out.force += out.spring + out.damper;
   return out;
 }

@@ -92,7 +92,7 @@ class LineEffects {
   void add_inertia(LineState& out, const Travel& travel) const;
   void add_links(LineState& out, const Travel& travel, double time) const;
   void check_curves() const;
-  void place_motions();
+  void place_motions(const Multibody& system);
 
   LineSetup setup_;
   Eigen::Index size_ = 0;
@@ -103,7 +103,7 @@ class LineEffects {
   std::vector<std::pair<int, Freedom>> stops_;  ///< link and direction
   std::vector<Multibody::Wheelset> wheelsets_;
   std::vector<ElementColumn> columns_;
-  std::vector<std::pair<std::size_t, Vec3>> force_on_;  ///< body and point against its centre of mass [m]
+  std::vector<Vector> force_by_;  ///< generalised, of the forces from outside for 1 N or N m
   struct MovedLink {
     std::size_t link;
     double sign;  ///< of the stretch by the motion

@@ -305,12 +305,21 @@ side = "left"
 direction = "z"
 time_s = [0, 1]
 displacement_mm = [0, 5]
+
+[[simulation.forces]]
+side = "right"
+direction = "y"
+time_s = [0]
+force_N = [40]
 )";
 
 TEST_F(SimulationLine, WhatActsFromOutsideIsRead) {
   const SimulationFile file = parse(kFromOutside);
-  ASSERT_EQ(file.forces.size(), 2u);
+  ASSERT_EQ(file.forces.size(), 3u);
   ASSERT_TRUE(file.forces[0].point);
+  EXPECT_EQ(file.forces[2].body, "");
+  EXPECT_EQ(file.forces[2].left, false);
+  EXPECT_FALSE(file.forces[2].wheelset);
   EXPECT_EQ(*file.forces[0].point, Vec3(0.5, 0.0, -2.0));
   EXPECT_EQ(force_at(file.forces[0], 0.5), 250.0);
   EXPECT_FALSE(file.forces[1].point);
@@ -336,6 +345,11 @@ TEST_F(SimulationLine, WhatActsFromOutsideIsRead) {
   EXPECT_THAT(refused("force_N = [0, 500]", "force_N = [0]"), HasSubstr("has 2 values"));
   EXPECT_THAT(refused("wheelset = 1", "wheelset = 3"), HasSubstr("the vehicle has 1"));
   EXPECT_THAT(refused("\"left\"", "\"lft\""), HasSubstr("did you mean 'left'"));
+  EXPECT_THAT(refused("side = \"right\"\n", ""), HasSubstr("acts on a body, or on rails"));
+  EXPECT_THAT(refused("side = \"right\"", "side = \"right\"\nbody = \"mass\""),
+              HasSubstr("acts on a body, or on rails"));
+  EXPECT_THAT(refused("side = \"right\"", "side = \"right\"\nat_m = [0, 0, 0]"), HasSubstr("at their centres of mass"));
+  EXPECT_THAT(refused("side = \"right\"", "side = \"right\"\nwheelset = 2"), HasSubstr("the vehicle has 1"));
   EXPECT_THAT(refused("time_s = [0, 1]\ndisplacement_mm = [0, 5]", "time_s = [0]\ndisplacement_mm = [0]"),
               HasSubstr("needs two times"));
   EXPECT_THAT(refused("[[simulation.rail_shifts]]",

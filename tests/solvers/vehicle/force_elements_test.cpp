@@ -548,5 +548,44 @@ TEST(BodyForce, ActsAtItsPoint) {
   EXPECT_EQ(line.force[place_of(v.system, "mass.z")], 0.0);
 }
 
+/// Both rails together go down by what the bed of one gives way to the force.
+TEST(BodyForce, ActsOnARailThatRunsAlong) {
+  constexpr double kBedStiffness = 5e7, kForce = 8e3;
+  const auto pushed = [&](double force, Freedom direction) {
+    VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1800.0, 9000.0, 2e6, 1e4),
+                                        rails_on_springs(100.0, kBedStiffness, 1e5), kSpeedOn, kRail);
+    LineSetup setup;
+    setup.gravity = kGravity;
+    setup.speed = constant_speed(kSpeedOn);
+    BodyForce push = on_mass({0.0}, {force});
+    push.body.clear();
+    push.left = true;
+    push.direction = direction;
+    setup.forces = {push};
+    v.line = std::make_shared<const LineEffects>(v.system, std::move(setup));
+    return v;
+  };
+  const auto down = [&](double force) {
+    const VehicleOnTrack v = pushed(force, Freedom::z);
+    const Equilibrium e = find_equilibrium(v, {1e-12, 1e-6, 1e-3, 60});
+    EXPECT_EQ(e.report.status, Status::ok) << e.report.message;
+    return std::pair{e.state.q[place_of(v.system, "left_rail@1.z")], e.state.q[place_of(v.system, "right_rail@1.z")]};
+  };
+  const auto [left_before, right_before] = down(0.0);
+  const auto [left, right] = down(kForce);
+  EXPECT_NEAR(left + right - left_before - right_before, kForce / kBedStiffness, 1e-5 * kForce / kBedStiffness);
+  EXPECT_GT(left - left_before, right - right_before);
+  EXPECT_THROW(pushed(kForce, Freedom::y), Error) << "these rails only move vertically";
+  EXPECT_THROW(with_line(wheel_on_mass(1800.0, 9000.0, 2e6, 1e4),
+                         [&](LineSetup& setup) {
+                           BodyForce push = on_mass({0.0}, {kForce});
+                           push.body.clear();
+                           push.left = false;
+                           setup.forces = {push};
+                         }),
+               Error)
+      << "these do not move at all";
+}
+
 }  // namespace
 }  // namespace treadmark::vehicle
