@@ -15,6 +15,7 @@
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/stopwatch.hpp"
@@ -141,6 +142,7 @@ class Builder {
     const double begin = rail_place(file_, wheel.wheelset) - kBeside,
                  end = begin + file_.settings.distance + 2.0 * kBeside;
     for (double from = begin; from < end; from += kPiece) {
+      check_cancelled();
       const RailsCompared compared = compare_rails(rails, from, std::min(end, from + kPiece));
       if (compared.apart > kSamePlace) refuse_place(wheel, compared.apart);
       for (int ix = 0; ix < compared.grid.nx; ++ix) {

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/assessment/assess_result.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/histories/channels.hpp"
 
@@ -378,7 +379,7 @@ void HistorySummary::note_choices() {
       c.way += way;
       c.full += r.full_share * way;
     }
-    if (full) continue;
+    if (!(r.full_share < 1.0)) continue;
     if (begun_) c.square += r.table_error * r.table_error * (1.0 - r.full_share) * way;
     c.worst = std::max(c.worst, r.table_error);
     c.worst_wear = std::max(c.worst_wear, r.table_wear_error);
@@ -502,6 +503,8 @@ void HistorySummary::restore(ByteReader& in) {
   for (auto left = in.get<std::size_t>(); left > 0; --left) {
     ContactChange& c = changes_.emplace_back();
     in.get(c.time), in.get(c.wheel), in.get(c.full);
+    if (c.wheel >= simulation_.vehicle().wheels.size())
+      throw Error(ErrorKind::input_data, "a saved state belongs to another simulation", {}, "start anew");
   }
 }
 

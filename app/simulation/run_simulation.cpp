@@ -136,7 +136,8 @@ class Run {
 
   void say_if_unstable() {
     // Forces of full contacts jump with their elements: their slopes tell less.
-    const bool any_full = ranges::any_of(built_.full, [](const auto& element) { return element != nullptr; });
+    const bool any_full =
+        ranges::any_of(file_.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
     const double growing = any_full ? -0.01 : -1e-3;
     constexpr double kSlowest = 0.1;  // [Hz]
     const auto least = ranges::min_element(result_.modes, {}, &io::ModeRow::damping_ratio);

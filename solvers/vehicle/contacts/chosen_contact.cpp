@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/to_whole.hpp"
@@ -18,7 +19,6 @@ namespace {
 constexpr double kLeastWear = 3e-4, kLeastLoad = 0.1;
 constexpr double kGoOver = 0.05, kRecheck = 10.0;  // [m]
 constexpr double kCalm = 0.7, kCalmLength = 0.5;   // of the tolerance, [m]
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 TableError larger(const TableError& a, const TableError& b) {
   return {std::max(a.force, b.force), std::max(a.wear, b.wear)};
@@ -69,9 +69,9 @@ bool ChosenContact::must_be_full(double x) const {
 }
 
 double ChosenContact::longest_travel() const {
-  if (!begun_) return kInfinite;
+  if (!begun_) return kInfinity;
   if (full_now_ || at_ - since_ < kGoOver) return settings_.full_travel;
-  double ahead = kInfinite;
+  double ahead = kInfinity;
   for (const auto& stretch : settings_.always_full)
     if (const double way = stretch.first - 1.5 * kGoOver - settings_.rail_x - at_; way > 0.0)
       ahead = std::min(ahead, way);
@@ -88,7 +88,7 @@ ContactReaction ChosenContact::evaluate(const PairMotion& motion) {
     ContactReaction full = full_->evaluate(motion);
     if (is_unsolved(full)) return full;
     tried_.error = no_table
-                       ? TableError{kInfinite, kInfinite}
+                       ? TableError{kNaN, kNaN}
                        : table_error(tried_.table, full, motion.wheelset_velocity.x, kLeastLoad * settings_.usual_load);
     tried_.compared = true;
     if (tried_.share < 1.0) {
@@ -138,8 +138,8 @@ void ChosenContact::learn() {
     if (known == worst_.end()) known = worst_.emplace(sort, tried_.error).first;
     known->second = larger(known->second, tried_.error);
     error_ = tried_.error;
-  } else if (known != worst_.end()) {
-    error_ = known->second;
+  } else {
+    error_ = known != worst_.end() ? known->second : TableError{kNaN, kNaN};
   }
 }
 
@@ -160,8 +160,8 @@ void ChosenContact::accept() {
   if (!begun_) return;
   if (is_unsolved(tried_.table)) {
     error_ = tried_.error;
-    restless_ = at_;
     if (!full_now_ || share(at_) < 1.0) change(true, at_ - kGoOver);
+    restless_ = at_;
     return;
   }
   learn();
@@ -174,7 +174,8 @@ void ChosenContact::accept() {
     return;
   }
   if (must || worst > 1.0 || excess(error_) > kCalm) restless_ = at_;
-  if (at_ - restless_ >= kCalmLength) change(false, at_);
+  // To the table only where that leaves the way to go back.
+  if (at_ - restless_ >= kCalmLength && !must_be_full(at_ + kGoOver)) change(false, at_);
 }
 
 namespace {

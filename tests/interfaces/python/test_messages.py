@@ -32,7 +32,7 @@ def test_files_that_are_not_there(tmp_path):
         assert str(again) == str(error) and type(again) is type(error)
     calls = [(tm.Surface.read, "wheel"), (tm.measure_files,), (tm.read_result,), (tm.read_comparison,), (tm.read_bench,)]
     if tm.parts()["scans"] and tm.parts()["vehicle"] and tm.parts()["hdf5"] and tm.parts()["report"]:
-        calls += [(tm.read_import,), (tm.read_simulation,), (tm.read_sweep,), (tm.track,), (tm.stability,), (tm.assess,), (tm.simulate,), (tm.evolve, tmp_path / "out"),
+        calls += [(tm.read_import,), (tm.read_simulation,), (tm.read_sweep,), (tm.track,), (tm.stability,), (tm.response,), (tm.assess,), (tm.simulate,), (tm.evolve, tmp_path / "out"),
                   (tm.sweep, tmp_path / "out"), (tm.report, tmp_path / "out.html")]
     for function, *more in calls:
         for ending in ("toml", "csv"):
