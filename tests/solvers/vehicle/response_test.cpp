@@ -63,7 +63,7 @@ TEST(LinearVehicle, RespondsAsByHand) {
     EXPECT_LT(std::abs(r[2].vertical[0] + r[2].vertical[1]), 1e-6 * std::abs(r[2].vertical[0]));
     EXPECT_GT(std::abs(r[2].vertical[0]), 1e6);
     // Of both rails together it is a level.
-    EXPECT_LT(std::abs(r[3].vertical[0] + r[4].vertical[0] - r[0].vertical[0]), 1e-9 * std::abs(r[0].vertical[0]));
+    EXPECT_LT(std::abs(r[3].vertical[0] + r[4].vertical[0] - r[0].vertical[0]), 1e-6 * std::abs(r[0].vertical[0]));
     EXPECT_LT(std::abs(r[3].vertical[0] - r[4].vertical[1]), 1e-6 * std::abs(r[3].vertical[0]));
   }
 }
