@@ -26,7 +26,7 @@ struct HistoryColumn {
 /// A wheel that loses or regains contact, or whose contact is chosen anew.
 struct HistoryEvent {
   double time = 0.0, position = 0.0;  ///< [s], along the track [m]
-  std::string wheel, kind;            ///< "contact lost", "contact regained", "full contact from here", "table from here"
+  std::string wheel, kind;  ///< "contact lost", "contact regained", "full contact from here", "table from here"
 };
 
 /// A number that stands for a whole simulation.
