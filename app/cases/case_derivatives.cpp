@@ -50,21 +50,6 @@ constexpr const char* kUsualKeys[] = {
     "friction.coefficient",
 };
 
-/// Over which a number is differenced, in SI: what moves surfaces by some hundredths of a micrometre, and of others a
-/// part of their value that rounding does not swallow.
-double step_of(const std::string& key, double value) {
-  struct Step {
-    std::string_view unit;
-    double step;
-  };
-  constexpr Step kSteps[] = {{"m", 5e-8}, {"rad", 5e-8}, {"N", 1.0}};
-  constexpr double kOther = 1e-5;
-  const std::string_view unit = io::unit_at_end(key).si_name;
-  for (const Step& row : kSteps)
-    if (row.unit == unit) return row.step;
-  return kOther * std::max(1.0, std::abs(value));
-}
-
 /// In place of a key: all parameters of the surface of a body, each with the unit that its name then ends with.
 struct ShapeKey {
   std::string_view key;
@@ -143,7 +128,7 @@ class CaseTangents {
       return;
     }
     Sides sides;
-    const double unit = io::unit_of_key(key), step = step_of(key, *value * unit);
+    const double unit = io::unit_of_key(key), step = difference_step(io::unit_at_end(key).si_name, *value * unit);
     try {
       sides.step = step / unit;
       const auto beside = [&](double amount) {
@@ -289,6 +274,51 @@ void check_derivative_keys(const io::CaseFile& file, const std::vector<std::stri
       throw Error(ErrorKind::configuration, fmt::format("there are no derivatives by {}: no case gives it", key), {},
                   "write it into the case file, or name another key");
   }
+}
+
+double difference_step(std::string_view si_unit, double value) {
+  struct Step {
+    std::string_view unit;
+    double step;
+  };
+  constexpr Step kSteps[] = {{"m", 5e-8}, {"rad", 5e-8}, {"N", 1.0}};
+  constexpr double kOther = 1e-5;
+  for (const Step& row : kSteps)
+    if (row.unit == si_unit) return row.step;
+  return kOther * std::max(1.0, std::abs(value));
+}
+
+GapNumber gap_number(const io::ListedNumber& number) {
+  using kalker::Quantity;
+  using Of = wheelrail::PairQuantity::Of;
+  struct Row {
+    std::string_view name;
+    GapNumber number;
+  };
+  constexpr Row kNumbers[] = {
+      {"wheelset.z_mm", {{Of::height, 0, {}}, 1.0}},
+      {"force_on_rail.fz_tr_N", {{Of::vertical_force, 0, {}}, 1.0}},
+      {"fn_N", {{Of::patch, 0, Quantity::force_n}, 1.0}},
+      {"fx_N", {{Of::patch, 0, Quantity::force_x}, 1.0}},
+      {"fs_N", {{Of::patch, 0, Quantity::force_y}, 1.0}},
+      {"approach_mm", {{Of::patch, 0, Quantity::approach}, 1.0}},
+      {"pmax_MPa", {{Of::patch, 0, Quantity::max_pressure}, 1.0}},
+      {"elastic_energy_J", {{Of::patch, 0, Quantity::elastic_energy}, 1.0}},
+      {"dissipated_W", {{Of::patch, 0, Quantity::frictional_power}, -1.0}},
+  };
+  const std::string name = number.of_case != nullptr    ? io::name_of(*number.of_case)
+                           : number.of_patch != nullptr ? io::name_of(*number.of_patch)
+                                                        : number.name;
+  for (const Row& row : kNumbers) {
+    if (row.name != name) continue;
+    GapNumber out = row.number;
+    out.quantity.patch = static_cast<std::size_t>(std::max(1, number.patch)) - 1;
+    return out;
+  }
+  std::vector<std::string_view> known;
+  for (const Row& row : kNumbers) known.push_back(row.name);
+  throw Error(ErrorKind::configuration, fmt::format("{} has no derivatives by gaps", number.name), {},
+              fmt::format("these have: {}", fmt::join(known, ", ")));
 }
 
 void add_derivatives(io::RunResult& result, const io::CaseFile& file, SurfaceStore& store,

@@ -3,12 +3,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/results/listed_number.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/solvers/wheelrail/pair_gradient.hpp"
 
 namespace treadmark::app {
 
@@ -23,5 +26,17 @@ void add_derivatives(io::RunResult& result, const io::CaseFile& file, SurfaceSto
 
 /// The errors that it has, before anything is solved.
 void check_derivative_keys(const io::CaseFile& file, const std::vector<std::string>& keys);
+
+/// Over which a number of this value is differenced, in its unit of SI: what moves surfaces by some hundredths of a
+/// micrometre, and of others a part of their value that rounding does not swallow.
+double difference_step(std::string_view si_unit, double value);
+
+/// A number of results as one that has derivatives by gaps, and how much one of it is of that.
+struct GapNumber {
+  wheelrail::PairQuantity quantity;
+  double factor = 1.0;
+};
+/// patch: counted from 1. Errors: Error(configuration) for a number without them.
+GapNumber gap_number(const io::ListedNumber& number);
 
 }  // namespace treadmark::app

@@ -45,4 +45,12 @@ struct tm_solution {
   std::shared_ptr<const treadmark::io::Case> input;
   std::optional<treadmark::wheelrail::PairSolution> pair;  ///< of a wheel on a rail; its texts are lent
   std::optional<treadmark::io::CaseResult> result;         ///< of a pair: once results are asked for
+  treadmark::wheelrail::Geometry geometry = {};            ///< of a pair: of what it is a solution
 };
+
+namespace treadmark::c {
+
+/// Made from the solution of the pair when it is first asked for: a program that wants forces only does not pay for it.
+io::CaseResult& result_of(tm_solution* s);
+
+}  // namespace treadmark::c

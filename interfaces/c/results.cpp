@@ -22,13 +22,6 @@
 namespace treadmark::c {
 namespace {
 
-/// Made from the solution of the pair when it is first asked for: a program that wants forces only does not pay for it.
-io::CaseResult& result_of(tm_solution* s) {
-  require(s != nullptr, "solution must not be null");
-  if (!s->result) s->result = app::to_result(std::get<io::WheelRailCase>(s->input->content), *s->pair);
-  return *s->result;
-}
-
 io::PatchResult& patch_of(tm_solution* s, std::size_t patch) {
   io::CaseResult& result = result_of(s);
   require(patch < result.patches.size(), "there is no patch of this index");
@@ -74,6 +67,13 @@ const std::vector<NamedNumber>& fields() {
 }
 
 }  // namespace
+
+io::CaseResult& result_of(tm_solution* s) {
+  require(s != nullptr, "solution must not be null");
+  if (!s->result) s->result = app::to_result(std::get<io::WheelRailCase>(s->input->content), *s->pair);
+  return *s->result;
+}
+
 }  // namespace treadmark::c
 
 using namespace treadmark;

@@ -140,6 +140,7 @@ tm_status tm_pair_solve(tm_pair* p, const tm_case* c, tm_solution** out) {
     require(p != nullptr, "pair must not be null");
     const auto& given = checked_for(*p, c);
     made.input = c->content;
+    made.geometry = p->geometry;
     const auto before = p->pair.save();
     try {
       made.pair = p->pair.solve(app::to_problem(given, p->geometry.round_wheel));

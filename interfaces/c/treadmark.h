@@ -164,6 +164,16 @@ typedef void (*tm_row_message)(void *user, size_t row, tm_status status, const c
 TM_API tm_status tm_pair_solve_many(const tm_pair *p, const tm_case *c, size_t rows, const char *const *in_names,
                                     const double *const *in, size_t n_in, const char *const *out_names, double *const *out,
                                     size_t n_out, tm_status *status, tm_row_message told, void *user);
+/* Total derivatives of numbers of a solution of this pair that is TM_OK (docs/results.md#derivatives): derivatives[k * n_by + i] of
+ * numbers[k], named as in tm_pair_solve_many, by by[i]: a number of cases ("wheelset.y"), or one that a surface of the pair tells of its
+ * shape ("rail.point_12"). As exact as the solution is (solver.tolerance). The pair keeps what its last solution left. TM_BAD_REQUEST: a
+ * number or a theory without derivatives; TM_NUMERICAL: there is none by one of by here, as where contact comes or goes with it. */
+TM_API tm_status tm_pair_gradient(tm_pair *p, tm_solution *s, const char *const *numbers, size_t n_numbers, const char *const *by,
+                                  size_t n_by, double *derivatives);
+/* Derivatives of a number by the gap of each element, contact planes staying where they are: nx * ny numbers of the first patch
+ * (tm_patch_grid), then those of the next; n: of all. Of "wheelset.z", "force_on_rail.fz_tr", and of a patch "fn", "fx", "fs", "approach",
+ * "pmax", "elastic_energy", "dissipated". A rail that is moved by d along n, into itself, adds d to the gap, a wheel takes it away. */
+TM_API tm_status tm_pair_gradient_by_gap(tm_pair *p, tm_solution *s, const char *number, double *by_gap, size_t n);
 /* Forgets the last solution. */
 TM_API tm_status tm_pair_reset(tm_pair *p);
 TM_API tm_status tm_pair_save(const tm_pair *p, tm_state **out);

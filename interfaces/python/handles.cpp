@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -201,9 +202,7 @@ py::dict solved(tm_solution& solution) {
   std::shared_ptr<const io::CaseResult> result;
   {
     const py::gil_scoped_release free;
-    if (!solution.result)
-      solution.result = app::to_result(std::get<io::WheelRailCase>(solution.input->content), *solution.pair);
-    result = std::make_shared<const io::CaseResult>(std::move(*solution.result));
+    result = std::make_shared<const io::CaseResult>(std::move(c::result_of(&solution)));
   }
   return to_python(std::move(result));
 }
@@ -260,6 +259,42 @@ py::tuple solve_many(const tm_pair& pair, const tm_case& common,
     return texts;
   });
   return py::make_tuple(numbers, codes, said);
+}
+
+/// A number of an instant, which starts from rest, and its derivatives by names, or without names by the gaps of each
+/// patch. The pair keeps what its last solution left.
+py::tuple gradient(const tm_pair& pair, const tm_case& c, const std::string& number, const Strings& by) {
+  double value = 0.0;
+  Numbers derivatives(static_cast<py::ssize_t>(by.size()));
+  double* const to = derivatives.mutable_data();
+  std::vector<Grid2> grids;
+  auto gaps = std::make_shared<std::vector<double>>();
+  released([&] {
+    tm_pair own{pair.geometry, wheelrail::Pair(pair.geometry), pair.wheel_radius, pair.roller_radius};
+    const auto solution = made<tm_solution>([&](auto out) { return tm_pair_solve(&own, &c, out); });
+    const io::CaseResult& result = c::result_of(solution.get());
+    value = io::listed_number(number, io::Names::si).si(result);
+    const char* const name = number.c_str();
+    if (by.empty()) {
+      for (const io::PatchResult& patch : result.patches) grids.push_back(patch.fields.grid);
+      gaps->resize(std::accumulate(grids.begin(), grids.end(), std::size_t{0},
+                                   [](std::size_t sum, const Grid2& grid) { return sum + grid.size(); }));
+      check([&] { return tm_pair_gradient_by_gap(&own, solution.get(), name, gaps->data(), gaps->size()); });
+      return;
+    }
+    std::vector<const char*> names;
+    for (const std::string& one : by) names.push_back(one.c_str());
+    check([&] { return tm_pair_gradient(&own, solution.get(), &name, 1, names.data(), names.size(), to); });
+  });
+  const py::object owner = owner_of(gaps);
+  py::list by_gap;
+  const double* first = gaps->data();
+  for (const Grid2& grid : grids) {
+    by_gap.append(view(first, 'd', {grid.ny, grid.nx},
+                       {static_cast<py::ssize_t>(sizeof(double)) * grid.nx, sizeof(double)}, owner));
+    first += grid.size();
+  }
+  return py::make_tuple(value, derivatives, by_gap);
 }
 
 py::bytes bytes_of(const tm_state& state) {
@@ -365,7 +400,13 @@ void add_surfaces(py::module_& module) {
       .def_property_readonly("resolution", [](const tm_surface& s) { return s.represented.resolution; })
       .def_property_readonly("constant_profile", [](const tm_surface& s) { return s.natural->constant_profile(); })
       .def_property_readonly("memory_bytes", [](const tm_surface& s) { return s.represented.surface->memory_bytes(); })
-      .def_property_readonly("note", [](const tm_surface& s) { return s.natural->note + s.represented.note; });
+      .def_property_readonly("note", [](const tm_surface& s) { return s.natural->note + s.represented.note; })
+      .def_property_readonly("parameters", [](const tm_surface& s) {
+        std::vector<std::pair<std::string, std::string>> all;
+        for (ShapeParameter& one : s.represented.surface->parameters())
+          all.emplace_back(std::move(one.name), std::move(one.unit));
+        return all;
+      });
 }
 
 }  // namespace
@@ -400,6 +441,7 @@ void add_handles(py::module_& module) {
            })
       .def("solve_all", solve_all)
       .def("solve_many", solve_many)
+      .def("gradient", gradient)
       .def("reset", [](tm_pair& pair) { check([&] { return tm_pair_reset(&pair); }); })
       .def("save",
            [](const tm_pair& pair) { return made<tm_state>([&](auto out) { return tm_pair_save(&pair, out); }); })

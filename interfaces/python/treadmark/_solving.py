@@ -6,7 +6,7 @@ from __future__ import annotations
 import functools
 import threading
 import warnings
-from typing import Any, Callable, Mapping, Sequence
+from typing import Any, Callable, Mapping, NamedTuple, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -18,9 +18,11 @@ from ._records import Case, Patch, Result, Solution, case_of
 from ._surfaces import Surface, case_of_input
 
 _numbers: dict[str, int] = {}
+_names: dict[int, str] = {}
 _units: dict[int, str] = {}
 for _id, _row in enumerate(_treadmark.tables()["case_numbers"]):
     _numbers.setdefault(_row[0], _id)
+    _names[_id] = _row[0]
     _units[_id] = _row[1]
 #: Keys of case files; of those that hold a number its name, and how much one of their unit is in SI.
 _keys: dict[str, tuple[str, float]] = {row[0]: (row[4], row[5]) for row in _treadmark.tables()["case_keys"]}
@@ -62,6 +64,14 @@ def _array_number(name: str) -> tuple[int, float]:
     if number is None:
         raise InputError(f"{full} cannot differ from row to row")
     return number, 1.0
+
+
+def _by(name: str) -> tuple[str, float]:
+    """The full name of a number by which derivatives are wanted, which may end with a unit, and how much one of that is in SI."""
+    if name.startswith(("rail.", "wheel.")):  # of a surface
+        return name, 1.0
+    number, si = _array_number(name)
+    return _names[number], si
 
 
 def _listed(name: str) -> str:
@@ -155,6 +165,15 @@ class State:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return State, (self.to_bytes(),)
+
+
+class Gradient(NamedTuple):
+    """A number of a solution and its derivatives: by what was named, in that order, or by the gaps of elements, an array of shape (ny, nx)
+    for each patch. In SI."""
+
+    value: float
+    by: npt.NDArray[np.float64]
+    by_gap: list[npt.NDArray[np.float64]]
 
 
 @checked
@@ -267,6 +286,23 @@ class Pair:
         return {**{name: array.ravel() for name, array in zip(varied, arrays)}, **dict(zip(quantities, numbers)), "status": _STATUSES[codes],
                 "message": message}
 
+    def gradient(self, quantity: str, by: Sequence[str] = (), problem: Problem | None = None, *, set: Changes = None, **values: Any) -> Gradient:
+        """A number of an instant, by its name or the last part of it ("pmax", of the patch with the greatest normal force; "patch_2.fn"), and its
+        derivatives: ``pair.gradient("pmax", ["y", "yaw", "load"], y=2e-3)``.
+
+        by: settings as in solve(), which may end with a unit of case files ("y_mm": derivatives by it), or parameters of the surfaces'
+        shapes ("rail.point_12", Surface.parameters): total derivatives. Without: by the gap of every element, contact planes staying where
+        they are. The instant is solved from rest, as exactly as solver.tolerance says, which derivatives then are, too; what the last solution
+        left stays. Errors: InputError for theories and numbers without derivatives, NumericalError where there is none, as where contact
+        comes or goes.
+        """
+        base = problem or self.problem
+        case = base.replace(set, **values)._case if values or set else base._case
+        given = [_by(name) for name in by]
+        with self._lock:
+            value, derivatives, by_gap = self._open().gradient(case, _listed(quantity), [name for name, _ in given])
+        return Gradient(value, derivatives * np.array([si for _, si in given]), by_gap)
+
     def step(self, problem: Problem | None = None, *, set: Changes = None, **values: Any) -> Solution:
         """Solves the next instant: goes on from the last solution. Keywords as in solve(), for example regime="transient"."""
         solution: Solution = self.solve(problem, set=set, **{"history": "continue", **values})
@@ -338,4 +374,4 @@ def hertz(normal_force: Newton, semi_axes: tuple[float, float] | None = None, cu
     return PatchSolver().solve(normal_force=normal_force, mx=mx, my=my, set={"patch.hertz.given": "semi_axes" if semi_axes is not None else "curvatures", **given}, **values)
 
 
-__all__ = ["Case", "Pair", "PatchSolver", "Problem", "Solution", "State", "hertz", "settings"]
+__all__ = ["Case", "Gradient", "Pair", "PatchSolver", "Problem", "Solution", "State", "hertz", "settings"]

@@ -274,6 +274,11 @@ class Surface:
         return self._surface.memory_bytes
 
     @property
+    def parameters(self) -> list[tuple[str, str]]:
+        """Numbers that its shape follows from and says exactly how, as points of profiles: name and unit ("m", "rad", "1"), for Pair.gradient."""
+        return self._surface.parameters
+
+    @property
     def note(self) -> str:
         """Repairs worth knowing; may be empty."""
         return self._surface.note

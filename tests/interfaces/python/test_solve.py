@@ -92,6 +92,32 @@ def test_rows_that_fail_do_not_stop_the_others(pair):
             pair.solve_many(**wrong)
 
 
+def test_gradients(pair, rail):
+    exact = {"solver.tolerance": 1e-9}
+    before = pair.save().to_bytes()
+    pressure = pair.gradient("pmax", ["load", "y_mm"], y=2e-3, set=exact)
+    assert pair.save().to_bytes() == before and pressure.by_gap == []
+    at = [pair.solve(y=2e-3, load=80e3 + step, set=exact).patches[0].pmax for step in (0.0, 20.0, -20.0)]
+    assert pressure.value == at[0] and pressure.by[0] == pytest.approx((at[1] - at[2]) / 40.0, rel=1e-3)
+    assert pressure.by[1] == pytest.approx(1e-3 * pair.gradient("pmax", ["y"], y=2e-3, set=exact).by[0])
+    fields = pair.gradient("wheelset.z", y=2e-3, set=exact).by_gap
+    patch = pair.solve(y=2e-3, set=exact).patches[0]
+    assert fields[0].shape == patch.pressure.shape and fields[0].sum() == pytest.approx(1.0 / np.cos(patch.angle), rel=1e-6)
+    assert ((fields[0] != 0.0) <= (patch.state > 0)).all() and not fields[0].flags.writeable
+    points = np.linspace(-0.03, 0.03, 121)
+    measured = tm.Surface.profile(points, rail.heights(0.0, points), "rail")
+    assert rail.parameters == [] and measured.parameters[60] == ("point_60", "m")
+    worn = tm.Pair(measured, pair.wheel, pair.problem.replace(track__rail_y=0.7535, track__rail_z=0.0))
+    by = worn.gradient("pmax", [f"rail.{name}" for name, unit in measured.parameters[20:100]], set=exact).by
+    assert min(abs(by[0]), abs(by[-1])) < 1e-3 * abs(by).max()  # far from the contact
+    for wrong in ({"quantity": "elements.ncon", "by": ["y"]}, {"quantity": "pmaximum"}, {"quantity": "y_tr"}, {"quantity": "pmax", "by": ["law"]},
+                  {"quantity": "pmax", "by": ["y"], "set": {"solver.tangential_model": "fastsim"}}):
+        with pytest.raises(tm.InputError):
+            pair.gradient(**wrong)
+    with pytest.raises(tm.NumericalError, match="not ok"):
+        pair.gradient("pmax", ["y"], set={"wheelset.z_mm": -5.0})
+
+
 def test_sequences_in_time_and_states(pair):
     steps = [dict(pitch=-1e-3 * k / 0.46, s=1e-3 * k) for k in range(4)]
     going = pair.problem.replace(regime="transient", vertical_force=80e3)
