@@ -19,10 +19,12 @@
 #include "treadmark/app/cases/run_parts.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/cases/wheelrail_result.hpp"
-#include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/backends/displacement/displaced_surface.hpp"
+#include "treadmark/backends/displacement/section_offsets.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
@@ -69,12 +71,29 @@ struct Prepared {
   wheelrail::Geometry geometry;
 };
 
+constexpr const char* kNothingFollows = "contact does not follow from it";
+
+/// Calls visit(name, row, of) for each number with derivatives; of: CaseResult -> the item that has the row.
+template <class Visit>
+void for_each_number(const io::CaseResult& result, Visit&& visit) {
+  const auto each = [&](const auto& item, const std::string& prefix, const auto& of) {
+    using Item = std::remove_cvref_t<decltype(item)>;
+    for (const io::Quantity<Item>& row : io::quantities<Item>())
+      if (!row.key.empty() && row.access.smooth && io::has_block(item, row.block) && row.has(item))
+        visit(prefix + io::name_of(row), row, of);
+  };
+  each(result, "", [](const io::CaseResult& r) -> const io::CaseResult& { return r; });
+  for (std::size_t k = 0; k < result.patches.size(); ++k)
+    each(result.patches[k], fmt::format("patch_{}.", k + 1),
+         [k](const io::CaseResult& r) -> const io::PatchResult& { return r.patches[k]; });
+}
+
 class CaseTangents {
  public:
   CaseTangents(const io::Case& c, SurfaceStore& store, const SampledRegions& regions)
       : case_(c), store_(store), regions_(regions), base_(std::make_shared<const Prepared>(prepared(c))) {}
 
-  io::CaseDerivatives by(const std::vector<std::string>& keys) {
+  io::CaseDerivatives by(const std::vector<std::string>& keys, std::span<const SectionHeights> heights = {}) {
     io::CaseDerivatives out;
     wheelrail::Pair pair(base_->geometry);
     const wheelrail::PairSolution solution = pair.solve(base_->problem);
@@ -88,6 +107,7 @@ class CaseTangents {
       else
         add(key, out);
     }
+    for (const SectionHeights& one : heights) add(one, out);
     std::vector<wheelrail::PairParameter> parameters;
     for (const Asked& one : asked_) parameters.push_back(one.parameter);
     const std::vector<wheelrail::PairNeighbours> found = pair.neighbours(base_->problem, solution, parameters);
@@ -148,7 +168,7 @@ class CaseTangents {
     const bool contact =
         parameter.of_surfaces || sides.more->problem != base_->problem || sides.less->problem != base_->problem;
     if (!contact) {
-      parameter.left_out = "contact does not follow from it";
+      parameter.left_out = kNothingFollows;
       return;
     }
     asked_.push_back({out.parameters.size() - 1, sides, {changes(sides), step}});
@@ -172,26 +192,26 @@ class CaseTangents {
                                 fmt::format("a surface of {} names no parameters of its shape", surface.backend())});
   }
 
+  void add(const SectionHeights& heights, io::CaseDerivatives& out) {
+    // near places little height is much curvature, as of the points of a profile
+    constexpr double kCurvature = 1e-3, kLeast = 2e-11, kMost = 5e-8;  // [1/m], [m], [m]
+    const auto [low, high] = ranges::minmax_element(heights.values);
+    const double step =
+        std::clamp(kCurvature * heights.step * heights.step, kLeast, kMost) / std::max(std::abs(*low), std::abs(*high));
+    const auto beside = [&](double factor) {
+      return std::make_shared<const Prepared>(
+          Prepared{base_->input, base_->problem, with_heights(base_->geometry, heights, factor)});
+    };
+    out.parameters.push_back({"", 0.0, true, {}});
+    const Sides sides{beside(step), beside(-step), step};
+    asked_.push_back({out.parameters.size() - 1, sides, {changes(sides), step}});
+  }
+
   static std::function<void(double, wheelrail::Problem&, wheelrail::Geometry&)> changes(const Sides& sides) {
     return [sides](double amount, wheelrail::Problem& problem, wheelrail::Geometry& geometry) {
       const Prepared& there = amount > 0.0 ? *sides.more : *sides.less;
       problem = there.problem, geometry = there.geometry;
     };
-  }
-
-  /// Calls visit(name, row, of) for each number with derivatives; of: CaseResult -> the item that has the row.
-  template <class Visit>
-  static void for_each_number(const io::CaseResult& result, Visit&& visit) {
-    const auto each = [&](const auto& item, const std::string& prefix, const auto& of) {
-      using Item = std::remove_cvref_t<decltype(item)>;
-      for (const io::Quantity<Item>& row : io::quantities<Item>())
-        if (!row.key.empty() && row.access.smooth && io::has_block(item, row.block) && row.has(item))
-          visit(prefix + io::name_of(row), row, of);
-    };
-    each(result, "", [](const io::CaseResult& r) -> const io::CaseResult& { return r; });
-    for (std::size_t k = 0; k < result.patches.size(); ++k)
-      each(result.patches[k], fmt::format("patch_{}.", k + 1),
-           [k](const io::CaseResult& r) -> const io::PatchResult& { return r.patches[k]; });
   }
 
   static void name_numbers(const io::CaseResult& here, io::CaseDerivatives& out) {
@@ -239,6 +259,18 @@ class CaseTangents {
   std::vector<Asked> asked_;
 };
 
+/// What derive() gives; keys have been looked at: where it fails it is the case that has none.
+template <class Derive>
+io::CaseDerivatives with_reason(Derive&& derive) {
+  try {
+    return derive();
+  } catch (const Error& e) {
+    io::CaseDerivatives none;
+    none.message = e.what();
+    return none;
+  }
+}
+
 /// The usual keys as far as a case gives them, else those asked for.
 std::vector<std::string> keys_for(const io::Case& c, const std::vector<std::string>& asked) {
   if (!asked.empty()) return asked;
@@ -255,15 +287,41 @@ io::CaseDerivatives derivatives_of(const io::Case& c, SurfaceStore& store, const
     none.message = "a patch by itself has no placement: derivatives are those of a wheel on a rail";
     return none;
   }
-  try {
-    return CaseTangents(c, store, regions).by(keys_for(c, asked));
-  } catch (const Error& e) {  // keys have been looked at: it is the case that has none
-    none.message = e.what();
-    return none;
-  }
+  return with_reason([&] { return CaseTangents(c, store, regions).by(keys_for(c, asked)); });
 }
 
 }  // namespace
+
+wheelrail::Geometry with_heights(wheelrail::Geometry geometry, const SectionHeights& heights, double factor) {
+  const bool rail = heights.facing == Facing::up;
+  std::shared_ptr<const Surface>& surface = rail ? geometry.rail : geometry.wheel;
+  std::vector<double> values = heights.values;
+  for (double& value : values) value *= factor;
+  const std::string backend(surface->backend());
+  surface = displacement::make_displaced_surface(
+      surface, displacement::section_offsets(heights.first, heights.step, std::move(values)),
+      rail ? Body::rail : Body::wheel, backend);
+  return geometry;
+}
+
+io::CaseDerivatives derivatives_by(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
+                                   const std::vector<std::string>& keys, std::span<const SectionHeights> heights) {
+  io::CaseDerivatives out = with_reason([&] { return CaseTangents(c, store, regions).by(keys, heights); });
+  for (std::size_t k = 0; k < out.parameters.size(); ++k) {
+    if (out.parameters[k].left_out != kNothingFollows) continue;
+    out.parameters[k].left_out.clear();
+    for (io::CaseDerivatives::Number& number : out.numbers) number.by[k] = 0.0;
+  }
+  return out;
+}
+
+std::vector<std::pair<std::string, double>> smooth_numbers(const io::CaseResult& result) {
+  std::vector<std::pair<std::string, double>> out;
+  for_each_number(result, [&](std::string name, const auto& row, const auto& of) {
+    out.emplace_back(std::move(name), row.unit.in_file(row.access.get(of(result))));
+  });
+  return out;
+}
 
 void check_derivative_keys(const io::CaseFile& file, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {

@@ -2,15 +2,19 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/listed_number.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/solvers/wheelrail/configuration.hpp"
 #include "treadmark/solvers/wheelrail/pair_gradient.hpp"
 
 namespace treadmark::app {
@@ -23,6 +27,22 @@ namespace treadmark::app {
 /// and a key that no case has.
 void add_derivatives(io::RunResult& result, const io::CaseFile& file, SurfaceStore& store,
                      const std::vector<std::string>& keys, const Progress& progress = {});
+
+/// Heights that a surface may have beside its own, along all of it: a spline through values at places across it.
+struct SectionHeights {
+  Facing facing = Facing::up;      ///< of which surface
+  double first = 0.0, step = 0.0;  ///< y of the places [m]
+  std::vector<double> values;      ///< z of a rail, radius of a wheel [m]
+};
+/// The surfaces with these heights, times a factor, added to one of them.
+wheelrail::Geometry with_heights(wheelrail::Geometry geometry, const SectionHeights& heights, double factor);
+
+/// Derivatives of one case by keys, none: no usual ones, and after them by the factors of heights. Where contact does
+/// not follow from a key they are 0.
+io::CaseDerivatives derivatives_by(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
+                                   const std::vector<std::string>& keys, std::span<const SectionHeights> heights);
+/// The numbers of a result that may have derivatives, by their names in JSON and in their units.
+std::vector<std::pair<std::string, double>> smooth_numbers(const io::CaseResult& result);
 
 /// The errors that it has, before anything is solved.
 void check_derivative_keys(const io::CaseFile& file, const std::vector<std::string>& keys);

@@ -71,6 +71,38 @@ std::string NoiseOfResults::Known::in_words(const std::string& name) const {
                      kMicro * size.largest);
 }
 
+std::vector<std::size_t> NoiseOfResults::Known::near(Body body, const io::CaseResult& result) const {
+  if (!surface) return {};
+  const io::PatchResult& largest = *ranges::max_element(result.patches, {}, &io::PatchResult::fn);
+  const bool wheel = body == Body::wheel;
+  return nearest_draws(*surface,
+                       result.bodies ? along(largest, wheel ? result.bodies->X_TA : result.bodies->X_TS, body) : 0.0,
+                       draws_count(), wheel ? 2.0 * kPi : 0.0);
+}
+
+std::vector<std::vector<double>> NoiseOfResults::heights(Body body, const io::CaseResult& result,
+                                                         std::span<const double> places) const {
+  const Known& known = body == Body::wheel ? wheel_ : rail_;
+  const std::vector<std::size_t> near = known.near(body, result);
+  std::vector<std::vector<double>> out(known.draws_count());
+  if (out.empty()) return out;
+  for (const double place : places) {
+    // where the section is flattest, of the pieces over a place; across it is more along z the steeper it is
+    const bool first = std::abs(place - known.y.front()) < std::abs(place - known.y.back());
+    double arc = first ? known.s.front() : known.s.back(), flattest = 0.0;
+    for (std::size_t i = 0; i + 1 < known.y.size(); ++i) {
+      const double y = known.y[i], dy = known.y[i + 1] - y, share = dy != 0.0 ? (place - y) / dy : -1.0;
+      const double cosine = std::abs(dy) / std::hypot(dy, known.z[i + 1] - known.z[i]);
+      if (share < 0.0 || share > 1.0 || cosine <= flattest) continue;
+      flattest = cosine, arc = known.s[i] + share * (known.s[i + 1] - known.s[i]);
+    }
+    constexpr double kSteepest = 0.2;  // beyond it heights tell nothing
+    for (std::size_t draw = 0; draw < out.size(); ++draw)
+      out[draw].push_back(known.error(draw, near, arc) / std::max(flattest, kSteepest));
+  }
+  return out;
+}
+
 void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseResult& result,
                                 std::span<io::PatchResult* const> patches,
                                 std::span<wheelrail::UncertainPatch> uncertain) const {
@@ -79,18 +111,13 @@ void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseRe
   const std::size_t draws = std::max(rail_.draws_count(), wheel_.draws_count());
   for (std::size_t k = 0; k < patches.size(); ++k)
     uncertain[k].errors.assign(draws, std::vector<double>(static_cast<std::size_t>(uncertain[k].grid.ny), 0.0));
-  const io::PatchResult& largest = **ranges::max_element(patches, {}, [](const auto* patch) { return patch->fn; });
   for (const Body which : {Body::rail, Body::wheel}) {
     const bool wheel = which == Body::wheel;
     const Known& body = wheel ? wheel_ : rail_;
     if (!body.known()) continue;
     const std::size_t own = body.draws_count();
     // the same for all patches: a body has one error at a time
-    std::vector<std::size_t> near;
-    if (body.surface)
-      near = nearest_draws(
-          *body.surface, result.bodies ? along(largest, wheel ? result.bodies->X_TA : result.bodies->X_TS, which) : 0.0,
-          own, wheel ? 2.0 * kPi : 0.0);
+    const std::vector<std::size_t> near = body.near(which, result);
     for (std::size_t k = 0; k < patches.size(); ++k) {
       const io::PatchResult& patch = *patches[k];
       const Grid2& grid = uncertain[k].grid;

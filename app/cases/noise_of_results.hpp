@@ -31,6 +31,10 @@ class NoiseOfResults {
   /// the normal problem again for some of the errors that they may have, 16 of profiles and as many of surfaces, those
   /// nearest along them. Patches without fields stay as they are.
   void add(const io::WheelRailCase& input, io::CaseResult& result) const;
+  /// Of a body the errors that it may have, those nearest along a surface, as heights at places y of its section [m]: z
+  /// of a rail, radius of a wheel. Each as probable as the others; none where nothing is known of it. The result has
+  /// patches.
+  std::vector<std::vector<double>> heights(Body body, const io::CaseResult& result, std::span<const double> y) const;
 
  private:
   struct Known {
@@ -43,6 +47,8 @@ class NoiseOfResults {
     /// Across the surface at an arc length [m]; of a surface the draw is one of those near the contact.
     double error(std::size_t draw, std::span<const std::size_t> near, double arc) const;
     std::string in_words(const std::string& name) const;
+    /// Numbers of the draws that count at the most loaded patch of a result; empty of a profile.
+    std::vector<std::size_t> near(Body body, const io::CaseResult& result) const;
   };
   static Known known_of(const NaturalSurface& natural);
   /// Errors of the gap in the rows of patches, draw by draw.

@@ -16,6 +16,7 @@
 #include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/run_parts.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
+#include "treadmark/app/cases/uncertainty.hpp"
 #include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
@@ -89,6 +90,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   run.toml = text_for_page(file);
   run.geometry_sha256 = store.hashes();
   run.surfaces = store.uses();
+  add_uncertainty(run, file, store, progress);
   run.seconds = seconds_since(start);
   return run;
 }

@@ -24,6 +24,7 @@
 #include "treadmark/core/output_claim.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/platform/ranges.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_json.hpp"
@@ -86,7 +87,12 @@ int exit_status(const io::RunResult& result) {
 bool is_list(const io::ListedCases& given, const RunOptions& options) {
   const bool all_shown =
       options.fields || options.verbose || options.bodies || options.sensitivities || !options.report_file.empty();
-  return !all_shown && (given.rows != nullptr || given.file.cases.size() > app::kLongList);
+  const auto with_errors = [](const io::Case& c) {
+    const auto* input = std::get_if<io::WheelRailCase>(&c.content);
+    return input != nullptr && !input->uncertainty.empty();
+  };
+  return !all_shown && ranges::none_of(given.file.cases, with_errors) &&
+         (given.rows != nullptr || given.file.cases.size() > app::kLongList);
 }
 
 /// How surfaces were fitted.
@@ -202,7 +208,8 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     const auto json = [&] { return io::to_json(result); };
     print_results(options.json_file, json, [&] {
       constexpr std::size_t kInFull = 3;  // cases that are printed with all numbers
-      if (result.cases.size() > kInFull && !options.verbose && !options.sensitivities)
+      const bool known = ranges::any_of(result.cases, [](const auto& c) { return c.uncertainty.has_value(); });
+      if (result.cases.size() > kInFull && !options.verbose && !options.sensitivities && !known)
         return io::summary_list(result.cases);
       std::string text;
       for (const io::CaseResult& c : result.cases) text += io::summary(c) + '\n';

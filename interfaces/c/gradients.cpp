@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,7 +67,7 @@ Beside beside(const tm_pair& p, const tm_solution& s, const std::string& name) {
   require(static_cast<bool>(number.key->get), "this number cannot be asked for");
   const double value = number.key->get(*s.input) * number.si, step = app::difference_step(number.unit, value);
   const auto changed = [&](double amount) {
-    tm_case c{s.input, {}, false};
+    tm_case c{std::make_shared<io::Case>(*s.input), {}, false};
     set_number(c, number, value + amount);
     return checked_for(p, &c);
   };

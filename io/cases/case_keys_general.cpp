@@ -58,6 +58,25 @@ void add_case(KeyList& list) {
   shared_flag(list, "case.sensitivities",
               "derivatives of the forces by creepages and approach in the results; full theory",
               [](auto& c) -> bool& { return c.sensitivities; });
+
+  KeyInfo uncertainty = key_info("case.uncertainty", KeyType::table_list,
+                                 "how well what is given is known, for error bars of the results");
+  uncertainty.scope = KeyScope::wheel_rail;
+  using Known = UncertainInput;
+  add_list<Known>(
+      list, std::move(uncertainty),
+      {required(ElementKey<Known>{
+           key_info("key", KeyType::text, "a number of the case by its key, or rail.shape, wheel.shape: heights"),
+           [](Known& u, const CaseValue& v) { u.key = v.text(); },
+           {},
+           [](const Known& u) { return toml_text(u.key); }}),
+       required(element_number<Known>("sigma", kPositive,
+                                      "standard deviation, in the unit of the key; of heights in mm", &Known::sigma)),
+       element_number<Known>(
+           "length_mm", kPositive,
+           "of heights: places so far apart have errors of their own; noise of points: their distance",
+           &Known::length)},
+      [](W& c, bool) { return &c.uncertainty; });
 }
 
 void add_steps(KeyList& list) {

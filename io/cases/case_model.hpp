@@ -141,6 +141,13 @@ struct SubsurfaceInput {
   bool full_tensor = false;   ///< in text files
 };
 
+/// How well something given is known.
+struct UncertainInput {
+  std::string key;      ///< of the case file, a number; or "rail.shape", "wheel.shape"
+  double sigma = 0.0;   ///< standard deviation, in the unit of the key; of a shape of its heights [mm]
+  double length = 0.0;  ///< of a shape: places so far apart have errors of their own, with a spline between them [m]
+};
+
 /// Friction that differs from place to place of a wheel on a rail; between the positions laws are interpolated.
 struct FrictionVariation {
   /// What friction depends on.
@@ -179,6 +186,7 @@ struct WheelRailCase {
   std::optional<Thermal> thermal;
   std::optional<Damping> damping;
   bool sensitivities = false;                        ///< derivatives of forces are wanted
+  std::vector<UncertainInput> uncertainty;           ///< independent of each other
   SubsurfaceInput subsurface;                        ///< element numbers that a patch does not have are passed over
   Conventions conventions = Conventions::treadmark;  ///< of spin moments and steps in time
 };

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 class Checker {
  public:
-  explicit Checker(const Case& c) : where_(c.where), number_(c.number) {}
+  explicit Checker(const Case& c) : whole_(c), where_(c.where), number_(c.number) {}
 
   void require(bool good, const std::string& message, std::string advice = {}) const {
     if (!good)
@@ -105,6 +106,15 @@ class Checker {
     }
     friction(c.friction);
     friction_variation(c.friction_variation);
+    for (const UncertainInput& u : c.uncertainty) {
+      if (u.key == "rail.shape" || u.key == "wheel.shape") {
+        require(u.length > 0.0, "case.uncertainty: heights need length_mm", "give the distance of the points");
+        continue;
+      }
+      require(u.length == 0.0, "case.uncertainty: length_mm belongs to rail.shape and wheel.shape");
+      require(number_of(whole_, u.key).has_value(), "case.uncertainty: the case does not give " + u.key,
+              "write it into the case file, or name another key");
+    }
   }
 
   void friction_variation(const FrictionVariation& v) const {
@@ -190,6 +200,7 @@ class Checker {
   }
 
  private:
+  const Case& whole_;
   SourcePosition where_;
   int number_;
 };

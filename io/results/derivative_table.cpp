@@ -81,4 +81,39 @@ std::string derivatives_text(const CaseDerivatives& derivatives) {
   return out;
 }
 
+std::string dominant_source(const CaseUncertainty& uncertainty, const CaseUncertainty::Number& number) {
+  std::size_t most = number.shares.size();
+  for (std::size_t k = 0; k < number.shares.size(); ++k)
+    if (std::isfinite(number.shares[k]) && (most == number.shares.size() || number.shares[k] > number.shares[most]))
+      most = k;
+  return most == number.shares.size()
+             ? std::string()
+             : fmt::format("{:.0f} % {}", 100.0 * number.shares[most], uncertainty.sources[most].name);
+}
+
+std::string uncertainty_text(const CaseUncertainty& uncertainty) {
+  constexpr int kName = 30;
+  std::string out = "  uncertainty, one standard deviation, with its largest source\n";
+  if (!uncertainty.message.empty()) return out + "    none: " + uncertainty.message + '\n';
+  for (const CaseUncertainty::Number& n : uncertainty.numbers) {
+    if (!(n.sigma > 0.0)) continue;
+    // two digits of the deviation, and the value to the same place
+    const int place = static_cast<int>(std::floor(std::log10(n.sigma))) - 1;
+    const double unit = std::pow(10.0, place);
+    const auto to_place = [&](double value) {
+      return fmt::format("{:.{}f}", unit * std::round(value / unit), std::clamp(-place, 0, 12));
+    };
+    out += fmt::format("    {:<{}} = {} +- {}  {}{}\n", n.name, kName, to_place(n.value), to_place(n.sigma),
+                       dominant_source(uncertainty, n), n.sampled ? " (sampled)" : "");
+  }
+  if (uncertainty.checked > 0) out += fmt::format("    by derivatives, held to {} solutions\n", uncertainty.checked);
+  if (uncertainty.samples > 1)
+    out += fmt::format("    sampled from {} solutions, deviations to +-{:.0f} %: {}\n", uncertainty.samples,
+                       100.0 / std::sqrt(2.0 * (uncertainty.samples - 1)), uncertainty.why);
+  if (uncertainty.others > 0)
+    out += fmt::format("    {} of them have another number of patches, or none: numbers of patches are without them\n",
+                       uncertainty.others);
+  return out;
+}
+
 }  // namespace treadmark::io

@@ -208,6 +208,29 @@ struct CaseDerivatives {
   std::string message;               ///< why there are none at all; empty: there are
 };
 
+/// How well the numbers of a case are known, from how well what is given is.
+struct CaseUncertainty {
+  /// Of what is given; independent of each other.
+  struct Source {
+    std::string name;    ///< key of the case file, "rail.shape", or "noise of the rail"
+    double sigma = 0.0;  ///< standard deviation, in the unit of the key; of heights [mm]
+  };
+  /// Of what came out.
+  struct Number {
+    std::string name;                 ///< in JSON, of a patch "patch_1.pmax_MPa"
+    double value = 0.0, sigma = 0.0;  ///< in the unit of the name; sigma: standard deviation, NaN: not known
+    bool sampled = false;             ///< sigma is that of a sample, else by derivatives
+    std::vector<double> shares;       ///< of each source in the variance; NaN: not known
+  };
+  std::vector<Source> sources;
+  std::vector<Number> numbers;
+  int checked = 0;      ///< solutions of which derivatives were held to
+  int samples = 0;      ///< solutions that were sampled; 0: none, derivatives do
+  int others = 0;       ///< of the sample, with another number of patches or none: numbers of patches are without them
+  std::string why;      ///< there is a sample
+  std::string message;  ///< why nothing is known; empty: it is
+};
+
 /// What came out of one case.
 struct CaseResult {
   int number = 0;  ///< of the case in its file, from 1
@@ -241,6 +264,7 @@ struct CaseResult {
   std::vector<std::pair<double, double>> force_iterations;                      ///< (z_ws [m], F_z [N])
   std::vector<PatchResult> patches;
   std::optional<CaseDerivatives> derivatives;  ///< where they were asked for; in JSON and tables, not in HDF5
+  std::optional<CaseUncertainty> uncertainty;  ///< where the case says how well it is known; in JSON and tables
 };
 
 /// How a case ended, in result files and tables: "doubtful" where it is ok but a remark is grave, else the word of its

@@ -112,7 +112,8 @@ std::string summary(const CaseResult& result) {
   if (result.has_wheelset) add_wheelset(table, result);
   if (!result.patches.empty()) add_patches(table, result.patches);
   for (const Remark& remark : result.remarks) table.line("  " + to_line(remark));
-  return table.take() + (result.derivatives ? derivatives_text(*result.derivatives) : "");
+  return table.take() + (result.uncertainty ? uncertainty_text(*result.uncertainty) : "") +
+         (result.derivatives ? derivatives_text(*result.derivatives) : "");
 }
 
 std::string summary_list(std::span<const CaseResult> cases) {

@@ -120,6 +120,21 @@ Json derivatives_json(const CaseDerivatives& derivatives) {
   return out;
 }
 
+Json uncertainty_json(const CaseUncertainty& uncertainty) {
+  Json out = {{"message", uncertainty.message}, {"sources", Json::array()},       {"numbers", Json::array()},
+              {"checked", uncertainty.checked}, {"samples", uncertainty.samples}, {"others", uncertainty.others},
+              {"why", uncertainty.why}};
+  for (const CaseUncertainty::Source& s : uncertainty.sources)
+    out["sources"].push_back({{"name", s.name}, {"sigma", number(s.sigma)}});
+  for (const CaseUncertainty::Number& n : uncertainty.numbers)
+    out["numbers"].push_back({{"name", n.name},
+                              {"value", number(n.value)},
+                              {"sigma", number(n.sigma)},
+                              {"sampled", n.sampled},
+                              {"shares", numbers(n.shares)}});
+  return out;
+}
+
 Json case_json(const CaseResult& result) {
   Json out = Json::object();
   out["case"] = result.number;
@@ -141,6 +156,7 @@ Json case_json(const CaseResult& result) {
   out["npatch"] = result.patches.size();
   out["patches"] = Json::array();
   for (const PatchResult& patch : result.patches) out["patches"].push_back(patch_json(patch));
+  if (result.uncertainty) out["uncertainty"] = uncertainty_json(*result.uncertainty);
   if (result.derivatives) out["derivatives"] = derivatives_json(*result.derivatives);
   return out;
 }

@@ -11,6 +11,7 @@
 #include "treadmark/app/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/io/results/derivative_table.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/report/html_text.hpp"
 
@@ -225,6 +226,27 @@ Table patch_table(const io::RunResult& run) {
         row.cells.emplace_back(Number{value});
       table.rows.push_back(std::move(row));
     }
+  return table;
+}
+
+Table uncertainty_table(const io::RunResult& run) {
+  Table table{
+      "uncertainty",
+      "How well numbers are known: one standard deviation, with the source of most of it. Sampled: from perturbed "
+      "solutions, where derivatives do not tell.",
+      {{"case"}, {"number"}, {"value"}, {"±"}, {"largest source"}, {"found"}}};
+  for (std::size_t i = 0; i < run.cases.size(); ++i) {
+    if (!run.cases[i].uncertainty) continue;
+    const io::CaseUncertainty& u = *run.cases[i].uncertainty;
+    const Number number{static_cast<double>(run.cases[i].number)};
+    if (!u.message.empty())
+      table.rows.push_back({{number, u.message, Number{NAN}, Number{NAN}, "", ""}, static_cast<int>(i)});
+    for (const io::CaseUncertainty::Number& n : u.numbers)
+      if (n.sigma > 0.0)
+        table.rows.push_back({{number, n.name, Number{n.value, 6}, Number{n.sigma, 2}, io::dominant_source(u, n),
+                               n.sampled ? "sampled" : "by derivatives"},
+                              static_cast<int>(i)});
+  }
   return table;
 }
 

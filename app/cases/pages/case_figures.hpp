@@ -28,6 +28,7 @@ report::ChartView case_chart(const io::RunResult& run);
 /// A line a case, and a line a patch.
 report::Table case_table(const io::RunResult& run);
 report::Table patch_table(const io::RunResult& run);
+report::Table uncertainty_table(const io::RunResult& run);
 
 /// Of the patches of a case; NaN without any.
 double largest(const io::CaseResult& result, double io::PatchResult::*member);

@@ -153,6 +153,8 @@ Page run_page(const std::shared_ptr<const io::RunResult>& run, std::string docum
   if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
   if (std::optional<Section> below = subsurface_section(*run)) page.sections.push_back(std::move(*below));
   page.sections.push_back({"cases", "Cases", {case_table(*run), patch_table(*run)}});
+  if (ranges::any_of(run->cases, [](const io::CaseResult& c) { return c.uncertainty.has_value(); }))
+    page.sections.back().blocks.emplace_back(uncertainty_table(*run));
   add_origin(page, *run);
   return page;
 }

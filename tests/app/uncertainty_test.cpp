@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cases/uncertainty.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/core/random.hpp"
+#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/results/derivative_table.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using ::testing::HasSubstr;
+using Number = io::CaseUncertainty::Number;
+
+std::string known_to(const std::string& key, const std::string& sigma, const std::string& more = {}) {
+  return fmt::format("[[case.uncertainty]]\nkey = \"{}\"\nsigma = {}\n{}", key, sigma, more);
+}
+
+io::CaseUncertainty uncertainty_of_text(const std::string& text) {
+  const io::RunResult run = run_cases(io::parse_case_text(text, "case.toml"));
+  EXPECT_TRUE(run.cases.at(0).uncertainty.has_value());
+  return run.cases[0].uncertainty.value_or(io::CaseUncertainty{});
+}
+
+Number number_named(const io::CaseUncertainty& u, const std::string& name) {
+  for (const Number& one : u.numbers)
+    if (one.name == name) return one;
+  ADD_FAILURE() << "no " << name << ": " << u.message;
+  return {};
+}
+
+/// A cylinder on the crown of a rail: z is the approach, and what Hertz found are powers of it.
+std::string crown(double z_mm) {
+  return fmt::format(R"([wheel]
+shape.start_y_mm = -60
+shape.arcs = [{{ length_mm = 120, curvature_per_m = 0 }}]
+[rail]
+shape.standard = "60E1"
+[track]
+cant_rad = 0.0
+[wheelset]
+y_mm = 0
+z_mm = {}
+velocity_m_s = 2
+vpitch_rad_s = -4.3478
+[friction]
+coefficient = 0.3
+[discretisation]
+dx_mm = 0.5
+ds_mm = 0.5
+[solver]
+tolerance = 1e-8
+)",
+                     z_mm);
+}
+
+TEST(Uncertainty, IsThatOfHertzFormulas) {
+  const io::CaseUncertainty u =
+      uncertainty_of_text(crown(0.06) + known_to("wheelset.z_mm", "0.001") + known_to("friction.coefficient", "0.01"));
+  ASSERT_EQ(u.message, "");
+  ASSERT_EQ(u.sources.size(), 2u);
+  EXPECT_EQ(u.checked, 8);
+  constexpr double kElements = 0.02;  // derivatives are those of elements in contact
+  const Number force = number_named(u, "patch_1.fn_N"), pressure = number_named(u, "patch_1.pmax_MPa");
+  EXPECT_NEAR(force.sigma, 1.5 * force.value / 0.06 * 0.001, kElements * force.sigma);
+  EXPECT_NEAR(pressure.sigma, 0.5 * pressure.value / 0.06 * 0.001, kElements * pressure.sigma);
+  EXPECT_FALSE(force.sampled);
+  EXPECT_NEAR(force.shares.at(0), 1.0, 1e-6);
+  EXPECT_EQ(io::dominant_source(u, force), "100 % wheelset.z_mm");
+  const std::string text = io::uncertainty_text(u);
+  EXPECT_THAT(text, HasSubstr(fmt::format("{:.0f}00 +- {:.0f}00", force.value / 100.0, force.sigma / 100.0))) << text;
+}
+
+/// The wheel may be in the air: contact of what is left follows from the formula, too.
+TEST(Uncertainty, IsSampledWhereContactIsLost) {
+  constexpr double kSpread = 0.9;  // of the approach
+  const io::CaseUncertainty u = uncertainty_of_text(crown(0.02) + known_to("wheelset.z_mm", "0.018"));
+  ASSERT_EQ(u.message, "");
+  EXPECT_EQ(u.samples, 200);
+  EXPECT_THAT(u.why, HasSubstr("contact comes or goes"));
+  EXPECT_NEAR(u.others, 200 * 0.1333, 19.0);  // four deviations of such a count
+  double weight = 0.0, first = 0.0, second = 0.0;
+  for (double t = -1.0 / kSpread; t < 8.0; t += 1e-3) {
+    const double density = std::exp(-0.5 * t * t), power = std::pow(std::max(0.0, 1.0 + kSpread * t), 1.5);
+    weight += density, first += density * power, second += density * power * power;
+  }
+  const double spread = std::sqrt(second / weight - std::pow(first / weight, 2));
+  const Number force = number_named(u, "patch_1.fn_N");
+  EXPECT_TRUE(force.sampled);
+  EXPECT_NEAR(force.sigma / force.value, spread, 0.2 * spread);
+  EXPECT_THAT(io::uncertainty_text(u), HasSubstr("(sampled)"));
+}
+
+TEST(Uncertainty, IsThatOfSolutionsDrawnAtRandom) {
+  constexpr double kForce = 2e3, kPlace = 0.05;
+  constexpr int kDrawn = 120;
+  const std::string text = treadmark::testing::standard_case("1.0");
+  const std::string known =
+      "[case]\n" + known_to("wheelset.vertical_force_N", "2e3") + known_to("wheelset.y_mm", "0.05");
+  const std::string heading = "[wheelset]\n";
+  const auto with = [&](const std::string& more) {
+    std::string whole = text;
+    whole.insert(whole.find(heading) + heading.size(), "y_mm = 2\n");
+    return whole + more;
+  };
+  const io::CaseUncertainty u = uncertainty_of_text(with(known));
+  ASSERT_EQ(u.message, "");
+  Random random(7);
+  const auto normal = [&] {
+    double sum = -6.0;
+    for (int i = 0; i < 12; ++i) sum += random.uniform();
+    return sum;
+  };
+  std::string cases;
+  for (int i = 0; i < kDrawn; ++i)
+    cases += fmt::format("[[cases]]\nwheelset.vertical_force_N = {}\nwheelset.y_mm = {}\n", 80e3 + kForce * normal(),
+                         2.0 + kPlace * normal());
+  const io::RunResult run = run_cases(io::parse_case_text(with(cases), "case.toml"));
+  const auto spread = [&](double (*of)(const io::CaseResult&)) {
+    double first = 0.0, second = 0.0;
+    for (const io::CaseResult& c : run.cases) first += of(c) / kDrawn, second += of(c) * of(c) / kDrawn;
+    return std::sqrt(second - first * first);
+  };
+  constexpr double kFew = 0.25;  // four deviations of what so few draws tell
+  const double pressure = spread([](const io::CaseResult& c) { return 1e-6 * c.patches.at(0).pmax; });
+  const double lateral = spread([](const io::CaseResult& c) { return c.force_tr.y(); });
+  EXPECT_NEAR(number_named(u, "patch_1.pmax_MPa").sigma, pressure, kFew * pressure);
+  EXPECT_NEAR(number_named(u, "force_on_rail.fy_tr_N").sigma, lateral, kFew * lateral);
+}
+
+/// Heights that are alike over all of the head move the wheel with them.
+TEST(Uncertainty, OfHeightsReachesThePlace) {
+  const std::string text = treadmark::testing::standard_case("1.0");
+  const io::CaseUncertainty u =
+      uncertainty_of_text(text + "[case]\n" + known_to("rail.shape", "0.01", "length_mm = 2000\n"));
+  ASSERT_EQ(u.message, "");
+  EXPECT_NEAR(number_named(u, "wheelset.z_mm").sigma, 0.01, 5e-4);
+  const io::CaseUncertainty rough =
+      uncertainty_of_text(text + "[case]\n" + known_to("rail.shape", "0.0001", "length_mm = 1\n"));
+  ASSERT_EQ(rough.message, "");
+  EXPECT_GT(number_named(rough, "patch_1.pmax_MPa").sigma, 0.0);
+  EXPECT_LT(number_named(rough, "wheelset.z_mm").sigma, 1e-4) << "the mean of several places";
+}
+
+TEST(Uncertainty, DoesNotDependOnThreads) {
+  const std::string text = crown(0.02) + known_to("wheelset.z_mm", "0.016");
+  std::vector<std::vector<double>> found;
+  for (const int threads : {1, 3}) {
+    const ThreadLimit limit(threads);
+    auto& sigmas = found.emplace_back();
+    for (const Number& one : uncertainty_of_text(text).numbers) sigmas.push_back(one.sigma);
+  }
+  for (std::size_t k = 0; k < found[0].size(); ++k)
+    EXPECT_TRUE(found[0][k] == found[1][k] || std::isnan(found[0][k])) << k;
+}
+
+TEST(Uncertainty, WithoutDerivativesIsSampled) {
+  const io::CaseUncertainty u =
+      uncertainty_of_text(crown(0.06) + "tangential_model = \"fastsim\"\n" + known_to("wheelset.z_mm", "0.001"));
+  ASSERT_EQ(u.message, "");
+  EXPECT_THAT(u.why, HasSubstr("full theory"));
+  const Number force = number_named(u, "patch_1.fn_N");
+  EXPECT_NEAR(force.sigma, 1.5 * force.value / 0.06 * 0.001, 0.2 * force.sigma);
+  EXPECT_GT(force.shares.at(0), 0.95);
+}
+
+TEST(Uncertainty, RefusesWhatMakesNoSense) {
+  for (const std::string& wrong :
+       {known_to("wheelset.vertical_force_N", "1"), known_to("wheelset.z", "1"), known_to("wheelset.z_mm", "-1"),
+        known_to("rail.shape", "0.01"), known_to("wheelset.z_mm", "0.01", "length_mm = 3\n"),
+        std::string("[[case.uncertainty]]\nkey = \"wheelset.z_mm\"\n")})
+    EXPECT_THROW(io::parse_case_text(crown(0.06) + wrong, "case.toml"), Error) << wrong;
+  const io::CaseUncertainty many =
+      uncertainty_of_text(crown(0.06) + known_to("rail.shape", "0.01", "length_mm = 0.001\n"));
+  EXPECT_THAT(many.message, HasSubstr("too many"));
+  EXPECT_THAT(io::uncertainty_text(many), HasSubstr("none: "));
+}
+
+TEST(Uncertainty, ReachesFilesAndTheTerminal) {
+  const treadmark::testing::SampleInput input;
+  input.write("crown.toml", crown(0.06) + known_to("wheelset.z_mm", "0.001"));
+  const std::string file = (input.folder() / "crown.toml").string(), folder = (input.folder() / "out").string();
+  const auto run = treadmark::testing::run_program({"run", file, "-o", folder});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("% wheelset.z_mm"));
+  const auto json = nlohmann::json::parse(input.read("out/result.json"));
+  const auto& uncertainty = json.at("cases").at(0).at("uncertainty");
+  EXPECT_EQ(uncertainty.at("sources").size(), 1u);
+  EXPECT_EQ(uncertainty.at("numbers").at(0).at("shares").size(), 1u);
+}
+
+}  // namespace
+}  // namespace treadmark::app
