@@ -71,7 +71,7 @@ std::string NoiseOfResults::Known::in_words(const std::string& name) const {
                      kMicro * size.largest);
 }
 
-std::vector<std::size_t> NoiseOfResults::Known::near(Body body, const io::CaseResult& result) const {
+std::vector<std::size_t> NoiseOfResults::Known::near_draws(Body body, const io::CaseResult& result) const {
   if (!surface) return {};
   const io::PatchResult& largest = *ranges::max_element(result.patches, {}, &io::PatchResult::fn);
   const bool wheel = body == Body::wheel;
@@ -83,7 +83,7 @@ std::vector<std::size_t> NoiseOfResults::Known::near(Body body, const io::CaseRe
 std::vector<std::vector<double>> NoiseOfResults::heights(Body body, const io::CaseResult& result,
                                                          std::span<const double> places) const {
   const Known& known = body == Body::wheel ? wheel_ : rail_;
-  const std::vector<std::size_t> near = known.near(body, result);
+  const std::vector<std::size_t> near = known.near_draws(body, result);
   std::vector<std::vector<double>> out(known.draws_count());
   if (out.empty()) return out;
   for (const double place : places) {
@@ -117,7 +117,7 @@ void NoiseOfResults::add_errors(const io::WheelRailCase& input, const io::CaseRe
     if (!body.known()) continue;
     const std::size_t own = body.draws_count();
     // the same for all patches: a body has one error at a time
-    const std::vector<std::size_t> near = body.near(which, result);
+    const std::vector<std::size_t> near = body.near_draws(which, result);
     for (std::size_t k = 0; k < patches.size(); ++k) {
       const io::PatchResult& patch = *patches[k];
       const Grid2& grid = uncertain[k].grid;

@@ -48,7 +48,7 @@ class NoiseOfResults {
     double error(std::size_t draw, std::span<const std::size_t> near, double arc) const;
     std::string in_words(const std::string& name) const;
     /// Numbers of the draws that count at the most loaded patch of a result; empty of a profile.
-    std::vector<std::size_t> near(Body body, const io::CaseResult& result) const;
+    std::vector<std::size_t> near_draws(Body body, const io::CaseResult& result) const;
   };
   static Known known_of(const NaturalSurface& natural);
   /// Errors of the gap in the rows of patches, draw by draw.

@@ -48,7 +48,7 @@ Number number_named(const io::CaseUncertainty& u, const std::string& name) {
 }
 
 /// A cylinder on the crown of a rail: z is the approach, and what Hertz found are powers of it.
-std::string crown(double z_mm) {
+std::string on_the_crown(double z_mm) {
   return fmt::format(R"([wheel]
 shape.start_y_mm = -60
 shape.arcs = [{{ length_mm = 120, curvature_per_m = 0 }}]
@@ -73,8 +73,8 @@ tolerance = 1e-8
 }
 
 TEST(Uncertainty, IsThatOfHertzFormulas) {
-  const io::CaseUncertainty u =
-      uncertainty_of_text(crown(0.06) + known_to("wheelset.z_mm", "0.001") + known_to("friction.coefficient", "0.01"));
+  const io::CaseUncertainty u = uncertainty_of_text(on_the_crown(0.06) + known_to("wheelset.z_mm", "0.001") +
+                                                    known_to("friction.coefficient", "0.01"));
   ASSERT_EQ(u.message, "");
   ASSERT_EQ(u.sources.size(), 2u);
   EXPECT_EQ(u.checked, 8);
@@ -92,7 +92,7 @@ TEST(Uncertainty, IsThatOfHertzFormulas) {
 /// The wheel may be in the air: contact of what is left follows from the formula, too.
 TEST(Uncertainty, IsSampledWhereContactIsLost) {
   constexpr double kSpread = 0.9;  // of the approach
-  const io::CaseUncertainty u = uncertainty_of_text(crown(0.02) + known_to("wheelset.z_mm", "0.018"));
+  const io::CaseUncertainty u = uncertainty_of_text(on_the_crown(0.02) + known_to("wheelset.z_mm", "0.018"));
   ASSERT_EQ(u.message, "");
   EXPECT_EQ(u.samples, 200);
   EXPECT_THAT(u.why, HasSubstr("contact comes or goes"));
@@ -161,7 +161,7 @@ TEST(Uncertainty, OfHeightsReachesThePlace) {
 }
 
 TEST(Uncertainty, DoesNotDependOnThreads) {
-  const std::string text = crown(0.02) + known_to("wheelset.z_mm", "0.016");
+  const std::string text = on_the_crown(0.02) + known_to("wheelset.z_mm", "0.016");
   std::vector<std::vector<double>> found;
   for (const int threads : {1, 3}) {
     const ThreadLimit limit(threads);
@@ -174,7 +174,7 @@ TEST(Uncertainty, DoesNotDependOnThreads) {
 
 TEST(Uncertainty, WithoutDerivativesIsSampled) {
   const io::CaseUncertainty u =
-      uncertainty_of_text(crown(0.06) + "tangential_model = \"fastsim\"\n" + known_to("wheelset.z_mm", "0.001"));
+      uncertainty_of_text(on_the_crown(0.06) + "tangential_model = \"fastsim\"\n" + known_to("wheelset.z_mm", "0.001"));
   ASSERT_EQ(u.message, "");
   EXPECT_THAT(u.why, HasSubstr("full theory"));
   const Number force = number_named(u, "patch_1.fn_N");
@@ -187,16 +187,16 @@ TEST(Uncertainty, RefusesWhatMakesNoSense) {
        {known_to("wheelset.vertical_force_N", "1"), known_to("wheelset.z", "1"), known_to("wheelset.z_mm", "-1"),
         known_to("rail.shape", "0.01"), known_to("wheelset.z_mm", "0.01", "length_mm = 3\n"),
         std::string("[[case.uncertainty]]\nkey = \"wheelset.z_mm\"\n")})
-    EXPECT_THROW(io::parse_case_text(crown(0.06) + wrong, "case.toml"), Error) << wrong;
+    EXPECT_THROW(io::parse_case_text(on_the_crown(0.06) + wrong, "case.toml"), Error) << wrong;
   const io::CaseUncertainty many =
-      uncertainty_of_text(crown(0.06) + known_to("rail.shape", "0.01", "length_mm = 0.001\n"));
+      uncertainty_of_text(on_the_crown(0.06) + known_to("rail.shape", "0.01", "length_mm = 0.001\n"));
   EXPECT_THAT(many.message, HasSubstr("too many"));
   EXPECT_THAT(io::uncertainty_text(many), HasSubstr("none: "));
 }
 
 TEST(Uncertainty, ReachesFilesAndTheTerminal) {
   const treadmark::testing::SampleInput input;
-  input.write("crown.toml", crown(0.06) + known_to("wheelset.z_mm", "0.001"));
+  input.write("crown.toml", on_the_crown(0.06) + known_to("wheelset.z_mm", "0.001"));
   const std::string file = (input.folder() / "crown.toml").string(), folder = (input.folder() / "out").string();
   const auto run = treadmark::testing::run_program({"run", file, "-o", folder});
   ASSERT_EQ(run.status, 0) << run.err;

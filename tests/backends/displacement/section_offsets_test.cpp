@@ -13,15 +13,15 @@
 namespace treadmark::displacement {
 namespace {
 
-constexpr double kFirst = -0.01, kStep = 2e-3;
-const std::vector<double> kValues{1e-5, -2e-5, 0.0, 3e-5, 3e-5, -1e-5, 2e-5};
+constexpr double kFirstPlace = -0.01, kPlaceStep = 2e-3;
+const std::vector<double> kPlaceValues{1e-5, -2e-5, 0.0, 3e-5, 3e-5, -1e-5, 2e-5};
 
 TEST(SectionOffsets, GoThroughTheirValues) {
-  const auto field = section_offsets(kFirst, kStep, kValues);
-  for (std::size_t k = 0; k < kValues.size(); ++k)
-    EXPECT_NEAR(field->jet(7.0, kFirst + static_cast<double>(k) * kStep).value, kValues[k], 1e-18);
-  EXPECT_NEAR(field->jet(0.0, -1.0).value, kValues.front(), 1e-18);
-  EXPECT_NEAR(field->jet(0.0, 1.0).value, kValues.back(), 1e-18);
+  const auto field = section_offsets(kFirstPlace, kPlaceStep, kPlaceValues);
+  for (std::size_t k = 0; k < kPlaceValues.size(); ++k)
+    EXPECT_NEAR(field->jet(7.0, kFirstPlace + static_cast<double>(k) * kPlaceStep).value, kPlaceValues[k], 1e-18);
+  EXPECT_NEAR(field->jet(0.0, -1.0).value, kPlaceValues.front(), 1e-18);
+  EXPECT_NEAR(field->jet(0.0, 1.0).value, kPlaceValues.back(), 1e-18);
   EXPECT_EQ(field->jet(0.0, 1.0).d_y, 0.0);
   EXPECT_TRUE(field->constant_along());
   // a natural spline has straight lines
@@ -32,9 +32,9 @@ TEST(SectionOffsets, GoThroughTheirValues) {
 }
 
 TEST(SectionOffsets, HaveDerivativesAndBounds) {
-  const auto field = section_offsets(kFirst, kStep, kValues);
+  const auto field = section_offsets(kFirstPlace, kPlaceStep, kPlaceValues);
   constexpr double kDifference = 1e-7, kSame = 1e-7, kSameBend = 1e-3;
-  for (double y = kFirst + 1e-4; y < 1.9e-3; y += 3.7e-4) {
+  for (double y = kFirstPlace + 1e-4; y < 1.9e-3; y += 3.7e-4) {
     const OffsetJet at = field->jet(0.0, y), more = field->jet(0.0, y + kDifference),
                     less = field->jet(0.0, y - kDifference);
     EXPECT_NEAR(at.d_y, (more.value - less.value) / (2.0 * kDifference), kSame);
