@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -98,7 +99,7 @@ std::string uncertainty_text(const CaseUncertainty& uncertainty) {
   for (const CaseUncertainty::Number& n : uncertainty.numbers) {
     if (!(n.sigma > 0.0)) continue;
     // two digits of the deviation, and the value to the same place
-    const int place = static_cast<int>(std::floor(std::log10(n.sigma))) - 1;
+    const int place = to_whole<int>(std::floor(std::log10(n.sigma))) - 1;
     const double unit = std::pow(10.0, place);
     const auto to_place = [&](double value) {
       return fmt::format("{:.{}f}", unit * std::round(value / unit), std::clamp(-place, 0, 12));
