@@ -51,7 +51,7 @@ struct UncertainSource {
 /// y of places over all of a surface.
 Numbers places_across(const Surface& surface, double step) {
   constexpr double kFar = 0.2;  // [m], of bounds that may be infinite
-  constexpr std::size_t kMost = 1000;
+  constexpr std::size_t kMost = 2000;
   const Box3 box = surface.bounds();
   const double from = std::max(box.min.y(), -kFar), to = std::min(box.max.y(), kFar);
   const auto count = to_whole<std::size_t>(std::ceil(std::max(0.0, to - from) / step)) + 2;
@@ -195,11 +195,11 @@ class CaseWithErrors {
   /// Holds derivatives to solutions, and says of how many numbers a sample is needed.
   std::size_t check() {
     solve_more(kChecked);
-    out_.checked = why_.empty() ? static_cast<int>(kChecked) : 0;
     for (const Drawn& one : drawn_)
       if (why_.empty() && !one.same_patches)
         why_ = "contact comes or goes, or there is no solution, within what is given";
     const bool all = !why_.empty();
+    out_.checked = all ? 0 : static_cast<int>(kChecked);
     std::size_t missed = 0;
     std::string first;
     for (std::size_t n = 0; n < base_.size(); ++n) {
