@@ -318,7 +318,8 @@ io::CaseDerivatives derivatives_by(const io::Case& c, SurfaceStore& store, const
 std::vector<std::pair<std::string, double>> smooth_numbers(const io::CaseResult& result) {
   std::vector<std::pair<std::string, double>> out;
   for_each_number(result, [&](std::string name, const auto& row, const auto& of) {
-    out.emplace_back(std::move(name), row.unit.in_file(row.access.get(of(result))));
+    const double value = row.unit.in_file(row.access.get(of(result)));
+    if (std::isfinite(value)) out.emplace_back(std::move(name), value);
   });
   return out;
 }

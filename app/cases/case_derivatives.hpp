@@ -41,7 +41,7 @@ wheelrail::Geometry with_heights(wheelrail::Geometry geometry, const SectionHeig
 /// not follow from a key they are 0.
 io::CaseDerivatives derivatives_by(const io::Case& c, SurfaceStore& store, const SampledRegions& regions,
                                    const std::vector<std::string>& keys, std::span<const SectionHeights> heights);
-/// The numbers of a result that may have derivatives, by their names in JSON and in their units.
+/// The numbers that are known of a result and may have derivatives, by their names in JSON and in their units.
 std::vector<std::pair<std::string, double>> smooth_numbers(const io::CaseResult& result);
 
 /// The errors that it has, before anything is solved.

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/case_derivatives.hpp"
+#include "treadmark/app/cases/case_sequence.hpp"
 #include "treadmark/app/cases/noise_of_results.hpp"
 #include "treadmark/app/cases/run_parts.hpp"
 #include "treadmark/app/cases/solve_cases.hpp"
@@ -35,15 +36,12 @@ namespace {
 constexpr std::size_t kChecked = 8, kSamples = 200;  ///< solutions
 constexpr double kBent = 0.3;  ///< by how much of a deviation derivatives may miss solutions, root mean square
 
-/// What a number, in the unit of files, is not known better than by which solutions are left open.
-double left_open(double value) { return 1e-5 * std::abs(value) + 1e-9; }
-
 using Numbers = std::vector<double>;
 
 /// Of what is given: a number of the case, or heights with a factor each. All factors are independent, of deviation 1.
 struct UncertainSource {
   std::string name, key;  ///< key: of a number
-  double value = 0.0, sigma = 0.0;
+  double sigma = 0.0;
   std::vector<SectionHeights> heights;
   std::size_t factors() const { return key.empty() ? heights.size() : 1; }
 };
@@ -68,6 +66,7 @@ class CaseWithErrors {
  public:
   CaseWithErrors(const io::Case& c, const io::CaseResult& solved, SurfaceStore& store, const SampledRegions& regions)
       : case_(c), solved_(solved), store_(store), regions_(regions), base_(smooth_numbers(solved)) {
+    for (const auto& [name, value] : base_) left_open_.push_back(left_open(name, value));
     auto& input = std::get<io::WheelRailCase>(case_.content);
     const std::vector<io::UncertainInput> given = std::exchange(input.uncertainty, {});
     input.subsurface = {};
@@ -78,16 +77,20 @@ class CaseWithErrors {
     for (const UncertainSource& source : sources_) factors_ += source.factors();
   }
 
-  io::CaseUncertainty found() {
+  /// drawn: called with how many solutions are done, of a sample.
+  io::CaseUncertainty found(const std::function<void(std::size_t)>& drawn) {
     by_derivatives();
     const std::size_t missed = check();
     if (missed > 0) {
-      while (drawn_.size() < kSamples) solve_more(kSamples);
+      while (drawn_.size() < kSamples) {
+        solve_more(kSamples);
+        drawn(drawn_.size());
+      }
       from_sample();
       out_.samples = static_cast<int>(kSamples);
     }
-    for (io::CaseUncertainty::Number& number : out_.numbers)
-      if (number.sigma <= left_open(number.value)) number.sigma = 0.0;
+    for (std::size_t n = 0; n < base_.size(); ++n)
+      if (out_.numbers[n].sigma <= left_open_[n]) out_.numbers[n].sigma = 0.0;
     return std::move(out_);
   }
 
@@ -98,13 +101,21 @@ class CaseWithErrors {
     bool same_patches = false;
   };
 
+  /// What a number, in the unit of files, is not known better than by which solutions are left open; what is 0 by
+  /// symmetry is so beside others of its unit.
+  double left_open(const std::string& name, double value) const {
+    const auto unit = [](const std::string& of) { return of.substr(of.rfind('_') + 1); };
+    double greatest = 0.1;
+    for (const auto& [other, its] : base_)
+      if (unit(other) == unit(name)) greatest = std::max(greatest, std::abs(its));
+    return 1e-5 * std::abs(value) + 1e-8 * greatest;
+  }
+
   const Surface& surface_of(Facing facing) const { return facing == Facing::up ? *geometry_.rail : *geometry_.wheel; }
 
   void add(const io::UncertainInput& given) {
-    UncertainSource source{given.key, given.key, 0.0, given.sigma, {}};
-    if (given.length == 0.0) {
-      source.value = io::number_of(case_, given.key).value();
-    } else {
+    UncertainSource source{given.key, given.key, given.sigma, {}};
+    if (given.length > 0.0) {
       source.key.clear();
       const Facing facing = given.key == "rail.shape" ? Facing::up : Facing::down;
       const Numbers places = places_across(surface_of(facing), given.length);
@@ -131,7 +142,7 @@ class CaseWithErrors {
       const Numbers places = places_across(surface_of(facing), kStep);
       const std::vector<Numbers> draws = noise.heights(body, solved_, places);
       if (draws.empty()) continue;
-      UncertainSource source{fmt::format("noise of the {}", body_name(body)), {}, 0.0, 0.0, {}};
+      UncertainSource source{fmt::format("noise of the {}", body_name(body)), {}, 0.0, {}};
       double squares = 0.0;
       for (const Numbers& draw : draws) {
         SectionHeights one{facing, places.front(), kStep, draw};
@@ -211,7 +222,7 @@ class CaseWithErrors {
       }
       const double miss = std::sqrt(squares / static_cast<double>(kChecked));
       io::CaseUncertainty::Number& number = out_.numbers[n];
-      number.sampled = all || !(miss <= std::max(kBent * number.sigma, left_open(number.value)));
+      number.sampled = all || !(miss <= std::max(kBent * number.sigma, left_open_[n]));
       if (!number.sampled) continue;
       if (missed++ == 0) first = number.name;
     }
@@ -257,8 +268,9 @@ class CaseWithErrors {
     io::Case c = case_;
     std::size_t factor = 0;
     for (const UncertainSource& source : sources_) {
-      if (!source.key.empty())
-        io::apply_override(c, fmt::format("{}={:.17g}", source.key, source.value + factors[factor] * source.sigma));
+      if (!source.key.empty())  // beside an error of the same number in another row
+        io::apply_override(c, fmt::format("{}={:.17g}", source.key,
+                                          io::number_of(c, source.key).value() + factors[factor] * source.sigma));
       factor += source.factors();
     }
     return c;
@@ -299,7 +311,7 @@ class CaseWithErrors {
       if (2 * known.size() < kSamples) continue;  // too few to stand for all
       const auto value = [n](const Drawn& one) { return one.numbers[n]; };
       number.sigma = std::sqrt(covariance(known, value, value));
-      if (!(number.sigma > left_open(number.value))) continue;
+      if (!(number.sigma > left_open_[n])) continue;
       std::size_t factor = 0;
       for (std::size_t k = 0; k < sources_.size(); factor += sources_[k++].factors()) {
         if (sources_[k].factors() > 1 && !std::isfinite(slopes_[n][factor])) continue;
@@ -329,6 +341,7 @@ class CaseWithErrors {
   SurfaceStore& store_;
   const SampledRegions& regions_;
   const std::vector<std::pair<std::string, double>> base_;
+  Numbers left_open_;
   wheelrail::Geometry geometry_;
   std::vector<UncertainSource> sources_;
   std::size_t factors_ = 0;
@@ -340,18 +353,18 @@ class CaseWithErrors {
 };
 
 io::CaseUncertainty uncertainty_of(const io::Case& c, const io::CaseResult& solved, SurfaceStore& store,
-                                   const SampledRegions& regions) {
+                                   const SampledRegions& regions, const std::function<void(std::size_t)>& drawn) {
   io::CaseUncertainty none;
   if (solved.status != Status::ok || solved.patches.empty()) {
     none.message = "the case has no solution that is ok";
     return none;
   }
-  if (std::get<io::WheelRailCase>(c.content).history != HistoryUse::start) {
+  if (!starts_anew(c)) {
     none.message = "the case goes on from the one before it";
     return none;
   }
   try {
-    return CaseWithErrors(c, solved, store, regions).found();
+    return CaseWithErrors(c, solved, store, regions).found(drawn);
   } catch (const Error& e) {
     none.message = e.what();
     return none;
@@ -371,9 +384,15 @@ void add_uncertainty(io::RunResult& result, const io::CaseFile& file, SurfaceSto
       const auto* input = std::get_if<io::WheelRailCase>(&c->content);
       if (input == nullptr || input->uncertainty.empty()) continue;
       check_cancelled();
-      solved.uncertainty = uncertainty_of(*c, solved, store, regions);
-      if (progress.report)
-        progress.report(++finished, result.cases.size(), fmt::format("uncertainty of case {}", solved.number));
+      const auto tell = [&](const std::string& more) {
+        if (progress.report)
+          progress.report(finished, result.cases.size(), fmt::format("uncertainty of case {}{}", solved.number, more));
+      };
+      solved.uncertainty = uncertainty_of(*c, solved, store, regions, [&](std::size_t drawn) {
+        tell(fmt::format(", {} of {} solutions", drawn, kSamples));
+      });
+      ++finished;
+      tell("");
     }
   } catch (const Cancelled&) {  // the cases themselves are whole
     result.complete = false;

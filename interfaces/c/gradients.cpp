@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,8 +66,10 @@ Beside beside(const tm_pair& p, const tm_solution& s, const std::string& name) {
   const int id = case_number_named(name);
   require(id >= 0, "no number of cases has this name (tm_list names them), and no parameter of the pair's surfaces");
   const CaseNumber& number = case_numbers()[static_cast<std::size_t>(id)];
-  require(static_cast<bool>(number.key->get), "this number cannot be asked for");
-  const double value = number.key->get(*s.input) * number.si, step = app::difference_step(number.unit, value);
+  // a placement by something else is another case on both sides
+  const std::optional<double> in_file = io::number_of(*s.input, number.key->info.path);
+  if (!in_file) throw Error(ErrorKind::configuration, "the case does not give it", {}, "set it, and solve again");
+  const double value = *in_file * number.si, step = app::difference_step(number.unit, value);
   const auto changed = [&](double amount) {
     tm_case c{std::make_shared<io::Case>(*s.input), {}, false};
     set_number(c, number, value + amount);
@@ -128,8 +132,12 @@ tm_status tm_pair_gradient(tm_pair* p, tm_solution* s, const char* const* number
       for (io::WheelRailCase* input : {&sides[i].more, &sides[i].less}) input->subsurface = {};
       const io::CaseResult more = app::to_result(sides[i].more, found[i].more),
                            less = app::to_result(sides[i].less, found[i].less);
-      for (std::size_t k = 0; k < n_numbers; ++k)
-        all[k * n_by + i] = (wanted[k].si(more) - wanted[k].si(less)) / (2.0 * sides[i].step);
+      for (std::size_t k = 0; k < n_numbers; ++k) {
+        double& slope = all[k * n_by + i];
+        slope = (wanted[k].si(more) - wanted[k].si(less)) / (2.0 * sides[i].step);
+        if (!std::isfinite(slope))
+          throw Error(ErrorKind::numerical, fmt::format("{} is not known of this solution", numbers[k]));
+      }
     }
     std::copy(all.begin(), all.end(), derivatives);
   });

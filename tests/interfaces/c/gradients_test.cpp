@@ -86,6 +86,7 @@ TEST(CGradients, SayWhatHasNone) {
   EXPECT_EQ(gradient(pair.get(), "pmax", "wheelset.why"), TM_BAD_ARGUMENT);
   EXPECT_EQ(gradient(pair.get(), "pmax", "rail.point_7"), TM_BAD_ARGUMENT) << "arcs tell of no points";
   EXPECT_EQ(gradient(pair.get(), "pmax", "wheelset.nominal_radius"), TM_BAD_REQUEST) << "the surface keeps its own";
+  EXPECT_EQ(gradient(pair.get(), "pmax", "track.rail_z"), TM_BAD_REQUEST) << "the gauge places the rail";
   EXPECT_EQ(gradient(pair.get(), "pmax", "discretisation.dx"), TM_NUMERICAL);
   EXPECT_THAT(tm_message(), HasSubstr("discretisation.dx"));
   double one = 7.0;
