@@ -180,8 +180,8 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     }
     if (!options.numbers.empty())
       throw Error(ErrorKind::configuration, "--numbers chooses columns of lists, this has all of them", {name},
-                  fmt::format("leave it out: a list has cases_file, or more than {} cases, and no --fields, --report, "
-                              "--vtk, --sensitivities or --verbose",
+                  fmt::format("leave it out: a list has cases_file, or more than {} cases, and no case.uncertainty, "
+                              "--fields, --report, --vtk, --sensitivities or --verbose",
                               app::kLongList));
     const OutputClaim claim(app::result_files(folders.empty() ? "" : folders[k], false));
     const auto rows = given.rows;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -72,7 +73,8 @@ class InputWriter {
     for (const auto& [path, meant] : usual)
       for (const CaseKey& key : case_keys()) {
         if (key.info.path != path) continue;
-        const std::string value = key.text ? key.text(case_) : key.written(case_, folder_);
+        std::string value = key.text ? key.text(case_) : key.written(case_, folder_);
+        std::replace(value.begin(), value.end(), '\n', ' ');  // of lists
         if (!value.empty() && value != meant) out_ += fmt::format(" %treadmark {} = {}\n", path, value);
       }
   }
@@ -320,6 +322,7 @@ class InputWriter {
               "contact.reference_surface = \"plane\" (--set) takes one creepage for a patch, as such files do");
     const bool flexible = deviates(c.state.wheel_offset) || deviates(c.state.wheel_velocity);
     own_settings({{"case.sensitivities", "false"},
+                  {"case.uncertainty", ""},
                   {"case.reference_ways", "true"},
                   {"discretisation.reference_search_mesh", "true"},
                   {"discretisation.prune", "true"},

@@ -208,11 +208,19 @@ vpitch_rad_s = -60
 prune = false
 [heat]
 rail_bulk_temperature_C = 30
+[[case.uncertainty]]
+key = "wheelset.vertical_force_N"
+sigma = 2e3
+[[case.uncertainty]]
+key = "rail.shape"
+sigma = 0.005
+length_mm = 0.5
 )";
   const CaseFile f = parse_case_text(toml, "folder/case.toml");
   const std::string text = contact_input_text(f, "folder");
   EXPECT_THAT(text, HasSubstr(" %treadmark discretisation.reference_search_mesh = false\n"));
   EXPECT_THAT(text, HasSubstr(" %treadmark rail.backend = 'spline'\n"));
+  EXPECT_THAT(text, HasSubstr(" %treadmark case.uncertainty = [ "));
   const CaseFile again = parse_contact_input(text, "folder/case.inp");
   expect_same_cases(f, again);
   const WheelRailCase& c = std::get<WheelRailCase>(again.cases.at(0).content);
