@@ -17,7 +17,9 @@ CloudBuilder::CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& optio
     : bytes_(bytes),
       most_points_(options.most_points),
       least_bytes_(std::max<std::size_t>(least_bytes, 1)),
-      fail_(std::move(fail)) {
+      fail_(std::move(fail)),
+      box_(options.box),
+      batch_(options.batch) {
   scan_.cloud.name = bytes.file();
 }
 
@@ -30,6 +32,7 @@ void CloudBuilder::expect(std::uint64_t count) {
 void CloudBuilder::reserve(std::uint64_t count) {
   if (count > most_points_)
     fail_(fmt::format("{} points, more than the {} allowed", count, most_points_), "thin out the points");
+  if (batch_) return;  // grow() makes room for one
   PointCloud& cloud = scan_.cloud;
   const std::size_t have = cloud.points.size();
   std::size_t room = have + static_cast<std::size_t>(count);
@@ -44,8 +47,15 @@ void CloudBuilder::reserve(std::uint64_t count) {
 
 void CloudBuilder::grow() {
   PointCloud& cloud = scan_.cloud;
+  if (batch_) {
+    hand_over();
+    cloud.points.reserve(ScanReadOptions::kBatch);
+    if (passes_) cloud.passes.reserve(ScanReadOptions::kBatch);
+  }
   const std::size_t have = cloud.points.size();
-  if (have >= most_points_) fail_(fmt::format("more than the {} points allowed", most_points_), "thin out the points");
+  if (have + handed_over_ >= most_points_)
+    fail_(fmt::format("more than the {} points allowed", most_points_), "thin out the points");
+  if (batch_) return;
   // The points so far tell how many the rest of the file has. Room that is not used costs no memory, moving costs
   // twice.
   constexpr std::size_t kFirst = 4096;
@@ -60,6 +70,17 @@ void CloudBuilder::grow() {
   cloud.points.reserve(room);
   if (normals_) cloud.normals.reserve(room);
   if (passes_) cloud.passes.reserve(room);
+}
+
+void CloudBuilder::hand_over() {
+  PointCloud& cloud = scan_.cloud;
+  if (cloud.points.empty()) return;
+  keep_different_passes();
+  if (passes_) pass_of_batch_ = cloud.passes.back();
+  handed_over_ += cloud.points.size();
+  batch_(cloud);
+  cloud.points.clear();
+  cloud.passes.clear();
 }
 
 Eigen::Vector3f CloudBuilder::unit_or_zero(const Eigen::Vector3f& normal) {
@@ -77,10 +98,12 @@ void CloudBuilder::bad_pass(double number) const {
 }
 
 bool CloudBuilder::keep_different_passes() {
-  std::vector<std::uint16_t>& passes = scan_.cloud.passes;
-  if (std::adjacent_find(passes.begin(), passes.end(), std::not_equal_to<>()) != passes.end()) return true;
-  drop_passes();
-  return false;
+  const std::vector<std::uint16_t>& passes = scan_.cloud.passes;
+  if (std::adjacent_find(passes.begin(), passes.end(), std::not_equal_to<>()) != passes.end() ||
+      (handed_over_ > 0 && !passes.empty() && passes.front() != pass_of_batch_))
+    scan_.several_passes = true;
+  if (!scan_.several_passes && !batch_) drop_passes();
+  return scan_.several_passes;
 }
 
 Scan CloudBuilder::finish(std::string format, std::optional<LengthUnit> unit) {
@@ -89,14 +112,17 @@ Scan CloudBuilder::finish(std::string format, std::optional<LengthUnit> unit) {
     throw Error(ErrorKind::input_data, message, {bytes_.file(), 0, 0}, advice);
   };
   if (scan_.points_in_file == 0) refuse("the file holds no points", "is it the right file?");
-  if (cloud.points.empty())
-    refuse(fmt::format("none of the {} points is finite and in use", scan_.points_in_file),
-           "was the scan exported properly?");
+  if (cloud.points.empty() && handed_over_ == 0)
+    refuse(fmt::format("none of the {} points is finite and in use{}", scan_.points_in_file,
+                       scan_.outside > 0 ? " within the box" : ""),
+           scan_.outside > 0 ? "is the box in the frame and unit of the file?" : "was the scan exported properly?");
   const auto is_zero = [](const Eigen::Vector3f& n) { return n.isZero(0.0f); };
   if (!cloud.normals.empty() && std::all_of(cloud.normals.begin(), cloud.normals.end(), is_zero)) {
     cloud.normals = {};
     format += "; the normals are all zero and ignored";
   }
+  if (batch_) hand_over();
+  if (!passes_) scan_.several_passes = false;  // what went with batches before was none
   scan_.format = std::move(format);
   scan_.unit = unit;
   bytes_.finish();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -21,7 +22,7 @@ class CloudBuilder {
   CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& options, std::size_t least_bytes, Fail fail);
 
   void set_content(bool normals, bool passes) {
-    normals_ = normals;
+    normals_ = normals && !batch_;
     passes_ = passes;
   }
 
@@ -44,11 +45,18 @@ class CloudBuilder {
       ++scan_.not_finite;
       return;
     }
+    if (box_ && !box_->contains(point)) {
+      ++scan_.outside;
+      return;
+    }
     if (scan_.cloud.points.size() == scan_.cloud.points.capacity()) grow();
     scan_.cloud.points.push_back(point);
     if (normals_) scan_.cloud.normals.push_back(unit_or_zero(normal));
     if (passes_) scan_.cloud.passes.push_back(pass);
   }
+
+  /// Whether add() would take the point.
+  bool takes(const Vec3& point) const { return point.allFinite() && (!box_ || box_->contains(point)); }
 
   /// A place without a point: the file says that the scanner got no echo there.
   void add_lost() {
@@ -70,7 +78,7 @@ class CloudBuilder {
 
   Scan& scan() { return scan_; }
 
-  /// Forgets passes that are the same everywhere. Whether there are several.
+  /// Forgets passes that are the same everywhere. Whether there are several (of batches: in all of them).
   bool keep_different_passes();
 
   /// The result; Error(input_data) where there is no finite point.
@@ -80,11 +88,16 @@ class CloudBuilder {
 
  private:
   void grow();
+  void hand_over();
   [[noreturn]] void bad_pass(double number) const;
 
   const ByteBlocks& bytes_;
   std::size_t most_points_, least_bytes_;
   Fail fail_;
+  std::optional<Eigen::AlignedBox3d> box_;
+  std::function<void(PointCloud&)> batch_;
+  std::size_t handed_over_ = 0;      ///< points that went with batches
+  std::uint16_t pass_of_batch_ = 0;  ///< of the last point of these
   bool normals_ = false, passes_ = false;
   Scan scan_;
 };

@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/scans/parse_points.hpp"
+
+#include <utility>
+
 #include "treadmark/core/platform/from_chars.hpp"
 #include "treadmark/io/points/parse_obj.hpp"
 #include "treadmark/io/points/parse_off.hpp"
@@ -36,7 +39,7 @@ class CloudSink : public CloudBuilder {
   }
   /// Bit by bit the same point counts once.
   void add_corner(const Vec3& p) {
-    if (!p.allFinite() || known_.insert(p, scan().cloud.points)) add(p);
+    if (!takes(p) || known_.insert(p, scan().cloud.points)) add(p);
   }
   void end_face() {}
   Scan finish(std::string format) { return CloudBuilder::finish(std::move(format), unit_.unit()); }
@@ -52,7 +55,7 @@ class ObjCloudSink : public CloudSink {
   using CloudSink::CloudSink;
 
   void add(const Vec3& p) {
-    if (!p.allFinite()) left_out_.push_back(scan().points_in_file);
+    if (!takes(p)) left_out_.push_back(scan().points_in_file);
     CloudSink::add(p);
   }
   void add_normal(const Vec3& n) { normals_.push_back(unit_or_zero(n.cast<float>())); }
@@ -107,7 +110,18 @@ Scan parse_ply(ByteBlocks& bytes, const ScanReadOptions& options) {
 Scan parse_stl(ByteBlocks& bytes, const ScanReadOptions& options) {
   ScanReadOptions limited = options;
   limited.most_points = std::min(options.most_points, VertexSet::kMost);
-  return points::parse_stl<CloudSink>(bytes, limited);
+  limited.batch = {};  // corners are looked for among all points
+  Scan scan = points::parse_stl<CloudSink>(bytes, limited);
+  if (!options.batch) return scan;
+  const std::vector<Vec3> all = std::exchange(scan.cloud.points, {});
+  for (std::size_t from = 0; from < all.size(); from += ScanReadOptions::kBatch) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(from);
+    scan.cloud.points.assign(begin,
+                             begin + static_cast<std::ptrdiff_t>(std::min(ScanReadOptions::kBatch, all.size() - from)));
+    options.batch(scan.cloud);
+  }
+  scan.cloud.points.clear();
+  return scan;
 }
 
 Scan parse_obj(ByteBlocks& bytes, const ScanReadOptions& options) {

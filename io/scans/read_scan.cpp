@@ -74,4 +74,10 @@ std::optional<Scan> read_height_rows(const std::filesystem::path& file, const He
   return scans::parse_height_rows(bytes, *rows, how, options);
 }
 
+bool is_height_rows(const std::filesystem::path& file) {
+  if (parser_of(file) != scans::parse_columns) return false;
+  scans::ByteBlocks bytes(file, {file.string()}, {});
+  return scans::sniff_height_rows(bytes).has_value();
+}
+
 }  // namespace treadmark::io

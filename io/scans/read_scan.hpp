@@ -25,15 +25,23 @@ struct Scan {
       unit;  ///< only where the file itself says it (a comment or a header of a column), and no other
   std::optional<LengthUnit> usual_unit;  ///< of files of this kind that do not say it (LAS: metres)
   std::string reference;                 ///< coordinate system of the Earth that the file names; empty: none
-  std::size_t points_in_file = 0;        ///< = points of the cloud + not_finite + withheld
-  std::size_t not_finite = 0;  ///< left out: lost points, for which scanners write NaN or infinite coordinates,
-                               ///< 0 0 0 (PTX) or a mark (E57)
-  std::size_t withheld = 0;    ///< left out: points that a LAS file marks as withheld, that is deleted
+  std::size_t points_in_file = 0;        ///< = points of the cloud + not_finite + withheld + outside
+  std::size_t not_finite = 0;   ///< left out: lost points, for which scanners write NaN or infinite coordinates,
+                                ///< 0 0 0 (PTX) or a mark (E57)
+  std::size_t withheld = 0;     ///< left out: points that a LAS file marks as withheld, that is deleted
+  std::size_t outside = 0;      ///< left out: points outside the box that was asked for
+  bool several_passes = false;  ///< of passes that went with batches: not all are the same
 };
 
 struct ScanReadOptions {
-  SourcePosition asked_by;                ///< where the file was named
-  std::size_t most_points = 200'000'000;  ///< a file that says it has more is refused
+  SourcePosition asked_by;                      ///< where the file was named
+  std::size_t most_points = 200'000'000;        ///< a file that says it has more is refused
+  std::optional<Eigen::AlignedBox3d> box = {};  ///< points outside are left out, in the unit of the file
+  /// Gets the points in their order, kBatch at most at a time, and may take them; the cloud of the scan stays empty
+  /// then. Without normals; with passes wherever the file has them, see Scan::several_passes. What is read as a
+  /// whole (.stl, compressed .pcd) comes in batches, too.
+  std::function<void(PointCloud& batch)> batch = {};
+  static constexpr std::size_t kBatch = 65'536;
 };
 
 /// The ends of the names of scans that are read: ".ply .stl .obj ...".
@@ -77,6 +85,9 @@ struct HeightRowOptions {
 /// text (.csv, .txt, .asc). Errors: as read_scan; Error(configuration) for a distance that is not known.
 std::optional<Scan> read_height_rows(const std::filesystem::path& file, const HeightRowOptions& how,
                                      const ScanReadOptions& options = {}, const Progress& progress = {});
+
+/// Whether that would read the file.
+bool is_height_rows(const std::filesystem::path& file);
 
 /// The ends of the names of scans that are written: ".ply .las ...".
 std::string written_scan_extensions();
