@@ -94,9 +94,15 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
 
 }  // namespace
 
+BandIntervals intervals_of(const Projection& projection) {
+  const std::size_t count = projection.points.rows >> projection.points.halvings_a;
+  return {projection.band.a_min, projection.band.length() / static_cast<double>(count), count};
+}
+
 Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const Pose& X_CS,
                    const Section& section, const ProjectSettings& settings) {
   const bool wheel = settings.body == Body::wheel;
+  const double origin = settings.part ? settings.part->from : 0.0;  // far along a rail floats tell no places
   std::vector<float> a(points.size()), s(points.size()), d(points.size());
   std::vector<std::uint8_t> what(points.size(), kNotKept);
   parallel_for((points.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
@@ -110,7 +116,7 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
         what[i] = beside ? kBeyond : kFar;
         continue;
       }
-      a[i] = static_cast<float>(wheel ? n.u * settings.radius : n.u);
+      a[i] = static_cast<float>((wheel ? n.u * settings.radius : n.u) - origin);
       s[i] = static_cast<float>(foot->s);
       d[i] = static_cast<float>(foot->distance);
       what[i] = kOn;
@@ -119,13 +125,14 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
   Projection out;
   out.band = {settings.body, wheel ? settings.radius : 1.0, section, 0.0, 0.0, false};
   const auto on = static_cast<std::size_t>(std::count(what.begin(), what.end(), kOn));
-  if (on < kFewestPoints)
+  if (on < kFewestPoints && !settings.part)
     throw Error(ErrorKind::input_data, fmt::format("only {} points lie on the running band", on), {},
                 fmt::format("is it the right object{}? a band needs thousands of points",
                             wheel ? ", and its nominal radius right where one was given" : ""));
-  const Ends ends = ends_of(a, what, settings.body, settings.radius);
-  out.band.a_min = ends.a_min;
-  out.band.a_max = ends.a_max;
+  const Ends ends = settings.part ? Ends{0.0, settings.part->step * static_cast<double>(settings.part->count), false}
+                                  : ends_of(a, what, settings.body, settings.radius);
+  out.band.a_min = origin + ends.a_min;
+  out.band.a_max = origin + ends.a_max;
   out.band.closed = ends.closed;
 
   BandPoints& band = out.points;
@@ -136,6 +143,7 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
   double coarse_rows =
       std::max(1.0, std::round(ends.a_max - ends.a_min > 0.0 ? (ends.a_max - ends.a_min) / kCoarseA : 1.0));
   if (ends.closed) coarse_rows = std::max(4.0, 4.0 * std::round(coarse_rows / 4.0));
+  if (settings.part) coarse_rows = static_cast<double>(settings.part->count);
   const double coarse_columns = std::max(1.0, std::round(section.length() / kCoarseS));
   band.halvings_a = halvings(kCoarseA);
   band.halvings_s = halvings(kCoarseS);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,11 @@ struct BandPoints {
   std::size_t halvings_a = 0,
               halvings_s = 0;        ///< of the coarsest intervals that splines begin with (fit/) down to cells
   std::vector<std::uint32_t> begin;  ///< of cell row * columns + column; one more at the end
+  /// Of the points of the cloud, where these are a part of all: chance goes by them. Empty: their places in the cloud.
+  /// They lie elsewhere.
+  std::span<const std::uint32_t> numbers;
 
+  std::uint32_t number(std::size_t i) const { return numbers.empty() ? index[i] : numbers[index[i]]; }
   std::size_t size() const { return d.size(); }
   std::size_t first(std::size_t row, std::size_t column) const { return begin[row * columns + column]; }
 };
@@ -50,11 +55,22 @@ struct Projection {
   std::size_t beyond_length = 0;   ///< past the ends of the band, where hardly any points are
 };
 
+/// The coarsest intervals of cells along a band, or some of them in a row.
+struct BandIntervals {
+  double from = 0.0, step = 0.0;  ///< where the first begins; of one [m]
+  std::size_t count = 0;
+};
+
+/// Those of a projection.
+BandIntervals intervals_of(const Projection& projection);
+
 struct ProjectSettings {
   Body body = Body::rail;
   double radius = 1.0;
   double farthest = 8e-3;  ///< from the section, more than any damage is deep [m]
   double finest = 1e-3;    ///< size that cells come near to [m]
+  /// A part of a band that is known, open at both ends, whose cells are the band's own; it may have few points or none.
+  std::optional<BandIntervals> part = {};
 };
 
 /// points: [m] in the cloud's frame; keep: flags or empty. The ends of the band are where the points end; a wheel is

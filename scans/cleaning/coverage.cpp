@@ -63,14 +63,21 @@ class CoverageSearch {
   }
 
   Coverage found() {
-    out_.gap_a = points_.cell_a * usual_gap(true);
-    out_.gap_s = points_.cell_s * usual_gap(false);
-    constexpr double kLimit = 10e-3;
-    out_.limit =
-        settings_.hole_limit > 0.0 ? settings_.hole_limit : std::max(kLimit, 2.0 * std::max(out_.gap_a, out_.gap_s));
-    find_distances();
-    find_usable_width();
-    leave_out_seldom_reached();
+    if (const Coverage* usual = settings_.usual; usual != nullptr) {
+      out_.gap_a = usual->gap_a, out_.gap_s = usual->gap_s;
+      out_.limit = usual->limit;
+      out_.first_column = usual->first_column, out_.last_column = usual->last_column;
+      find_distances();
+    } else {
+      out_.gap_a = points_.cell_a * usual_gap(true);
+      out_.gap_s = points_.cell_s * usual_gap(false);
+      constexpr double kLimit = 10e-3;
+      out_.limit =
+          settings_.hole_limit > 0.0 ? settings_.hole_limit : std::max(kLimit, 2.0 * std::max(out_.gap_a, out_.gap_s));
+      find_distances();
+      find_usable_width();
+      leave_out_seldom_reached();
+    }
     find_holes();
     return std::move(out_);
   }

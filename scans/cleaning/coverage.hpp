@@ -34,6 +34,7 @@ struct Coverage {
 struct CoverageSettings {
   double hole_limit = 0.0;    ///< [m]; 0 = 10 mm, or twice the usual distance of the points if that is more
   double least_filled = 0.6;  ///< columns at the sides of the band with a smaller part of covered rows are left out
+  const Coverage* usual = nullptr;  ///< of the whole band: what its gaps, limit and width are
 };
 
 /// Looks at points that are used or held out. Deterministic.

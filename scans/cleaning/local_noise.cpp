@@ -127,7 +127,9 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
   for (std::size_t k = 0; k + 1 < points.begin.size(); ++k) filled += points.begin[k + 1] > points.begin[k] ? 1 : 0;
   const double per_cell = static_cast<double>(points.size()) / static_cast<double>(std::max<std::size_t>(filled, 1));
   out.window =
-      std::clamp(to_whole<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
+      settings.window > 0
+          ? settings.window
+          : std::clamp(to_whole<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
   const auto columns = static_cast<int>(points.columns);
   std::vector<float> of_cell(points.begin.size() - 1, -1.0f);
   std::vector<std::size_t> outliers(points.rows, 0), spared(points.rows, 0), isolated(points.rows, 0);
@@ -182,7 +184,9 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
   for (std::size_t k = 0; k < of_cell.size(); ++k)
     if (of_cell[k] >= 0.0f) all.push_back(of_cell[k]);
   const auto median = [](std::vector<float>& values) { return static_cast<double>(median_of(values)); };
-  out.typical = all.empty() ? settings.least_noise : std::max(median(all), settings.least_noise);
+  out.typical = settings.typical > 0.0 ? settings.typical
+                : all.empty()          ? settings.least_noise
+                                       : std::max(median(all), settings.least_noise);
   for (std::size_t tr = 0; tr < out.tile_rows; ++tr)
     for (std::size_t tc = 0; tc < out.tile_columns; ++tc) {
       here.clear();

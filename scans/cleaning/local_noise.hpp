@@ -16,6 +16,8 @@ struct NoiseSettings {
       10e-6;                    ///< nothing nearer to its surroundings is an outlier, however little noise there is [m]
   double least_noise = 0.1e-6;  ///< standard deviations below count as this [m]
   double most_flagged = 0.2;  ///< where more of the surroundings would be outliers they are an edge or a step, and stay
+  int window = 0;             ///< as LocalNoise::window; 0: by the density of the points
+  double typical = 0.0;       ///< as LocalNoise::typical [m]; 0: by the points
 };
 
 /// Scatter of the points about smooth local surfaces, and the points that stand out of it.

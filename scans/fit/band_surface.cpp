@@ -42,6 +42,12 @@ std::vector<double> nodes_across(const FittedBand& fitted, double spacing) {
   return out;
 }
 
+double finest_knot(const FittedBand& fitted) {
+  double finest = fitted.band.length();
+  for (const SplineLevel& level : fitted.field.levels()) finest = std::min(finest, level.knot_a);
+  return finest;
+}
+
 }  // namespace
 
 Vec2 FittedBand::across(double a, double s) const {
@@ -54,15 +60,10 @@ Vec3 FittedBand::point(double a, double s) const {
   return from_natural(band.body, {u_at(a), p.x(), p.y()});
 }
 
-SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, std::string name) {
+std::vector<double> slice_stations(const FittedBand& fitted, double tolerance, double finest) {
   const Band& band = fitted.band;
-  const bool wheel = band.body == Body::wheel;
   // the finest grid of knots decides where slices may lie; coarser knots are every second, fourth ... of them
-  double finest = band.length(), coarsest = 0.0;
-  for (const SplineLevel& level : fitted.field.levels()) {
-    finest = std::min(finest, level.knot_a);
-    coarsest = std::max(coarsest, level.knot_a);
-  }
+  if (finest == 0.0) finest = finest_knot(fitted);
   auto count = to_whole<std::size_t>(std::round(band.length() / finest));
   // short bands have few knots: between them the splines are what slices on both sides make them again
   constexpr std::size_t kFewestPlaces = 8;
@@ -94,32 +95,40 @@ SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, s
         if (ranges::none_of(stations, [&](double other) { return std::fabs(other - a) < kApart; }))
           stations.push_back(a);
   }
+  return stations;
+}
+
+Profile slice_at(const FittedBand& fitted, double a, double spacing, std::string name) {
+  const bool wheel = fitted.band.body == Body::wheel;
+  std::vector<double> y, z;
+  for (const double s : nodes_across(fitted, spacing)) {
+    const Vec2 p = fitted.across(a, s);
+    y.push_back(p.x());
+    z.push_back(wheel ? p.y() - fitted.band.radius : -p.y());
+  }
+  return ordered(fitted.band.body, std::move(y), std::move(z), std::move(name));
+}
+
+SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, std::string name) {
+  const Band& band = fitted.band;
   SliceSet out;
   out.body = band.body;
   out.name = name;
   std::vector<std::pair<double, double>> order;  // u, a
-  for (const double a : stations) order.emplace_back(wrapped(fitted, a), a);
+  for (const double a : slice_stations(fitted, tolerance)) order.emplace_back(wrapped(fitted, a), a);
   std::sort(order.begin(), order.end());
   if (band.closed) {
     // the turn begins at -pi, so that it ends at pi; a slice next to it would only make the splines uneven
     constexpr double kNear = 0.25;
-    const double near = kNear * finest / band.radius, pi = std::numbers::pi;
+    const double near = kNear * finest_knot(fitted) / band.radius, pi = std::numbers::pi;
     std::erase_if(order, [&](const auto& station) { return station.first < near - pi || station.first > pi - near; });
     order.insert(order.begin(), {-pi, band.radius * (fitted.u_zero - pi) - band.a_min});
   }
-  const std::vector<double> s = nodes_across(fitted, spacing);
-  const double zero = wheel ? band.radius : 0.0;
   out.u.resize(order.size());
   out.profiles.resize(order.size());
   parallel_for(order.size(), [&](std::size_t k) {
-    std::vector<double> y(s.size()), z(s.size());
-    for (std::size_t i = 0; i < s.size(); ++i) {
-      const Vec2 p = fitted.across(order[k].second, s[i]);
-      y[i] = p.x();
-      z[i] = wheel ? p.y() - zero : -p.y();
-    }
     out.u[k] = order[k].first;
-    out.profiles[k] = ordered(band.body, std::move(y), std::move(z), name);
+    out.profiles[k] = slice_at(fitted, order[k].second, spacing, name);
   });
   if (band.closed) {
     out.u.push_back(std::numbers::pi);

@@ -33,6 +33,13 @@ struct FittedBand {
 /// same slice at -pi and pi.
 SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, std::string name);
 
+/// Where the slices of to_slices stand, from the beginning of the band [m]; not in order. finest: distance of the
+/// places where they may [m]; 0: that of the finest knots. Of parts of a band with the same finest all find the same
+/// ones.
+std::vector<double> slice_stations(const FittedBand& fitted, double tolerance, double finest = 0.0);
+/// The slice there.
+Profile slice_at(const FittedBand& fitted, double a, double spacing, std::string name);
+
 /// The section without damage, as a profile: z of a wheel is the radius less nominal_radius [m].
 Profile section_profile(const FittedBand& fitted, double nominal_radius, double spacing, std::string name);
 

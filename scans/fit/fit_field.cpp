@@ -17,6 +17,7 @@ namespace treadmark::scans {
 namespace {
 
 constexpr std::size_t kFewestHeldOut = 200;
+constexpr double kFiner = 1.0 / 3.0;  // significance of a sweep over that of the one before
 
 struct Size {
   std::size_t halvings_a, halvings_s;
@@ -82,12 +83,17 @@ class FieldFit {
         progress_(progress),
         sizes_(sizes_of(points, settings.finest)),
         weight_(points.size(), 0.0f),
-        out_{SplineField(band.length(), band.section.length(), band.closed), {}, points.d, 0, 0, 0.0, 0.0, 0.0} {}
+        out_{SplineField(band.length(), band.section.length(), band.closed), {}, points.d, 0, 0, 0, 0.0, 0.0, 0.0} {}
 
   FitResult fitted() {
     hold_out();
     sweep(settings_.significance, true);
-    if (settings_.follow && out_.held_out >= kFewestHeldOut) follow();
+    if (settings_.sweeps) {
+      for (double factor = settings_.significance; out_.sweeps < *settings_.sweeps; ++out_.sweeps)
+        sweep(factor *= kFiner, false);
+    } else if (settings_.follow && out_.held_out >= kFewestHeldOut) {
+      follow();
+    }
     sum_up();
     return std::move(out_);
   }
@@ -106,7 +112,7 @@ class FieldFit {
             if (points_.state[i] == PointState::held_out) points_.state[i] = PointState::used;
             if (points_.state[i] != PointState::used) continue;
             constexpr std::uint64_t kSeed = 0x74726561u;
-            if (Random(kSeed + points_.index[i]).uniform() < settings_.held_out) {
+            if (Random(kSeed + points_.number(i)).uniform() < settings_.held_out) {
               points_.state[i] = PointState::held_out;
               ++held_out;
               continue;
@@ -137,7 +143,7 @@ class FieldFit {
         level.active.assign(level.size(), 1);
         report.used = level.size();
       } else {
-        report.used = choose_functions(sums, factor, level, ridge);
+        report.used = choose_functions(sums, factor, level, ridge, functions_of_whole(level, sizes_[k]));
       }
       if (report.used > 0) {
         report.iterations = fit_level(points_, out_.residual, weight_, ridge, level).iterations;
@@ -145,6 +151,12 @@ class FieldFit {
       }
       out_.levels.push_back(report);
     }
+  }
+
+  /// How many functions the level has, were it that of the whole band.
+  std::size_t functions_of_whole(const SplineLevel& level, const Size& size) const {
+    if (settings_.rows_of_whole == 0) return level.size();
+    return ((settings_.rows_of_whole >> (points_.halvings_a - size.halvings_a)) + 3) * level.functions_s();
   }
 
   double held_out_square() const {
@@ -158,7 +170,7 @@ class FieldFit {
   /// held out agree.
   void follow() {
     double factor = settings_.significance, best = held_out_square();
-    constexpr double kFiner = 1.0 / 3.0, kBetter = 0.98, kUnrelated = 0.02;
+    constexpr double kBetter = 0.98, kUnrelated = 0.02;
     constexpr int kMostSweeps = 5;
     for (int again = 0; again < kMostSweeps && neighbour_correlation(points_, out_.residual) > kUnrelated; ++again) {
       factor *= kFiner;
@@ -168,6 +180,7 @@ class FieldFit {
       const double square = held_out_square();
       if (square < kBetter * best) {
         best = square;
+        ++out_.sweeps;
         continue;
       }
       out_.field.drop_from(levels_before);

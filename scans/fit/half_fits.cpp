@@ -16,19 +16,20 @@
 namespace treadmark::scans {
 namespace {
 
-/// The points of one half, held-out ones included; which those are depends on their place in the file only.
+/// The points of one half, held-out ones included; which those are depends on their numbers only.
 BandPoints half_of(const BandPoints& points, std::size_t half) {
   constexpr std::uint64_t kSeed = 0x68616c66u;
   BandPoints out;
   out.rows = points.rows, out.columns = points.columns;
   out.cell_a = points.cell_a, out.cell_s = points.cell_s;
   out.halvings_a = points.halvings_a, out.halvings_s = points.halvings_s;
+  out.numbers = points.numbers;
   out.begin.reserve(points.begin.size());
   for (std::size_t cell = 0; cell + 1 < points.begin.size(); ++cell) {
     out.begin.push_back(static_cast<std::uint32_t>(out.d.size()));
     for (std::size_t i = points.begin[cell]; i < points.begin[cell + 1]; ++i) {
       if (points.state[i] == PointState::outlier || points.state[i] == PointState::off_band) continue;
-      if (Random(kSeed + points.index[i]).bits() >> 63 != half) continue;
+      if (Random(kSeed + points.number(i)).bits() >> 63 != half) continue;
       out.a.push_back(points.a[i]);
       out.s.push_back(points.s[i]);
       out.d.push_back(points.d[i]);

@@ -55,7 +55,8 @@ std::vector<double> box_sums(const std::vector<double>& values, const Shape& gri
 
 }  // namespace
 
-std::size_t choose_functions(const FunctionSums& sums, double factor, SplineLevel& level, std::vector<float>& ridge) {
+std::size_t choose_functions(const FunctionSums& sums, double factor, SplineLevel& level, std::vector<float>& ridge,
+                             std::size_t of) {
   const std::size_t rows = level.functions_a(), columns = level.functions_s();
   const Shape grid{rows, columns, level.closed};
   constexpr std::size_t kRows = 64, kAlone = 4096;  // of a task
@@ -72,7 +73,7 @@ std::size_t choose_functions(const FunctionSums& sums, double factor, SplineLeve
   });
   std::vector<std::uint8_t> chosen(level.size(), 0);
   ridge.assign(level.size(), 0.0f);
-  const double f2 = factor * factor, rare = std::log(static_cast<double>(level.size())) + kRare;
+  const double f2 = factor * factor, rare = std::log(static_cast<double>(of > 0 ? of : level.size())) + kRare;
   parallel_blocks(rows, kRows, [&](std::size_t from, std::size_t to) {
     const std::size_t first = from * columns, last = to * columns;
     for (const Window& w : kWindows) {

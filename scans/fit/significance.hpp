@@ -14,7 +14,9 @@ namespace treadmark::scans {
 /// others that do so together (windows along, across and around). factor scales the thresholds; neighbours of chosen
 /// functions are chosen too, so that nothing ends abruptly. ridge: for every function the inverse of the variance that
 /// coefficients around it seem to have beyond the noise (empirical Bayes), so that functions with few points follow the
-/// others. Returns the number of chosen functions and sets level.active.
-std::size_t choose_functions(const FunctionSums& sums, double factor, SplineLevel& level, std::vector<float>& ridge);
+/// others. of: how many functions there are among which what is rare is looked for; 0: those of the level. Returns the
+/// number of chosen functions and sets level.active.
+std::size_t choose_functions(const FunctionSums& sums, double factor, SplineLevel& level, std::vector<float>& ridge,
+                             std::size_t of = 0);
 
 }  // namespace treadmark::scans
