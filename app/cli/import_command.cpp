@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <filesystem>
 #include <iostream>
+#include <system_error>
+
+#include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/import/import_scan.hpp"
+#include "treadmark/app/import/import_tiles.hpp"
 #include "treadmark/app/import/pages/import_page.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -45,8 +51,19 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
 
   request.truth = options.truth;
   const ThreadLimit limit(common.threads);
-  const io::ImportReport report = with_progress(
-      common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); }, Units::different);
+  const auto work = [&] {
+    try {
+      return with_progress(
+          common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); },
+          Units::different);
+    } catch (const Cancelled&) {
+      std::error_code ignored;
+      if (const auto kept = app::unfinished_file(request); std::filesystem::exists(kept, ignored))
+        print_notes({fmt::format("{} holds what is finished: the same command goes on", kept.string())}, common.quiet);
+      throw;
+    }
+  };
+  const io::ImportReport report = work();
   if (!options.report_folder.empty()) {
     pictures::write_import_report(options.report_folder, report);
     for (const auto& [part, file] : {std::pair{"hdf5", "maps.h5"}, std::pair{"report", "report.html"}})

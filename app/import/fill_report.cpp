@@ -230,22 +230,26 @@ void fill_cloud(const ImportFindings& found, io::ImportReport& report) {
 
 }  // namespace
 
+void fill_placement(const PlacedScan& scan, io::ImportReport& report) {
+  report.body = scan.body;
+  report.X_CS = frame_in_cloud(scan);
+  report.nominal_radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 0.0;
+  report.radius_error = scan.placement.radius_error;
+  report.axis_position_error = scan.placement.position_error;
+  report.axis_direction_error = scan.placement.direction_error;
+  report.scatter = scan.placement.scatter;
+  report.undamaged = scan.placement.undamaged;
+  if (scan.placement.match) {
+    report.match_residual = scan.placement.match->residual;
+    report.match_agreeing = scan.placement.match->agreeing;
+    report.turned = scan.placement.match->turned;
+  }
+}
+
 void fill_report(const ImportFindings& found, io::ImportReport& report) {
   const scans::Band& band = found.projection.band;
   const auto u_of = [&](double a) { return band.closed ? wrap_angle(found.fitted.u_at(a)) : found.fitted.u_at(a); };
-  report.body = found.scan.body;
-  report.X_CS = frame_in_cloud(found.scan);
-  report.nominal_radius = found.scan.body == Body::wheel ? found.scan.placement.nominal_radius : 0.0;
-  report.radius_error = found.scan.placement.radius_error;
-  report.axis_position_error = found.scan.placement.position_error;
-  report.axis_direction_error = found.scan.placement.direction_error;
-  report.scatter = found.scan.placement.scatter;
-  report.undamaged = found.scan.placement.undamaged;
-  if (found.scan.placement.match) {
-    report.match_residual = found.scan.placement.match->residual;
-    report.match_agreeing = found.scan.placement.match->agreeing;
-    report.turned = found.scan.placement.match->turned;
-  }
+  fill_placement(found.scan, report);
   report.gap_a = found.coverage.gap_a;
   report.gap_s = found.coverage.gap_s;
   report.noise = found.noise.typical;

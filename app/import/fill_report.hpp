@@ -25,6 +25,9 @@ struct ImportFindings {
 };
 void fill_report(const ImportFindings& found, io::ImportReport& report);
 
+/// The part of it that only the place tells.
+void fill_placement(const PlacedScan& scan, io::ImportReport& report);
+
 /// Mean, root mean square and so on of signed distances; all 0 for none.
 io::ImportReport::Distances distances_of(std::vector<float> values);
 

@@ -341,6 +341,9 @@ class RailOnItsLine {
     if (!scan_.line->bent && !others && !must) return;
     if (scan_.line->bent) {
       scan_.line->line.straighten(scan_.points);
+      scan_.laid_by.emplace_back([line = scan_.line->line](std::span<Vec3> points, std::span<const std::uint16_t>) {
+        line.straighten(points);
+      });
       drop_beside(scan_.points);
     } else {
       std::vector<Vec3> straight = scan_.points;
@@ -532,7 +535,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   const LengthUnit unit = find_unit(clouds, settings, scan.body, piece ? *piece : rough, report);
   scans::check_unit(scan.body, piece ? piece->size : rough.size, unit);
   report.unit = symbol(unit);
-  const double factor = metres_per(unit);
+  const double factor = scan.metres = metres_per(unit);
   for (Vec3& p : scan.points) p *= factor;
   scans::scale(rough, factor);
   if (piece) scans::scale(*piece, factor);
@@ -553,6 +556,10 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
       const scans::PassSteps steps = scans::find_pass_steps(projection.points, projection.band, scan.passes);
       if (steps.passes.empty()) break;
       scans::apply(steps, scan.passes, scan.placement.X_CS, scan.points);
+      scan.laid_by.emplace_back(
+          [steps, X_CS = scan.placement.X_CS](std::span<Vec3> points, std::span<const std::uint16_t> passes) {
+            scans::apply(steps, passes, X_CS, points);
+          });
       if (round == 0) report.pass_before = steps.before;
       report.pass_after = steps.after;
       for (std::size_t k = 0; k < steps.passes.size(); ++k) {

@@ -2,6 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
 #include "treadmark/app/import/read_clouds.hpp"
 #include "treadmark/app/import/step_clock.hpp"
 #include "treadmark/model/shape/surface_spec.hpp"
@@ -22,6 +27,11 @@ struct PlacedScan {
   std::vector<Vec2> nominal;                ///< (y, z) of the nominal profile; empty: none
   std::optional<SurfaceSpec> nominal_spec;  ///< without a radius
   std::optional<scans::FoundLine> line;     ///< of a rail, in the cloud's own frame
+
+  double metres = 1.0;  ///< of a unit of the files
+  /// What laid the points where they are, once they were in metres, in its order: for the rest of a scan of which these
+  /// are a sample.
+  std::vector<std::function<void(std::span<Vec3> points, std::span<const std::uint16_t> passes)>> laid_by;
 
   bool straightened() const { return line && line->bent; }
 };

@@ -18,6 +18,8 @@
 #include "treadmark/analysis/measured/smoothing.hpp"
 #include "treadmark/app/import/fill_report.hpp"
 #include "treadmark/app/import/find_place.hpp"
+#include "treadmark/app/import/import_steps.hpp"
+#include "treadmark/app/import/import_tiles.hpp"
 #include "treadmark/app/import/read_map.hpp"
 #include "treadmark/app/import/truth.hpp"
 #include "treadmark/app/import/write_outputs.hpp"
@@ -41,7 +43,6 @@ namespace treadmark::app {
 
 namespace {
 
-constexpr double kFinest = 0.5e-3;  // knots that are worth having [m]
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The axis of the scan that lies across an axle: of a wheel all round the one most nearly so, and of two about equal
@@ -64,7 +65,8 @@ Vec3 scan_axis_across(const Pose& X_CS, const std::optional<double>& middle, std
   return best;
 }
 
-/// The station of the band that becomes u = 0, with words for it.
+}  // namespace
+
 double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vector<scans::Damage>& damage,
                const io::ImportSettings& settings, io::ImportReport& report) {
   const bool wheel = scan.body == Body::wheel, part = wheel && !band.closed;
@@ -121,6 +123,8 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
   // the turn that has the part about zero
   return part ? middle - wrap_angle(middle - u_zero) : u_zero;
 }
+
+namespace {
 
 /// The nominal profile where there is one, as wide as the scan of a wheel; of a rail with its flanks, which no look
 /// from above would find. Else what the placement found.
@@ -208,7 +212,8 @@ std::shared_ptr<const SurfaceErrors> errors_of_sections(const SliceSet& slices, 
   return out->draws.empty() ? nullptr : out;
 }
 
-/// Lines about the import that the surface file itself carries.
+}  // namespace
+
 std::vector<std::string> summary_lines(const io::ImportReport& report) {
   std::vector<std::string> out;
   out.push_back(fmt::format("scanned {}, imported by Treadmark {}", body_name(report.body), report.version));
@@ -229,6 +234,54 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
       if (c == '\n' || c == '\r') c = ' ';
   return out;
 }
+
+OnSection on_its_section(PlacedScan& scan, const io::ImportSettings& settings, double finest, bool halves) {
+  const scans::ProjectSettings how{scan.body, scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0,
+                                   1e-3 * settings.clean.farthest_mm, finest};
+  scan.placement.section = start_section(scan);
+  OnSection out{scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section, how), {}};
+  // the section from all points; once more projected on it, for points are judged by their distance from it
+  double moved = 0.0;
+  const scans::Section section = scans::refine_section(out.projection.points, out.projection.band, finest, &moved);
+  constexpr double kMatters = 1e-8;
+  if (!(moved > kMatters)) return out;
+  if (halves) {
+    // a point that is there twice would be in both halves
+    scans::drop_duplicates(out.projection.points, scan.points);
+    out.halves = scans::half_sections(out.projection.points, out.projection.band, finest);
+  }
+  scan.placement.section = section;
+  out.projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, section, how);
+  return out;
+}
+
+double finest_of(const io::ImportSettings& settings, double spacing) {
+  constexpr double kFinest = 0.5e-3, kOfSpacing = 0.9;  // knots that are worth having [m]
+  return settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : std::max(kFinest, kOfSpacing * spacing);
+}
+
+scans::FitSettings fit_settings(const io::ImportSettings& settings) {
+  scans::FitSettings out;
+  out.finest = 1e-3 * settings.fit.finest_mm;
+  out.significance = settings.fit.significance;
+  out.held_out = settings.fit.held_out;
+  out.follow = settings.fit.follow;
+  return out;
+}
+
+double damage_threshold(const io::ImportSettings& settings, double noise) {
+  constexpr double kLeastDamage = 20e-6;
+  return settings.damage.threshold_mm > 0.0 ? 1e-3 * settings.damage.threshold_mm : std::max(kLeastDamage, 1.5 * noise);
+}
+
+void lay_zero(PlacedScan& scan, double u_zero) {
+  if (scan.body == Body::wheel)
+    scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3::Zero(), rotation_y(u_zero)};
+  else
+    scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3(u_zero, 0.0, 0.0), Mat3::Identity()};
+}
+
+namespace {
 
 void note_removed(const scans::Projection& projection, std::size_t duplicates, const scans::LocalNoise& noise,
                   const io::ImportSettings& settings, io::ImportReport& report) {
@@ -251,8 +304,8 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   io::ImportReport report;
   report.version = version();
   report.settings_toml = io::import_settings_toml(settings);
-  const bool map =
-      request.scans.size() == 1 && settings.map.values == "deviations" && io::is_deviation_map(request.scans.front());
+  const bool map = request.scans.size() == 1 && settings.map.values == "deviations" && settings.scan.box_from.empty() &&
+                   io::is_deviation_map(request.scans.front());
   constexpr std::size_t kSteps = 6, kOfPlacing = 2;  // a map has neither stray points nor a placement
   StepClock clock(
       report, progress,
@@ -273,30 +326,9 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
 
   const std::optional<scans::MeasuredSections> sections = sections_to_keep(scan, settings);
   clock.begin("noise and outliers");
-  const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
-  const double finest =
-      settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : std::max(kFinest, 0.9 * report.spacing);
   const bool errors_of_fit = settings.fit.errors && !sections;
-  std::optional<std::array<scans::Section, 2>> halves;  // the sections that halves of the points call for
-  scan.placement.section = start_section(scan);
-  scans::Projection projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section,
-                                                {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
-  {
-    // the section from all points; once more projected on it, for points are judged by their distance from it
-    double moved = 0.0;
-    const scans::Section section = scans::refine_section(projection.points, projection.band, finest, &moved);
-    constexpr double kMatters = 1e-8;
-    if (moved > kMatters) {
-      if (errors_of_fit) {
-        // a point that is there twice would be in both halves
-        scans::drop_duplicates(projection.points, scan.points);
-        halves = scans::half_sections(projection.points, projection.band, finest);
-      }
-      scan.placement.section = section;
-      projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, section,
-                                  {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
-    }
-  }
+  OnSection found = on_its_section(scan, settings, finest_of(settings, report.spacing), errors_of_fit);
+  scans::Projection& projection = found.projection;
   const std::size_t duplicates = scans::drop_duplicates(projection.points, scan.points);
   scans::NoiseSettings how_noise;
   how_noise.outlier_factor = sections ? 0.0 : settings.clean.outlier_factor;
@@ -312,11 +344,7 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
                 {request.scans.front().string()}, "lower clean.least_filled, or scan more of it");
 
   clock.begin("fit");
-  scans::FitSettings how_fit;
-  how_fit.finest = settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : 0.0;
-  how_fit.significance = settings.fit.significance;
-  how_fit.held_out = settings.fit.held_out;
-  how_fit.follow = settings.fit.follow;
+  const scans::FitSettings how_fit = fit_settings(settings);
   Progress inner;
   inner.stop = progress.stop;
   const scans::FitResult fit = scans::fit_field(projection.points, projection.band, noise, how_fit, inner);
@@ -324,25 +352,19 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   clock.begin("damage");
   const double s_min = projection.points.cell_s * static_cast<double>(coverage.first_column),
                s_max = projection.points.cell_s * static_cast<double>(coverage.last_column);
-  constexpr double kLeastDamage = 20e-6;
-  report.damage_threshold = settings.damage.threshold_mm > 0.0 ? 1e-3 * settings.damage.threshold_mm
-                                                               : std::max(kLeastDamage, 1.5 * noise.typical);
+  report.damage_threshold = damage_threshold(settings, noise.typical);
   const std::vector<scans::Damage> damage =
       scans::find_damage(projection.band, fit.field, s_min, s_max, report.damage_threshold);
   const double u_zero = zero_of(scan, projection.band, damage, settings, report);
   const scans::FittedBand fitted{projection.band, fit.field, s_min, s_max, u_zero};
-  // the surface's own frame has its zero there
-  if (scan.body == Body::wheel)
-    scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3::Zero(), rotation_y(u_zero)};
-  else
-    scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3(u_zero, 0.0, 0.0), Mat3::Identity()};
+  lay_zero(scan, u_zero);  // of the surface's own frame
   std::shared_ptr<const SurfaceErrors> errors;
   if (settings.fit.errors) clock.begin("errors");
   const std::vector<double> stations = scans::error_stations(projection.band, damage);
   if (errors_of_fit)
-    errors = std::make_shared<const SurfaceErrors>(scans::half_fit_errors(fitted, projection.points, noise, how_fit,
-                                                                          halves ? &*halves : nullptr, stations,
-                                                                          scan.placement.nominal_radius, inner));
+    errors = std::make_shared<const SurfaceErrors>(
+        scans::half_fit_errors(fitted, projection.points, noise, how_fit, found.halves ? &*found.halves : nullptr,
+                               stations, scan.placement.nominal_radius, inner));
   fill_line(scan, settings, report);
   fill_report({scan, projection, noise, coverage, fit, fitted, damage, sections ? &*sections : nullptr}, report);
 
@@ -391,7 +413,7 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   check_outputs(request);
   check_settings(request.settings, body_of(request));
   try {
-    return import_checked(request, progress);
+    return goes_by_tiles(request) ? import_tiles(request, progress) : import_checked(request, progress);
   } catch (const Error& error) {
     // what works on points knows nothing of files
     if (!error.where().file.empty()) throw;
@@ -412,6 +434,8 @@ void check_settings(const io::ImportSettings& settings, Body body) {
     if (placement.nominal_radius_mm > 0.0) refuse("placement.nominal_radius_mm", "a rail has none");
     if (settings.map.angles_deg) refuse("map.angles_deg", "a rail has none");
   }
+  if (settings.scan.box_from.empty() != settings.scan.box_to.empty())
+    refuse("scan.box_from", "scan.box_to belongs to it");
   if (placement.line_beside_mm != 0.0 && io::extension_of(placement.line) != ".toml")
     refuse("placement.line_beside_mm", "placement.line names no layout");
   if (!placement.zero_direction.empty() && placement.zero != "direction")

@@ -13,6 +13,8 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/platform/ranges.hpp"
+#include "treadmark/core/random.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
@@ -52,11 +54,12 @@ bool is_void_mark(double value) {
 }
 
 /// Leaves out points whose coordinate says that there is none: many share it, and it is far from all others. What is
-/// written for nothing need not be that far.
-void drop_no_data(PointCloud& cloud, io::ImportReport& report) {
+/// written for nothing need not be that far. Returns axes and values.
+std::vector<std::pair<Eigen::Index, double>> drop_no_data(PointCloud& cloud, io::ImportReport& report) {
   constexpr std::size_t kMostValues = 6;
   constexpr double kFewest = 10.0, kLeastShare = 1e-4, kFar = 10.0, kFarOfMark = 0.1;
   std::vector<Vec3>& points = cloud.points;
+  std::vector<std::pair<Eigen::Index, double>> values;
   for (std::size_t round = 0; round < kMostValues; ++round) {
     std::array<FarEnd, 3> low, high;
     for (const Vec3& p : points)
@@ -79,9 +82,10 @@ void drop_no_data(PointCloud& cloud, io::ImportReport& report) {
       else if (no_data(high[axis], low[axis]))
         found = {axis, -high[axis].first};
     }
-    if (!found) return;
+    if (!found) break;
     const std::size_t axis = found->first;
     const double value = found->second;
+    values.emplace_back(static_cast<Eigen::Index>(axis), value);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (points[i][static_cast<Eigen::Index>(axis)] == value) continue;
@@ -94,6 +98,7 @@ void drop_no_data(PointCloud& cloud, io::ImportReport& report) {
     points.resize(kept);
     if (!cloud.passes.empty()) cloud.passes.resize(kept);
   }
+  return values;
 }
 
 /// The points of a matrix of heights.
@@ -130,32 +135,81 @@ io::Scan read_one(const std::filesystem::path& file, const io::ImportSettings& s
     rows->unit = unit;
     return std::move(*rows);
   }
+  if (options.box && io::is_deviation_map(file))
+    throw Error(ErrorKind::configuration, "a box (scan.box_from) belongs to points, and this is a matrix",
+                {file.string()}, "leave it out");
   if (settings.map.values == "heights" && io::is_deviation_map(file)) return heights_of(file, settings);
   return io::read_scan(file, options, progress);
 }
+
+/// How the points of a file are read. Errors: Error(configuration) for half a box, or an empty one.
+io::ScanReadOptions options_for(const std::filesystem::path& file, const io::ImportSettings& settings) {
+  io::ScanReadOptions out;
+  out.asked_by = {file.string()};
+  const std::vector<double>&from = settings.scan.box_from, &to = settings.scan.box_to;
+  if (from.empty() && to.empty()) return out;
+  if (from.size() != 3 || to.size() != 3)
+    throw Error(ErrorKind::configuration, "scan.box_from and scan.box_to belong together", {}, "give both, or none");
+  out.box.emplace(Vec3(from[0], from[1], from[2]), Vec3(to[0], to[1], to[2]));
+  if (out.box->isEmpty())
+    throw Error(ErrorKind::configuration, "the box from scan.box_from to scan.box_to is empty", {},
+                "give the least x, y and z, then the greatest");
+  return out;
+}
+
+/// What files say of themselves, one after the other.
+class FilesRead {
+ public:
+  explicit FilesRead(const ImportRequest& request) : request_(request) {}
+
+  void add(const io::Scan& scan, Clouds& out, io::ImportReport& report) {
+    const std::filesystem::path& file = request_.scans[report.inputs.size()];
+    const bool first = report.inputs.empty();
+    report.inputs.push_back(
+        {file.filename().string(), io::sha256_file(file), scan.format, scan.points_in_file, scan.not_finite});
+    not_finite_ += scan.not_finite;
+    outside_ += scan.outside;
+    withheld_ += scan.withheld;
+    if (!first && scan.unit != out.unit)
+      throw Error(ErrorKind::input_data, "the scans are in different units", {file.string()},
+                  "say the unit of all of them with --unit, or convert them first");
+    out.unit = scan.unit;
+    out.usual_unit = scan.usual_unit;
+    if (out.reference.empty()) out.reference = scan.reference;
+  }
+
+  /// points: of all files that are finite. Returns what drop_no_data does.
+  std::vector<std::pair<Eigen::Index, double>> finish(std::size_t points, Clouds& out, io::ImportReport& report) const {
+    out.cloud.normals.clear();  // surfaces tell their own
+    out.cloud.normals.shrink_to_fit();
+    out.cloud.name = request_.scans.front().string();
+    report.points_read = points + not_finite_ + withheld_ + outside_;
+    if (not_finite_ > 0)
+      report.removed.push_back(
+          {"not finite", not_finite_, "coordinates that are no numbers, as scanners write for lost points"});
+    if (outside_ > 0) report.removed.push_back({"outside the box", outside_, "from scan.box_from to scan.box_to"});
+    auto no_data = drop_no_data(out.cloud, report);
+    if (withheld_ > 0) report.removed.push_back({"withheld", withheld_, "marked as deleted in the file"});
+    return no_data;
+  }
+
+ private:
+  const ImportRequest& request_;
+  std::size_t not_finite_ = 0, withheld_ = 0, outside_ = 0;
+};
 
 }  // namespace
 
 Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const Progress& progress) {
   Clouds out;
-  std::size_t not_finite = 0, withheld = 0;
+  FilesRead files(request);
   std::map<std::pair<std::size_t, std::uint16_t>, std::uint16_t> pass_number;
   Progress quiet;
   quiet.stop = progress.stop;
   for (std::size_t file = 0; file < request.scans.size(); ++file) {
-    io::ScanReadOptions options;
-    options.asked_by = {request.scans[file].string()};
+    const io::ScanReadOptions options = options_for(request.scans[file], request.settings);
     io::Scan scan = read_one(request.scans[file], request.settings, options, quiet);
-    report.inputs.push_back({request.scans[file].filename().string(), io::sha256_file(request.scans[file]), scan.format,
-                             scan.points_in_file, scan.not_finite});
-    not_finite += scan.not_finite;
-    withheld += scan.withheld;
-    if (file > 0 && scan.unit != out.unit)
-      throw Error(ErrorKind::input_data, "the scans are in different units", {request.scans[file].string()},
-                  "say the unit of all of them with --unit, or convert them first");
-    out.unit = scan.unit;
-    out.usual_unit = scan.usual_unit;
-    if (out.reference.empty()) out.reference = scan.reference;
+    files.add(scan, out, report);
     const std::size_t before = out.cloud.points.size();
     if (file == 0) {
       out.cloud = std::move(scan.cloud);
@@ -173,16 +227,97 @@ Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const
       }
     }
   }
-  out.cloud.normals.clear();  // surfaces tell their own
-  out.cloud.normals.shrink_to_fit();
-  out.cloud.name = request.scans.front().string();
-  report.points_read = out.cloud.points.size() + not_finite + withheld;
-  if (not_finite > 0)
-    report.removed.push_back(
-        {"not finite", not_finite, "coordinates that are no numbers, as scanners write for lost points"});
-  drop_no_data(out.cloud, report);
-  if (withheld > 0) report.removed.push_back({"withheld", withheld, "marked as deleted in the file"});
+  files.finish(out.cloud.points.size(), out, report);
   return out;
+}
+
+io::Scan CloudWalk::walk(std::size_t file, const std::function<void(PointCloud&)>& take,
+                         const Progress& progress) const {
+  io::ScanReadOptions options = options_for(request_.scans[file], request_.settings);
+  options.most_points = std::numeric_limits<std::size_t>::max();
+  options.batch = take;
+  return io::read_scan(request_.scans[file], options, progress);
+}
+
+void CloudWalk::number_passes(std::size_t file, std::span<std::uint16_t> passes) {
+  if (!several_[file]) std::fill(passes.begin(), passes.end(), std::uint16_t{0});
+  if (request_.scans.size() < 2) return;
+  for (std::uint16_t& pass : passes) {
+    const auto key = std::pair{file, pass};
+    pass = pass_number_.emplace(key, static_cast<std::uint16_t>(pass_number_.size())).first->second;
+  }
+}
+
+Clouds CloudWalk::sample(std::size_t most, io::ImportReport& report, const Progress& progress) {
+  constexpr std::uint64_t kSeed = 0x73616d70u;
+  Clouds out;
+  FilesRead files(request_);
+  PointCloud& cloud = out.cloud;
+  std::vector<std::uint64_t> drawn;  // of the points of the cloud
+  std::uint64_t number = 0;
+  std::size_t of_file = 0;  // the first of the file at hand
+  const auto thin_out = [&] {
+    std::size_t kept = 0;
+    const std::size_t before = of_file;
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      if (i == before) of_file = kept;
+      if (drawn[i] % one_in_ != 0) continue;
+      drawn[kept] = drawn[i];
+      cloud.points[kept] = cloud.points[i];
+      cloud.passes[kept++] = cloud.passes[i];
+    }
+    if (before == drawn.size()) of_file = kept;
+    drawn.resize(kept);
+    cloud.points.resize(kept);
+    cloud.passes.resize(kept);
+  };
+  for (std::size_t file = 0; file < request_.scans.size(); ++file) {
+    of_file = drawn.size();
+    const io::Scan scan = walk(
+        file,
+        [&](PointCloud& batch) {
+          for (std::size_t i = 0; i < batch.points.size(); ++i) {
+            const std::uint64_t draw = Random(kSeed + number++).bits();
+            if (draw % one_in_ != 0) continue;
+            drawn.push_back(draw);
+            cloud.points.push_back(batch.points[i]);
+            cloud.passes.push_back(batch.passes.empty() ? std::uint16_t{0} : batch.passes[i]);
+          }
+          while (drawn.size() > most) {
+            one_in_ *= 2;
+            thin_out();
+          }
+        },
+        progress);
+    files.add(scan, out, report);
+    several_.push_back(scan.several_passes);
+    number_passes(file, std::span(cloud.passes).subspan(of_file));
+  }
+  if (several_.size() == 1 && !several_.front()) cloud.passes = {};
+  no_data_ = files.finish(static_cast<std::size_t>(number), out, report);
+  return out;
+}
+
+void CloudWalk::all(const std::function<void(PointCloud& batch)>& take, const Progress& progress) {
+  for (std::size_t file = 0; file < request_.scans.size(); ++file)
+    walk(
+        file,
+        [&](PointCloud& batch) {
+          const bool passes = several_.size() > 1 || several_.front();
+          batch.passes.resize(passes ? batch.points.size() : 0, 0);
+          number_passes(file, batch.passes);
+          std::size_t kept = 0;
+          for (std::size_t i = 0; i < batch.points.size(); ++i) {
+            const Vec3& p = batch.points[i];
+            if (ranges::any_of(no_data_, [&](const auto& mark) { return p[mark.first] == mark.second; })) continue;
+            if (passes) batch.passes[kept] = batch.passes[i];
+            batch.points[kept++] = p;
+          }
+          batch.points.resize(kept);
+          batch.passes.resize(passes ? kept : 0);
+          take(batch);
+        },
+        progress);
 }
 
 }  // namespace treadmark::app

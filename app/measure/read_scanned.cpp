@@ -34,6 +34,10 @@ ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request
   import.settings.placement.nominal_radius_mm = 1e3 * request.nominal_radius;
   import.settings.placement.zero = "scan";
   const io::ImportReport report = import_scan(import);
+  if (report.outputs.size() != 1)
+    throw Error(ErrorKind::input_data,
+                fmt::format("the scan has holes that stay open: its surface is in {} parts", report.outputs.size()),
+                {name}, "import it (treadmark import), and measure each part");
   NamedSurface said;
   said.body = request.body;
   said.nominal_radius = report.nominal_radius;

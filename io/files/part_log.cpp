@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "treadmark/core/byte_archive.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/sha256.hpp"
@@ -118,6 +119,7 @@ void PartLog::find_parts(const std::string& head) {
   if (found != head && !write_at(descriptor_, 0, head.data(), head.size())) fail("write", errno);
   std::vector<std::byte> bytes;
   for (Head part{}; read_at(descriptor_, end_, &part, sizeof part);) {
+    check_cancelled();
     const std::uint64_t at = end_ + sizeof part;
     if (part.size > size - at) break;
     bytes.resize(part.size);

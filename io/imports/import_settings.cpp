@@ -31,6 +31,10 @@ std::vector<ImportKey> listed_keys() {
   list.word("scan.unit", {"auto", "m", "mm", "um", "in"},
             "of the coordinates; auto: what the file says, else what makes it a wheel or rail",
             at(&S::scan, &S::Scan::unit));
+  list.direction("scan.box_from",
+                 "least x, y and z of points that are read, in the scan's frame and unit; empty: all points are",
+                 at(&S::scan, &S::Scan::box_from));
+  list.direction("scan.box_to", "greatest x, y and z of these", at(&S::scan, &S::Scan::box_to));
   list.flag("scan.pass_steps", "align the passes of the scanner to each other where they overlap",
             at(&S::scan, &S::Scan::pass_steps));
 
@@ -127,6 +131,17 @@ std::vector<ImportKey> listed_keys() {
   list.number("damage.threshold_mm", kNotNegative, "depth from which damage is listed; 0: from the noise",
               at(&S::damage, &S::Damage::threshold_mm));
 
+  list.word("tiles.use", {"auto", "always", "never"},
+            "whether a long rail is imported tile by tile, in bounded memory; auto: from tiles.from_MB on, if it "
+            "becomes slices",
+            at(&S::tiles, &S::Tiles::use));
+  list.number("tiles.from_MB", kNotNegative, "size of the files from which that is done",
+              at(&S::tiles, &S::Tiles::from_MB));
+  list.number("tiles.length_m", {{}, 0.2, 1000.0}, "of a tile; 1.6 m more to both sides are looked at",
+              at(&S::tiles, &S::Tiles::length_m));
+  list.number("tiles.sample_points", {{}, 1e4, 1e9}, "evenly drawn points by which line, place and section are found",
+              at(&S::tiles, &S::Tiles::sample_points));
+
   list.word("map.height_unit", {"auto", "m", "mm", "um", "in"},
             "of the deviations of a gridded map; auto: what the file says, else scan.unit",
             at(&S::map, &S::Map::height_unit));
@@ -159,12 +174,12 @@ double number_of(const CaseValue& value, const std::string& name, const SourcePo
   return value.number();
 }
 
-void check_direction(const CaseValue& value, const std::string& name) {
+void check_triple(const CaseValue& value, const std::string& name, bool direction) {
   if (!value.is_list() || (!value.list().empty() && value.list().size() != 3))
     fail(fmt::format("'{}' must be a list of three numbers, or empty", name), value.where);
   double square = 0.0;
   for (const CaseValue& one : value.list()) square += std::pow(number_of(one, name, value.where), 2);
-  if (!value.list().empty() && !(square > 0.0))
+  if (direction && !value.list().empty() && !(square > 0.0))
     fail(fmt::format("'{}' is no direction: all its numbers are zero", name), value.where);
 }
 
@@ -184,7 +199,7 @@ void set(ImportSettings& settings, const ImportKey& key, const CaseValue& value)
   if (info.type == KeyType::number) {
     check_number(value, info);
   } else if (info.type == KeyType::direction) {
-    check_direction(value, info.path);
+    check_triple(value, info.path, info.path.starts_with("placement."));
   } else if (info.type == KeyType::flag) {
     if (!std::holds_alternative<bool>(value.data))
       fail(fmt::format("'{}' must be true or false", info.path), value.where, advice_on_type(info, value));

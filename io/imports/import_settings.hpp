@@ -15,6 +15,7 @@ struct ImportSettings {
   struct Scan {
     std::string body = "auto";
     std::string unit = "auto";
+    std::vector<double> box_from, box_to;
     bool pass_steps = true;
   } scan;
   struct Placement {
@@ -57,6 +58,12 @@ struct ImportSettings {
   struct Damage {
     double threshold_mm = 0.0;
   } damage;
+  struct Tiles {
+    std::string use = "auto";
+    double from_MB = 1000.0;
+    double length_m = 8.0;
+    double sample_points = 8e6;
+  } tiles;
   struct Map {
     std::string height_unit = "auto";
     bool angles_deg = false;
