@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -15,13 +19,17 @@
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/offset_table.hpp"
+#include "treadmark/app/surfaces/section_bridges.hpp"
 #include "treadmark/backends/added_offsets.hpp"
+#include "treadmark/backends/assembly/stretched_rail.hpp"
 #include "treadmark/backends/levelset/read_level_set.hpp"
 #include "treadmark/backends/profile_library.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/backends/spline/spline_gaps.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/to_whole.hpp"
 #include "treadmark/io/cad/read_cad.hpp"
 #include "treadmark/io/cases/shape_keys.hpp"
 #include "treadmark/io/files/foreign_kind.hpp"
@@ -30,6 +38,7 @@
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/io/profiles/slice_file.hpp"
 #include "treadmark/io/splines/read_splines.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
@@ -259,9 +268,96 @@ void refuse_narrow(const NaturalSurface& natural, const io::SurfaceSource& sourc
               source.where, "is the file in inches or cm? the factor to mm is then 25.4 or 10 (scale_to_mm, --scale)");
 }
 
+/// What is found by one look at all slices of a long rail.
+struct LongRail {
+  assembly::RailStretches stretches;
+  int across = 0;  ///< as SliceSet's
+  std::vector<SurfaceDoubt> doubts;
+};
+constexpr std::size_t kOfStretch = 400,  // slices
+    kBeside = 16;                        // to both sides, as the influence of a slice falls by 3.7 per slice
+
+/// Slices of a stretch and those beside it.
+SliceSet slices_about(const io::SliceFile& slices, std::size_t number, const std::vector<double>& u) {
+  const std::size_t from = number * kOfStretch, to = u.size() - from < 2 * kOfStretch ? u.size() : from + kOfStretch;
+  return slices.read(from - std::min(from, kBeside), std::min(u.size(), to + 1 + kBeside));
+}
+
+LongRail look_at_slices(const io::SliceFile& slices, const std::vector<double>& u) {
+  constexpr double kBetweenPoints = 1e-3;  // no spline swings farther beyond its points, 0.5 mm apart [m]
+  constexpr double kApart = 0.5e-3;        // of lateral places [m]
+  constexpr std::size_t kMostDoubts = 3;
+  LongRail out;
+  assembly::RailStretches& s = out.stretches;
+  s.backend = "spline";
+  s.y_min = s.z_min = kInfinity, s.y_max = s.z_max = -kInfinity;
+  double longest = 0.0;
+  for (std::size_t number = 0; (number + 1) * kOfStretch <= u.size(); ++number) {
+    check_cancelled();
+    s.ends.push_back(u[number * kOfStretch]);
+    const SliceSet here = slices_about(slices, number, u);
+    for (const Profile& profile : here.profiles) {
+      const auto [y_min, y_max] = std::minmax_element(profile.y.begin(), profile.y.end());
+      const auto [z_min, z_max] = std::minmax_element(profile.z.begin(), profile.z.end());
+      s.y_min = std::min(s.y_min, *y_min - kBetweenPoints), s.y_max = std::max(s.y_max, *y_max + kBetweenPoints);
+      s.z_min = std::min(s.z_min, *z_min - kBetweenPoints), s.z_max = std::max(s.z_max, *z_max + kBetweenPoints);
+      double length = 0.0;
+      for (std::size_t k = 1; k < profile.y.size(); ++k)
+        length += std::hypot(profile.y[k] - profile.y[k - 1], profile.z[k] - profile.z[k - 1]);
+      longest = std::max(longest, length);
+    }
+    const std::size_t first = number * kOfStretch, before = first - std::min(first, kBeside);
+    for (SectionBridge bridge : section_bridges(here)) {
+      bridge.first += before;
+      if (bridge.first >= first && bridge.first < first + kOfStretch && out.doubts.size() < kMostDoubts)
+        out.doubts.push_back({"between_sections", to_text(bridge)});
+    }
+  }
+  s.ends.push_back(u.back());
+  out.across = 2 + to_whole<int>(longest / kApart);
+  return out;
+}
+
+/// A rail of so many slices that only those about the places that are asked for are in the memory; it ends with them.
+/// Nothing where it is none, or where something is to be done to all of it.
+std::optional<NaturalSurface> read_long_rail(const io::SurfaceSource& source, Body body, double radius) {
+  constexpr std::uintmax_t kLongList = 100'000;  // bytes of lists that may have so many
+  constexpr std::size_t kMostAtOnce = 4000;
+  const auto* file = std::get_if<io::GeometryFile>(&source.geometry);
+  std::error_code missing;
+  if (file == nullptr || body != Body::rail || radius != 0.0 || !source.defects.empty() ||
+      !source.offsets.file.empty() || source.crossing.part != io::CrossingInput::Part::none ||
+      !io::is_slices_file(file->file) || !(std::filesystem::file_size(file->file, missing) > kLongList) || missing)
+    return std::nullopt;
+  auto slices = std::make_shared<io::SliceFile>(file->file, file->options, source.where);
+  std::vector<double> u = slices->u();
+  if (u.size() <= kMostAtOnce || slices->has_features()) return std::nullopt;
+  slices->check();
+  LongRail rail = look_at_slices(*slices, u);
+  rail.stretches.open = [slices, u = std::move(u), across = rail.across](std::size_t number) {
+    SliceSet here = slices_about(*slices, number, u);
+    here.across = across;
+    SurfaceSpec spec;
+    spec.body = Body::rail;
+    spec.shape = std::move(here);
+    return create_natural(std::move(spec)).surface;
+  };
+  NaturalSurface out;
+  out.spec.body = Body::rail;
+  out.spec.errors = errors_of(*file, body);
+  out.spec.doubts = io::read_surface_doubts(file->file);
+  out.spec.doubts.insert(out.spec.doubts.end(), rail.doubts.begin(), rail.doubts.end());
+  out.surface = assembly::join_stretches(std::move(rail.stretches));
+  return out;
+}
+
 NaturalSurface read_shape(const io::SurfaceSource& source, Body body, double radius) {
   refuse_idle_keys(source, body);
   if (!source.parts.empty()) return read_parts(source, body, radius);
+  if (std::optional<NaturalSurface> rail = read_long_rail(source, body, radius)) {
+    refuse_narrow(*rail, source);
+    return std::move(*rail);
+  }
   SurfaceSpec spec;
   spec.body = body;
   (body == Body::wheel ? spec.nominal_radius : spec.roller_radius) = radius;

@@ -56,6 +56,10 @@ void say_kind(const io::SurfaceSource& source, const NaturalSurface& natural, Fa
     kind = fmt::format("{} slices of {} to {} points, {}", slices->u.size(), points.min.y.size(), points.max.y.size(),
                        wheel ? range_text(slices->u.front(), slices->u.back(), "degrees", 180.0 / kPi)
                              : "x = " + range_text(slices->u.front(), slices->u.back(), "mm", kMilli));
+  } else if (io::is_slices_file(given.file)) {
+    const Box3 box = natural.surface->bounds();
+    kind = fmt::format("slices, so many that they are read where they are asked for, x = {}",
+                       range_text(box.min.x(), box.max.x(), "mm", kMilli));
   } else if (io::is_cad_file(given.file)) {
     kind = "CAD, taken as ";
     kind += std::holds_alternative<Profile>(spec.shape)         ? "one section"

@@ -9,21 +9,50 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/shape_extension.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/record_reader.hpp"
+#include "treadmark/io/profiles/slice_file.hpp"
 #include "treadmark/io/profiles/slice_sum.hpp"
 #include "treadmark/model/shape/body_name.hpp"
 
 namespace treadmark::io {
+
+namespace slice_lists {
+
+struct SliceEntry {
+  double value = 0.0;  ///< as written, in the user's unit
+  double u = 0.0;      ///< mm or rad
+  std::string name;
+  SourcePosition where_value, where_name, where_features;
+};
+
+/// What the slices file itself says: a set without profiles, and where they are.
+struct SliceList {
+  SliceSet set;
+  std::vector<SliceEntry> entries;
+};
+
+/// A slices file whose slices are not read yet.
+struct OpenList {
+  std::string text;
+  std::filesystem::path folder;
+  SliceList list;
+};
+
+}  // namespace slice_lists
+
 namespace {
+
+using namespace slice_lists;
 
 using profiles::RecordReader;
 
 constexpr int kFewestSlices = 4;
-constexpr int kMostSlices = 100'000;
+constexpr int kMostSlices = 1'000'000;
 constexpr int kMostFeatures = 10'000;
 constexpr std::size_t kMostPointsOfAllSlices = 50'000'000;
 constexpr double kSmallestStep = 1e-3;     // between slice values, in the user's unit
@@ -34,13 +63,6 @@ struct Header {
   double offset = 0.0, scale = 1.0;
   int slices = 0, features = 0, kinks = 0, accelerations = 0;
   bool approximate = false;
-};
-
-struct SliceEntry {
-  double value = 0.0;  ///< as written, in the user's unit
-  double u = 0.0;      ///< mm or rad
-  std::string name;
-  SourcePosition where_value, where_name, where_features;
 };
 
 Header read_header(RecordReader& in) {
@@ -179,12 +201,6 @@ void fit_to_profile(std::vector<double>& row, const Profile& profile, const Sour
   }
 }
 
-/// What the slices file itself says: a set without profiles, and where they are.
-struct SliceList {
-  SliceSet set;
-  std::vector<SliceEntry> entries;
-};
-
 SliceList read_list(std::string_view text, const std::string& file, Body body) {
   RecordReader in(text, file);
   const Header header = read_header(in);
@@ -246,34 +262,89 @@ SliceSet parse_slices(std::string_view text, const std::string& file, Body body,
   return load_profiles(read_list(text, file, body), body, load);
 }
 
-SliceSet read_slices(const std::filesystem::path& file, Body body, const ProfileOptions& options,
-                     const SourcePosition& referenced_from) {
+namespace {
+
+OpenList open_list(const std::filesystem::path& file, Body body, const SourcePosition& referenced_from) {
   if (is_slices_file(file) && body_by_extension(file) != body)
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for {} slices, a {} is expected", file.string(),
                             body == Body::rail ? "wheel" : "rail", body_name(body)),
                 referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from,
                 "exchange the files");
-  const std::string text = profiles::read_text(file, "slices", referenced_from);
-  const std::filesystem::path folder = profiles::portable_path(file.string()).parent_path();
-  SliceList list = read_list(text, file.string(), body);
-  check_sum(text, list, folder);
+  OpenList out;
+  out.text = profiles::read_text(file, "slices", referenced_from);
+  out.folder = profiles::portable_path(file.string()).parent_path();
+  out.list = read_list(out.text, file.string(), body);
+  return out;
+}
+
+/// As the options say, with what all slices together decide: their check sum, and which way up they are.
+ProfileOptions options_of_all(const OpenList& from, Body body, const ProfileOptions& options) {
+  check_sum(from.text, from.list, from.folder);
   ProfileOptions how = options;
   if (how.smoothing.method == SmoothingOptions::Method::by_noise)  // slices have been fitted
     how.smoothing.method = SmoothingOptions::Method::spline;
-  if (options.mirror_z == 0) {
-    // all slices the same way up: damage can make some of them look otherwise
-    std::size_t up = 0, down = 0, own = 0;
-    for (const SliceEntry& entry : list.entries) {
-      const auto turned =
-          looks_upside_down(folder / profiles::portable_path(entry.name), body, options, entry.where_name);
-      ++(!turned ? own : *turned ? up : down);
-    }
-    how.mirror_z = own > 0 ? 0 : up > down ? 1 : -1;
+  if (options.mirror_z != 0) return how;
+  // all slices the same way up: damage can make some of them look otherwise
+  std::size_t up = 0, down = 0, own = 0;
+  for (const SliceEntry& entry : from.list.entries) {
+    const auto turned =
+        looks_upside_down(from.folder / profiles::portable_path(entry.name), body, options, entry.where_name);
+    ++(!turned ? own : *turned ? up : down);
   }
-  return load_profiles(std::move(list), body, [&](const std::string& name, const SourcePosition& where) {
-    return read_profile(folder / profiles::portable_path(name), body, how, where);
+  how.mirror_z = own > 0 ? 0 : up > down ? 1 : -1;
+  return how;
+}
+
+}  // namespace
+
+SliceSet read_slices(const std::filesystem::path& file, Body body, const ProfileOptions& options,
+                     const SourcePosition& referenced_from) {
+  OpenList from = open_list(file, body, referenced_from);
+  const ProfileOptions how = options_of_all(from, body, options);
+  return load_profiles(std::move(from.list), body, [&](const std::string& name, const SourcePosition& where) {
+    return read_profile(from.folder / profiles::portable_path(name), body, how, where);
   });
+}
+
+struct SliceFile::Content {
+  OpenList from;
+  ProfileOptions how;
+
+  Profile profile(std::size_t i) const {
+    const SliceEntry& entry = from.list.entries[i];
+    return read_profile(from.folder / profiles::portable_path(entry.name), Body::rail, how, entry.where_name);
+  }
+};
+
+SliceFile::SliceFile(const std::filesystem::path& file, const ProfileOptions& options,
+                     const SourcePosition& referenced_from)
+    : content_(std::make_unique<Content>()) {
+  content_->from = open_list(file, Body::rail, referenced_from);
+  content_->how = options;
+}
+
+SliceFile::~SliceFile() = default;
+
+std::vector<double> SliceFile::u() const {
+  std::vector<double> out;
+  for (const SliceEntry& entry : content_->from.list.entries) out.push_back(1e-3 * entry.u);
+  return out;
+}
+
+bool SliceFile::has_features() const { return !content_->from.list.set.features.empty(); }
+
+void SliceFile::check() { content_->how = options_of_all(content_->from, Body::rail, content_->how); }
+
+SliceSet SliceFile::read(std::size_t from, std::size_t to) const {
+  SliceSet out = content_->from.list.set;
+  out.u.resize(to - from);
+  out.profiles.resize(to - from);
+  parallel_for(to - from, [&](std::size_t k) {
+    out.u[k] = 1e-3 * content_->from.list.entries[from + k].u;
+    out.profiles[k] = content_->profile(from + k);
+  });
+  return out;
 }
 
 }  // namespace treadmark::io

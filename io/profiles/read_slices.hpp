@@ -20,7 +20,7 @@ bool is_slices_file(const std::filesystem::path& file);
 /// The options hold for each of the profiles; mirror_z = 0 mirrors z of all or of none, as most of them ask. u =
 /// SCALE*(OFFSET + value), rails in metres, wheels in rad.
 ///
-/// Refused besides what read_profile refuses: fewer than 4 or more than 100000 slices, values that do not increase by
+/// Refused besides what read_profile refuses: fewer than 4 or more than 1000000 slices, values that do not increase by
 /// more than 1e-3, an angle outside [-1.5 pi, 1.5 pi] or a range of angles that neither lies in [-pi, pi] nor contains
 /// it, features that are not in increasing order, that lie beyond the end of the profile (save for the last one, which
 /// is moved to the end) or that are missing between others, and data after the last record.

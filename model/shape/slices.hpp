@@ -26,6 +26,9 @@ struct SliceSet {
   /// Wheel with slices all round: false = smooth over the seam, as if slices went on for ever; true = constant between
   /// the last and the first slice.
   bool open_seam = false;
+  /// Lateral places at which splines are laid through slices without features, so that parts of a set get those of the
+  /// whole; 0: 0.5 mm apart along the longest slice.
+  int across = 0;
 };
 
 }  // namespace treadmark

@@ -384,7 +384,9 @@ SampledSlices sample_slices(const SliceSet& slices) {
     double longest = 0.0;
     for (const auto& f : features)
       if (f[p + 1] > f[p]) longest = std::max(longest, f[p + 1] - f[p]);  // false where one of them is missing
-    intervals[p] = 1 + to_whole<int>((longest + kLengthSlack) / kPositionSpacing);
+    intervals[p] = slices.across > kLeastPositions && slices.features.empty()
+                       ? slices.across - 1
+                       : 1 + to_whole<int>((longest + kLengthSlack) / kPositionSpacing);
     sampled.positions += intervals[p];
   }
 

@@ -152,8 +152,8 @@ TEST(ReadSlices, RefusesBadHeaders) {
   TREADMARK_EXPECT_ERROR(parse_set("0 0\n"), "SCALE must be positive", 1, 3);
   TREADMARK_EXPECT_ERROR(parse_set("0 -1\n"), "SCALE must be positive", 1, 3);
   TREADMARK_EXPECT_ERROR(parse_set("nan 1\n"), "is not finite", 1, 1);
-  TREADMARK_EXPECT_ERROR(parse_set("0 1\n3\n"), "the number of slices must be 4 to 100000, this is 3", 2, 1);
-  TREADMARK_EXPECT_ERROR(parse_set("0 1\n100001\n"), "the number of slices must be", 2, 1);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n3\n"), "the number of slices must be 4 to 1000000, this is 3", 2, 1);
+  TREADMARK_EXPECT_ERROR(parse_set("0 1\n1000001\n"), "the number of slices must be", 2, 1);
   TREADMARK_EXPECT_ERROR(parse_set("0 1\n 4.\n"), "a whole number is expected", 2, 2);
   TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n-1 0 0\n"), "NFEAT must be 0 to", 3, 1);
   TREADMARK_EXPECT_ERROR(parse_set("0 1\n4\n0 0 99999\n"), "NACCEL must be 0 to", 3, 5);
