@@ -10,7 +10,6 @@
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/import/import_tiles.hpp"
 #include "treadmark/app/import/pages/import_page.hpp"
-#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -56,9 +55,9 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
       return with_progress(
           common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); },
           Units::different);
-    } catch (const Cancelled&) {
+    } catch (...) {
       std::error_code ignored;
-      if (const auto kept = app::unfinished_file(request); std::filesystem::exists(kept, ignored))
+      if (const auto kept = app::unfinished_file(request); interrupted() && std::filesystem::exists(kept, ignored))
         print_notes({fmt::format("{} holds what is finished: the same command goes on", kept.string())}, common.quiet);
       throw;
     }

@@ -235,9 +235,10 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
   return out;
 }
 
-OnSection on_its_section(PlacedScan& scan, const io::ImportSettings& settings, double finest, bool halves) {
+OnSection on_its_section(PlacedScan& scan, const io::ImportSettings& settings, double finest, double cells,
+                         bool halves) {
   const scans::ProjectSettings how{scan.body, scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0,
-                                   1e-3 * settings.clean.farthest_mm, finest};
+                                   1e-3 * settings.clean.farthest_mm, cells};
   scan.placement.section = start_section(scan);
   OnSection out{scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section, how), {}};
   // the section from all points; once more projected on it, for points are judged by their distance from it
@@ -327,7 +328,8 @@ io::ImportReport import_checked(const ImportRequest& request, const Progress& pr
   const std::optional<scans::MeasuredSections> sections = sections_to_keep(scan, settings);
   clock.begin("noise and outliers");
   const bool errors_of_fit = settings.fit.errors && !sections;
-  OnSection found = on_its_section(scan, settings, finest_of(settings, report.spacing), errors_of_fit);
+  const double finest = finest_of(settings, report.spacing);
+  OnSection found = on_its_section(scan, settings, finest, finest, errors_of_fit);
   scans::Projection& projection = found.projection;
   const std::size_t duplicates = scans::drop_duplicates(projection.points, scan.points);
   scans::NoiseSettings how_noise;

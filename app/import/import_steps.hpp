@@ -22,8 +22,9 @@ struct OnSection {
   std::optional<std::array<scans::Section, 2>>
       halves;  ///< that halves of the points call for; none where it is nominal
 };
-/// Sets the section of the placement.
-OnSection on_its_section(PlacedScan& scan, const io::ImportSettings& settings, double finest, bool halves);
+/// Sets the section of the placement. finest: of its knots; cells: as ProjectSettings::finest [m].
+OnSection on_its_section(PlacedScan& scan, const io::ImportSettings& settings, double finest, double cells,
+                         bool halves);
 
 /// Smallest distance of knots [m] for points so far apart [m].
 double finest_of(const io::ImportSettings& settings, double spacing);

@@ -176,13 +176,14 @@ std::string identity_of(const ImportRequest& request, const io::ImportReport& re
 
 /// All that the sample tells.
 TilePlan plan_of(const OnSection& found, const io::ImportSettings& settings, double finest) {
-  const scans::BandPoints& points = found.projection.points;
   TilePlan plan;
   plan.section = found.projection.band.section;
   plan.project = {Body::rail, 1.0, 1e-3 * settings.clean.farthest_mm, finest};
   plan.band = scans::intervals_of(found.projection);
-  plan.rows = points.rows;
-  plan.halvings = points.halvings_a;
+  scans::ProjectSettings of_one = plan.project;
+  of_one.part = scans::BandIntervals{plan.band.from, plan.band.step, 1};
+  plan.halvings = scans::project({}, {}, Pose{}, plan.section, of_one).points.halvings_a;
+  plan.rows = plan.band.count << plan.halvings;
   // windows begin where tiles of the noise do (LocalNoise), and where every fourth interval does, so that sums are
   // those of all in the same order
   constexpr std::size_t kTogether = 4;
@@ -284,26 +285,29 @@ class JoinedTiles {
     return out;
   }
 
-  /// Intervals with open holes, those next to each other as one.
+  /// Intervals with open holes, and what is between two or at an end and too short for a surface of its own.
   std::vector<TileRange> gaps() const {
+    constexpr double kShortestStretch = 0.25;  // [m]
+    const auto is_short = [&](std::size_t from, std::size_t to) { return plan_.along(to - from) < kShortestStretch; };
     std::vector<TileRange> out;
     for (const std::size_t interval : open_)
-      if (!out.empty() && out.back().to == interval)
-        ++out.back().to;
+      if (!out.empty() && is_short(out.back().to, interval))
+        out.back().to = interval + 1;
       else
-        out.push_back({interval, interval + 1});
+        out.push_back({out.empty() && is_short(0, interval) ? 0 : interval, interval + 1});
+    if (!out.empty() && is_short(out.back().to, plan_.band.count)) out.back().to = plan_.band.count;
     return out;
   }
 
   /// Takes the slices of all tiles.
   std::vector<Stretch> stretches() {
-    constexpr double kRounding = 1e-9, kShortestStretch = 0.25;  // [m]
+    constexpr double kRounding = 1e-9;  // [m]
     std::vector<Stretch> out;
     std::size_t from = 0;
     std::vector<TileRange> gaps = this->gaps();
     gaps.push_back({plan_.band.count, plan_.band.count});
     for (const TileRange& gap : gaps) {
-      if (plan_.along(gap.from) - plan_.along(from) >= kShortestStretch) {
+      if (gap.from > from) {
         out.emplace_back();
         out.back().from = plan_.along(from), out.back().to = plan_.along(gap.from);
       }
@@ -363,6 +367,7 @@ class JoinedTiles {
       for (std::size_t k = 0; k + 4 < tile.holes.size(); k += 5)
         r.holes.push_back({plan_.band.from + tile.holes[k] - u_zero, plan_.section.at(tile.holes[k + 1]).position.x(),
                            tile.holes[k + 2], tile.holes[k + 3], tile.holes[k + 4] != 0.0, tile.holes[k + 1]});
+      r.hole_area += tile.open_area;
     }
     std::stable_sort(r.holes.begin(), r.holes.end(),
                      [](const auto& a, const auto& b) { return a.diameter > b.diameter; });
@@ -385,7 +390,7 @@ class JoinedTiles {
     const double s_min = cell_s * static_cast<double>(plan_.usual.first_column),
                  s_max = cell_s * static_cast<double>(plan_.usual.last_column);
     r.area = plan_.along(plan_.band.count) * (s_max - s_min);
-    for (const auto& hole : r.holes) r.hole_area += hole.area;
+    for (const auto& hole : r.holes) r.hole_area += hole.filled ? hole.area : 0.0;
     r.y_min = plan_.section.at(s_min).position.x(), r.y_max = plan_.section.at(s_max).position.x();
     r.u_min = plan_.band.from - u_zero, r.u_max = r.u_min + plan_.along(plan_.band.count);
     for (const scans::Damage& d : damage())
@@ -449,7 +454,9 @@ class TiledImport {
     report_.spacing /= std::sqrt(static_cast<double>(walk.one_in()));
     clock_.begin("section");
     const double finest = finest_of(settings_, report_.spacing);
-    plan_ = plan_of(on_its_section(scan_, settings_, finest, settings_.fit.errors), settings_, finest);
+    constexpr double kCells = 4e-3;  // of the sample: all along the rail there must not be too many
+    plan_ = plan_of(on_its_section(scan_, settings_, finest, std::max(finest, kCells), settings_.fit.errors), settings_,
+                    finest);
     constexpr std::size_t kMostDots = 6000;
     for (std::size_t i = 0; i < scan_.points.size(); i += 1 + scan_.points.size() / kMostDots) {
       const Vec3 p_S = scan_.placement.X_CS.apply_inverse(scan_.points[i]);
@@ -460,6 +467,7 @@ class TiledImport {
     clock_.begin("sorting");
     TileFile file(plan_, unfinished_file(request_), identity_of(request_, report_));
     if (!file.is_sorted()) sort(walk, file);
+    count_no_data(file.sorted());
     report_.removed.push_back({"beside the line", file.sorted().at(1),
                                fmt::format("farther than {:g} mm from the line of the rail", kMilli * kFromTheLine)});
     report_.removed.push_back({"past the ends", file.sorted().at(2), "where hardly any points are"});
@@ -475,6 +483,18 @@ class TiledImport {
 
  private:
   static constexpr std::size_t kSteps = 8;
+
+  /// Points without data by all points: the sample had some of them only.
+  void count_no_data(const std::vector<std::size_t>& sorted) {
+    std::vector<io::ImportReport::Removed>& removed = report_.removed;
+    const auto is_other = [](const auto& one) { return one.reason != kNoData; };
+    const auto first = std::stable_partition(removed.begin(), removed.end(), is_other);
+    if (first == removed.end()) return;
+    first->count = report_.points_read - std::min(report_.points_read, sorted.at(0) + sorted.at(1) + sorted.at(2));
+    for (auto one = removed.begin(); one != first; ++one) first->count -= std::min(first->count, one->count);
+    for (auto one = first + 1; one != removed.end(); ++one) first->why += "; " + one->why;
+    removed.erase(first + 1, removed.end());
+  }
 
   /// For readers: how far a step is.
   Progress in_percent() {
@@ -538,7 +558,7 @@ class TiledImport {
     }
   }
 
-  std::string place_of(double along) const { return fmt::format("x = {:.4g} m", plan_.band.from + along - u_zero_); }
+  std::string place_of(double along) const { return fmt::format("x = {:.3f} m", plan_.band.from + along - u_zero_); }
 
   void finish(JoinedTiles& tiles, std::size_t sorted) {
     scans::Band band{Body::rail, 1.0, plan_.section, plan_.band.from, plan_.band.from + plan_.along(plan_.band.count),
@@ -582,7 +602,7 @@ class TiledImport {
     if (gaps.empty()) return;
     std::string where;
     for (std::size_t k = 0; k < std::min(kMostTold, gaps.size()); ++k)
-      where += fmt::format("{}{} to {:.4g} m", k > 0 ? ", " : "", place_of(plan_.along(gaps[k].from)),
+      where += fmt::format("{}{} to {:.3f} m", k > 0 ? ", " : "", place_of(plan_.along(gaps[k].from)),
                            plan_.band.from + plan_.along(gaps[k].to) - u_zero_);
     report_.warnings.push_back(
         fmt::format("surface_gaps: holes of more than {:.1f} mm stay open, and the surface has no part there: {}{}; "

@@ -93,7 +93,7 @@ std::vector<std::pair<Eigen::Index, double>> drop_no_data(PointCloud& cloud, io:
       if (!cloud.passes.empty()) cloud.passes[kept] = cloud.passes[i];
       ++kept;
     }
-    report.removed.push_back({"no data", points.size() - kept,
+    report.removed.push_back({kNoData, points.size() - kept,
                               fmt::format("{} = {:g}, far from all others", std::string_view("xyz")[axis], value)});
     points.resize(kept);
     if (!cloud.passes.empty()) cloud.passes.resize(kept);

@@ -32,6 +32,9 @@ struct Clouds {
 /// Errors: those of the readers; Error(input_data) for files in different units.
 Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const Progress& progress);
 
+/// Why points are left out whose coordinate says that there is none.
+inline constexpr const char* kNoData = "no data";
+
 /// Passes over all points of files that are too large for the memory, some at a time, in their order. One thread.
 class CloudWalk {
  public:

@@ -31,6 +31,7 @@ class TileFit {
     projection_ = scans::project(points.points, {}, Pose{}, plan.section, how);
     projection_.points.numbers = points.numbers;
     out_.open.assign(own_.count(), 1);
+    out_.open_area = (s_max() - s_min()) * plan.along(own_.count());
     out_.columns = projection_.points.columns;
     out_.coverage.first_column = 0, out_.coverage.last_column = out_.columns;
   }
@@ -74,15 +75,14 @@ class TileFit {
       if (is_own(start() + hole.a))
         for (const double number : {start() + hole.a, hole.s, hole.diameter, hole.area, hole.filled ? 1.0 : 0.0})
           out_.holes.push_back(number);
+    out_.open.assign(own_.count(), 0);
+    out_.open_area = 0.0;
+    if (coverage_.whole()) return;
     const std::size_t columns = projection_.points.columns;
-    for (std::size_t row = first_row(); row < last_row(); ++row) {
-      const auto cells = coverage_.open.begin() + static_cast<std::ptrdiff_t>(coverage_.whole() ? 0 : row * columns);
-      const bool open = !coverage_.whole() && std::any_of(cells, cells + static_cast<std::ptrdiff_t>(columns),
-                                                          [](std::uint8_t cell) { return cell != 0; });
-      const std::size_t interval = (row - first_row()) >> plan_.halvings;
-      out_.open[interval] = (row - first_row()) % (std::size_t{1} << plan_.halvings) == 0
-                                ? static_cast<std::uint8_t>(open)
-                                : static_cast<std::uint8_t>(out_.open[interval] != 0 || open);
+    for (std::size_t cell = first_row() * columns; cell < last_row() * columns; ++cell) {
+      if (coverage_.open[cell] == 0) continue;
+      out_.open[(cell / columns - first_row()) >> plan_.halvings] = 1;
+      out_.open_area += projection_.points.cell_a * projection_.points.cell_s;
     }
   }
 

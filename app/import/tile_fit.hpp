@@ -65,6 +65,7 @@ struct FittedTile {
   std::vector<double> damage;            ///< along, s, length, width, depth, volume of each
   std::vector<double> holes;             ///< along, s, diameter, area, filled of each
   std::vector<std::uint8_t> open;        ///< intervals in which a hole stays open
+  double open_area = 0.0;                ///< of open holes in it [m^2]
   std::vector<double> error_at, errors;  ///< stations; their curves one after the other
   std::vector<double> error_y, error_z;  ///< places of these
   std::size_t used = 0, held_out = 0, outliers = 0, duplicates = 0;
@@ -81,7 +82,8 @@ struct FittedTile {
   /// Calls visit(member) for all that is stored, in one order.
   template <class Tile, class Visit>
   static void each(Tile& t, const Visit& visit) {
-    visit(t.along), visit(t.y), visit(t.z), visit(t.checks), visit(t.damage), visit(t.holes), visit(t.open);
+    visit(t.along), visit(t.y), visit(t.z), visit(t.checks), visit(t.damage), visit(t.holes), visit(t.open),
+        visit(t.open_area);
     visit(t.error_at), visit(t.errors), visit(t.error_y), visit(t.error_z);
     visit(t.used), visit(t.held_out), visit(t.outliers), visit(t.duplicates);
     visit(t.square_used), visit(t.square_held_out), visit(t.variance_held_out), visit(t.largest);

@@ -275,12 +275,12 @@ struct LongRail {
   std::vector<SurfaceDoubt> doubts;
 };
 constexpr std::size_t kOfStretch = 400,  // slices
-    kBeside = 16;                        // to both sides, as the influence of a slice falls by 3.7 per slice
+    kAboutStretch = 16;                  // to both sides, as the influence of a slice falls by 3.7 per slice
 
 /// Slices of a stretch and those beside it.
 SliceSet slices_about(const io::SliceFile& slices, std::size_t number, const std::vector<double>& u) {
   const std::size_t from = number * kOfStretch, to = u.size() - from < 2 * kOfStretch ? u.size() : from + kOfStretch;
-  return slices.read(from - std::min(from, kBeside), std::min(u.size(), to + 1 + kBeside));
+  return slices.read(from - std::min(from, kAboutStretch), std::min(u.size(), to + 1 + kAboutStretch));
 }
 
 LongRail look_at_slices(const io::SliceFile& slices, const std::vector<double>& u) {
@@ -306,7 +306,7 @@ LongRail look_at_slices(const io::SliceFile& slices, const std::vector<double>& 
         length += std::hypot(profile.y[k] - profile.y[k - 1], profile.z[k] - profile.z[k - 1]);
       longest = std::max(longest, length);
     }
-    const std::size_t first = number * kOfStretch, before = first - std::min(first, kBeside);
+    const std::size_t first = number * kOfStretch, before = first - std::min(first, kAboutStretch);
     for (SectionBridge bridge : section_bridges(here)) {
       bridge.first += before;
       if (bridge.first >= first && bridge.first < first + kOfStretch && out.doubts.size() < kMostDoubts)
@@ -344,6 +344,7 @@ std::optional<NaturalSurface> read_long_rail(const io::SurfaceSource& source, Bo
   };
   NaturalSurface out;
   out.spec.body = Body::rail;
+  out.spec.shape = SliceSet{};  // too many: resampled from the surface
   out.spec.errors = errors_of(*file, body);
   out.spec.doubts = io::read_surface_doubts(file->file);
   out.spec.doubts.insert(out.spec.doubts.end(), rail.doubts.begin(), rail.doubts.end());

@@ -50,7 +50,7 @@ void say_kind(const io::SurfaceSource& source, const NaturalSurface& natural, Fa
     kind = fmt::format("triangles: {} over {} vertices", mesh->triangles.size(), mesh->vertices.size());
     unit += ", as files of triangles say none";
   } else if (const auto* slices = std::get_if<SliceSet>(&spec.shape);
-             slices != nullptr && io::is_slices_file(given.file)) {
+             slices != nullptr && !slices->u.empty() && io::is_slices_file(given.file)) {
     const bool wheel = spec.body == Body::wheel;
     const auto points = ranges::minmax(slices->profiles, {}, [](const Profile& p) { return p.y.size(); });
     kind = fmt::format("{} slices of {} to {} points, {}", slices->u.size(), points.min.y.size(), points.max.y.size(),

@@ -116,6 +116,7 @@ Scan CloudBuilder::finish(std::string format, std::optional<LengthUnit> unit) {
     refuse(fmt::format("none of the {} points is finite and in use{}", scan_.points_in_file,
                        scan_.outside > 0 ? " within the box" : ""),
            scan_.outside > 0 ? "is the box in the frame and unit of the file?" : "was the scan exported properly?");
+  if (batch_) cloud.normals = {};  // which files with vertices apart from their normals have nonetheless
   const auto is_zero = [](const Eigen::Vector3f& n) { return n.isZero(0.0f); };
   if (!cloud.normals.empty() && std::all_of(cloud.normals.begin(), cloud.normals.end(), is_zero)) {
     cloud.normals = {};
