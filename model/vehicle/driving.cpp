@@ -22,7 +22,13 @@ double way(double speed, double slope, double time) { return time * (speed + 0.5
 
 Travel travel_at(const SpeedProfile& p, double time) {
   double distance = 0.0;
-  for (std::size_t i = 0;; ++i) {
+  std::size_t first = 0;
+  if (!p.distance.empty()) {
+    const auto behind = std::upper_bound(p.time.begin() + 1, p.time.end(), time);
+    first = static_cast<std::size_t>(behind - p.time.begin()) - 1;
+    distance = p.distance[first];
+  }
+  for (std::size_t i = first;; ++i) {
     const double a = slope(p, i);
     if (i + 1 == p.time.size() || time < p.time[i + 1]) {
       const double since = time - p.time[i];

@@ -16,10 +16,12 @@ namespace treadmark {
 struct SpeedProfile {
   std::vector<double> time;   ///< from 0, increasing [s]
   std::vector<double> speed;  ///< at these times [m/s]; > 0
+  /// Travelled until then [m]; empty: not known. Of profiles with many points, to find places fast.
+  std::vector<double> distance = {};
 };
 
 /// The same speed at all times [m/s].
-inline SpeedProfile constant_speed(double speed) { return {{0.0}, {speed}}; }
+inline SpeedProfile constant_speed(double speed) { return {{0.0}, {speed}, {}}; }
 
 /// How far and how fast at one time.
 struct Travel {

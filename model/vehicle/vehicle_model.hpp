@@ -35,6 +35,7 @@ struct BodySpec {
   Vec3 position = Vec3::Zero();  ///< centre of mass, of a loaded vehicle at rest [m]
   std::array<bool, kFreedoms> free{};  ///< in the order of Freedom
   SourcePosition where;
+  int vehicle = 0;  ///< of a train, which one it belongs to, from 0
 };
 
 /// Springs and dampers between the points of two bodies that coincide at rest: one for each direction, one about each
@@ -110,6 +111,20 @@ struct WheelsetSpec {
   std::optional<FlexibleAxle> axle = {};  ///< none: rigid; with it the body must be free in all directions
 };
 
+/// What couples two vehicles of a train along x: a spring behind a free play, a damper that acts while the spring does,
+/// and friction in its draft gear.
+struct CouplerSpec {
+  std::string name, rear, front;    ///< bodies of the following and of the leading vehicle
+  Vec3 position = Vec3::Zero();     ///< where it acts [m]
+  double slack = 0.0;               ///< free play, from push to pull [m]
+  std::vector<double> travel;       ///< beyond it, the same in pull and push, from 0, increasing [m]
+  std::vector<double> force;        ///< of the spring at them, from 0 [N]; linear between, continued by the last slope
+  double damping = 0.0;             ///< [N s/m]; its force is never more than the spring's
+  double friction = 0.0;            ///< bound of the friction over the spring's force
+  double friction_stiffness = 0.0;  ///< while it sticks [N/m]; > 0 with friction
+  SourcePosition where;
+};
+
 /// Bodies above the rails and what connects them.
 struct VehicleModel {
   std::string name;
@@ -120,6 +135,7 @@ struct VehicleModel {
   std::vector<DamperCurveSpec> damper_curves = {};
   std::vector<DryFrictionSpec> frictions = {};
   std::vector<AirSpringSpec> air_springs = {};
+  std::vector<CouplerSpec> couplers = {};  ///< of a train, whose vehicles stand one behind the other
 };
 
 /// The track below one wheelset, moving along with it; there is one of its own for every wheelset. x = 0 below the

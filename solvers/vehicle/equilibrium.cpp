@@ -62,7 +62,9 @@ Matrix stiffness_of_springs(const VehicleOnTrack& vehicle, const SystemState& st
   for (std::size_t i = 0; i < vehicle.system.characteristics.size(); ++i) {
     const CharacteristicForce& c = vehicle.system.characteristics[i];
     const double offset = line ? line->stop_offsets[i] : 0.0;
-    stiffness += value_at(c.curve, c.direction.dot(state.q) + offset).slope * c.direction * c.direction.transpose();
+    block_of(stiffness, vehicle.system.vehicles[static_cast<std::size_t>(c.vehicle)]) +=
+        value_at(c.curve, displacement(vehicle.system, c, state.q) + offset).slope * c.direction *
+        c.direction.transpose();
   }
   if (const ForceElements& elements = vehicle.system.elements; elements.size() > 0) {
     const Matrix directions = elements.directions(stiffness.rows());
@@ -70,6 +72,23 @@ Matrix stiffness_of_springs(const VehicleOnTrack& vehicle, const SystemState& st
   }
   return stiffness;
 }
+
+/// Solves for each part of a train that moves by itself.
+class SolverByPart {
+ public:
+  SolverByPart(const Multibody& system, const Matrix& slopes) {
+    for (const Multibody::Range& part : independent_parts(system, slopes, slopes))
+      parts_.emplace_back(part, block_of(slopes, part).fullPivLu());
+  }
+  Vector solve(const Vector& right) const {
+    Vector out(right.size());
+    for (const auto& [part, lu] : parts_) part_of(out, part) = lu.solve(part_of(right, part));
+    return out;
+  }
+
+ private:
+  std::vector<std::pair<Multibody::Range, Eigen::FullPivLU<Matrix>>> parts_;
+};
 
 /// Wheelsets roll freely: of their pitch the rate is sought, and the angle stays.
 class Balance {
@@ -112,7 +131,7 @@ class Balance {
                           reaction.message.empty() ? "the wheel does not touch the rail" : reaction.message);
         return false;
       }
-      r += vehicle_.maps[i].transpose() * generalised_force(reaction, m);
+      vehicle_.add_force(i, generalised_force(reaction, m), r);
     }
     return true;
   }
@@ -121,11 +140,11 @@ class Balance {
   const std::string& most(const Vector& r) const { return system_.coordinates[worst(r)].name; }
   double measure(const Vector& r) const { return share(r, worst(r)); }
 
-  /// Derivative of -imbalance by the unknowns.
-  Matrix jacobian(const SystemState& state, double coarseness) const {
+  /// What solves for steps of the unknowns by the derivative of -imbalance.
+  SolverByPart jacobian(const SystemState& state, double coarseness) const {
     LinearSystem system = linearised_system(vehicle_, state, coarseness);
     for (const int c : rolling_) system.stiffness.col(c) = system.damping.col(c);
-    return system.stiffness;
+    return {system_, system.stiffness};
   }
 
   /// Gives every wheelset, held where it is, the rate at which no moment turns it. Wheels that touch far from their
@@ -190,11 +209,19 @@ class Balance {
   }
 
   Vector without_contact(const SystemState& state) const {
-    Vector r = system_.weight - system_.stiffness * state.q - system_.damping * state.v;
+    Vector r = system_.weight;
+    for (const Multibody::Range& vehicle : system_.vehicles) {
+      auto own = part_of(r, vehicle);
+      own.noalias() -= block_of(system_.stiffness, vehicle) * part_of(state.q, vehicle);
+      own.noalias() -= block_of(system_.damping, vehicle) * part_of(state.v, vehicle);
+    }
     r += vehicle_.other_forces(state, line_);
     if (line_) r += line_->force;
-    if (const ForceElements& elements = system_.elements; elements.size() > 0)
-      r += elements.on_coordinates(vehicle_.resting_elements(state, line_).force, system_.size());
+    if (const ForceElements& elements = system_.elements; elements.size() > 0) {
+      const Vector force = vehicle_.resting_elements(state, line_).force;
+      r += elements.on_coordinates(force, system_.size());
+      if (line_) line_->add_couplers_aside(force, 1.0, r);
+    }
     return r;
   }
 
@@ -203,19 +230,28 @@ class Balance {
   void settle(SystemState& state) const {
     constexpr int kMost = 50;
     constexpr double kSettled = 1e-9;  // [m]
-    std::vector<Eigen::Index> sprung;
-    for (Eigen::Index i = 0; i < system_.mass.size(); ++i) {
-      const int body = system_.coordinates[static_cast<std::size_t>(i)].body;
-      if (ranges::find(system_.wheelsets, body, &Multibody::Wheelset::body) == system_.wheelsets.end())
-        sprung.push_back(i);
-    }
-    if (sprung.empty()) return;
+    const auto sprung_in = [&](const Multibody::Range& part) {
+      std::vector<Eigen::Index> sprung;
+      for (Eigen::Index i = part.first; i < part.first + part.size; ++i) {
+        const int body = system_.coordinates[static_cast<std::size_t>(i)].body;
+        if (ranges::find(system_.wheelsets, body, &Multibody::Wheelset::body) == system_.wheelsets.end())
+          sprung.push_back(i);
+      }
+      return sprung;
+    };
     for (int i = 0; i < kMost; ++i) {
-      const Vector r = without_contact(state)(sprung);
-      const Matrix k = stiffness_of_springs(vehicle_, state, line_)(sprung, sprung);
-      const Vector step = k.completeOrthogonalDecomposition().solve(r);
-      state.q(sprung) += step;
-      if (!(step.cwiseAbs().maxCoeff() > kSettled)) return;
+      const Vector all = without_contact(state);
+      const Matrix stiffness = stiffness_of_springs(vehicle_, state, line_);
+      double most = 0.0;
+      for (const Multibody::Range& part : independent_parts(system_, stiffness, stiffness)) {
+        const std::vector<Eigen::Index> sprung = sprung_in(part);
+        if (sprung.empty()) continue;
+        const Matrix k = stiffness(sprung, sprung);
+        const Vector r = all(sprung), step = k.completeOrthogonalDecomposition().solve(r);
+        state.q(sprung) += step;
+        most = std::max(most, step.cwiseAbs().maxCoeff());
+      }
+      if (!(most > kSettled)) return;
     }
   }
 
@@ -235,7 +271,7 @@ void step_over_jumps(const Balance& balance, double coarseness, double share, do
   Vector r;
   std::string why;
   if (!balance.imbalance(now.state, r, now.reactions, why)) return;
-  const auto slopes = balance.jacobian(now.state, coarseness).fullPivLu();
+  const SolverByPart slopes = balance.jacobian(now.state, coarseness);
   for (int i = 0; i < kSteps && found.residual > enough; ++i) {
     const Vector step = slopes.solve(r);
     double gone = share;
@@ -278,8 +314,8 @@ LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState&
   for_each_wheel(vehicle, [&](std::size_t i) { tangents[i] = linearised(vehicle, i, state, coarseness); });
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
     const PairTangent& t = tangents[i];
-    system.stiffness += vehicle.maps[i].transpose() * t.stiffness * vehicle.maps[i];
-    system.damping += vehicle.maps[i].transpose() * t.damping * vehicle.maps[i];
+    block_of(system.stiffness, vehicle.range(i)) += vehicle.maps[i].transpose() * t.stiffness * vehicle.maps[i];
+    block_of(system.damping, vehicle.range(i)) += vehicle.maps[i].transpose() * t.damping * vehicle.maps[i];
   }
   return system;
 }
@@ -324,7 +360,7 @@ void iterate(const Balance& balance, const EquilibriumSettings& settings, Equili
   constexpr double kWider = 10.0, kWidest = 100.0;
   double coarseness = 1.0;
   for (; found.residual > settings.tolerance && found.iterations < most; ++found.iterations) {
-    const Vector step = (slopes ? *slopes : balance).jacobian(found.state, coarseness).fullPivLu().solve(r);
+    const Vector step = (slopes ? *slopes : balance).jacobian(found.state, coarseness).solve(r);
     constexpr double kShortest = 1e-3;
     const double before = found.residual;
     bool better = false;

@@ -136,6 +136,20 @@ void add_air(const AirSpring& a, Index memory, double compression, double durati
   r.memory[memory + 1] = pressure;
 }
 
+/// The damper's force is at most the spring's: it neither pulls where that pushes, nor jumps where the free play ends.
+void add_coupler(const Coupler& c, double stretch, double rate, ElementResponse& r) {
+  const CurveValue spring = value_at(c.spring, stretch);
+  const double most = std::abs(spring.force), damper = c.damping * rate;
+  const bool bounded = std::abs(damper) > most;
+  r.force[c.column] += spring.force + std::clamp(damper, -most, most);
+  if (!bounded) {
+    r.stiffness(c.column, c.column) += spring.slope;
+    r.damping(c.column, c.column) += most > 0.0 ? c.damping : 0.0;
+  } else if ((damper > 0.0) == (spring.force > 0.0)) {
+    r.stiffness(c.column, c.column) += 2.0 * spring.slope;
+  }
+}
+
 /// Work to bring gas from its volume at rest to another one [J].
 double energy_of_gas(const AirSpring& a, double at_rest, double volume) {
   const double ratio = at_rest / volume, n = a.exponent;
@@ -176,9 +190,45 @@ Matrix ForceElements::directions(Index coordinates) const {
 
 Vector ForceElements::on_coordinates(const Vector& force, Index coordinates) const {
   Vector out = Vector::Zero(coordinates);
-  for (Index i = 0; i < force.size(); ++i)
-    for (const auto& [c, factor] : columns[static_cast<std::size_t>(i)].direction) out[c] -= factor * force[i];
+  add_to(out, force, 1.0);
   return out;
+}
+
+void ForceElements::add_to(Vector& on_coordinates, const Vector& force, double times) const {
+  for (Index i = 0; i < force.size(); ++i)
+    for (const auto& [c, factor] : columns[static_cast<std::size_t>(i)].direction)
+      on_coordinates[c] -= factor * (times * force[i]);
+}
+
+ElementShare share_of(const ForceElements& all, std::vector<int> columns, int first_coordinate) {
+  ElementShare share;
+  share.columns = share.memory = std::move(columns);
+  const auto place = [&](int column) {
+    const auto at = std::lower_bound(share.columns.begin(), share.columns.end(), column);
+    return at != share.columns.end() && *at == column ? static_cast<int>(at - share.columns.begin()) : -1;
+  };
+  for (const int c : share.columns) {
+    share.elements.columns.push_back(all.columns[static_cast<std::size_t>(c)]);
+    for (auto& [coordinate, factor] : share.elements.columns.back().direction) coordinate -= first_coordinate;
+  }
+  for (std::size_t i = 0; i < all.frictions.size(); ++i) {
+    DryFriction f = all.frictions[i];
+    if ((f.first = place(f.first)) < 0) continue;
+    if (f.load >= 0) f.load = place(f.load);
+    share.memory.push_back(all.size() + static_cast<int>(i));
+    share.elements.frictions.push_back(std::move(f));
+  }
+  for (DamperCurve d : all.dampers)
+    if ((d.column = place(d.column)) >= 0) share.elements.dampers.push_back(std::move(d));
+  for (Coupler c : all.couplers)
+    if ((c.column = place(c.column)) >= 0) share.elements.couplers.push_back(std::move(c));
+  for (std::size_t i = 0; i < all.air_springs.size(); ++i) {
+    AirSpring a = all.air_springs[i];
+    if ((a.column = place(a.column)) < 0) continue;
+    for (const int more : {0, 1}) share.memory.push_back(static_cast<int>(all.memory_of_air(i)) + more);
+    share.elements.air_springs.push_back(std::move(a));
+  }
+  return share;
 }
 
 double ForceElements::energy(const Vector& displacement, const Vector& memory) const {
@@ -187,6 +237,7 @@ double ForceElements::energy(const Vector& displacement, const Vector& memory) c
     const auto columns = Eigen::seqN(f.first, f.directions);
     sum += 0.5 * f.stiffness * (displacement(columns) - memory(columns)).squaredNorm();
   }
+  for (const Coupler& c : couplers) sum += value_at(c.spring, displacement[c.column]).integral;
   for (std::size_t i = 0; i < air_springs.size(); ++i) {
     const AirSpring& a = air_springs[i];
     const double compression = displacement[a.column], q = memory[memory_of_air(i)];
@@ -212,6 +263,7 @@ ElementResponse respond(const ForceElements& elements, const Vector& displacemen
     const AirSpring& a = elements.air_springs[i];
     add_air(a, elements.memory_of_air(i), displacement[a.column], duration, r);
   }
+  for (const Coupler& c : elements.couplers) add_coupler(c, displacement[c.column], rate[c.column], r);
   return r;
 }
 

@@ -35,6 +35,7 @@ struct ElementColumn {
   int link = -1;                                  ///< in Multibody::links; -1: a line does not stretch it
   Freedom freedom = Freedom::x;
   double arm = 1.0;  ///< of rotations: displacement by the angle [m]
+  int vehicle = 0;   ///< of a train; -1: between two of its vehicles
 };
 
 /// DryFrictionSpec by columns.
@@ -72,12 +73,22 @@ struct AirSpring {
   double linear = 0.0;      ///< [N/m]
 };
 
+/// CouplerSpec without its friction, by a column: its stretch.
+struct Coupler {
+  std::string name;
+  int column = 0;
+  ForceCurve spring;     ///< with the free play
+  double damping = 0.0;  ///< [N s/m]
+  int friction = -1;     ///< column of the friction in it; -1: none
+};
+
 /// Forces that are neither linear nor functions of displacements alone. Immutable; what they remember stands outside.
 struct ForceElements {
   std::vector<ElementColumn> columns;
   std::vector<DryFriction> frictions;
   std::vector<DamperCurve> dampers;
   std::vector<AirSpring> air_springs;
+  std::vector<Coupler> couplers;
 
   int size() const { return static_cast<int>(columns.size()); }
   /// Memory in the reference configuration: how far each column of friction has slid [m], then whether each friction
@@ -88,13 +99,24 @@ struct ForceElements {
   Vector of(const Vector& coordinates) const;
   /// The same of all columns as a matrix: its rows are columns' directions.
   Matrix directions(Eigen::Index coordinates) const;
-  /// Generalised force on the coordinates of forces that resist the columns' displacements.
+  /// Adds so many times the generalised force on the coordinates of forces that resist the columns' displacements.
+  void add_to(Vector& on_coordinates, const Vector& force, double times) const;
+  /// That force.
   Vector on_coordinates(const Vector& force, Eigen::Index coordinates) const;
   /// Place in the memory of an air spring's two numbers.
   Eigen::Index memory_of_air(std::size_t spring) const;
-  /// Energy that the springs of friction and the gas of air springs hold at displacements of the columns [J].
+  /// Energy that the springs of friction and couplers and the gas of air springs hold at displacements of the columns
+  /// [J].
   double energy(const Vector& displacement, const Vector& memory) const;
 };
+
+/// Some elements by themselves.
+struct ElementShare {
+  ForceElements elements;
+  std::vector<int> columns, memory;  ///< which ones of all elements theirs are
+};
+/// Elements of columns, which must be those of whole elements, increasing. Coordinates count from the first one.
+ElementShare share_of(const ForceElements& all, std::vector<int> columns, int first_coordinate);
 
 /// Of all columns.
 struct ElementResponse {

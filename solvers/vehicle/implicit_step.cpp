@@ -26,9 +26,8 @@ double largest_force(const PairVector& f) {
 
 }  // namespace
 
-/// The system without contacts for one step length, and how it gives way to forces at the contacts.
-struct ImplicitStep::Factors {
-  double length = 0.0;
+/// A vehicle without contacts for one step length, and how it gives way to forces at the contacts.
+struct ImplicitStep::PartFactors {
   Eigen::PartialPivLU<Matrix> lu;
   Matrix by_touched;     ///< accelerations for unit forces at the touched coordinates
   Matrix among_touched;  ///< those of the touched coordinates
@@ -38,6 +37,11 @@ struct ImplicitStep::Factors {
   Matrix touched_at_elements;  ///< of the columns for unit forces at the touched coordinates
 };
 
+struct ImplicitStep::Factors {
+  double length = 0.0;
+  std::vector<PartFactors> parts;
+};
+
 ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& settings)
     : vehicle_(vehicle), settings_(settings) {
   if (!(settings.spectral_radius >= 0.5 && settings.spectral_radius <= 1.0))
@@ -45,10 +49,32 @@ ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& se
   alpha_ = -(1.0 - settings.spectral_radius) / (1.0 + settings.spectral_radius);
   beta_ = 0.25 * (1.0 - alpha_) * (1.0 - alpha_);
   gamma_ = 0.5 - alpha_;
-  for (int c = 0; c < vehicle.system.size(); ++c)
-    if (ranges::any_of(vehicle.maps, [c](const auto& map) { return !map.col(c).isZero(0.0); })) touched_.push_back(c);
-  for (const auto& map : vehicle.maps) {
-    const auto& touched = maps_.emplace_back(map(Eigen::all, touched_));
+  const Multibody& s = vehicle.system;
+  const auto columns_of = [&](auto&& wanted) {
+    std::vector<int> columns;
+    for (int c = 0; c < s.elements.size(); ++c)
+      if (wanted(s.elements.columns[static_cast<std::size_t>(c)])) columns.push_back(c);
+    return columns;
+  };
+  for (const Multibody::Range& range : s.vehicles) {
+    const int number = static_cast<int>(parts_.size());
+    Part& part = parts_.emplace_back(Part{range, {}, {}});
+    for (int c = 0; c < range.size; ++c)
+      for (std::size_t i = 0; i < vehicle.wheels.size(); ++i)
+        if (vehicle.vehicle_of(i) == number && !vehicle.maps[i].col(c).isZero(0.0)) {
+          part.touched.push_back(c);
+          break;
+        }
+    part.elements =
+        share_of(s.elements, columns_of([&](const ElementColumn& c) { return c.vehicle == number; }), range.first);
+  }
+  for (int link = 0; link < static_cast<int>(s.links.size()); ++link)
+    if (auto columns = columns_of([&](const ElementColumn& c) { return c.vehicle < 0 && c.link == link; });
+        !columns.empty())
+      couplers_.push_back(share_of(s.elements, std::move(columns), 0));
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const std::vector<int>& of_vehicle = parts_[static_cast<std::size_t>(vehicle.vehicle_of(i))].touched;
+    const auto& touched = maps_.emplace_back(vehicle.maps[i](Eigen::all, of_vehicle));
     std::vector<int>& own = own_.emplace_back();
     for (int c = 0; c < touched.cols(); ++c)
       if (!touched.col(c).isZero(0.0)) own.push_back(c);
@@ -64,17 +90,19 @@ Motion ImplicitStep::start(const SystemState& state, const std::vector<ContactRe
   Motion m;
   m.state = state;
   const std::optional<LineState> line = vehicle_.line_state(state.time);
-  m.unbalanced = s.weight - s.stiffness * state.q - s.damping * state.v + vehicle_.other_forces(state, line);
+  m.unbalanced =
+      s.weight - s.times(s.stiffness, state.q) - s.times(s.damping, state.v) + vehicle_.other_forces(state, line);
   if (line) m.unbalanced += line->force;
   if (s.elements.size() > 0) {
     ElementResponse at_rest = vehicle_.resting_elements(state, line);
     m.unbalanced += s.elements.on_coordinates(at_rest.force, s.size());
+    if (line) line->add_couplers_aside(at_rest.force, 1.0, m.unbalanced);
     m.element_force = std::move(at_rest.force);
     m.element_memory = std::move(at_rest.memory);
   }
   for (std::size_t i = 0; i < reactions.size(); ++i) {
     m.contact_force.push_back(generalised_force(reactions[i], vehicle_.motion(i, state)));
-    m.unbalanced += vehicle_.maps[i].transpose() * m.contact_force.back();
+    vehicle_.add_force(i, m.contact_force.back(), m.unbalanced);
   }
   m.a = Vector::Zero(s.size());
   for (Eigen::Index i = 0; i < m.a.size(); ++i)
@@ -87,32 +115,104 @@ Motion ImplicitStep::start(const SystemState& state, const std::vector<ContactRe
   return m;
 }
 
+ImplicitStep::PartFactors ImplicitStep::factorised(const Part& part, double h) const {
+  const Multibody& s = vehicle_.system;
+  PartFactors fresh;
+  const Eigen::Index size = part.range.size;
+  Matrix effective = (1.0 + alpha_) *
+                     (gamma_ * h * block_of(s.damping, part.range) + beta_ * h * h * block_of(s.stiffness, part.range));
+  effective.diagonal() += part_of(s.mass, part.range);
+  fresh.lu.compute(effective);
+  Matrix unit = Matrix::Zero(size, static_cast<Eigen::Index>(part.touched.size()));
+  for (std::size_t i = 0; i < part.touched.size(); ++i) unit(part.touched[i], static_cast<Eigen::Index>(i)) = 1.0;
+  fresh.by_touched = fresh.lu.solve(unit);
+  fresh.among_touched = fresh.by_touched(part.touched, Eigen::all);
+  if (part.elements.elements.size() > 0) {
+    const Matrix directions = part.elements.elements.directions(size);
+    fresh.by_elements = fresh.lu.solve(directions.transpose());
+    fresh.elements_at_touched = fresh.by_elements(part.touched, Eigen::all);
+    fresh.among_elements = directions * fresh.by_elements;
+    fresh.touched_at_elements = directions * fresh.by_touched;
+  }
+  return fresh;
+}
+
 const ImplicitStep::Factors& ImplicitStep::factors(double h) {
   if (factors_ && factors_->length == h) return *factors_;
-  const Multibody& s = vehicle_.system;
   auto fresh = std::make_unique<Factors>();
   fresh->length = h;
-  Matrix effective = (1.0 + alpha_) * (gamma_ * h * s.damping + beta_ * h * h * s.stiffness);
-  effective.diagonal() += s.mass;
-  fresh->lu.compute(effective);
-  Matrix unit = Matrix::Zero(s.size(), static_cast<Eigen::Index>(touched_.size()));
-  for (std::size_t i = 0; i < touched_.size(); ++i) unit(touched_[i], static_cast<Eigen::Index>(i)) = 1.0;
-  fresh->by_touched = fresh->lu.solve(unit);
-  fresh->among_touched = fresh->by_touched(touched_, Eigen::all);
-  if (s.elements.size() > 0) {
-    const Matrix directions = s.elements.directions(s.size());
-    fresh->by_elements = fresh->lu.solve(directions.transpose());
-    fresh->elements_at_touched = fresh->by_elements(touched_, Eigen::all);
-    fresh->among_elements = directions * fresh->by_elements;
-    fresh->touched_at_elements = directions * fresh->by_touched;
-  }
+  for (const Part& part : parts_) fresh->parts.push_back(factorised(part, h));
   factors_ = std::move(fresh);
   return *factors_;
+}
+
+std::size_t ImplicitStep::factorised_numbers() const {
+  Eigen::Index sum = 0;
+  if (factors_)
+    for (const PartFactors& f : factors_->parts)
+      sum += f.lu.matrixLU().size() + f.by_touched.size() + f.among_touched.size() + f.by_elements.size() +
+             f.elements_at_touched.size() + f.among_elements.size() + f.touched_at_elements.size();
+  return static_cast<std::size_t>(sum);
 }
 
 Vector ImplicitStep::predicted_acceleration(const Motion& from, double h) const {
   if (!(from.step_before > 0.0)) return from.a;
   return from.a + (h / from.step_before) * (from.a - from.a_before);
+}
+
+ElementStep ImplicitStep::element_step(const Part& part, const Vector& q, const Vector& v,
+                                       const std::optional<LineState>& line, double h) const {
+  const ForceElements& elements = part.elements.elements;
+  ElementStep step;
+  if (elements.size() == 0) return step;
+  step.displacement = elements.of(part_of(q, part.range));
+  step.rate = elements.of(part_of(v, part.range));
+  if (line) {
+    step.displacement += line->element_stretch(part.elements.columns);
+    step.rate += line->element_rate(part.elements.columns);
+  }
+  step.of_displacement = beta_ * h * h;
+  step.of_rate = gamma_ * h;
+  step.duration = h;
+  step.tolerance = kElementTolerance * force_scale_;
+  return step;
+}
+
+/// Contacts respond to the difference from the state at which they were evaluated; (S + P' D P) x = b by the small
+/// system at P. None: force elements do not settle.
+std::optional<Vector> ImplicitStep::change_of(const Part& part, const PartFactors& f, const Vector& right,
+                                              const Vector& a, const Matrix& give, ElementStep& step,
+                                              const Vector& memory, ElementResponse& response) const {
+  const Vector now = part_of(a, part.range);
+  const Vector free = f.lu.solve(part_of(right, part.range)) - now;
+  const Matrix small = Matrix::Identity(give.rows(), give.rows()) + f.among_touched * give;
+  const Eigen::PartialPivLU<Matrix> small_lu(small);
+  const Vector change_touched = small_lu.solve(free(part.touched));
+  Vector change = free - f.by_touched * (give * change_touched);
+  const auto& [elements, columns, places] = part.elements;
+  if (elements.size() == 0) return change;
+  const Matrix by_contacts = give * small_lu.solve(f.elements_at_touched);
+  step.free = elements.of(now + change);
+  step.flexibility = (1.0 + alpha_) * (f.among_elements - f.touched_at_elements * by_contacts);
+  step.guess = elements.of(now);
+  const std::optional<ElementResponse> settled = settle(elements, step, memory(places));
+  if (!settled) return std::nullopt;
+  change -= (1.0 + alpha_) * (f.by_elements * settled->force - f.by_touched * (by_contacts * settled->force));
+  response.force(columns) = settled->force;
+  response.memory(places) = settled->memory;
+  return change;
+}
+
+/// Forces of the elements between vehicles in a state.
+void ImplicitStep::couple(const SystemState& at, const std::optional<LineState>& line, const Motion& from, double h,
+                          ElementResponse& response) const {
+  for (const auto& [elements, columns, places] : couplers_) {
+    Vector displacement = elements.of(at.q), rate = elements.of(at.v);
+    if (line) displacement += line->element_stretch(columns), rate += line->element_rate(columns);
+    const ElementResponse r = respond(elements, displacement, rate, from.element_memory(places), h);
+    response.force(columns) = r.force;
+    response.memory(places) = r.memory;
+  }
 }
 
 Step ImplicitStep::take(const Motion& from, double h) {
@@ -127,20 +227,13 @@ Step ImplicitStep::take(const Motion& from, double h) {
   };
   const std::optional<LineState> line = vehicle_.line_state(from.state.time + h);
   const Vector load = line ? Vector(s.weight + line->force) : s.weight;
-  const Vector known = (1.0 + alpha_) * (load - s.damping * v_known - s.stiffness * q_known) - alpha_ * from.unbalanced;
+  const Vector known =
+      (1.0 + alpha_) * (load - s.times(s.damping, v_known) - s.times(s.stiffness, q_known)) - alpha_ * from.unbalanced;
 
   const ForceElements& elements = s.elements;
-  ElementStep element_step;
-  if (elements.size() > 0) {
-    element_step.displacement = elements.of(q_known);
-    element_step.rate = elements.of(v_known);
-    if (line) element_step.displacement += line->element_stretch, element_step.rate += line->element_rate;
-    element_step.of_displacement = of_q;
-    element_step.of_rate = of_v;
-    element_step.duration = h;
-    element_step.tolerance = kElementTolerance * force_scale_;
-  }
-  ElementResponse response;
+  std::vector<ElementStep> element_steps;
+  for (const Part& part : parts_) element_steps.push_back(element_step(part, q_known, v_known, line, h));
+  ElementResponse response{Vector::Zero(elements.size()), {}, {}, from.element_memory};
 
   Step step;
   Vector a = predicted_acceleration(from, h);
@@ -148,7 +241,14 @@ Step ImplicitStep::take(const Motion& from, double h) {
     const SystemState at = state_of(a);
     const Vector stops = vehicle_.other_forces(at, line);
     Vector right = known + (1.0 + alpha_) * stops;
-    Matrix give = Matrix::Zero(f.among_touched.rows(), f.among_touched.rows());
+    couple(at, line, from, h, response);
+    for (const ElementShare& c : couplers_) c.elements.add_to(right, response.force(c.columns), 1.0 + alpha_);
+    if (line) line->add_couplers_aside(response.force, 1.0 + alpha_, right);
+    std::vector<Matrix> give;
+    for (const Part& part : parts_) {
+      const auto touched = static_cast<Eigen::Index>(part.touched.size());
+      give.emplace_back(Matrix::Zero(touched, touched));
+    }
     std::vector<PairVector> forces;
     std::vector<PairTangent> tangents;
     step.reactions = evaluate_wheels(vehicle_, at);
@@ -162,37 +262,29 @@ Step ImplicitStep::take(const Motion& from, double h) {
       }
       forces.push_back(generalised_force(reaction, m));
       tangents.push_back(vehicle_.tangent(i, reaction, m));
-      right += (1.0 + alpha_) * (vehicle_.maps[i].transpose() * forces.back());
+      part_of(right, vehicle_.range(i)) += (1.0 + alpha_) * (vehicle_.maps[i].transpose() * forces.back());
       const PairMatrix tangent = (1.0 + alpha_) * (of_q * tangents.back().stiffness + of_v * tangents.back().damping);
       const Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> map = maps_[i](Eigen::all, own_[i]);
       const Matrix of_wheel = map.transpose() * tangent * map;
-      give(own_[i], own_[i]) += of_wheel;
+      give[static_cast<std::size_t>(vehicle_.vehicle_of(i))](own_[i], own_[i]) += of_wheel;
     }
-    // Contacts respond to the difference from the state at which they were evaluated; (S + P' D P) x = b by the small
-    // system at P.
-    const Vector free = f.lu.solve(right) - a;
-    const Matrix small = Matrix::Identity(give.rows(), give.rows()) + f.among_touched * give;
-    const Eigen::PartialPivLU<Matrix> small_lu(small);
-    const Vector change_touched = small_lu.solve(free(touched_));
-    Vector change = free - f.by_touched * (give * change_touched);
-    if (elements.size() > 0) {
-      const Matrix by_contacts = give * small_lu.solve(f.elements_at_touched);
-      element_step.free = elements.of(a + change);
-      element_step.flexibility = (1.0 + alpha_) * (f.among_elements - f.touched_at_elements * by_contacts);
-      element_step.guess = elements.of(a);
-      std::optional<ElementResponse> settled = settle(elements, element_step, from.element_memory);
-      if (!settled) {
+    Vector change(a.size());
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const std::optional<Vector> own =
+          change_of(parts_[p], f.parts[p], right, a, give[p], element_steps[p], from.element_memory, response);
+      if (!own) {
         step.why_not = "forces of dry friction, dampers and air springs did not settle within a step";
         return step;
       }
-      response = std::move(*settled);
-      change -= (1.0 + alpha_) * (f.by_elements * response.force - f.by_touched * (by_contacts * response.force));
+      part_of(change, parts_[p].range) = *own;
     }
     a += change;
 
     double most = 0.0;
     for (std::size_t i = 0; i < wheels; ++i) {
-      const PairVector moved = maps_[i] * change(touched_);
+      const Part& part = parts_[static_cast<std::size_t>(vehicle_.vehicle_of(i))];
+      const Vector touched = part_of(change, part.range)(part.touched);
+      const PairVector moved = maps_[i] * touched;
       const PairVector correction = -(of_q * tangents[i].stiffness + of_v * tangents[i].damping) * moved;
       forces[i] += correction;
       const double scale = std::max(force_scale_, step.reactions[i].normal_force);
@@ -201,6 +293,11 @@ Step ImplicitStep::take(const Motion& from, double h) {
     if (!a.allFinite()) {
       step.why_not = "the motion has no finite values";
       return step;
+    }
+    if (!couplers_.empty()) {
+      const Vector before = response.force;
+      couple(state_of(a), line, from, h, response);
+      most = std::max(most, (response.force - before).cwiseAbs().maxCoeff() / force_scale_);
     }
     if (most > settings_.force_tolerance) continue;
 
@@ -212,13 +309,14 @@ Step ImplicitStep::take(const Motion& from, double h) {
     end.a_before = from.a;
     end.step_before = h;
     end.contact_force = std::move(forces);
-    end.unbalanced = load - s.stiffness * end.state.q - s.damping * end.state.v + stops;
+    end.unbalanced = load - s.times(s.stiffness, end.state.q) - s.times(s.damping, end.state.v) + stops;
     if (elements.size() > 0) {
       end.unbalanced += elements.on_coordinates(response.force, s.size());
+      if (line) line->add_couplers_aside(response.force, 1.0, end.unbalanced);
       end.element_force = std::move(response.force);
       end.element_memory = std::move(response.memory);
     }
-    for (std::size_t i = 0; i < wheels; ++i) end.unbalanced += vehicle_.maps[i].transpose() * end.contact_force[i];
+    for (std::size_t i = 0; i < wheels; ++i) vehicle_.add_force(i, end.contact_force[i], end.unbalanced);
     for (Eigen::Index i = 0; i < a.size(); ++i)
       if (s.mass[i] > 0.0)
         step.position_error =

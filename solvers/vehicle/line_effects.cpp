@@ -46,6 +46,16 @@ void add(Vector& force, const std::array<int, kFreedoms>& coordinate, const Vec3
     if (const int c = coordinate[static_cast<std::size_t>(f)]; c >= 0) force[c] += f < 3 ? linear[f] : moment[f - 3];
 }
 
+/// A coupler pulls along x of the frame at its point, not along that of a body whose axes are seen from there.
+void add_aside(const Multibody::Body& body, const Vec3& point, const Mat3& axes, double sign,
+               std::vector<std::pair<int, double>>& direction) {
+  const Vec3 linear = sign * (axes.transpose() * Vec3::UnitX() - Vec3::UnitX());
+  const Vec3 moment = (point - body.position).cross(linear);
+  for (int f = 0; f < kFreedoms; ++f)
+    if (const int c = body.coordinate[static_cast<std::size_t>(f)]; c >= 0)
+      direction.emplace_back(c, f < 3 ? linear[f] : moment[f - 3]);
+}
+
 }  // namespace
 
 LineEffects::LineEffects(const Multibody& system, LineSetup setup)
@@ -57,6 +67,11 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
       leanings_(system.leanings),
       wheelsets_(system.wheelsets),
       columns_(system.elements.columns) {
+  for (const Multibody::Body& b : bodies_) mass_ += b.mass;
+  coupler_columns_.resize(links_.size());
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    if (columns_[i].vehicle < 0)
+      coupler_columns_.at(static_cast<std::size_t>(columns_[i].link)).push_back(static_cast<int>(i));
   for (const CharacteristicForce& c : system.characteristics) stops_.emplace_back(c.link, c.freedom);
   for (const AxleTorque& torque : setup_.torques) {
     const auto fail = [&](std::string message) {
@@ -172,6 +187,11 @@ PathPoint LineEffects::point(double time) const {
   return straight;
 }
 
+void LineState::add_couplers_aside(const Vector& element_force, double times, Vector& sum) const {
+  for (const Aside& aside : couplers_aside)
+    for (const auto& [c, factor] : aside.direction) sum[c] -= times * factor * element_force[aside.column];
+}
+
 LineState LineEffects::state(double time) const {
   const Travel now = travel(time);
   LineState out;
@@ -193,15 +213,26 @@ LineState LineEffects::state(double time) const {
 
 Vec3 LineEffects::felt_acceleration(const Vec3& place, double time) const {
   const Travel now = travel(time);
-  if (!setup_.path) return {now.acceleration, 0.0, 0.0};
+  const double climbing =
+      setup_.free_run ? setup_.gravity * gradient_at(*setup_.free_run, setup_.start + now.distance + place.x()) : 0.0;
+  if (!setup_.path) return {now.acceleration + climbing, 0.0, 0.0};
   const Frame f = frame(place.x(), now);
-  return f.acceleration({0.0, place.y(), place.z()}, now) - setup_.gravity * Vec3(0.0, f.sine, f.cosine - 1.0);
+  Vec3 felt = f.acceleration({0.0, place.y(), place.z()}, now) - setup_.gravity * Vec3(0.0, f.sine, f.cosine - 1.0);
+  if (setup_.free_run) felt.x() += climbing;
+  return felt;
 }
 
 Vec3 LineEffects::frame_spin(double x, double time) const {
   if (!setup_.path) return Vec3::Zero();
   const Travel now = travel(time);
   return now.speed * frame(x, now).turn;
+}
+
+/// Of gradient and resistance on a body at a place of the vehicle, over its mass [m/s2].
+double LineEffects::held_back(double x, const Travel& travel) const {
+  const FreeRun& run = *setup_.free_run;
+  return setup_.gravity * gradient_at(run, setup_.start + travel.distance + x) +
+         resistance_at(run, travel.speed) / mass_;
 }
 
 void LineEffects::add_inertia(LineState& out, const Travel& travel) const {
@@ -215,6 +246,7 @@ void LineEffects::add_inertia(LineState& out, const Travel& travel) const {
       const Vec3 rate = travel.speed * travel.speed * f.turn_first + travel.acceleration * f.turn;
       moment = -b.inertia.cwiseProduct(rate) - spin.cross(b.inertia.cwiseProduct(spin));
     }
+    if (setup_.free_run) force.x() -= b.mass * held_back(b.position.x(), travel);
     if (b.wheelset >= 0) {
       // Angular momentum about the axle, -I V / R, turns along with the frame and changes with the speed.
       const double by_speed = -b.inertia.y() / wheelsets_[static_cast<std::size_t>(b.wheelset)].nominal_radius;
@@ -258,6 +290,11 @@ void LineEffects::add_links(LineState& out, const Travel& travel, double time) c
     };
     add_preload(link.a, a, -1.0);
     add_preload(link.b, b, 1.0);
+    for (const int column : coupler_columns_[i]) {
+      LineState::Aside& aside = out.couplers_aside.emplace_back(LineState::Aside{column, {}});
+      add_aside(bodies_[static_cast<std::size_t>(link.a)], link.point, a, -1.0, aside.direction);
+      add_aside(bodies_[static_cast<std::size_t>(link.b)], link.point, b, 1.0, aside.direction);
+    }
   }
   for (std::size_t i = 0; i < moved_.size(); ++i) {
     const auto freedom = static_cast<std::size_t>(setup_.spring_motions[i].direction);

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "treadmark/model/vehicle/driving.hpp"
+#include "treadmark/model/vehicle/free_run.hpp"
 #include "treadmark/solvers/vehicle/irregularities.hpp"
 #include "treadmark/solvers/vehicle/limited_spline.hpp"
 #include "treadmark/solvers/vehicle/multibody.hpp"
@@ -22,6 +24,7 @@ struct LineSetup {
   double base = 1.5;             ///< of cross level, for the roll of a rail [m]
   double gravity = 9.81;         ///< [m/s2]
   SpeedProfile speed;
+  std::optional<FreeRun> free_run;  ///< whose speeds these are: gradients and resistance act on the bodies
   std::vector<AxleTorque> torques;
   std::vector<BodyForce> forces;
   std::vector<SpringMotion> spring_motions;
@@ -38,6 +41,14 @@ struct LineState {
   double damper_power = 0.0;             ///< sum of c u'^2 [W]
   std::vector<double> stop_offsets;      ///< stretches of the bump stops by the line [m]
   Vector element_stretch, element_rate;  ///< of the columns of Multibody::elements by the line [m], [m/s]
+  /// What the force of a coupler does beside its column, as the vehicles stand across it in a curve.
+  struct Aside {
+    int column = 0;
+    std::vector<std::pair<int, double>> direction;
+  };
+  std::vector<Aside> couplers_aside;
+  /// Adds so many times the generalised force of these; element_force: of all columns.
+  void add_couplers_aside(const Vector& element_force, double times, Vector& sum) const;
 };
 
 /// What the line does at one wheel. The frame is that of the path below the axle.
@@ -87,6 +98,7 @@ class LineEffects {
 
  private:
   struct Frame;
+  double held_back(double x, const Travel& travel) const;
   double clock(double time) const { return setup_.stays ? 0.0 : time; }
   Frame frame(double x, const Travel& travel) const;
   void add_inertia(LineState& out, const Travel& travel) const;
@@ -96,6 +108,7 @@ class LineEffects {
 
   LineSetup setup_;
   Eigen::Index size_ = 0;
+  double mass_ = 0.0;  ///< of all bodies [kg]
   std::vector<Multibody::Body> bodies_;
   std::vector<Multibody::Link> links_;
   std::vector<Multibody::Stretch> stretches_;
@@ -103,7 +116,8 @@ class LineEffects {
   std::vector<std::pair<int, Freedom>> stops_;  ///< link and direction
   std::vector<Multibody::Wheelset> wheelsets_;
   std::vector<ElementColumn> columns_;
-  std::vector<Vector> force_by_;  ///< generalised, of the forces from outside for 1 N or N m
+  std::vector<std::vector<int>> coupler_columns_;  ///< by link
+  std::vector<Vector> force_by_;                   ///< generalised, of the forces from outside for 1 N or N m
   struct MovedLink {
     std::size_t link;
     double sign;  ///< of the stretch by the motion

@@ -63,16 +63,18 @@ class Assembly {
     for (const WheelsetSpec& w : vehicle.wheelsets) {
       PlacedBody& body = find(w.body, {});
       body.axle_boxes = body.fixed_while_preloading = true;
-      if (w.axle) add_modes(*w.axle, body);
     }
-    for (const PlacedBody& b : bodies_)
+    const std::size_t bodies = bodies_.size();
+    int vehicles = 0;
+    for (const BodySpec& body : vehicle.bodies) vehicles = std::max(vehicles, body.vehicle + 1);
+    for (int v = 0; v < vehicles; ++v) add_vehicle(vehicle, track, v, bodies);
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const PlacedBody& b = bodies_[i];
       system_.bodies.push_back({b.spec.name, b.spec.mass, b.spec.inertia, b.spec.position, b.coordinate, -1});
-    for (const SpringSpec& spring : vehicle.springs) add_spring(spring, "", Vec3::Zero());
-    for (const BumpStopSpec& stop : vehicle.bump_stops) add_stop(stop);
-    for (const AirSpringSpec& air : vehicle.air_springs) add_air_spring(air);
-    for (const DamperCurveSpec& damper : vehicle.damper_curves) add_damper_curve(damper);
-    for (const DryFrictionSpec& friction : vehicle.frictions) add_friction(friction);
-    for (std::size_t i = 0; i < vehicle.wheelsets.size(); ++i) add_wheelset(vehicle.wheelsets[i], track, i);
+    }
+    for (std::size_t i = 0; i < system_.wheelsets.size(); ++i)
+      system_.bodies[static_cast<std::size_t>(system_.wheelsets[i].body)].wheelset = static_cast<int>(i);
+    for (const CouplerSpec& coupler : vehicle.couplers) add_coupler(coupler);
     finish();
     add_pressures(vehicle.air_springs);
   }
@@ -80,10 +82,64 @@ class Assembly {
   Multibody take() { return std::move(system_); }
 
  private:
+  struct Stop {
+    Direction direction;
+    const BumpStopSpec* spec;
+    int link;
+  };
+
+  /// One vehicle of a train, so that its coordinates follow each other. bodies: number of those above the rails.
+  void add_vehicle(const VehicleModel& train, const std::optional<TrackModel>& track, int number, std::size_t bodies) {
+    const int first = static_cast<int>(inertia_.size());
+    const auto own = [&](const auto& part) { return vehicle_of(part) == number; };
+    for (std::size_t i = 0; i < bodies; ++i)
+      if (bodies_[i].spec.vehicle == number) add_coordinates(i);
+    for (const WheelsetSpec& w : train.wheelsets)
+      if (PlacedBody& body = find(w.body, {}); w.axle && body.spec.vehicle == number) add_modes(*w.axle, body);
+    for (const SpringSpec& spring : train.springs)
+      if (own(spring)) add_spring(spring, "", Vec3::Zero());
+    for (const BumpStopSpec& stop : train.bump_stops)
+      if (own(stop)) add_stop(stop);
+    for (const AirSpringSpec& air : train.air_springs)
+      if (own(air)) add_air_spring(air);
+    for (const DamperCurveSpec& damper : train.damper_curves)
+      if (own(damper)) add_damper_curve(damper);
+    for (const DryFrictionSpec& friction : train.frictions)
+      if (own(friction)) add_friction(friction);
+    for (std::size_t i = 0; i < train.wheelsets.size(); ++i)
+      if (find(train.wheelsets[i].body, {}).spec.vehicle == number) add_wheelset(train.wheelsets[i], track, i);
+    system_.vehicles.push_back({first, static_cast<int>(inertia_.size()) - first});
+    if (system_.vehicles.back().size == 0)
+      throw Error(ErrorKind::configuration, fmt::format("nothing moves in vehicle {} of the train", number + 1));
+  }
+
+  /// Which vehicle a part is in that connects bodies. Unknown bodies are refused by who looks for them next.
+  template <class Part>
+  int vehicle_of(const Part& part) const {
+    const auto of = [&](const std::string& name) {
+      const auto found = by_name_.find(name);
+      return found == by_name_.end() ? -1 : bodies_[found->second].spec.vehicle;
+    };
+    const int a = of(part.body_a), b = of(part.body_b);
+    if (a >= 0 && b >= 0 && a != b)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("'{}' connects '{}' and '{}' of two vehicles", part.name, part.body_a, part.body_b),
+                  part.where, "only couplers do");
+    return std::max({a, b, 0});
+  }
+
   void add_body(const BodySpec& spec, const std::string& name, const Vec3& offset) {
     PlacedBody body{spec, {}, false, false};
     body.spec.name = name;
     body.spec.position += offset;
+    if (!by_name_.emplace(name, bodies_.size()).second)
+      throw Error(ErrorKind::configuration, fmt::format("there are two bodies '{}'", name), spec.where);
+    bodies_.push_back(std::move(body));
+  }
+
+  void add_coordinates(std::size_t index) {
+    PlacedBody& body = bodies_[index];
+    const BodySpec& spec = body.spec;
     for (int f = 0; f < kFreedoms; ++f) {
       const auto i = static_cast<std::size_t>(f);
       body.coordinate[i] = -1;
@@ -94,17 +150,15 @@ class Assembly {
                     fmt::format("body '{}' has no positive {} but may move in {}", spec.name,
                                 f < kRotations ? "mass" : "moment of inertia", kFreedomNames[i]),
                     spec.where);
-      body.coordinate[i] = add_coordinate(static_cast<int>(bodies_.size()), static_cast<Freedom>(f),
-                                          name + '.' + kFreedomNames[i], inertia);
+      body.coordinate[i] =
+          add_coordinate(static_cast<int>(index), static_cast<Freedom>(f), spec.name + '.' + kFreedomNames[i], inertia);
     }
-    if (!by_name_.emplace(name, bodies_.size()).second)
-      throw Error(ErrorKind::configuration, fmt::format("there are two bodies '{}'", name), spec.where);
-    bodies_.push_back(std::move(body));
   }
 
   int add_coordinate(int body, Freedom freedom, std::string name, double inertia) {
-    system_.coordinates.push_back(
-        {body, freedom, std::move(name), static_cast<int>(freedom) < kRotations ? 1.0 : kHalfGauge});
+    system_.coordinates.push_back({body, freedom, std::move(name),
+                                   static_cast<int>(freedom) < kRotations ? 1.0 : kHalfGauge, false,
+                                   static_cast<int>(system_.vehicles.size())});
     inertia_.push_back(inertia);
     return static_cast<int>(inertia_.size()) - 1;
   }
@@ -248,6 +302,12 @@ class Assembly {
     }
   }
 
+  /// Of the vehicle that is being added.
+  void add_column(ElementColumn column) {
+    column.vehicle = static_cast<int>(system_.vehicles.size());
+    system_.elements.columns.push_back(std::move(column));
+  }
+
   /// The coordinate of the inner end.
   int add_in_series(Direction direction, double stiffness, double damping, const std::string& name, int link,
                     Freedom freedom) {
@@ -282,7 +342,7 @@ class Assembly {
       direction = {{inner, 1.0}};
       link = -1;
     }
-    system_.elements.columns.push_back({std::move(direction), link, damper.direction});
+    add_column({std::move(direction), link, damper.direction});
     system_.elements.dampers.push_back(std::move(curve));
   }
 
@@ -308,7 +368,7 @@ class Assembly {
       air.resistance = 0.5 * spec.loss * kDensityByPressure * pressure / (hole * hole);
     }
     terms_.push_back({direction, air.linear, false, link, Freedom::z});
-    system_.elements.columns.push_back({direction, link, Freedom::z});
+    add_column({direction, link, Freedom::z});
     system_.elements.air_springs.push_back(std::move(air));
   }
 
@@ -347,7 +407,7 @@ class Assembly {
       ElementColumn column{relative(spec.body_a, spec.body_b, "", spec.where, spec.position, f), link,
                            static_cast<Freedom>(f), f < kRotations ? 1.0 : spec.arm};
       for (auto& [c, factor] : column.direction) factor *= column.arm;
-      elements.columns.push_back(std::move(column));
+      add_column(std::move(column));
       ++friction.directions;
     }
     if (!(spec.stiffness > 0.0) || friction.directions < 1 || friction.directions > 2)
@@ -356,6 +416,39 @@ class Assembly {
                   spec.where);
     elements.frictions.push_back(std::move(friction));
     if (!spec.load_of.empty()) loads_.push_back({elements.frictions.size() - 1, &spec});
+  }
+
+  /// Friction in a coupler is pressed by its spring.
+  void add_coupler(const CouplerSpec& spec) {
+    const PlacedBody &rear = find(spec.rear, spec.where), &front = find(spec.front, spec.where);
+    if (rear.spec.vehicle == front.spec.vehicle)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("the coupler '{}' connects two bodies of one vehicle", spec.name), spec.where);
+    if (spec.travel.size() < 2 || spec.travel.size() != spec.force.size() || !(spec.slack >= 0.0) ||
+        (spec.friction > 0.0 && !(spec.friction_stiffness > 0.0)))
+      throw Error(ErrorKind::configuration,
+                  fmt::format("coupler '{}' needs a force at each of two travels or more, a free play that is not "
+                              "negative, and with friction its stiffness",
+                              spec.name),
+                  spec.where);
+    constexpr int kX = static_cast<int>(Freedom::x);
+    ElementColumn column{{}, add_link(spec.rear, spec.front, spec.position), Freedom::x, 1.0, -1};
+    add_point(spec.rear, "", spec.where, spec.position, kX, -1.0, column.direction);
+    add_point(spec.front, "", spec.where, spec.position, kX, 1.0, column.direction);
+    ForceElements& elements = system_.elements;
+    Coupler coupler{spec.name, elements.size(), {spec.travel, spec.force}, spec.damping};
+    for (double& at : coupler.spring.at) at += 0.5 * spec.slack;
+    elements.columns.push_back(column);
+    if (spec.friction > 0.0) {
+      coupler.friction = elements.size();
+      DryFriction friction{spec.name, elements.size(), 1, spec.friction_stiffness, 0.0, {spec.friction, spec.friction}};
+      friction.load = coupler.column;
+      friction.by_load = 1.0;
+      friction.stop = coupler.spring;
+      elements.columns.push_back(std::move(column));
+      elements.frictions.push_back(std::move(friction));
+    }
+    elements.couplers.push_back(std::move(coupler));
   }
 
   /// What presses frictions: known once springs bear their preloads.
@@ -368,6 +461,7 @@ class Assembly {
                     spec.where, "load_of names a spring that bears a load at rest, or a bump stop");
       };
       friction.load = system_.elements.size();
+      const int vehicle = system_.elements.columns[static_cast<std::size_t>(friction.first)].vehicle;
       const auto spring = std::find_if(system_.links.begin(), system_.links.end(),
                                        [&](const Multibody::Link& l) { return l.spring == spec.load_of; });
       if (spring == system_.links.end()) {
@@ -376,7 +470,7 @@ class Assembly {
         if (stop == stops_.end()) fail("there is no spring or bump stop");
         friction.by_load = spec.load_share;
         friction.stop = ForceCurve{stop->spec->displacement, stop->spec->force, stop->spec->odd};
-        system_.elements.columns.push_back({stop->direction, stop->link, stop->spec->direction});
+        system_.elements.columns.push_back({stop->direction, stop->link, stop->spec->direction, 1.0, vehicle});
         continue;
       }
       const int link = static_cast<int>(spring - system_.links.begin());
@@ -387,7 +481,7 @@ class Assembly {
       // The force on b along z is preload - stiffness * stretch.
       friction.normal_force += spec.load_share * std::abs(spring->preload);
       friction.by_load = -std::copysign(spec.load_share * term->value, spring->preload);
-      system_.elements.columns.push_back({term->direction, link, Freedom::z});
+      system_.elements.columns.push_back({term->direction, link, Freedom::z, 1.0, vehicle});
     }
   }
 
@@ -403,13 +497,17 @@ class Assembly {
 
   void add_wheelset(const WheelsetSpec& spec, const std::optional<TrackModel>& track, std::size_t number) {
     const PlacedBody& body = find(spec.body, {});
-    Multibody::Wheelset w{body.coordinate, spec.nominal_radius, -1, -1, static_cast<int>(by_name_.at(spec.body)),
-                          body.elastic};
-    system_.bodies[by_name_.at(spec.body)].wheelset = static_cast<int>(number);
+    if (system_.wheelsets.size() != number)
+      throw Error(ErrorKind::configuration, "the wheelsets of a train are not in the order of its vehicles");
+    Multibody::Wheelset w{body.coordinate,   spec.nominal_radius, -1, -1, static_cast<int>(by_name_.at(spec.body)),
+                          body.spec.vehicle, body.elastic};
     const Vec3 below(body.spec.position.x(), 0.0, 0.0);
     if (track) {
       const std::string suffix = '@' + std::to_string(number + 1);
-      for (const BodySpec& b : track->bodies) add_body(b, b.name + suffix, below);
+      for (const BodySpec& b : track->bodies) {
+        add_body(b, b.name + suffix, below);
+        add_coordinates(bodies_.size() - 1);
+      }
       for (const SpringSpec& spring : track->springs) add_spring(spring, suffix, below);
       const auto rail = [&](const std::string& name) {
         if (name.empty()) return -1;
@@ -423,10 +521,17 @@ class Assembly {
     system_.wheelsets.push_back(w);
   }
 
-  Vector spread(const Direction& direction) const {
-    Vector v = Vector::Zero(static_cast<Eigen::Index>(inertia_.size()));
-    for (const auto& [c, factor] : direction) v[c] += factor;
-    return v;
+  /// Of a direction whose coordinates are all of one vehicle: over these.
+  CharacteristicForce spread(const Stop& stop) const {
+    CharacteristicForce out{{},
+                            {stop.spec->displacement, stop.spec->force, stop.spec->odd},
+                            stop.link,
+                            stop.spec->direction,
+                            vehicle_of(*stop.spec)};
+    const Multibody::Range& vehicle = system_.vehicles[static_cast<std::size_t>(out.vehicle)];
+    out.direction = Vector::Zero(vehicle.size);
+    for (const auto& [c, factor] : stop.direction) out.direction[c - vehicle.first] += factor;
+    return out;
   }
 
   void finish() {
@@ -443,9 +548,7 @@ class Assembly {
     for (const Multibody::Wheelset& w : system_.wheelsets) couple_roll_and_yaw(w);
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (!w.elastic.empty()) couple_bending(w);
-    for (const auto& [direction, stop, link] : stops_)
-      system_.characteristics.push_back(
-          {spread(direction), {stop->displacement, stop->force, stop->odd}, link, stop->direction});
+    for (const Stop& stop : stops_) system_.characteristics.push_back(spread(stop));
     balance_weight();
     add_loads();
     for (std::size_t link = 0; link < system_.links.size(); ++link) let_lean(link);
@@ -483,17 +586,16 @@ class Assembly {
     }
   }
 
-  /// Springs bear the weight of what is not a wheelset; the rest is left to the wheelsets' contact.
-  void balance_weight() {
-    const Eigen::Index n = system_.mass.size();
-    Vector weight = Vector::Zero(n);
+  bool is_sprung(Eigen::Index i) const {
+    const int body = system_.coordinates[static_cast<std::size_t>(i)].body;
+    return body < 0 || !bodies_[static_cast<std::size_t>(body)].fixed_while_preloading;
+  }
+
+  /// Displacements q by which the springs of a vehicle bear the weights.
+  void bear(const Multibody::Range& vehicle, const Vector& weight, Vector& q) const {
     std::vector<Eigen::Index> sprung;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const Coordinate& c = system_.coordinates[static_cast<std::size_t>(i)];
-      if (c.body >= 0 && c.freedom == Freedom::z && !c.elastic)
-        weight[i] = inertia_[static_cast<std::size_t>(i)] * gravity_;
-      if (c.body < 0 || !bodies_[static_cast<std::size_t>(c.body)].fixed_while_preloading) sprung.push_back(i);
-    }
+    for (Eigen::Index i = vehicle.first; i < vehicle.first + vehicle.size; ++i)
+      if (is_sprung(i)) sprung.push_back(i);
     // Inner ends of dampers and directions without springs bear nothing.
     const Matrix k = system_.stiffness(sprung, sprung);
     const Vector borne = sprung.empty() ? Vector() : Vector(k.completeOrthogonalDecomposition().solve(weight(sprung)));
@@ -505,10 +607,23 @@ class Assembly {
             fmt::format("nothing bears the weight at {}",
                         system_.coordinates[static_cast<std::size_t>(sprung[static_cast<std::size_t>(i)])].name),
             {}, "a spring is missing");
-    Vector q = Vector::Zero(n);
     for (std::size_t i = 0; i < sprung.size(); ++i) q[sprung[i]] = borne[static_cast<Eigen::Index>(i)];
+  }
+
+  /// Springs bear the weight of what is not a wheelset; the rest is left to the wheelsets' contact.
+  void balance_weight() {
+    const Eigen::Index n = system_.mass.size();
+    Vector weight = Vector::Zero(n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Coordinate& c = system_.coordinates[static_cast<std::size_t>(i)];
+      if (c.body >= 0 && c.freedom == Freedom::z && !c.elastic)
+        weight[i] = inertia_[static_cast<std::size_t>(i)] * gravity_;
+    }
+    Vector q = Vector::Zero(n);
+    for (const Multibody::Range& vehicle : system_.vehicles) bear(vehicle, weight, q);
     system_.weight = weight - system_.stiffness * q;
-    for (const Eigen::Index i : sprung) system_.weight[i] = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (is_sprung(i)) system_.weight[i] = 0.0;
     for (const Term& term : terms_) {
       if (term.link < 0) continue;
       const auto link = static_cast<std::size_t>(term.link);
@@ -575,11 +690,6 @@ class Assembly {
     int link;  ///< -1: nothing above the rails
     Freedom freedom;
   };
-  struct Stop {
-    Direction direction;
-    const BumpStopSpec* spec;
-    int link;
-  };
   double speed_, gravity_;
   Multibody system_;
   std::vector<double> inertia_;
@@ -601,13 +711,38 @@ Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>&
   return Assembly(vehicle, track, speed, gravity).take();
 }
 
+Vector Multibody::times(const Matrix& matrix, const Vector& v) const {
+  Vector out(v.size());
+  for (const Range& r : vehicles) part_of(out, r).noalias() = block_of(matrix, r) * part_of(v, r);
+  return out;
+}
+
+std::vector<Multibody::Range> independent_parts(const Multibody& system, const Matrix& one, const Matrix& other) {
+  std::vector<Multibody::Range> parts;
+  for (const Multibody::Range& r : system.vehicles) {
+    const auto couples = [&](const Matrix& m) {
+      const Eigen::Index before = r.first, rest = m.rows() - before;
+      return !m.bottomLeftCorner(rest, before).isZero(0.0) || !m.topRightCorner(before, rest).isZero(0.0);
+    };
+    if (!parts.empty() && (couples(one) || couples(other)))
+      parts.back().size += r.size;
+    else
+      parts.push_back(r);
+  }
+  return parts;
+}
+
+double displacement(const Multibody& system, const CharacteristicForce& force, const Vector& q) {
+  return force.direction.dot(part_of(q, system.vehicles[static_cast<std::size_t>(force.vehicle)]));
+}
+
 Vector characteristic_forces(const Multibody& system, const Vector& q, double* energy,
                              const std::vector<double>* offsets) {
   Vector forces = Vector::Zero(q.size());
   for (std::size_t i = 0; i < system.characteristics.size(); ++i) {
     const CharacteristicForce& c = system.characteristics[i];
-    const CurveValue value = value_at(c.curve, c.direction.dot(q) + (offsets ? offsets->at(i) : 0.0));
-    forces -= value.force * c.direction;
+    const CurveValue value = value_at(c.curve, displacement(system, c, q) + (offsets ? offsets->at(i) : 0.0));
+    part_of(forces, system.vehicles[static_cast<std::size_t>(c.vehicle)]) -= value.force * c.direction;
     if (energy) *energy += value.integral;
   }
   return forces;

@@ -41,14 +41,16 @@ struct Coordinate {
   /// Lengths that a unit of it is worth [m]: 1, of rotations half the gauge; of modes as far as they move.
   double arm = 1.0;
   bool elastic = false;  ///< of a mode of a flexible wheelset, in the direction of its shape: not of the body's centre
+  int vehicle = 0;       ///< in Multibody::vehicles
 };
 
 /// A force with a characteristic between two bodies.
 struct CharacteristicForce {
-  Vector direction;  ///< relative displacement by the coordinates
+  Vector direction;  ///< relative displacement by the coordinates of its vehicle
   ForceCurve curve;
   int link = -1;  ///< in Multibody::links
   Freedom freedom = Freedom::x;
+  int vehicle = 0;  ///< in Multibody::vehicles
 };
 
 /// Equations of motion of vehicle and track about their reference configuration, which travels at constant speed:
@@ -56,7 +58,14 @@ struct CharacteristicForce {
 /// K q = f holds for a vehicle whose wheelsets cannot move: springs bear their preloads. K contains what these do as
 /// bodies lean and move aside (the second order of their potential); weights act at the centres of mass. C contains the
 /// gyroscopic coupling of the wheelsets' roll and yaw, that of bending wheelsets included. Immutable.
+/// The vehicles of a train have their coordinates one behind the other. M, C and K couple none of different vehicles,
+/// so that what is done for each by itself costs as much as there are vehicles.
 struct Multibody {
+  /// Coordinates of one vehicle, those of the track below it included.
+  struct Range {
+    int first = 0, size = 0;  ///< the first one, and how many
+  };
+  std::vector<Range> vehicles;  ///< of a train, the leading one first; one of a single vehicle
   std::vector<Coordinate> coordinates;
   Vector mass;                ///< diagonal of M
   Matrix damping, stiffness;  ///< C, K
@@ -71,6 +80,7 @@ struct Multibody {
     double nominal_radius = 0.0;
     int left_rail = -1, right_rail = -1;  ///< index into rails; -1: rigid
     int body = -1;                        ///< index into bodies
+    int vehicle = 0;                      ///< index into vehicles
     /// What a mode of the axle adds to the motion of one wheel, which is rigid: as the motion of a wheelset's centre.
     struct Elastic {
       int coordinate;
@@ -122,10 +132,29 @@ struct Multibody {
   std::vector<Leaning> leanings;
 
   int size() const { return static_cast<int>(mass.size()); }
+  /// matrix * v, of C, K or another one that couples no coordinates of different vehicles.
+  Vector times(const Matrix& matrix, const Vector& v) const;
 };
+
+/// What of a vector belongs to a vehicle.
+template <class AnyVector>
+auto part_of(AnyVector& v, const Multibody::Range& vehicle) {
+  return v.segment(vehicle.first, vehicle.size);
+}
+/// The same of both sides of a matrix.
+template <class AnyMatrix>
+auto block_of(AnyMatrix& m, const Multibody::Range& vehicle) {
+  return m.block(vehicle.first, vehicle.first, vehicle.size, vehicle.size);
+}
+
+/// Runs of vehicles that neither of two matrices couples with the others.
+std::vector<Multibody::Range> independent_parts(const Multibody& system, const Matrix& one, const Matrix& other);
 
 /// speed [m/s], gravity [m/s2]. Errors: Error(configuration) with the place of the body or spring that makes no sense.
 Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>& track, double speed, double gravity);
+
+/// By how much a state displaces a characteristic [m].
+double displacement(const Multibody& system, const CharacteristicForce& force, const Vector& q);
 
 /// Generalised force of all characteristics on the bodies, and their energy [J]. offsets: added to their displacements
 /// [m], one each; null: none.

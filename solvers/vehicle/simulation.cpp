@@ -35,7 +35,7 @@ EnergyBalance energy_of(const Multibody& s, const Motion& motion, const std::vec
                         const std::optional<LineState>& line) {
   const SystemState& state = motion.state;
   EnergyBalance e;
-  e.mechanical = 0.5 * state.v.dot(s.mass.cwiseProduct(state.v)) + 0.5 * state.q.dot(s.stiffness * state.q) -
+  e.mechanical = 0.5 * state.v.dot(s.mass.cwiseProduct(state.v)) + 0.5 * state.q.dot(s.times(s.stiffness, state.q)) -
                  s.weight.dot(state.q);
   if (line) e.mechanical += line->spring_energy - line->spring.dot(state.q);
   double stops = 0.0;
@@ -52,8 +52,8 @@ double work_on_stops(const Multibody& s, const Vector& q, const LineState& at, c
   double work = 0.0;
   for (std::size_t i = 0; i < s.characteristics.size(); ++i) {
     const CharacteristicForce& c = s.characteristics[i];
-    work +=
-        value_at(c.curve, c.direction.dot(q) + at.stop_offsets[i]).force * (to.stop_offsets[i] - from.stop_offsets[i]);
+    work += value_at(c.curve, displacement(s, c, q) + at.stop_offsets[i]).force *
+            (to.stop_offsets[i] - from.stop_offsets[i]);
   }
   return work;
 }
@@ -128,6 +128,13 @@ Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const S
   energy_ = energy_at_start_ = energy_of(vehicle_->system, motion_, reactions_, line_);
 }
 
+double Simulation::element_stretch(int column) const {
+  double sum = line_ ? line_->element_stretch[column] : 0.0;
+  for (const auto& [c, factor] : vehicle_->system.elements.columns[static_cast<std::size_t>(column)].direction)
+    sum += factor * motion_.state.q[c];
+  return sum;
+}
+
 double Simulation::longest_step() const {
   double travel = settings_.max_travel;
   for (const WheelOnRail& wheel : vehicle_->wheels) travel = std::min(travel, wheel.element->longest_travel());
@@ -192,7 +199,7 @@ void Simulation::accept(Step step) {
   const Vector moved = to.q - from.q;
   std::optional<LineState> line = vehicle.line_state(to.time);
   EnergyBalance e = energy_of(vehicle.system, step.end, step.reactions, line);
-  double dampers = moved.dot(vehicle.system.dissipation * moved) / h;
+  double dampers = moved.dot(vehicle.system.times(vehicle.system.dissipation, moved)) / h;
   if (line) {
     const LineWork w = line_work(vehicle.system, from, *line_, to, *line);
     dampers += w.dampers;
@@ -202,6 +209,12 @@ void Simulation::accept(Step step) {
     const Vector force = 0.5 * (motion_.element_force + step.end.element_force);
     const double by_line = line ? force.dot(line->element_stretch - line_->element_stretch) : 0.0;
     e.line += by_line;
+    if (line) {
+      Vector aside = Vector::Zero(moved.size());
+      line_->add_couplers_aside(motion_.element_force, 0.5, aside);
+      line->add_couplers_aside(step.end.element_force, 0.5, aside);
+      if (!line->couplers_aside.empty()) e.line += moved.dot(aside);
+    }
     dampers +=
         force.dot(elements.of(moved)) + by_line -
         (energy_of_elements(vehicle.system, step.end, line) - energy_of_elements(vehicle.system, motion_, line_));
@@ -213,7 +226,7 @@ void Simulation::accept(Step step) {
   e.turnover = energy_.turnover + std::abs(dampers);
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
     const PairVector force = 0.5 * (motion_.contact_force[i] + step.end.contact_force[i]);
-    const double work = force.dot(vehicle.maps[i] * moved);
+    const double work = force.dot(vehicle.on_pair(i, moved));
     const double drive = vehicle.line ? -0.5 * h *
                                             (motion_.contact_force[i].dot(vehicle.travelling(i, from)) +
                                              step.end.contact_force[i].dot(vehicle.travelling(i, to)))

@@ -72,6 +72,8 @@ class Simulation {
   const Vector& acceleration() const { return motion_.a; }
   /// Of the columns of Multibody::elements after the last step [N].
   const Vector& element_force() const { return motion_.element_force; }
+  /// By which a column of Multibody::elements is displaced after the last step [m].
+  double element_stretch(int column) const;
   /// What the elements remember after the last step (ForceElements::fresh_memory).
   const Vector& element_memory() const { return motion_.element_memory; }
   /// Of all wheels after the last step, in the order of VehicleOnTrack::wheels.

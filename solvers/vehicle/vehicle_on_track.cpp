@@ -29,7 +29,9 @@ void VehicleOnTrack::connect() {
       throw Error(ErrorKind::configuration, fmt::format("wheel {} has no contact element", wheel.name));
     if (!places.emplace(wheel.wheelset, wheel.side).second)
       throw Error(ErrorKind::configuration, fmt::format("wheel {} has two contact elements", wheel.name));
-    maps.push_back(pair_map(system, wheel.wheelset, wheel.side, wheel.rail_marker));
+    const Multibody::Range& own = system.vehicles.at(
+        static_cast<std::size_t>(system.wheelsets[static_cast<std::size_t>(wheel.wheelset)].vehicle));
+    maps.emplace_back(pair_map(system, wheel.wheelset, wheel.side, wheel.rail_marker).middleCols(own.first, own.size));
   }
   if (places.size() != 2 * count)
     throw Error(ErrorKind::configuration, "every wheelset needs a contact element at both wheels");
@@ -37,7 +39,7 @@ void VehicleOnTrack::connect() {
 
 PairMotion VehicleOnTrack::motion(std::size_t i, const SystemState& state) const {
   if (line) return motion_on_line(i, state);
-  const PairVector u = maps[i] * state.q, du = maps[i] * state.v;
+  const PairVector u = on_pair(i, state.q), du = on_pair(i, state.v);
   const auto set = static_cast<std::size_t>(wheels[i].wheelset);
   const double pitch_rate = -speed / system.wheelsets[set].nominal_radius;
   PairMotion m;
@@ -69,8 +71,8 @@ static PairVector travelling_at(const WheelOnLine& on, double y, double z, doubl
 PairMotion VehicleOnTrack::motion_on_line(std::size_t i, const SystemState& state) const {
   const auto set = static_cast<std::size_t>(wheels[i].wheelset);
   const WheelOnLine on = line->wheel(set, wheels[i].side, state.time);
-  const PairVector u = maps[i] * state.q;
-  const PairVector rate = maps[i] * state.v + travelling_at(on, u[1], u[2], radius(i));
+  const PairVector u = on_pair(i, state.q);
+  const PairVector rate = on_pair(i, state.v) + travelling_at(on, u[1], u[2], radius(i));
   PairMotion m;
   m.time = state.time;
   // Yaw counts from the rail: a wheelset that follows it does not slip.
@@ -86,6 +88,15 @@ PairMotion VehicleOnTrack::motion_on_line(std::size_t i, const SystemState& stat
   return m;
 }
 
+double VehicleOnTrack::mean_speed(const SystemState& state) const {
+  double mass = 0.0, momentum = 0.0;
+  for (const Multibody::Body& b : system.bodies) {
+    mass += b.mass;
+    if (b.coordinate[0] >= 0) momentum += b.mass * state.v[b.coordinate[0]];
+  }
+  return travel(state.time).speed + momentum / mass;
+}
+
 PairVector VehicleOnTrack::travelling(std::size_t i, const SystemState& state) const {
   PairVector rates = PairVector::Zero();
   if (!line) {
@@ -93,7 +104,7 @@ PairVector VehicleOnTrack::travelling(std::size_t i, const SystemState& state) c
     rates[4] = -speed / radius(i);
     return rates;
   }
-  const PairVector u = maps[i] * state.q;
+  const PairVector u = on_pair(i, state.q);
   const WheelOnLine on = line->wheel(static_cast<std::size_t>(wheels[i].wheelset), wheels[i].side, state.time);
   return travelling_at(on, u[1], u[2], radius(i));
 }

@@ -30,19 +30,39 @@ struct SystemState {
 struct VehicleOnTrack {
   Multibody system;
   std::vector<WheelOnRail> wheels;
-  double speed = 0.0;                                                         ///< V, at time 0 [m/s]; > 0
-  std::vector<double> pitch_at_start;                                         ///< of each wheelset [rad]
-  std::vector<Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic>> maps;  ///< of each wheel; see pair_map
+  double speed = 0.0;                  ///< V, at time 0 [m/s]; > 0
+  std::vector<double> pitch_at_start;  ///< of each wheelset [rad]
+  /// Of each wheel (see pair_map), from the coordinates of its vehicle.
+  std::vector<Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic>> maps;
   std::shared_ptr<const LineEffects> line;  ///< null: straight and even, at constant speed
 
   /// Completes the maps. Errors: Error(configuration) for wheels of wheelsets that are not there, two elements at one
   /// place, a wheel without element, or a speed that is not positive.
   void connect();
 
+  /// Index of a wheel's vehicle in Multibody::vehicles; wheel: index in wheels.
+  int vehicle_of(std::size_t wheel) const {
+    return system.wheelsets[static_cast<std::size_t>(wheels[wheel].wheelset)].vehicle;
+  }
+  /// Its coordinates.
+  const Multibody::Range& range(std::size_t wheel) const {
+    return system.vehicles[static_cast<std::size_t>(vehicle_of(wheel))];
+  }
+  /// What a wheel's pair coordinates are, or their rates.
+  PairVector on_pair(std::size_t wheel, const Vector& coordinates) const {
+    return maps[wheel] * part_of(coordinates, range(wheel));
+  }
+  /// Adds a generalised force on a wheel's pair coordinates.
+  void add_force(std::size_t wheel, const PairVector& force, Vector& sum) const {
+    part_of(sum, range(wheel)).noalias() += maps[wheel].transpose() * force;
+  }
+
   /// How a wheelset moves over a rail in a state; wheel: index in wheels.
   PairMotion motion(std::size_t wheel, const SystemState& state) const;
   /// Since time 0.
   Travel travel(double time) const { return line ? line->travel(time) : Travel{speed * time, speed, 0.0}; }
+  /// Of all masses together [m/s].
+  double mean_speed(const SystemState& state) const;
   /// Rates of a wheel's pair coordinates that the travel of the reference configuration makes.
   PairVector travelling(std::size_t wheel, const SystemState& state) const;
   /// What the line does at a time; none without one.

@@ -25,11 +25,11 @@ struct FirstOrder {
   Matrix a;
 };
 
-FirstOrder first_order(const VehicleOnTrack& vehicle, const SystemState& state) {
-  const Multibody& s = vehicle.system;
-  const auto [k, c] = linearised_system(vehicle, state);
+/// Of a part that moves by itself.
+FirstOrder first_order(const Multibody& s, const LinearSystem& linear, const Multibody::Range& part) {
+  const auto& [k, c] = linear;
   FirstOrder out;
-  for (Index i = 0; i < s.mass.size(); ++i) {
+  for (Index i = part.first; i < part.first + part.size; ++i) {
     (s.mass[i] > 0.0 ? out.heavy : out.light).push_back(i);
     if (s.mass[i] > 0.0 && !k.col(i).isZero(0.0)) out.placed.push_back(i);
   }
@@ -54,13 +54,13 @@ constexpr double kSlowest = 1e-3;  // vibrations [rad/s]
 
 }  // namespace
 
-std::vector<Eigenmode> all_eigenmodes(const VehicleOnTrack& vehicle, const SystemState& state) {
-  const FirstOrder system = first_order(vehicle, state);
+namespace {
+
+void add_modes(const Multibody& whole, const FirstOrder& system, std::vector<Eigenmode>& modes) {
   const Eigen::EigenSolver<Matrix> solver(system.a);
   if (solver.info() != Eigen::Success)
     throw Error(ErrorKind::numerical, "the eigenvalues of the vehicle did not converge");
   const auto n = static_cast<Index>(system.heavy.size()), p = static_cast<Index>(system.placed.size());
-  std::vector<Eigenmode> modes;
   for (Index j = 0; j < solver.eigenvalues().size(); ++j) {
     Eigenmode mode;
     mode.value = solver.eigenvalues()[j];
@@ -69,7 +69,7 @@ std::vector<Eigenmode> all_eigenmodes(const VehicleOnTrack& vehicle, const Syste
     const double magnitude = std::abs(mode.value);
     mode.damping_ratio = magnitude > 0.0 ? -mode.value.real() / magnitude : 0.0;
     const Eigen::VectorXcd full = solver.eigenvectors().col(j);
-    mode.shape = Eigen::VectorXcd::Zero(vehicle.system.mass.size());
+    mode.shape = Eigen::VectorXcd::Zero(whole.mass.size());
     // What no force depends on has velocities alone.
     if (magnitude > 0.0)
       for (Index i = 0; i < n; ++i) mode.shape[system.heavy[static_cast<std::size_t>(i)]] = full[p + i] / mode.value;
@@ -79,12 +79,21 @@ std::vector<Eigenmode> all_eigenmodes(const VehicleOnTrack& vehicle, const Syste
     Index at = 0;
     if (!(mode.shape.cwiseAbs().maxCoeff(&at) > 0.0)) continue;
     mode.shape /= mode.shape[at];
-    const Vector energy = vehicle.system.mass.cwiseProduct(mode.shape.cwiseAbs2());
+    const Vector energy = whole.mass.cwiseProduct(mode.shape.cwiseAbs2());
     if (energy.sum() > 0.0)
       for (Index i = 0; i < energy.size(); ++i) mode.shares.emplace_back(static_cast<int>(i), energy[i] / energy.sum());
     ranges::stable_sort(mode.shares, [](const auto& a, const auto& b) { return a.second > b.second; });
     modes.push_back(std::move(mode));
   }
+}
+
+}  // namespace
+
+std::vector<Eigenmode> all_eigenmodes(const VehicleOnTrack& vehicle, const SystemState& state) {
+  const LinearSystem linear = linearised_system(vehicle, state);
+  std::vector<Eigenmode> modes;
+  for (const Multibody::Range& part : independent_parts(vehicle.system, linear.stiffness, linear.damping))
+    add_modes(vehicle.system, first_order(vehicle.system, linear, part), modes);
   ranges::stable_sort(modes, {}, &Eigenmode::frequency);
   return modes;
 }

@@ -31,7 +31,8 @@ LinearVehicle::LinearVehicle(const VehicleOnTrack& vehicle, const SystemState& s
     const WheelOnRail& wheel = vehicle.wheels[i];
     if (reactions[i].status != Status::ok)
       throw Error(ErrorKind::numerical, wheel.name + " does not touch its rail in steady running");
-    wheels_.push_back({linearised(vehicle, i, state, 1.0, true), vehicle.maps[i],
+    wheels_.push_back({linearised(vehicle, i, state, 1.0, true),
+                       pair_map(vehicle.system, wheel.wheelset, wheel.side, wheel.rail_marker),
                        place(wheel) - place(vehicle.wheels.front()), reactions[i].contact_y, vehicle.radius(i),
                        wheel.side == wheelrail::Side::left});
   }
