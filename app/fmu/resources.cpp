@@ -145,6 +145,9 @@ std::string write_vehicle(const FmuContent& content, const fs::path& folder) {
   Packer packer(folder);
   say("simulation.vehicle", packer.add(file.vehicle_file.path));
   if (file.track_file) say("simulation.track", packer.add(file.track_file->path));
+  for (std::size_t i = 0; i < file.train.size(); ++i)
+    if (const fs::path& path = file.train[i].file.path; !path.empty())
+      say(fmt::format("simulation.train.{}.vehicle", i), packer.add(path));
   const auto say_geometry = [&](const std::string& key, const io::SurfaceSource& source) {
     const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
     if (geometry != nullptr && source.parts.empty()) say(key, geometry->file.lexically_relative(folder));

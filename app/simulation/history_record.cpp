@@ -127,6 +127,12 @@ void HistoryRecord::add_line(bool irregular) {
   const auto now = [this] { return simulation_->state().time; };
   const auto line = vehicle_.line;
   add("line.speed_m_s", "m/s", "speed of the vehicle", [=] { return line->travel(now()).speed; });
+  if (line->setup().free_run) {
+    add("line.mean_speed_m_s", "m/s", "mean speed of all masses",
+        [this] { return vehicle_.mean_speed(simulation_->state()); });
+    add("line.gradient", "1", "rise over length at the vehicle's x = 0",
+        [=] { return gradient_at(*line->setup().free_run, line->point(now()).distance); });
+  }
   if (line->setup().path) {
     add("line.place_m", "m", "place of the vehicle's x = 0 on the line", [=] { return line->point(now()).distance; });
     add("line.curvature_1_m", "1/m", "of the line there, positive to the right",
@@ -235,8 +241,19 @@ void HistoryRecord::add_elements() {
   constexpr const char* kWords[] = {"x", "y", "z", "roll", "pitch", "yaw"};
   const vehicle::ForceElements& elements = vehicle_.system.elements;
   const auto force = [this](int column) { return [this, column] { return simulation_->element_force()[column]; }; };
+  for (const vehicle::Coupler& c : elements.couplers) {
+    add(fmt::format("coupler.{}.force_N", c.name), "N", "force of the coupler, positive in pull", [this, &c] {
+      const vehicle::Vector& force = simulation_->element_force();
+      return force[c.column] + (c.friction < 0 ? 0.0 : force[c.friction]);
+    });
+    add(fmt::format("coupler.{}.stretch_m", c.name), "m", "by which it is longer than in the middle of its free play",
+        [this, &c] { return simulation_->element_stretch(c.column); });
+  }
+  const auto in_coupler = [&](const vehicle::DryFriction& f) {
+    return ranges::find(elements.couplers, f.first, &vehicle::Coupler::friction) != elements.couplers.end();
+  };
   for (const vehicle::DryFriction& f : elements.frictions)
-    for (int d = 0; d < f.directions; ++d) {
+    for (int d = 0; d < f.directions && !in_coupler(f); ++d) {
       const int column = f.first + d;
       const std::string name =
           fmt::format("friction.{}.{}", f.name,

@@ -125,6 +125,7 @@ std::shared_ptr<const vehicle::LineEffects> build_line(const io::SimulationFile&
   setup.gauge_at_rest = file.rail_gauge;
   setup.gravity = file.settings.gravity;
   setup.speed = file.settings.profile;
+  setup.free_run = file.free_run;
   setup.torques = file.torques;
   setup.forces = file.forces;
   setup.spring_motions = file.spring_motions;

@@ -98,6 +98,8 @@ FileHashes input_hashes(const io::SimulationFile& file) {
   for (const auto* source : {&file.other_wheel, &file.left_rail, &file.right_rail, &file.table_rail})
     if (*source) hashes.add(**source);
   hashes.add(file.vehicle_file);
+  for (const io::TrainPart& part : file.train)
+    if (!part.file.path.empty()) hashes.add(part.file);
   if (file.track_file) hashes.add(*file.track_file);
   if (file.irregularity_file) hashes.add(*file.irregularity_file);
   return hashes.take();

@@ -29,6 +29,7 @@ io::SimulationFile straight_vehicle(const std::filesystem::path& path, std::span
   file.forces.clear();
   file.spring_motions.clear();
   file.rail_shifts.clear();
+  file.free_run.reset();
   file.settings.profile = constant_speed(file.settings.speed);
   return file;
 }

@@ -196,6 +196,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   read_settings(simulation, result);
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
+  read_train(simulation, name.parent_path(), result);
   require_rails_to_share(simulation, result);
   result.wheels = read_wheels(simulation, result);
   read_history(simulation, result);
@@ -207,6 +208,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   // The patches of a wheel lie on one raster while it rolls.
   result.contact.discretisation.choose_dx = result.contact.discretisation.choose_ds = false;
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
+  read_free_run(simulation, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);
   if (const auto table = line_table(document, "assessment", assessment_keys()))

@@ -39,6 +39,10 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
 using SimulationTable = TableOf<SimulationFile>;
 /// Its keys that are one member each, and its speeds.
 void read_settings(const SimulationTable& simulation, SimulationFile& out);
+/// [[simulation.train]]: hangs its vehicles behind out.vehicle.
+void read_train(const SimulationTable& simulation, const std::filesystem::path& folder, SimulationFile& out);
+/// [simulation.free_run]: the speeds; everything that drives and brakes out.vehicle is set, and out.start.
+void read_free_run(const SimulationTable& simulation, SimulationFile& out);
 /// [simulation.fields].
 FieldRequests read_fields(const SimulationTable& simulation);
 /// What [simulation] says of the history; out.vehicle and out.settings are set.

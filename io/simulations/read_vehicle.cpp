@@ -123,7 +123,9 @@ std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std:
   return wheelsets;
 }
 
-void check_vehicle(const VehicleModel& vehicle) {
+}  // namespace
+
+void check_held(const VehicleModel& vehicle) {
   // Wheels on two rails hold x, y and pitch by creep forces, z and roll by normal ones.
   Foundation wheels{"the wheelsets", {}, {true, true, true, true, true, false}};
   for (const WheelsetSpec& wheelset : vehicle.wheelsets) wheels.bodies.push_back(wheelset.body);
@@ -141,6 +143,8 @@ void check_vehicle(const VehicleModel& vehicle) {
   }
   check_held(vehicle.bodies, holding, wheels);
 }
+
+namespace {
 
 void take_rails(const TableOf<ModelHead>& table, const std::vector<std::string>& rails, TrackModel& track) {
   const CaseValue& list = table.need(&ModelHead::rails);
@@ -174,7 +178,7 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
   vehicle.air_springs = read_air_springs(document, vehicle.bodies);
   vehicle.frictions = read_frictions(document, vehicle.bodies, vehicle.springs, vehicle.bump_stops);
   vehicle.wheelsets = read_wheelsets(document, vehicle.bodies);
-  check_vehicle(vehicle);
+  check_held(vehicle);
   scale_model(vehicle, head);
   scale_axles(vehicle, head);
   for (DamperCurveSpec& damper : vehicle.damper_curves) scale(damper_curve_keys(), damper, head);

@@ -36,6 +36,9 @@ TrackModel parse_track_text(std::string_view text, const std::string& name, std:
 AnyTrack parse_any_track_text(std::string_view text, const std::string& name,
                               std::span<const CaseOverride> changes = {});
 
+/// Refuses bodies that nothing holds.
+void check_held(const VehicleModel& vehicle);
+
 /// A flexible track but for name, source and scales, from the tables beside [track].
 FlexibleTrack read_flexible_track(const TableReader& document);
 

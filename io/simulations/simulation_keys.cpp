@@ -11,6 +11,7 @@
 #include "treadmark/io/simulations/study_keys.hpp"
 #include "treadmark/io/simulations/vehicle_keys.hpp"
 #include "treadmark/model/vehicle/assessment.hpp"
+#include "treadmark/model/vehicle/train.hpp"
 
 namespace treadmark::io {
 
@@ -58,6 +59,8 @@ const KeyTable<SimulationFile>& simulation_keys() {
   using S = SimulationSettings;
   static const auto keys = key_table<F>([](auto& list) {
     list.value(key_info("vehicle", KeyType::path, "vehicle file"), &F::vehicle_file, kNeeded, "name the vehicle file");
+    list.table("train", KeyType::table_list, "vehicles that follow the leading one, coupled to it and to each other",
+               train_keys().infos, &F::train);
     list.value(key_info("track", KeyType::path, "track file; without it the track is rigid"), &F::track_file);
     list.number("speed_m_s", {{}, 0.0, 1000.0}, "speed at the start, more than 0; this or the next one is required",
                 setting(&S::speed), kNoDefault, "a simulation needs a speed");
@@ -65,6 +68,10 @@ const KeyTable<SimulationFile>& simulation_keys() {
                 setting(&S::speed), kNoDefault);
     list.table("speed_profile", KeyType::table, "speeds behind the start; without it the speed is constant",
                speed_profile_keys().infos, setting(&S::profile));
+    list.table("free_run", KeyType::table,
+               "speeds behind the start that follow from torques, forces along x, gradients and resistance; with "
+               "distance_m",
+               free_run_keys().infos, &F::free_run);
     list.table("torques", KeyType::table_list, "motors and brakes on axles", torque_keys().infos, &F::torques);
     list.table("forces", KeyType::table_list, "from outside on bodies and rails: wind, couplers, a push",
                force_keys().infos, &F::forces);
@@ -156,6 +163,49 @@ const KeyTable<SimulationFile>& simulation_keys() {
                "rail of one section for wheels with table contact, with the keys of `[rail]`; required where their "
                "own rail varies by more than its defects",
                {}, &F::table_rail);
+  });
+  return keys;
+}
+
+const KeyTable<TrainPart>& train_keys() {
+  using T = TrainPart;
+  static const auto keys = key_table<T>([](auto& list) {
+    const auto of = [](auto CouplerSpec::*member) {
+      return [member](auto& t) -> auto& { return t.coupler.*member; };
+    };
+    list.value(key_info("vehicle", KeyType::path, "vehicle file; without it the leading vehicle"), &T::file);
+    list.integer("count", 1, kLongestTrain, "of equal vehicles", &T::count);
+    list.number("behind_m", kPositive, "place of its x = 0 behind that of the vehicle before", &T::behind, kNeeded);
+    list.words("between", "coupled bodies: one of the vehicle before, one of this vehicle", &T::between, kNeeded,
+               "the bodies that are coupled, [before, this]");
+    list.triple("at_m", kAnyNumber, "where the coupler acts, in coordinates of the vehicle before",
+                of(&CouplerSpec::position), kNeeded, "where the coupler acts, [x, y, z]");
+    list.number("slack_mm", kNotNegative, "free play of the coupler, from push to pull", of(&CouplerSpec::slack));
+    list.number_list("travel_mm", kNotNegative, "beyond it, from 0, increasing; in pull and push alike",
+                     of(&CouplerSpec::travel), kNeeded, "travels of the spring from 0");
+    list.number_list("force_N", kNotNegative,
+                     "of the spring at them, from 0, increasing; linear between, continued by the last slope",
+                     of(&CouplerSpec::force), kNeeded, "forces of the spring at its travels");
+    list.number("damping_N_s_per_m", kNotNegative, "of a damper, whose force is never more than the spring's",
+                of(&CouplerSpec::damping));
+    list.number("friction", {{}, 0.0, 1.0}, "of the draft gear: bound of the friction over the spring's force",
+                of(&CouplerSpec::friction));
+    list.number("friction_stiffness_N_per_m", kPositive, "while it sticks; required with friction",
+                of(&CouplerSpec::friction_stiffness), kNoDefault, "how stiff the draft gear is while friction sticks");
+  });
+  return keys;
+}
+
+const KeyTable<FreeRun>& free_run_keys() {
+  using R = FreeRun;
+  static const auto keys = key_table<R>([](auto& list) {
+    list.number("resistance_N", kNotNegative, "of the whole train at all speeds", &R::resistance);
+    list.number("resistance_N_s_per_m", kNotNegative, "times the speed", &R::by_speed);
+    list.number("resistance_N_s2_per_m2", kNotNegative, "times the square of the speed", &R::by_square);
+    list.number_list("gradient_at_m", kAnyNumber, "places along the line, increasing", &R::place);
+    list.number_list("gradient_per_mille", {{}, -200.0, 200.0},
+                     "at them, positive where the line climbs; linear between, constant before and behind",
+                     &R::gradient);
   });
   return keys;
 }

@@ -18,7 +18,9 @@ auto setting(Value SimulationSettings::*member) {
 
 /// [simulation] and its tables.
 const KeyTable<SimulationFile>& simulation_keys();
+const KeyTable<TrainPart>& train_keys();
 const KeyTable<SpeedProfile>& speed_profile_keys();
+const KeyTable<FreeRun>& free_run_keys();
 const KeyTable<AxleTorque>& torque_keys();
 const KeyTable<BodyForce>& force_keys();
 const KeyTable<SpringMotion>& spring_motion_keys();

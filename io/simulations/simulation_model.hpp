@@ -13,6 +13,7 @@
 #include "treadmark/model/vehicle/assessment.hpp"
 #include "treadmark/model/vehicle/driving.hpp"
 #include "treadmark/model/vehicle/flexible_track.hpp"
+#include "treadmark/model/vehicle/free_run.hpp"
 #include "treadmark/model/vehicle/irregularities.hpp"
 #include "treadmark/model/vehicle/track_layout.hpp"
 #include "treadmark/model/vehicle/vehicle_model.hpp"
@@ -83,6 +84,21 @@ struct CheckRailInput {
   double flare_length = 0.0, flare = 0.0;                 ///< [m]
 };
 
+/// A file that belongs to a simulation, for its record.
+struct NamedFile {
+  std::filesystem::path path;
+  std::string sha256;  ///< hex
+};
+
+/// Equal vehicles that follow in a train.
+struct TrainPart {
+  NamedFile file;  ///< of one of them; empty: as the leading vehicle
+  int count = 1;
+  double behind = 0.0;               ///< place of x = 0 behind that of the vehicle before [m]
+  std::vector<std::string> between;  ///< coupled bodies: of the vehicle before, and of this one
+  CouplerSpec coupler;               ///< position: in the vehicle before
+};
+
 /// How far and how exactly a simulation goes.
 struct SimulationSettings {
   double speed = 0.0;              ///< at the start [m/s]; > 0
@@ -111,12 +127,6 @@ struct SimulationSettings {
   double longest_step(double dx) const;
 };
 
-/// A file that belongs to a simulation, for its record.
-struct NamedFile {
-  std::filesystem::path path;
-  std::string sha256;  ///< hex
-};
-
 /// Everything in a simulation file and in the files that it names.
 struct SimulationFile {
   std::filesystem::path path;
@@ -126,8 +136,9 @@ struct SimulationFile {
   FieldRequests fields;
   HistoryRequest history;
   std::optional<AssessmentRequest> assessment;
-  VehicleModel vehicle;
+  VehicleModel vehicle;  ///< of a train: all its vehicles
   NamedFile vehicle_file;
+  std::vector<TrainPart> train;                 ///< behind the leading vehicle
   std::optional<TrackModel> track;              ///< none: rigid track, or a flexible one
   std::optional<FlexibleTrack> flexible_track;  ///< then there is no other one
   std::optional<NamedFile> track_file;
@@ -144,6 +155,7 @@ struct SimulationFile {
   std::optional<SurfaceSource> table_rail;             ///< of one section, below tables on rails that vary
   std::vector<AxleTorque> torques;                     ///< motors and brakes
   std::vector<BodyForce> forces;                       ///< from outside
+  std::optional<FreeRun> free_run;                     ///< the speeds of settings.profile follow from it; none: given
   std::vector<SpringMotion> spring_motions;
   std::vector<RailShift> rail_shifts;  ///< those of the twist, too
   std::optional<TwistTest> twist;

@@ -106,6 +106,27 @@ void read_settings(const SimulationTable& simulation, SimulationFile& out) {
   if (!(s.duration <= kNeverEnds) || !(s.distance <= kNeverEnds)) simulation.fail("the simulation has no end");
 }
 
+void read_free_run(const SimulationTable& simulation, SimulationFile& out) {
+  using F = SimulationFile;
+  using S = SimulationSettings;
+  const CaseValue* given = simulation.find(&F::free_run);
+  if (given == nullptr) return;
+  const std::string path = simulation.path_of(&F::free_run);
+  const TableOf table(*given, path, free_run_keys());
+  const FreeRun& run = out.free_run.emplace(table.read());
+  simulation.exclude(&F::free_run, setting(&S::profile));
+  simulation.exclude(&F::free_run, setting(&S::duration));
+  simulation.exclude(&F::free_run, &F::twist);
+  if (!run.place.empty() || !run.gradient.empty()) check_points(table, run, &FreeRun::place, &FreeRun::gradient);
+  S& s = out.settings;
+  try {
+    s.profile = free_speed(run, {out.vehicle, out.torques, out.forces, s.gravity, out.start}, s.speed, s.distance);
+  } catch (const Error& e) {
+    throw Error(e.kind(), path + ": " + e.message(), given->where, e.advice());
+  }
+  s.duration = time_at(s.profile, s.distance);
+}
+
 FieldRequests read_fields(const SimulationTable& simulation) {
   const std::string_view key = simulation.key(&SimulationFile::fields);
   if (simulation.table(key) == nullptr) return {};
