@@ -243,8 +243,8 @@ void HistoryRecord::add_elements() {
   const auto force = [this](int column) { return [this, column] { return simulation_->element_force()[column]; }; };
   for (const vehicle::Coupler& c : elements.couplers) {
     add(fmt::format("coupler.{}.force_N", c.name), "N", "force of the coupler, positive in pull", [this, &c] {
-      const vehicle::Vector& force = simulation_->element_force();
-      return force[c.column] + (c.friction < 0 ? 0.0 : force[c.friction]);
+      const vehicle::Vector& all = simulation_->element_force();
+      return all[c.column] + (c.friction < 0 ? 0.0 : all[c.friction]);
     });
     add(fmt::format("coupler.{}.stretch_m", c.name), "m", "by which it is longer than in the middle of its free play",
         [this, &c] { return simulation_->element_stretch(c.column); });
