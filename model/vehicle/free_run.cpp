@@ -57,13 +57,14 @@ double resistance_at(const FreeRun& run, double speed) {
 
 SpeedProfile free_speed(const FreeRun& run, const DrivenTrain& driven, double speed, double distance) {
   constexpr double kStep = 0.1;      // [s], against forces that change within seconds
+  constexpr double kFirst = 1e-6;    // [s], so that at the start, which is a balance, it accelerates as forces are then
   constexpr double kSlowest = 0.05;  // [m/s]
   constexpr std::size_t kMost = 1'000'000;
   const Point train(run, driven);
   SpeedProfile out = constant_speed(speed);
   out.distance = {0.0};
   while (out.distance.back() < distance) {
-    const double t = out.time.back(), v = out.speed.back(), s = out.distance.back(), h = kStep;
+    const double t = out.time.back(), v = out.speed.back(), s = out.distance.back(), h = t > 0.0 ? kStep : kFirst;
     // Runge and Kutta's method of fourth order.
     const double a1 = train.acceleration(t, s, v), v2 = v + 0.5 * h * a1;
     const double a2 = train.acceleration(t + 0.5 * h, s + 0.5 * h * v, v2), v3 = v + 0.5 * h * a2;

@@ -15,8 +15,8 @@ struct FreeRun {
   double by_speed = 0.0;      ///< the same times the speed [N s/m]
   double by_square = 0.0;     ///< times its square [N s2/m2]
   std::vector<double> place;  ///< along the line, increasing [m]; empty: level
-  std::vector<double>
-      gradient;  ///< rise over length at them, positive where it climbs; linear between, constant beyond
+  /// Rise over length at them, positive where it climbs; linear between, constant beyond.
+  std::vector<double> gradient;
 };
 
 /// Rise over length at a place of the line [m].

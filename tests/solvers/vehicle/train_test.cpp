@@ -21,16 +21,16 @@
 namespace treadmark::vehicle {
 namespace {
 
-constexpr double kRail = 9e10;      // of Hertz' springs [N/m^1.5]
-constexpr double kSpeed = 20.0;     // [m/s]
-constexpr double kApart = 10.0;     // of the vehicles [m]
-constexpr double kSpring = 2e6;     // of the suspension [N/m]
-constexpr double kBody = 9000.0;    // [kg]
-constexpr double kWheels = 1800.0;  // [kg]
+constexpr double kRailSpring = 9e10;    // of Hertz' springs [N/m^1.5]
+constexpr double kTrainSpeed = 20.0;    // [m/s]
+constexpr double kApart = 10.0;         // of the vehicles [m]
+constexpr double kSuspension = 2e6;     // of the suspension [N/m]
+constexpr double kSprungMass = 9000.0;  // [kg]
+constexpr double kWheelMass = 1800.0;   // [kg]
 
 /// A mass on a wheelset, which both go up and down; the mass rubs on its guide.
 VehicleModel car() {
-  VehicleModel v = wheel_on_mass(kWheels, kBody, kSpring, 1e4);
+  VehicleModel v = wheel_on_mass(kWheelMass, kSprungMass, kSuspension, 1e4);
   DryFrictionSpec guide;
   guide.name = "guide";
   guide.body_a = "wheelset";
@@ -53,7 +53,7 @@ VehicleModel train(const VehicleModel& one, int count) {
 }
 
 VehicleOnTrack on_rails(const VehicleModel& model) {
-  return on_hertz_springs(model, rails_on_springs(200.0, 6e7, 5e4), kSpeed, kRail);
+  return on_hertz_springs(model, rails_on_springs(200.0, 6e7, 5e4), kTrainSpeed, kRailSpring);
 }
 
 /// From its balance, with the masses lifted.
@@ -64,7 +64,7 @@ Simulation thrown(const VehicleOnTrack& v, double up) {
   return Simulation(v, e.state, equal_steps(0.05, 2e-4));
 }
 
-void run(Simulation& s) {
+void run_all(Simulation& s) {
   while (!s.finished()) s.advance();
 }
 
@@ -92,8 +92,8 @@ TEST(Train, CoordinatesOfVehiclesFollowEachOther) {
 /// Vehicles that nothing couples do, to the last bit, what each does alone.
 TEST(Train, VehiclesWithoutCouplersRunAsAlone) {
   Simulation alone = thrown(on_rails(car()), 0.02), four = thrown(on_rails(train(car(), 4)), 0.02);
-  run(alone);
-  run(four);
+  run_all(alone);
+  run_all(four);
   EXPECT_EQ(four.counts().steps, alone.counts().steps);
   EXPECT_EQ(four.counts().evaluations, alone.counts().evaluations);
   for (const Multibody::Range& vehicle : four.vehicle().system.vehicles) {
@@ -123,12 +123,12 @@ TEST(Train, WorkGrowsWithItsVehiclesAlone) {
 TEST(Train, RefusesSpringsBetweenItsVehicles) {
   VehicleModel two = train(car(), 2);
   two.springs.push_back(spring("mass", "v2_mass", {-5, 0, -1}, {1e6, 0, 1e6, 0, 0, 0}));
-  EXPECT_THROW(assemble(two, {}, kSpeed, kGravity), Error);
+  EXPECT_THROW(assemble(two, {}, kTrainSpeed, kGravity), Error);
 }
 
 /// The mass of each vehicle moves along x as well, on wheels that do not hold it.
 VehicleModel sliding_car() {
-  VehicleModel v = wheel_on_mass(kWheels, kBody, kSpring, 1e4);
+  VehicleModel v = wheel_on_mass(kWheelMass, kSprungMass, kSuspension, 1e4);
   v.bodies[0].free[0] = true;
   return v;
 }
@@ -156,7 +156,7 @@ int x_of(const Multibody& s, int vehicle) { return s.vehicles[static_cast<std::s
 
 Simulation pulled_apart(const VehicleModel& model, double stretch, double rate, double duration, double step,
                         double spectral_radius = 1.0) {
-  const VehicleOnTrack v = on_hertz_springs(model, {}, kSpeed, kRail);
+  const VehicleOnTrack v = on_hertz_springs(model, {}, kTrainSpeed, kRailSpring);
   Equilibrium e = find_equilibrium(v, {1e-12, 1e-6, 60});
   EXPECT_EQ(e.report.status, Status::ok) << e.report.message;
   for (const auto& [vehicle, sign] : {std::pair{0, 0.5}, {1, -0.5}}) {
@@ -176,7 +176,7 @@ double stretch_of(const Simulation& s) {
 /// Two masses on a spring swing against each other with sqrt(2 k / M).
 TEST(Coupler, TwoMassesSwingAsInClosedForm) {
   constexpr double kStretch = 0.02, kStep = 2e-4;
-  const double omega = std::sqrt(2.0 * kCoupling / kBody), period = 2.0 * std::numbers::pi / omega;
+  const double omega = std::sqrt(2.0 * kCoupling / kSprungMass), period = 2.0 * std::numbers::pi / omega;
   Simulation s = pulled_apart(coupled(2, [](CouplerSpec&) {}), kStretch, 0.0, 3.0 * period, kStep);
   while (!s.finished()) {
     s.advance();
@@ -189,7 +189,7 @@ TEST(Coupler, TwoMassesSwingAsInClosedForm) {
 /// From one end of the free play to the other and back, with a half swing of the spring at each end.
 TEST(Coupler, FreePlayAndSpringMakeAPeriodInClosedForm) {
   constexpr double kSlack = 0.04, kRate = 0.5, kStep = 1e-4;
-  const double omega = std::sqrt(2.0 * kCoupling / kBody);
+  const double omega = std::sqrt(2.0 * kCoupling / kSprungMass);
   const double period = 2.0 * kSlack / kRate + 2.0 * std::numbers::pi / omega;
   Simulation s = pulled_apart(coupled(2, [](CouplerSpec& c) { c.slack = kSlack; }), 0.0, kRate, period, kStep);
   double most = 0.0;
@@ -198,7 +198,7 @@ TEST(Coupler, FreePlayAndSpringMakeAPeriodInClosedForm) {
     most = std::max(most, s.element_force()[0]);
   }
   EXPECT_NEAR(stretch_of(s), 0.0, 0.01 * kSlack);
-  EXPECT_NEAR(most, kRate * std::sqrt(0.5 * kBody * kCoupling), 1e-3 * most);
+  EXPECT_NEAR(most, kRate * std::sqrt(0.5 * kSprungMass * kCoupling), 1e-3 * most);
 }
 
 /// Friction of a draft gear takes F (1 + mu) in and gives F (1 - mu) back.
@@ -211,12 +211,12 @@ TEST(Coupler, FrictionTakesItsShareOfAnImpact) {
   };
   // slack / (2 rate) and a quarter of both swings take 0.1226 s, the way back through the free play 0.031 s
   Simulation s = pulled_apart(coupled(2, gear), 0.0, kRate, 0.138, 2e-5);
-  run(s);
+  run_all(s);
   const Multibody& system = s.vehicle().system;
   const double rate = s.state().v[x_of(system, 0)] - s.state().v[x_of(system, 1)];
   ASSERT_LT(std::abs(stretch_of(s)), 0.5 * kSlack) << "between both ends of the free play";
   EXPECT_NEAR(rate, -kRate * std::sqrt((1.0 - kFriction) / (1.0 + kFriction)), 0.02 * kRate);
-  EXPECT_NEAR(s.energy().dampers, 0.25 * kBody * (kRate * kRate - rate * rate), 0.01 * s.energy().dampers);
+  EXPECT_NEAR(s.energy().dampers, 0.25 * kSprungMass * (kRate * kRate - rate * rate), 0.01 * s.energy().dampers);
 }
 
 /// The damper takes energy, and never pulls where the spring pushes.
@@ -243,19 +243,20 @@ TEST(Coupler, DamperFollowsItsSpring) {
 TEST(Coupler, BearsWhatItAcceleratesBehindIt) {
   constexpr int kCount = 4;
   constexpr double kPull = 4e4;  // [N]
-  VehicleOnTrack v = on_hertz_springs(coupled(kCount, [](CouplerSpec& c) { c.damping = 5e5; }), {}, kSpeed, kRail);
+  VehicleOnTrack v =
+      on_hertz_springs(coupled(kCount, [](CouplerSpec& c) { c.damping = 5e5; }), {}, kTrainSpeed, kRailSpring);
   LineSetup setup;
   setup.gravity = kGravity;
-  setup.speed = constant_speed(kSpeed);
+  setup.speed = constant_speed(kTrainSpeed);
   setup.forces.push_back({"mass", {}, Freedom::x, {0.0, 2.0}, {0.0, kPull}, {}});
   v.line = std::make_shared<const LineEffects>(v.system, std::move(setup));
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
   Simulation s(v, e.state, equal_steps(4.0, 1e-3));
-  run(s);
-  const double acceleration = kPull / (kCount * kBody);
+  run_all(s);
+  const double acceleration = kPull / (kCount * kSprungMass);
   for (int i = 0; i < kCount - 1; ++i)
-    EXPECT_NEAR(s.element_force()[i], (kCount - 1 - i) * kBody * acceleration, 0.01 * kPull);
+    EXPECT_NEAR(s.element_force()[i], (kCount - 1 - i) * kSprungMass * acceleration, 0.01 * kPull);
   for (int i = 0; i < kCount; ++i) EXPECT_NEAR(s.acceleration()[x_of(v.system, i)], acceleration, 0.01 * acceleration);
 }
 
@@ -272,12 +273,12 @@ TEST(FreeRun, TrainFollowsItsPointMass) {
   run_of.place = {50.0, 60.0};
   run_of.gradient = {0.0, kSteep};
   const std::vector<BodyForce> forces{{"mass", {}, Freedom::x, {0.0, 1.0}, {0.0, kPull}, {}}};
-  VehicleOnTrack v = on_hertz_springs(model, {}, kSpeed, kRail);
+  VehicleOnTrack v = on_hertz_springs(model, {}, kTrainSpeed, kRailSpring);
   LineSetup setup;
   setup.gravity = kGravity;
   setup.free_run = run_of;
   setup.forces = forces;
-  setup.speed = free_speed(run_of, {model, {}, forces, kGravity, 0.0}, kSpeed, kDistance);
+  setup.speed = free_speed(run_of, {model, {}, forces, kGravity, 0.0}, kTrainSpeed, kDistance);
   const SpeedProfile profile = setup.speed;
   v.line = std::make_shared<const LineEffects>(v.system, std::move(setup));
   const Equilibrium e = find_equilibrium(v);
@@ -287,8 +288,8 @@ TEST(FreeRun, TrainFollowsItsPointMass) {
     s.advance();
     ASSERT_NEAR(v.mean_speed(s.state()), v.travel(s.state().time).speed, 5e-3);
   }
-  EXPECT_NE(profile.speed.back(), kSpeed);
-  const double mass = kCount * (kBody + kWheels), speed = profile.speed.back();
+  EXPECT_NE(profile.speed.back(), kTrainSpeed);
+  const double mass = kCount * (kSprungMass + kWheelMass), speed = profile.speed.back();
   const double taken = kPull - resistance_at(run_of, speed) - mass * kGravity * kSteep;
   EXPECT_NEAR(travel_at(profile, s.state().time - 0.01).acceleration, taken / mass, 1e-3 * kPull / mass);
   // Equal vehicles share what pulls them equally, whatever takes it.
@@ -298,7 +299,7 @@ TEST(FreeRun, TrainFollowsItsPointMass) {
 
 TEST(FreeRun, SpeedsAreThoseOfClosedForms) {
   VehicleModel one = sliding_car();
-  const double mass = kBody + kWheels;
+  const double mass = kSprungMass + kWheelMass;
   const DrivenTrain alone{one, {}, {}, kGravity, 0.0};
   FreeRun drag;
   drag.by_square = 30.0;
@@ -338,7 +339,7 @@ TEST(Coupler, PullsToTheInsideOfACurve) {
   constexpr double kRadius = 200.0;
   VehicleModel model = coupled(2, [](CouplerSpec&) {});
   for (BodySpec& b : model.bodies) b.free[1] = true;
-  VehicleOnTrack v = on_hertz_springs(model, {}, kSpeed, kRail);
+  VehicleOnTrack v = on_hertz_springs(model, {}, kTrainSpeed, kRailSpring);
   TrackLayout layout;
   LayoutElement circle;
   circle.length = 1000.0;
@@ -349,7 +350,7 @@ TEST(Coupler, PullsToTheInsideOfACurve) {
   setup.path = std::make_shared<const TrackPath>(layout);
   setup.start = 100.0;
   setup.gravity = kGravity;
-  setup.speed = constant_speed(kSpeed);
+  setup.speed = constant_speed(kTrainSpeed);
   const LineEffects line(v.system, std::move(setup));
   Vector sum = Vector::Zero(v.system.size());
   constexpr double kForce = 1e5;
@@ -372,13 +373,13 @@ TEST(Coupler, GoesOnFromASavedStateToTheLastBit) {
   };
   const auto start = [&] { return pulled_apart(coupled(3, gear), 0.02, 0.1, 0.2, 1e-4, 0.8); };
   Simulation whole = start(), half = start(), later = start();
-  run(whole);
+  run_all(whole);
   while (half.state().time < 0.1) half.advance();
   ByteWriter out;
   half.save(out);
   ByteReader in(out.bytes());
   later.restore(in);
-  run(later);
+  run_all(later);
   ByteWriter once, again;
   whole.save(once);
   later.save(again);
@@ -387,7 +388,7 @@ TEST(Coupler, GoesOnFromASavedStateToTheLastBit) {
 
 TEST(Coupler, RefusesWhatMakesNoSense) {
   const auto refuses = [](const std::function<void(CouplerSpec&)>& change) {
-    EXPECT_THROW(assemble(coupled(2, change), {}, kSpeed, kGravity), Error);
+    EXPECT_THROW(assemble(coupled(2, change), {}, kTrainSpeed, kGravity), Error);
   };
   refuses([](CouplerSpec& c) { c.rear = c.front; });
   refuses([](CouplerSpec& c) { c.rear = "nobody"; });
