@@ -24,13 +24,13 @@ namespace {
 constexpr double kRailSpring = 9e10;    // of Hertz' springs [N/m^1.5]
 constexpr double kTrainSpeed = 20.0;    // [m/s]
 constexpr double kApart = 10.0;         // of the vehicles [m]
-constexpr double kSuspension = 2e6;     // of the suspension [N/m]
+constexpr double kCarSpring = 2e6;      // of the suspension [N/m]
 constexpr double kSprungMass = 9000.0;  // [kg]
 constexpr double kWheelMass = 1800.0;   // [kg]
 
 /// A mass on a wheelset, which both go up and down; the mass rubs on its guide.
 VehicleModel car() {
-  VehicleModel v = wheel_on_mass(kWheelMass, kSprungMass, kSuspension, 1e4);
+  VehicleModel v = wheel_on_mass(kWheelMass, kSprungMass, kCarSpring, 1e4);
   DryFrictionSpec guide;
   guide.name = "guide";
   guide.body_a = "wheelset";
@@ -128,7 +128,7 @@ TEST(Train, RefusesSpringsBetweenItsVehicles) {
 
 /// The mass of each vehicle moves along x as well, on wheels that do not hold it.
 VehicleModel sliding_car() {
-  VehicleModel v = wheel_on_mass(kWheelMass, kSprungMass, kSuspension, 1e4);
+  VehicleModel v = wheel_on_mass(kWheelMass, kSprungMass, kCarSpring, 1e4);
   v.bodies[0].free[0] = true;
   return v;
 }
