@@ -35,7 +35,7 @@ OTHER_TESTS = {"gallery.md": "Docs.GalleryHasTheNumbersOfTheExamples"}
 # What is put behind or in place of parts of a command, so that it takes about a second.
 SHORTER = [
     (r"^simulate (examples/(flat|cross|curve)|ride)", ["--set", "simulation.distance_m=0.02"]),
-    (r"^simulate examples/wagon", ["--set", "simulation.distance_m=1"]),
+    (r"^simulate examples/(wagon|train)", ["--set", "simulation.distance_m=1"]),
     (r"^simulate examples/twist", ["--set", "simulation.distance_m=0.5", "--set", "simulation.twist.period_s=1"]),
     (r"^compare(?!.*--detectors)", ["--backends", "spline,mesh-flat", "--resolutions", "1"]),
     (r"^scan (?!.*--points)", ["--points", "60000"]),
