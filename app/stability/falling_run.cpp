@@ -58,6 +58,7 @@ io::SimulationFile file_of(io::SimulationFile file, const FallingRequest& reques
   file.irregularities = lateral_wave(front + kWaveBegins, request.wave_height, request.wave_length);
   file.irregularity_file.reset();
   file.torques.clear();
+  file.free_run.reset();
   file.forces.clear();
   file.spring_motions.clear();
   file.rail_shifts.clear();
