@@ -55,9 +55,10 @@ bool in_time(const Problem& p) {
 }
 
 /// Whether the height is sought by the normal problem itself, with nothing left to a later instant but start values.
+/// Coefficients of a table belong to elements of one size.
 bool under_load(const Problem& p) {
   return height_sought(p) && !in_time(p) && p.normal_model == kalker::NormalModel::full &&
-         p.reference_surface == ReferenceSurface::plane;
+         p.reference_surface == ReferenceSurface::plane && p.influence.kind != kalker::InfluenceSettings::Kind::table;
 }
 
 }  // namespace

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "solution_bytes.hpp"
 #include "standard_pair.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/influence_kernel.hpp"
 #include "treadmark/solvers/wheelrail/root_search.hpp"
 
 namespace treadmark::wheelrail {
@@ -201,6 +203,29 @@ TEST(TotalForces, AHeightOfManyElementsTakesOneOfThem) {
   for (const int laid : {sum.searches, sum.distances}) EXPECT_LE(laid, single + 4);
   for (const int solved : {sum.normal_solves, sum.tangential_solves}) EXPECT_LE(solved, 2 * single);
   EXPECT_GE(sum.looks, single) << "looks are counted, too";
+}
+
+// They are for elements of one size: those that are given are laid at once.
+TEST(TotalForces, CoefficientsOfATableFindTheHeight) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  const double dx = p.discretisation.dx = p.discretisation.ds = 0.25e-3;
+  const PairSolution own = pair.solve(p);
+  ASSERT_EQ(own.status, Status::ok) << own.message;
+  const auto kernel = kalker::make_influence_kernel(p.material, {}, dx, dx, 1.0, 0.0);
+  NumericalInfluence table{.nx = 3, .ny = 3, .dx = dx, .dy = dx, .values = {}};
+  for (const int iy : {-1, 0, 1})
+    for (const int ix : {-1, 0, 1}) {
+      const kalker::InfluenceBlock b = kernel->at(ix * dx, iy * dx);
+      table.values.push_back({b.nn, b.nx, b.ny, b.xn, b.xx, b.xy, b.yn, b.yx, b.yy});
+    }
+  p.influence.kind = kalker::InfluenceSettings::Kind::table;
+  p.influence.table = std::make_shared<const NumericalInfluence>(table);
+  const PairSolution read = pair.solve(p);
+  ASSERT_EQ(read.status, Status::ok) << read.message;
+  EXPECT_GT(own.times.looks, read.times.looks) << "the other one looks at few elements";
+  EXPECT_NEAR(read.z, own.z, 1e-4 * own.patches.at(0).approach);
+  EXPECT_NEAR((read.load.track.force - own.load.track.force).norm(), 0.0, 1e-4 * kLoad);
 }
 
 TEST(TotalForces, DissimilarBodiesReachThePrescribedLoad) {
