@@ -324,7 +324,6 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   }
   last_grid = grid;
   last_pressure = pressure;
-  any_size = false;
   if (grid.size() <= kManyElements) return;
   cg = {};
   gap = {};
@@ -336,10 +335,11 @@ void NormalSolver::Workspace::solve_full_or_recall(const ContactProblem& problem
     solution = last_cold.solution;
     last_grid = problem.grid;
     last_pressure = solution.pressure;
-    return;
+  } else {
+    solve_full(problem, combine(problem.material), solution);
+    if (cold) last_cold.keep(problem, solution);
   }
-  solve_full(problem, combine(problem.material), solution);
-  if (cold) last_cold.keep(problem, solution);
+  any_size = false;
 }
 
 NormalSolver::NormalSolver() : workspace_(std::make_unique<Workspace>()) {}

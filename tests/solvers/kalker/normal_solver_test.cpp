@@ -269,6 +269,10 @@ TEST(NormalSolver, PressuresOfFewElementsAreAStart) {
   solved_from(true);
   EXPECT_LT(rms_difference(warm.pressure, cold.pressure), 2e-5 * rms(cold.pressure));
   EXPECT_LT(warm.normal.iterations, cold.normal.iterations);
+  rough.start_from({few.problem.grid, {}, true});
+  rough.solve(few.problem, solution);
+  rough.solve(many.problem, warm);
+  EXPECT_EQ(warm.pressure, cold.pressure) << "only the next problem starts between elements, also one that is recalled";
 }
 
 TEST(NormalSolver, RecallsTheLastProblemFromRestAndNoOther) {
