@@ -214,16 +214,19 @@ class Iteration {
     constexpr double kDeeper = 2.0;
     constexpr int kMost = 16;
     const double touching = step_.touching_z(), still = 4.0 * eps_;
-    double laid = z;
+    double laid = z, asked = z;  // heights for which the elements were laid, and for which they were found to stay
     const auto lies_elsewhere = [&] {
-      return !near(z, laid, still) && !(near(z, laid, kNearEnough) && step_.stays(eps_));
+      if (near(z, asked, still)) return false;
+      if (!near(z, laid, kNearEnough) || !step_.stays(eps_)) return true;
+      asked = z;
+      return false;
     };
     bool lay = true, shares_known = step_.knows_earlier_shares();
     for (int i = 0; i < std::min(kMost, p_.max_force_iterations); ++i) {
       check_cancelled();
       if (!lay)
         step_.carry(target.at(z));
-      else if (laid = z; !std::exchange(evaluated, false))
+      else if (laid = asked = z; !std::exchange(evaluated, false))
         step_.evaluate(z, target.at(z));
       evaluated = lay && !step_.carries_load();
       if (!step_.carries_load()) return std::nullopt;

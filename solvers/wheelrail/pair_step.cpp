@@ -181,9 +181,9 @@ bool PairStep::stays(double eps) {
   const PatchSolution& s = patches_.front().solution;
   if (found.size() != 1 || found.front().parts.size() != s.region.parts.size()) return false;
   const detection::ContactPatch& here = found.front();
-  return std::abs(here.x - s.region.x) <= kOfElement * eps * s.grid.dx &&
-         std::abs(here.y - s.region.y) <= kOfElement * eps * s.grid.dy &&
-         std::abs(here.inclination - s.region.inclination) <= kTurn * eps;
+  // in elements, along the plane
+  const double x = (here.x - s.region.x) / s.grid.dx, y = (here.y - s.region.y) / (std::cos(s.frame.angle) * s.grid.dy);
+  return std::hypot(x, y) <= kOfElement * eps && std::abs(here.inclination - s.region.inclination) <= kTurn * eps;
 }
 
 double PairStep::stiffness_guess(double z) {

@@ -90,7 +90,7 @@ class PairStep {
   double least_gap() const { return least_gap_; }
   /// Likewise, between the points of the search grids as well; NaN before evaluate().
   double closest() const { return closest_; }
-  /// At the last evaluate(); none before place().
+  /// At the height that was searched last; none before place().
   std::optional<detection::WrongLocus> wrong_locus() const { return search_ ? search_->wrong_locus() : std::nullopt; }
 
   /// Of each patch, after tractions were found.
