@@ -245,7 +245,7 @@ constexpr Quantity<C> kCaseQuantities[] = {
     {"timing", "tangential_s", kTime, B::timing, of<&C::tangential_s>(), ""},
     {"timing", "total_s", kTime, B::timing, of<&C::seconds>(), "wall-clock time of the case"},
     {"counts", "searches", kCount, B::timing, of<&C::searches>(),
-     "how often each of these was done, looks on few elements apart"},
+     "how often each of these was done, without looks: on few elements, and for a place alone"},
     {"counts", "distances", kCount, B::timing, of<&C::distances>(), ""},
     {"counts", "normal_solves", kCount, B::timing, of<&C::normal_solves>(), ""},
     {"counts", "tangential_solves", kCount, B::timing, of<&C::tangential_solves>(), ""},
