@@ -30,7 +30,7 @@ namespace {
 
 constexpr double kPiece = 0.4;         // reach of a piece from its middle [m]
 constexpr double kBeside = 0.15;       // farthest that points of a rail lie from its line [m]
-constexpr double kFinest = 2.0;        // shortest splines: shorter waves are the rail's [m]
+constexpr double kFinest = 1.0;        // shortest splines: shorter waves are the rail's [m]
 constexpr double kWindow = 0.2;        // windows along a long line [m]
 constexpr double kStep = 0.25;         // of following a rail [m]
 constexpr double kFarthestGap = 20.0;  // that is crossed [m]

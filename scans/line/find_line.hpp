@@ -48,7 +48,7 @@ std::optional<RoughPlace> find_piece(std::span<const Vec3> points, std::span<con
 
 /// Finds the line of a rail. Windows along it are laid on the rail's section by robust steps (Tukey's biweight), from
 /// the piece outwards, across gaps by the bend before them or along a given line; the windows' places and rolls then
-/// fix splines from straight on over even bends to splines 2 m long, of which the one is chosen that the windows call
+/// fix splines from straight on over even bends to splines 1 m long, of which the one is chosen that the windows call
 /// for beyond their own scatter (a penalty for each number of it, as by Schwarz 1978); and again, with points
 /// straightened along it, until it stays. Shorter waves than that are deviations of the rail, not its line.
 /// least_deviation: what deviates from straight

@@ -131,6 +131,18 @@ TEST(FindLine, TransitionWithCant) {
   EXPECT_NEAR(twist / count, line.cant_angle / line.length, 0.02 * line.cant_angle / line.length);
 }
 
+/// Where the bend of the rail begins to grow at once, splines that are too long would leave what looks like damage.
+TEST(FindLine, ShortTransitionsLeaveNoDamage) {
+  const Clothoid line{2.0, 4.0, 1.0 / 300.0, 10e-3 / 1.5};
+  constexpr double kLength = 10.0, kFlat = 20e-6;
+  const Frames truth = line.frames(-1.0, kLength + 1.0);
+  const FoundLine found = found_in(bent(straight_rail(kLength, 30e3, true), truth));
+  ASSERT_TRUE(found.bent);
+  const LineError error = error_of(
+      found, truth, [&](double s) { return line.bend(s); }, 0.0, kLength, 0.5);
+  EXPECT_LT(error.across, kFlat);
+}
+
 TEST(FindLine, StraightenedPointsLieOnTheStraightRail) {
   const std::vector<Vec3> straight = straight_rail(10.0, 30e3, false);
   std::vector<Vec3> points = bent(straight, circle(1.0 / 300.0));
