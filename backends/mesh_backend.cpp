@@ -43,9 +43,7 @@ Backend mesh_row(std::string name, std::string summary, double order, mesh::Refi
     r.add_note(words(repair));
     return surface;
   };
-  Backend row{name, std::move(summary), order, false, resample};
-  row.part = "embree";
-  return row;
+  return {name, std::move(summary), order, false, resample};
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ macro(treadmark_part part option name packages meaning)
 endmacro()
 
 treadmark_part(embree TREADMARK_WITH_EMBREE "Embree" "libembree-dev"
-  "Surfaces of triangles (backends mesh and mesh-flat), with Embree")
+  "Lists of lines through triangles (backends mesh and mesh-flat) by Embree 3 or 4 instead of our own tree")
 treadmark_part(openvdb TREADMARK_WITH_OPENVDB "OpenVDB" "libopenvdb-dev and libboost-iostreams-dev"
   "Offsets over a base (backends offset, offset-quadratic and offset-bilinear, .vdb files) and level sets (level-set), with OpenVDB")
 treadmark_part(cad TREADMARK_WITH_OPENCASCADE "OpenCASCADE" "libocct-data-exchange-dev"

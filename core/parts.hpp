@@ -10,8 +10,8 @@ namespace treadmark {
 
 /// What a build may leave out, as told by the table in cmake/TreadmarkParts.cmake.
 struct Part {
-  std::string_view key;       ///< "embree": that functions below take
-  std::string_view name;      ///< "Embree": for people
+  std::string_view key;       ///< "openvdb": that functions below take
+  std::string_view name;      ///< "OpenVDB": for people
   std::string_view option;    ///< of CMake, that puts it in
   std::string_view packages;  ///< of Debian; empty: it needs none
   bool built = false;         ///< whether this build has it
@@ -23,7 +23,7 @@ std::span<const Part> parts();
 /// Whether this build has the part. Errors of this and the following: std::invalid_argument for a key that is none.
 bool has_part(std::string_view key);
 
-/// "this build leaves out the backend 'mesh' (Embree)", where what is "the backend 'mesh'".
+/// "this build leaves out the backend 'offset' (OpenVDB)", where what is "the backend 'offset'".
 std::string left_out_message(std::string_view key, std::string_view what);
 /// How it is put in: option and packages.
 std::string left_out_advice(std::string_view key);

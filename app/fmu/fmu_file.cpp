@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "treadmark/app/fmu/resources.hpp"
-#include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/modules.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -33,9 +32,9 @@ void add_folder(const fs::path& folder, const std::string& as, Files& files) {
       files[as + '/' + entry.path().lexically_relative(folder).generic_string()] = io::read_text(entry.path());
 }
 
-/// The folder with the shared library and what goes with it. small: one that knows neither triangles nor vehicles.
-fs::path library_folder(bool small) {
-  const char* const name = small ? "fmu-pair" : "fmu";
+/// The folder with the shared library and what goes with it, for a pair one that knows no vehicles.
+fs::path library_folder(bool pair) {
+  const char* const name = pair ? "fmu-pair" : "fmu";
   std::error_code failed;
   for (const fs::path& place : module_folders())
     if (fs::exists(place / name / kLibraries, failed)) return place / name;
@@ -107,10 +106,8 @@ WrittenFmu write_fmu(const FmuContent& content) {
   about.name = content.output.stem().string();
   about.title = write_resources(content, stage.path());
   about.token = token_of(stage.path());
-  const std::size_t triangles_before = mesh::surfaces_made();
   const auto model = open_model(stage.path());
-  const bool triangles = mesh::surfaces_made() > triangles_before;
-  const fs::path library = library_folder(!triangles && !io::is_simulation_file(content.input));
+  const fs::path library = library_folder(!io::is_simulation_file(content.input));
 
   Files files;
   add_folder(stage.path(), "resources", files);

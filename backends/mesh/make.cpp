@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/mesh/make.hpp"
 
-#include <atomic>
 #include <cmath>
 
 #include "treadmark/backends/mesh/mesh_surface.hpp"
@@ -13,33 +12,28 @@ namespace treadmark::mesh {
 
 namespace {
 
-std::atomic<std::size_t> made = 0;
-
 std::shared_ptr<const Surface> make(TriangleMesh mesh, Body body, const MeshOptions& options, MeshRepair* repair,
-                                    bool single_precision) {
+                                    bool one_by_one) {
   if (!(options.crease_angle >= 0.0 && std::isfinite(options.crease_angle)))
     throw Error(ErrorKind::configuration, "the crease angle of a mesh must be a number that is not negative");
   MeshRepair found;
   PreparedMesh prepared = prepare(mesh, body, found);
   mesh = {};
   if (repair) *repair = found;
-  ++made;
-  return std::make_shared<MeshSurface>(std::move(prepared), body, options, single_precision);
+  return std::make_shared<MeshSurface>(std::move(prepared), body, options, one_by_one);
 }
 
 }  // namespace
 
 std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh, Body body, const MeshOptions& options,
                                                  MeshRepair* repair) {
-  return make(std::move(mesh), body, options, repair, true);
+  return make(std::move(mesh), body, options, repair, false);
 }
 
 std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, const MeshOptions& options,
                                                 MeshRepair* repair) {
-  return make(std::move(mesh), body, options, repair, false);
+  return make(std::move(mesh), body, options, repair, true);
 }
-
-std::size_t surfaces_made() { return made; }
 
 MeshRepair check_mesh(const TriangleMesh& mesh, Body body) {
   MeshRepair found;

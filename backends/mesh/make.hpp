@@ -37,20 +37,18 @@ struct MeshRepair {
 };
 
 /// A wheel or rail of triangles and its smooth refinement. Grids: triangles laid over tiles of lines, in double
-/// precision; single lines: Embree with every hit recomputed in double precision. repair: filled in if not null.
+/// precision; lists of lines: Embree with every hit recomputed in double precision, in builds without it a hierarchy of
+/// our own. repair: filled in if not null.
 /// Errors: Error(input_data) for an empty mesh, indices out of range, vertices that are not finite, edges of more than
 /// two triangles, coordinates that cannot be metres (with a hint on units), a mesh that cannot be oriented. Messages
 /// name mesh.name.
 std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh, Body body, const MeshOptions& options = {},
                                                  MeshRepair* repair = nullptr);
 
-/// The same by a bounding volume hierarchy of our own, all in double precision: slower, independent of Embree; for
-/// checking.
+/// The same by that hierarchy alone, line by line and all in double precision: slower, independent of Embree and of
+/// kernels; for checking.
 std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, const MeshOptions& options = {},
                                                 MeshRepair* repair = nullptr);
-
-/// How many of either this process has made. Thread-safe.
-std::size_t surfaces_made();
 
 /// What make_mesh_surface would repair, and its errors.
 MeshRepair check_mesh(const TriangleMesh& mesh, Body body);

@@ -37,12 +37,13 @@ void describe(const PlaneView& view, Facing facing, const Evaluated& e, SurfaceP
 
 }  // namespace
 
-MeshSurface::MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool single_precision)
+MeshSurface::MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool one_by_one)
     : backend_(options.backend),
       facing_(body == Body::wheel ? Facing::down : Facing::up),
+      one_by_one_(one_by_one),
       mesh_(std::move(mesh)),
       bvh_(mesh_) {
-  if (single_precision) scene_ = std::make_unique<RayScene>(mesh_);
+  if (!one_by_one_) scene_ = ray_scene(mesh_);
   if (options.refinement != Refinement::smooth) return;
   smooth_.emplace(mesh_, options.crease_angle);
   bvh_.add_surface([&](std::uint32_t t) { return Bvh::About{smooth_->bulge(t), smooth_->mean_of_normals(t)}; });
@@ -61,7 +62,7 @@ std::size_t MeshSurface::memory_bytes() const {
 void MeshSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const Grid2& g = plane_grid.grid;
   const PlaneView view(mesh_, plane_grid.X_SP, facing_);
-  if (scene_ && g.size() > 1) return grid_heights(mesh_, bvh_, smooth(), view, g, Results(out));
+  if (!one_by_one_ && g.size() > 1) return grid_heights(mesh_, bvh_, smooth(), view, g, Results(out));
   for (int iy = 0; iy < g.ny; ++iy)
     for (int ix = 0; ix < g.nx; ++ix) plain_height(view, g.x(ix), g.y(iy), Results(out), g.index(ix, iy));
 }
@@ -70,7 +71,7 @@ void MeshSurface::plain_height(const PlaneView& view, double x, double y, const 
   LineCaster caster(mesh_, bvh_, nullptr, view);
   const LineHit hit = caster.look(x, y);
   if (hit.cover != Cover::front) return results.miss(i);
-  if (scene_) {  // as in grids and lists
+  if (!one_by_one_) {  // as in grids and lists
     const PlaneLines lines = view.lines();
     PointHeights heights(mesh_, smooth(), view, lines, results);
     heights.add(i, x, y, hit, caster.triangle(hit));
@@ -85,7 +86,7 @@ void MeshSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P
   constexpr std::size_t kPacket = LineCaster::kPacket;
   const Results results(out);
   const PlaneView view(mesh_, X_SP, facing_);
-  if (!scene_) {
+  if (one_by_one_) {
     for (std::size_t i = 0; i < points_P.size(); ++i) plain_height(view, points_P[i].x(), points_P[i].y(), results, i);
     return;
   }

@@ -14,16 +14,17 @@
 
 namespace treadmark::mesh {
 
-/// A wheel or rail of triangles. Grids are filled triangle by triangle (tile.hpp). For points and lists single
-/// precision finds a triangle, double precision walks from there to the one that holds the line; misses, insides and
-/// walks that end at a rim are decided by the hierarchy in double precision. The first triangle on a line from outside
-/// counts; if it shows its inside, the line misses. Without a RayScene the hierarchy does it all, line by line. A
-/// single line that passes within the accuracy of single precision (1e-8 m at 0.5 m from the centre of the mesh) of a
-/// fold that hides another part may get either of the two heights; on grids, and with the hierarchy alone, the fold is
-/// sharp to rounding. u = x [m] or theta [rad], v = y [m].
+/// A wheel or rail of triangles. Grids are filled triangle by triangle (tile_kernel.hpp). For lists single precision
+/// finds a triangle (RayScene), double precision walks from there to the one that holds the line; misses, insides and
+/// walks that end at a rim are decided by the hierarchy in double precision, and all of it where there is no RayScene.
+/// The first triangle on a line from outside counts; if it shows its inside, the line misses. With a RayScene a line of
+/// a list that passes within the accuracy of single precision (1e-8 m at 0.5 m from the centre of the mesh) of a fold
+/// that hides another part may get either of the two heights; everywhere else the fold is sharp to rounding. u = x [m]
+/// or theta [rad], v = y [m].
 class MeshSurface final : public Surface {
  public:
-  MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool single_precision);
+  /// one_by_one: as make_mesh_oracle.
+  MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool one_by_one);
 
   std::string_view backend() const override { return backend_; }
   Facing facing() const override { return facing_; }
@@ -42,9 +43,10 @@ class MeshSurface final : public Surface {
 
   std::string backend_;
   Facing facing_;
+  bool one_by_one_;
   PreparedMesh mesh_;
   Bvh bvh_;
-  std::unique_ptr<RayScene> scene_;
+  std::unique_ptr<const RayScene> scene_;  ///< may be null
   std::optional<SmoothPatches> smooth_;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -11,7 +12,6 @@
 namespace treadmark::mesh {
 
 /// First hits of parallel rays in single precision; what it finds is where to start looking in double precision.
-/// All that knows the ray casting library is the one source file of this class.
 class RayScene {
  public:
   static constexpr int kPacket = 8;
@@ -20,22 +20,17 @@ class RayScene {
     int count = 0;
   };
 
-  /// Keeps a reference to the triangles.
-  explicit RayScene(const PreparedMesh& mesh);
-  ~RayScene();
-  RayScene(const RayScene&) = delete;
-  RayScene& operator=(const RayScene&) = delete;
+  virtual ~RayScene() = default;
 
   /// Triangle that each ray meets first, kNone if there is none. Thread-safe.
-  void first_hits(const Packet& rays, const std::array<float, 3>& direction,
-                  std::array<std::uint32_t, kPacket>& triangles) const;
+  virtual void first_hits(const Packet& rays, const std::array<float, 3>& direction,
+                          std::array<std::uint32_t, kPacket>& triangles) const = 0;
 
   /// What the library says that it holds.
-  std::size_t memory_bytes() const;
-
- private:
-  struct Library;
-  std::unique_ptr<Library> library_;
+  virtual std::size_t memory_bytes() const = 0;
 };
+
+/// By Embree, with a reference to the triangles; null in builds and FMUs without it, where the hierarchy does as well.
+std::unique_ptr<const RayScene> ray_scene(const PreparedMesh& mesh);
 
 }  // namespace treadmark::mesh

@@ -150,7 +150,6 @@ TEST(Bench, DistancesThatDisagreeTakeTheTimesOfBothBodies) {
 }
 
 TEST(Bench, SurfacesAsGivenMustBeEqualSampledOnesWithinChords) {
-  TREADMARK_NEEDS("embree");
   EXPECT_EQ(representation_limit(0.0, 80.0), 1e-9);
   // twice the chord's height h^2/8 times the curvature, and rounding
   EXPECT_NEAR(representation_limit(1e-3, 80.0), 2e-5 + 5e-8, 1e-12);

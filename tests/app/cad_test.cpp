@@ -100,7 +100,6 @@ TEST(CadWheel, AFlatGoesThereAndBack) {
 
 TEST(CadRail, IsWhateverRepresentationIsAskedFor) {
   TREADMARK_NEEDS("cad");
-  TREADMARK_NEEDS("embree");
   const treadmark::testing::SampleInput input;
   input.write("squat.toml", treadmark::testing::standard_case("1.0", "shape.standard = \"S1002\"\n", kSquat));
   ConvertSettings settings;
@@ -148,7 +147,6 @@ TEST(CadRail, TakesTheBackendOfTheCommandLine) {
 
 TEST(CadRail, SidesThatMoveAreAMeshOnTheFaces) {
   TREADMARK_NEEDS("cad");
-  TREADMARK_NEEDS("embree");
   io::SurfaceSource source;
   const std::filesystem::path file = std::filesystem::path(TREADMARK_SOURCE_DIR) / "tests/io/cad/data/nose.step";
   source.geometry = io::GeometryFile{file, {}};

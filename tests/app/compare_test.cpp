@@ -79,7 +79,6 @@ TEST(CompareCases, APressureWithoutLimitBlamesNoRepresentation) {
 }
 
 TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
-  TREADMARK_NEEDS("embree");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", treadmark::testing::flat_wheel_case());
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
@@ -120,7 +119,6 @@ TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
 }
 
 TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", treadmark::testing::flat_wheel_case());
@@ -171,7 +169,6 @@ TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
 }
 
 TEST(CompareCases, ThreadsChangeNothingButTimes) {
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   TREADMARK_NEEDS("tbb");
   const treadmark::testing::SampleInput input;
@@ -230,7 +227,6 @@ TEST(CompareCases, RefusesWhatMakesNoSense) {
 }
 
 TEST(CompareCommand, WritesTableFilesAndPictures) {
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("hdf5");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", treadmark::testing::flat_wheel_case());

@@ -49,7 +49,6 @@ std::vector<io::PatchResult> from_left(const io::CaseResult& result) {
 }
 
 TEST(CrossingPassage, BackendsAgreeWhileTheLoadMovesToTheNose) {
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   CompareSettings settings;
   settings.rail_backends = {"mesh", "offset"};

@@ -289,7 +289,6 @@ TEST_F(ImportedNoise, TreadsWithoutTheirFlangeAreDoubted) {
 
 /// What an import doubts is told by all that use the surface, whatever file it was written to or came through.
 TEST_F(ImportedNoise, DoubtsGoWithTheSurface) {
-  TREADMARK_NEEDS("embree");
   // the top of a rail, without its sides
   const NaturalSurface whole = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
   std::vector<double> y, z;

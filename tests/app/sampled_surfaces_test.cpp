@@ -202,7 +202,6 @@ TEST(SampledSurfaces, ARollerIsARing) {
 }
 
 TEST(SampledSurfaces, APartlySampledWheelIsCompletedAsGiven) {
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   const std::string far_flat = "[[wheel.flats]]\nshape = \"fresh\"\nlength_mm = 60.0\ntheta_center_deg = 120.0\n";
   for (const std::string backend : {"offset", "spline", "mesh"}) {

@@ -53,7 +53,7 @@ HEAVY = {
     r"hdf5(_hl)?\.h": "all",
     r"expat\.h": "folder",
     r"fftw3\.h": "all",
-    r"embree[34]/.*": "all",
+    r"embree[34]/.*": "backends/mesh/embree_version.hpp",
     r"openvdb/.*": "folder",
     r"CGAL/.*": "scans/cgal/",
     r"nanoflann\.hpp": "all",

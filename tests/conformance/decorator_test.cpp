@@ -159,7 +159,6 @@ TEST(SurfaceData, AreNotToldBySeveralParts) {
 }
 
 TEST(SurfaceData, OfARepresentationAreThoseOfItsBase) {
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   const Line line(Body::rail);
   SurfaceSpec spec = of_points(Body::rail);

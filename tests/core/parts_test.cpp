@@ -28,12 +28,12 @@ TEST(Parts, AreNamedOnceAndHaveAnOption) {
 
 TEST(Parts, WhatIsLeftOutNamesOptionAndPackage) {
   try {
-    left_out("embree", "the backend 'mesh'");
+    left_out("openvdb", "the backend 'offset'");
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::configuration);
     EXPECT_STREQ(error.what(),
-                 "this build leaves out the backend 'mesh' (Embree) (configure with -DTREADMARK_WITH_EMBREE=ON, Debian "
-                 "package libembree-dev)");
+                 "this build leaves out the backend 'offset' (OpenVDB) (configure with -DTREADMARK_WITH_OPENVDB=ON, "
+                 "Debian package libopenvdb-dev and libboost-iostreams-dev)");
   }
   EXPECT_EQ(left_out_advice("vehicle"), "configure with -DTREADMARK_VEHICLE=ON");
   for (const Part& part : parts())

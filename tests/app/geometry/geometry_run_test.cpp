@@ -139,7 +139,6 @@ TEST_P(ReferenceProfiles, LieInTheWideCorridorWithAndWithoutRoll) {
 
 TEST_P(ReferenceProfiles, DoSoThroughOtherSurfaces) {
   TREADMARK_REQUIRE_SHARED();
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   for (const char* backend : {"mesh", "offset"}) {
     GeometryRequest request = reference_pair(*shared, GetParam());

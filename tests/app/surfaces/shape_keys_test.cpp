@@ -74,7 +74,7 @@ class Shapes {
         {"standard", fmt::format("{}.shape.standard = \"{}\"\n", b, body == Body::wheel ? "S1002" : "60E1")},
         {"arcs", b + ".shape.start_y_mm = -30\n" + b +
                      ".shape.arcs = [{ length_mm = 30, radius_mm = 300 }, { length_mm = 30, radius_mm = 400 }]\n"}};
-    if (has_part("embree")) all.emplace_back("triangles", file(".ply"));
+    all.emplace_back("triangles", file(".ply"));
     if (has_part("openvdb")) all.emplace_back("offsets", file(".vdb"));
     if (has_part("cad")) all.emplace_back("CAD", file(".step"));
     if (has_part("expat")) all.emplace_back("splines", file(".xml"));
@@ -156,7 +156,7 @@ class Shapes {
     const auto convert = [&](const char* part, const char* extension) {
       if (has_part(part)) convert_surface(input_.folder() / "source.toml", input_.folder() / (b + extension), settings);
     };
-    convert("embree", ".ply");
+    convert_surface(input_.folder() / "source.toml", input_.folder() / (b + ".ply"), settings);
     convert("openvdb", ".vdb");
     convert("cad", ".step");
     convert("expat", ".xml");

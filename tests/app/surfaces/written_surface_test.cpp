@@ -50,7 +50,6 @@ TEST(WrittenSurface, IsRefusedAndLeavesNothingWhereItLiesFarFromItsSource) {
   settings.tolerance = kFine;
   settings.range_theta = {-0.2, 0.2};
   for (const char* name : {"wheel.ply", "wheel.slcw", "wheel.vdb", "wheel.vtp"}) {
-    if (!has_part("embree") && std::string(name) != "wheel.slcw") continue;
     if (!has_part("openvdb") && std::string(name) == "wheel.vdb") continue;
     const auto file = input.folder() / name;
     EXPECT_THAT(refusal_of(input.folder(), [&] { convert_surface(input.folder() / "flat.toml", file, settings); }),

@@ -87,7 +87,6 @@ TEST(MovingSection, SplinesThroughItsSlicesFollowItExactly) {
 }
 
 TEST(MovingSection, EveryBackendButTheFormulasCanRepresentIt) {
-  TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   Region region;
   region.u_min = 0.17;
@@ -218,7 +217,6 @@ SurfacePart part(const MovingSection& m, const Vec3& offset, const char* backend
 }
 
 TEST(Crossing, TheNoseTakesOverFromTheWing) {
-  TREADMARK_NEEDS("embree");
   const NaturalSurface crossing =
       join_surfaces({part(nose(), {0.0, -0.02, 0.0}, ""), part(wing(), {0.0, 0.03, 0.0}, "")});
   const auto top = [&](const Surface& s, double x) {

@@ -13,7 +13,6 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/platform/ranges.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::assembly {
 namespace {
@@ -117,7 +116,6 @@ TEST(Outermost, NeitherOrderNorThreadsMatter) {
 }
 
 TEST(Outermost, PartsOfABodyHaveTheirOwnBackends) {
-  TREADMARK_NEEDS("embree");
   const auto given =
       std::make_shared<const NaturalSurface>(create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}}));
   const NaturalSurface whole =

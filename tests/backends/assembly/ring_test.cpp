@@ -10,7 +10,6 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 // Rings that a wheel runs in against closed formulas; the conformance suite looks at them from all sides.
 
@@ -58,7 +57,6 @@ TEST(Ring, OfPointsIsThatOfTheFormula) {
 }
 
 TEST(Ring, TrianglesAboveTheAxleHideNothing) {
-  TREADMARK_NEEDS("embree");
   const NaturalSurface natural = create_natural(ring());
   Region region;
   region.u_min = -0.1, region.u_max = 0.1;

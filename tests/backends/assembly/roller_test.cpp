@@ -10,7 +10,6 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 // Rollers against closed formulas, and against the straight rail that they become.
 
@@ -127,7 +126,6 @@ TEST(Roller, SamplesOfARegionLieOnItAndSaySo) {
 }
 
 TEST(Roller, TrianglesAndSlicesComeBackAsTheSameRoller) {
-  TREADMARK_NEEDS("embree");
   constexpr double kRadius = 0.4;
   const NaturalSurface natural = create_natural(roller(barrel(0.2, 0.15), kRadius));
   Region region;

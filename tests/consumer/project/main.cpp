@@ -14,7 +14,6 @@
 #include "treadmark/backends/conformance/promises.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/parts.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/report.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
@@ -44,8 +43,7 @@ void core_and_io() {
 void cases() {
   const io::CaseFile file = app::bench_case();
   app::CompareSettings compare;
-  compare.backends = {"spline", "chebyshev"};
-  if (has_part("embree")) compare.backends.push_back("mesh");
+  compare.backends = {"spline", "chebyshev", "mesh"};
   compare.resolutions = {1e-3, 0.5e-3};
   const io::Comparison comparison = app::compare_cases(file, compare);
   expect(comparison.truth == "analytic" && comparison.candidates.size() == 1 + 2 * compare.backends.size(),

@@ -81,10 +81,9 @@ def test_triangles_and_files(tmp_path, rail, wheel):
     squat = rail.with_defects(squats=[{"length_mm": 40.0, "width_mm": 30.0, "depth_mm": 0.5}])
     vertices, faces = squat.triangles(3e-3)
     assert vertices.shape[1:] == faces.shape[1:] == (3,) and faces.max() == len(vertices) - 1
-    if tm.parts()["embree"]:
-        mesh = tm.Surface.mesh(vertices, faces, "rail")
-        assert mesh.backend == "mesh" and mesh.heights(0.0, 0.0) == pytest.approx(squat.heights(0.0, 0.0), abs=5e-6)
-        assert rail.represent("mesh", 5e-3).backend == "mesh"
+    mesh = tm.Surface.mesh(vertices, faces, "rail")
+    assert mesh.backend == "mesh" and mesh.heights(0.0, 0.0) == pytest.approx(squat.heights(0.0, 0.0), abs=5e-6)
+    assert rail.represent("mesh", 5e-3).backend == "mesh"
     with pytest.raises(tm.InputError, match="use .ply"):
         squat.save(tmp_path / "rail.txt")
     with pytest.raises(tm.InputError, match="spline"):

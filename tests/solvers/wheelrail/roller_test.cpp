@@ -9,7 +9,6 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/solvers/wheelrail/contact_program/coarse_search.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
-#include "treadmark/tests/support/parts.hpp"
 
 // Wheels on rollers and in rings, from the surfaces to the forces.
 
@@ -73,7 +72,6 @@ struct Hertz {
 TEST(RollerContact, IsThatOfHertzWithTheSumOfCurvatures) {
   for (const double radius : {kRoller, -kRoller})
     for (const std::string backend : {"analytic", "spline", "mesh"}) {
-      if (backend == "mesh" && !has_part("embree")) continue;
       SCOPED_TRACE(backend + " " + std::to_string(radius));
       Problem p = ball_on_roller(radius);
       p.regime = kalker::Regime::frictionless;
