@@ -28,6 +28,7 @@ struct ScanOptions {
   double registration_mm = 0.0;
   std::string frame = "identity", unit = "mm";
   std::vector<double> range_mm, range_deg, range_y_mm;  ///< two numbers or none
+  std::vector<double> from_mm;                          ///< three numbers a place
   double nominal_radius_mm = 0.0;
   double scale_to_mm = 1.0;
   std::uint64_t seed = 1;
@@ -56,6 +57,10 @@ app::ScanRequest request_of(const ScanOptions& options, bool quiet) {
     scanner.y_min = kMetres * options.range_y_mm[0];
     scanner.y_max = kMetres * options.range_y_mm[1];
   }
+  if (options.from_mm.size() % 3 != 0)
+    throw Error(ErrorKind::configuration, "--from-mm takes three numbers for each place of the scanner: X,Y,Z");
+  for (std::size_t i = 0; i < options.from_mm.size(); i += 3)
+    scanner.stands.emplace_back(kMetres * Vec3(options.from_mm[i], options.from_mm[i + 1], options.from_mm[i + 2]));
   scanner.points = options.points;
   scanner.spacing = kMetres * options.spacing_mm;
   scanner.noise = kMetres * options.noise_mm;
@@ -113,7 +118,7 @@ Command add_scan(CLI::App& verb) {
       ->type_name("MM")
       ->excludes(points);
   length("--noise-mm", options->noise_mm,
-         "Standard deviation along the beam, which meets the surface along its normal");
+         "Standard deviation along the beam, which meets the surface along its normal without --from-mm");
   length("--noise-lateral-mm", options->noise_lateral_mm, "Standard deviation across the beam");
   share("--outliers", options->outliers, "Share of all points that lie off the surface");
   share("--holes", options->holes, "Share of the area without points");
@@ -123,9 +128,14 @@ Command add_scan(CLI::App& verb) {
                   "Steeper to the beam nothing is seen; 0 = everything is")
       ->check(CLI::Range(0.0, 90.0))
       ->type_name("DEG");
-  verb.add_option("--passes", options->passes,
-                  "Passes that overlap by a quarter, beside each other (rail) or round the wheel")
-      ->check(CLI::Range(1, 1000));
+  CLI::Option* passes = verb.add_option("--passes", options->passes,
+                                        "Passes that overlap by a quarter, beside each other (rail) or round the wheel")
+                            ->check(CLI::Range(1, 1000));
+  add_values(verb, "--from-mm", options->from_mm,
+             "Where the scanner stands, in the frame of the surface: sees what nothing of the surface hides; once for "
+             "each place",
+             "X,Y,Z")
+      ->excludes(passes);
   length("--registration-mm", options->registration_mm, "Standard deviation of each pass's error of position");
   verb.add_option("--frame", options->frame, "Frame of the cloud: identity (that of the surface) or random")
       ->check(CLI::IsMember({"identity", "random"}));

@@ -65,8 +65,9 @@ std::string summary(const Scanned& scanned) {
       "{}: {} points of a {} in {}, {:.4g} mm apart on {:.6g} mm^2, {} {}, seed {}\n", scanned.cloud.string(),
       scanned.scan.cloud.points.size(), body_name(scanned.settings.body), symbol(scanned.unit), kMilli * truth.spacing,
       kMicro * truth.area, truth.passes.size(), truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
-  text += fmt::format("on the surface {}, outliers {}; lost: {} in holes, {} dropped out, {} too steep\n",
+  text += fmt::format("on the surface {}, outliers {}; lost: {} in holes, {} dropped out, {} too steep",
                       truth.on_surface, truth.outliers, truth.lost_holes, truth.lost_drop_outs, truth.lost_occlusion);
+  text += scanned.settings.stands.empty() ? "\n" : fmt::format(", {} in shadow\n", truth.lost_shadow);
   if (!scanned.line.empty()) text += fmt::format("along the line of {}\n", scanned.line.string());
   const Mat3& R = truth.X_CS.rotation;
   text += fmt::format("surface in the cloud: origin {} mm, x axis {}, y axis {}, z axis {}\n",
@@ -110,6 +111,7 @@ Json settings_json(const scans::ScannerSettings& s, bool wheel) {
     out["spacing_mm"] = number(kMilli * s.spacing);
   else
     out["points"] = s.points;
+  for (const Vec3& stand : s.stands) out["from_mm"].push_back(vector(stand, kMilli));
   out["noise_mm"] = number(kMilli * s.noise);
   out["noise_lateral_mm"] = number(kMilli * s.noise_lateral);
   out["outliers"] = number(s.outliers);
@@ -170,11 +172,9 @@ std::string truth_json(const Scanned& scanned) {
       stations.back()["x_mm"] = number(kMilli * x);
     }
   }
-  out["counts"] = {{"on_surface", truth.on_surface},
-                   {"outliers", truth.outliers},
-                   {"lost_holes", truth.lost_holes},
-                   {"lost_drop_outs", truth.lost_drop_outs},
-                   {"lost_occlusion", truth.lost_occlusion}};
+  out["counts"] = {{"on_surface", truth.on_surface},         {"outliers", truth.outliers},
+                   {"lost_holes", truth.lost_holes},         {"lost_drop_outs", truth.lost_drop_outs},
+                   {"lost_occlusion", truth.lost_occlusion}, {"lost_shadow", truth.lost_shadow}};
   out["spacing_mm"] = number(kMilli * truth.spacing);
   out["area_mm2"] = number(kMicro * truth.area);
   out["passes"] = passes_json(truth, wheel);

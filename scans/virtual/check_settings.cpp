@@ -56,6 +56,14 @@ void check_settings(const ScannerSettings& s) {
     refuse("the greatest angle of incidence must lie between 0 and 90 degrees");
   if (s.passes < 1 || s.passes > kMostPasses)
     refuse(fmt::format("a virtual scan has 1 to {} passes, not {}", kMostPasses, s.passes));
+  if (!s.stands.empty()) {
+    if (s.passes != 1 || s.stands.size() > static_cast<std::size_t>(kMostPasses))
+      refuse(fmt::format("a scanner makes one pass from each place where it stands, at {} places at most", kMostPasses),
+             "leave out the number of passes");
+    if (s.line) refuse("a scanner that stands somewhere sees a straight rail", "leave out the line, or the places");
+    for (const Vec3& stand : s.stands)
+      if (!stand.allFinite()) refuse("a place where the scanner stands is no finite number");
+  }
   constexpr double kRigid = 1e-9;
   const Mat3 off = s.X_CS.rotation.transpose() * s.X_CS.rotation - Mat3::Identity();
   if (!s.random_frame &&

@@ -8,6 +8,7 @@
 #include "treadmark/core/to_whole.hpp"
 #include "treadmark/scans/virtual/draws.hpp"
 #include "treadmark/scans/virtual/drop_outs.hpp"
+#include "treadmark/scans/virtual/shadow.hpp"
 
 namespace treadmark::scans::scanner {
 namespace {
@@ -35,9 +36,9 @@ std::vector<double> places(const Station& station, double step, Draws draws) {
   return y;
 }
 
-Vec3 outlier(const LineJob& job, const Vec3& on_surface_S, const Vec3& normal_S, Draws& draws) {
+Vec3 outlier(const LineJob& job, const Vec3& on_surface_S, const Vec3& beam_S, Draws& draws) {
   const double kind = draws.uniform();
-  if (kind < 0.5) return on_surface_S + draws.uniform(-kFarthestOff, kFarthestOff) * normal_S;
+  if (kind < 0.5) return on_surface_S + draws.uniform(-kFarthestOff, kFarthestOff) * beam_S;
   if (kind < 0.75) {
     const double x = draws.uniform(), y = draws.uniform(), z = draws.uniform();
     return job.around.low_S + Vec3(x, y, z).cwiseProduct(job.around.high_S - job.around.low_S);
@@ -80,8 +81,9 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
                                        Draws(seed, Purpose::positions, job.pass_number, line));
   if (y.empty()) return out;
 
-  const bool need_normals =
-      settings.noise > 0.0 || settings.noise_lateral > 0.0 || settings.outliers > 0.0 || settings.most_incidence > 0.0;
+  const bool from_stand = job.pass.stand_S.has_value();
+  const bool need_normals = from_stand || settings.noise > 0.0 || settings.noise_lateral > 0.0 ||
+                            settings.outliers > 0.0 || settings.most_incidence > 0.0;
   std::vector<double> z(y.size()), dzdx(need_normals ? y.size() : 0), dzdy(dzdx.size());
   heights_along(job.surface, settings.body, u, y, {z, dzdx, dzdy});
 
@@ -89,6 +91,7 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
   // along a line noise stays in the section's own axes
   const Pose X_CP =
       settings.line ? job.X_CS * settings.line(u) * Pose{Vec3(-u, 0.0, 0.0), Mat3::Identity()} * X_SP : job.X_CS * X_SP;
+  const Vec3 stand_S = job.pass.stand_S.value_or(Vec3::Zero()), stand_P = X_SP.apply_inverse(stand_S);
   const double least_cosine = settings.most_incidence > 0.0 ? std::cos(settings.most_incidence) : -1.0;
   DropOuts drop_outs(settings.drop_outs, Draws(seed, Purpose::drop_outs, job.pass_number, line));
   Draws noise(seed, Purpose::noise, job.pass_number, line), spoilt(seed, Purpose::outliers, job.pass_number, line);
@@ -98,8 +101,12 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
     const bool dropped = settings.drop_outs > 0.0 && drop_outs.next();
     const Vec3 p_P(0.0, y[i], z[i]),
         normal_P = need_normals ? normal_in_plane(settings.body, dzdx[i], dzdy[i]) : Vec3::UnitZ();
-    if (std::fabs(normal_P.z()) < least_cosine) {
+    const Vec3 beam_P = from_stand ? (stand_P - p_P).normalized() : normal_P;  // towards the scanner
+    const double cosine = from_stand ? normal_P.dot(beam_P) : std::fabs(normal_P.z());
+    if (cosine < least_cosine) {
       ++out.lost_occlusion;
+    } else if (from_stand && (cosine <= 0.0 || in_shadow(job.surface, stand_S, X_SP.apply(p_P)))) {
+      ++out.lost_shadow;
     } else if (job.holes.contains(X_SP.apply(p_P))) {
       ++out.lost_holes;
     } else if (dropped) {
@@ -107,15 +114,15 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
     } else if (settings.outliers > 0.0 && spoilt.uniform() < settings.outliers) {
       ++out.outliers;
       out.points_C.push_back(
-          job.X_CS.apply(along_line(settings, outlier(job, X_SP.apply(p_P), X_SP.rotation * normal_P, spoilt))));
+          job.X_CS.apply(along_line(settings, outlier(job, X_SP.apply(p_P), X_SP.rotation * beam_P, spoilt))));
     } else {
       ++out.on_surface;
       Vec3 p = p_P;
-      if (settings.noise > 0.0) p += settings.noise * noise.gaussian() * normal_P;
+      if (settings.noise > 0.0) p += settings.noise * noise.gaussian() * beam_P;
       if (settings.noise_lateral > 0.0) {
-        const Vec3 side = normal_P.unitOrthogonal();
+        const Vec3 side = beam_P.unitOrthogonal();
         const double a = noise.gaussian(), b = noise.gaussian();
-        p += settings.noise_lateral * (a * side + b * normal_P.cross(side));
+        p += settings.noise_lateral * (a * side + b * beam_P.cross(side));
       }
       out.points_C.push_back(X_CP.apply(p));
     }

@@ -37,7 +37,7 @@ struct LineJob {
 
 struct Line {
   std::vector<Vec3> points_C;
-  std::size_t on_surface = 0, outliers = 0, lost_holes = 0, lost_drop_outs = 0, lost_occlusion = 0;
+  std::size_t on_surface = 0, outliers = 0, lost_holes = 0, lost_drop_outs = 0, lost_occlusion = 0, lost_shadow = 0;
 };
 
 /// Where a place of the straight surface lies along the line of the settings.

@@ -61,7 +61,8 @@ void measure(Pass& pass, const FirstLook& part, const ScannerSettings& settings,
 
 std::vector<Pass> plan_passes(const FirstLook& part, const ScannerSettings& settings) {
   const bool wheel = settings.body == Body::wheel;
-  std::vector<Pass> passes(static_cast<std::size_t>(settings.passes));
+  const bool from_stands = !settings.stands.empty();
+  std::vector<Pass> passes(from_stands ? settings.stands.size() : static_cast<std::size_t>(settings.passes));
   for (std::size_t i = 0; i < passes.size(); ++i) {
     Pass& pass = passes[i];
     pass.u_min = part.u_min;
@@ -69,7 +70,9 @@ std::vector<Pass> plan_passes(const FirstLook& part, const ScannerSettings& sett
     pass.y_min = part.y_min;
     pass.y_max = part.y_max;
     const int k = static_cast<int>(i);
-    if (wheel) {
+    if (from_stands) {
+      pass.stand_S = settings.stands[i];
+    } else if (wheel) {
       const auto [from, to] = share(part.u_max - part.u_min, k, settings.passes, part.closed);
       pass.u_min = part.u_min + from;
       pass.u_max = part.u_min + to;

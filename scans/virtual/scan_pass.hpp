@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "treadmark/scans/virtual/first_look.hpp"
@@ -15,9 +16,10 @@ struct Pass {
   Vec3 middle_S = Vec3::Zero();
   Pose error_S;                           ///< takes points to where the pass puts them, in the frame of the surface
   double area = 0.0, nominal_area = 0.0;  ///< [m^2] as those of patches
+  std::optional<Vec3> stand_S{};          ///< from where it is scanned
 };
 
-/// The passes of a scan with their overlap of a quarter and their errors of position.
+/// The passes of a scan, from a place each or with their overlap of a quarter, and their errors of position.
 std::vector<Pass> plan_passes(const FirstLook& part, const ScannerSettings& settings);
 
 }  // namespace treadmark::scans::scanner

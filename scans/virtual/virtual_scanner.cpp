@@ -146,6 +146,7 @@ class Scan {
     truth.lost_holes += line.lost_holes;
     truth.lost_drop_outs += line.lost_drop_outs;
     truth.lost_occlusion += line.lost_occlusion;
+    truth.lost_shadow += line.lost_shadow;
   }
 
   const Surface& surface_;

@@ -174,6 +174,18 @@ TEST_F(ScanCommand, CountsAddUpAndTheSummaryHasThem) {
   EXPECT_EQ(input.read("again.ply"), input.read("rail.ply"));
 }
 
+TEST_F(ScanCommand, FromPlacesHasAPassAndShadowsOfEach) {
+  const auto r = scan("rail.ply", {"--body", "rail", "--range-mm=-50,50", "--points", "4000", "--from-mm",
+                                   "-20,300,-200", "--from-mm=0,-300,-200", "--truth", path("truth.json")});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Json truth = Json::parse(input.read("truth.json"));
+  EXPECT_EQ(truth.at("settings").at("from_mm"), Json::parse("[[-20.0, 300.0, -200.0], [0.0, -300.0, -200.0]]"));
+  ASSERT_EQ(truth.at("passes").size(), 2u);
+  const auto lost = truth.at("counts").at("lost_shadow").get<std::size_t>();
+  EXPECT_GT(lost, 200u);
+  EXPECT_THAT(r.out, HasSubstr(std::to_string(lost) + " in shadow"));
+}
+
 TEST_F(ScanCommand, RefusesWhatMakesNoSense) {
   const auto refused = [&](const std::string& cloud, std::vector<std::string> arguments, const char* words) {
     const auto r = scan(cloud, std::move(arguments));
@@ -191,6 +203,8 @@ TEST_F(ScanCommand, RefusesWhatMakesNoSense) {
   refused("x.ply", {"--body", "wheel", "--unit", "ft"}, "--unit");
   refused("x.ply", {"--body", "wheel", "--points", "10", "--spacing-mm", "1"}, "--spacing-mm");
   refused("x.ply", {"--body", "wheel", "--truth", path("x.ply")}, "would overwrite");
+  refused("x.ply", {"--body", "wheel", "--from-mm", "0,0"}, "X,Y,Z");
+  refused("x.ply", {"--body", "wheel", "--from-mm", "0,0,900", "--passes", "2"}, "--passes");
   EXPECT_EQ(run_program({"scan", path("none.prr"), "-o", path("x.ply"), "--range-mm=0,1"}).status, 3);
 }
 

@@ -114,6 +114,20 @@ TEST(ScannerContract, RefusesWhatMakesNoSense) {
   rail_with([](ScannerSettings& s) { s.drop_outs = -0.1; }, "drop-outs");
   rail_with([](ScannerSettings& s) { s.most_incidence = 2.0; }, "incidence");
   rail_with([](ScannerSettings& s) { s.passes = 0; }, "passes");
+  rail_with([](ScannerSettings& s) { s.stands = {Vec3(0.0, 0.0, 0.5)}; }, "not one point is left");
+  rail_with([nan](ScannerSettings& s) { s.stands = {Vec3(0.0, nan, -0.5)}; }, "finite");
+  rail_with(
+      [](ScannerSettings& s) {
+        s.stands = {Vec3(0.0, 0.0, -0.5)};
+        s.passes = 2;
+      },
+      "one pass from each place");
+  rail_with(
+      [](ScannerSettings& s) {
+        s.stands = {Vec3(0.0, 0.0, -0.5)};
+        s.line = [](double x) { return Pose{{x, 0.0, 0.0}, Mat3::Identity()}; };
+      },
+      "straight rail");
   rail_with([](ScannerSettings& s) { s.registration = -1.0; }, "registration");
   rail_with([](ScannerSettings& s) { s.X_CS.rotation *= 1.001; }, "rigid");
   rail_with([](ScannerSettings& s) { s.u_max = -1.0; }, "smaller to a greater");
