@@ -110,7 +110,7 @@ TEST(ScannerShadows, LieBehindTheFlangeOfAWheel) {
   ScannerSettings settings = wheel_settings(20'000);
   settings.u_min = -0.15;
   settings.u_max = 0.15;
-  expect_shadows(*wheel, settings, {0.05, -0.3, 0.6}, depth, 1000);
+  expect_shadows(*wheel, settings, {0.05, -0.25, 0.75}, depth, 1000);
 }
 
 TEST(ScannerShadows, EachPlaceIsAPass) {
