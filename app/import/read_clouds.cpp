@@ -86,17 +86,10 @@ std::vector<std::pair<Eigen::Index, double>> drop_no_data(PointCloud& cloud, io:
     const std::size_t axis = found->first;
     const double value = found->second;
     values.emplace_back(static_cast<Eigen::Index>(axis), value);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (points[i][static_cast<Eigen::Index>(axis)] == value) continue;
-      points[kept] = points[i];
-      if (!cloud.passes.empty()) cloud.passes[kept] = cloud.passes[i];
-      ++kept;
-    }
-    report.removed.push_back({kNoData, points.size() - kept,
+    const std::size_t before = points.size();
+    keep_points(cloud, [&](std::size_t i) { return points[i][static_cast<Eigen::Index>(axis)] != value; });
+    report.removed.push_back({kNoData, before - points.size(),
                               fmt::format("{} = {:g}, far from all others", std::string_view("xyz")[axis], value)});
-    points.resize(kept);
-    if (!cloud.passes.empty()) cloud.passes.resize(kept);
   }
   return values;
 }
@@ -135,17 +128,28 @@ io::Scan read_one(const std::filesystem::path& file, const io::ImportSettings& s
     rows->unit = unit;
     return std::move(*rows);
   }
-  if (options.box && io::is_deviation_map(file))
-    throw Error(ErrorKind::configuration, "a box (scan.box_from) belongs to points, and this is a matrix",
-                {file.string()}, "leave it out");
+  if ((options.box || options.ranges) && io::is_deviation_map(file))
+    throw Error(ErrorKind::configuration,
+                "a box (scan.box_from) and ranges (scan.nearest ...) belong to points, and this is a matrix",
+                {file.string()}, "leave them out");
   if (settings.map.values == "heights" && io::is_deviation_map(file)) return heights_of(file, settings);
   return io::read_scan(file, options, progress);
 }
 
-/// How the points of a file are read. Errors: Error(configuration) for half a box, or an empty one.
+/// How the points of a file are read. Errors: Error(configuration) for half a box, or an empty one, or empty ranges.
 io::ScanReadOptions options_for(const std::filesystem::path& file, const io::ImportSettings& settings) {
   io::ScanReadOptions out;
   out.asked_by = {file.string()};
+  const auto& scan = settings.scan;
+  if (scan.station.size() == 3) out.station.emplace(scan.station[0], scan.station[1], scan.station[2]);
+  io::ScanRanges ranges;
+  ranges.nearest = scan.nearest;
+  if (scan.farthest > 0.0) ranges.farthest = scan.farthest;
+  if (scan.least_intensity > 0.0) ranges.least_intensity = scan.least_intensity;
+  if (ranges.farthest < ranges.nearest)
+    throw Error(ErrorKind::configuration, "no point is farther than scan.nearest and nearer than scan.farthest", {},
+                "scan.farthest must be the greater one");
+  if (ranges.by_distance() || ranges.by_intensity()) out.ranges = ranges;
   const std::vector<double>&from = settings.scan.box_from, &to = settings.scan.box_to;
   if (from.empty() && to.empty()) return out;
   if (from.size() != 3 || to.size() != 3)
@@ -187,7 +191,14 @@ class FilesRead {
     if (not_finite_ > 0)
       report.removed.push_back(
           {"not finite", not_finite_, "coordinates that are no numbers, as scanners write for lost points"});
-    if (outside_ > 0) report.removed.push_back({"outside the box", outside_, "from scan.box_from to scan.box_to"});
+    const auto& scan = request_.settings.scan;
+    std::vector<std::string> why;
+    if (!scan.box_from.empty()) why.emplace_back("from scan.box_from to scan.box_to");
+    if (scan.nearest > 0.0 || scan.farthest > 0.0) why.emplace_back("from scan.nearest to scan.farthest");
+    if (scan.least_intensity > 0.0) why.emplace_back("from scan.least_intensity on");
+    if (outside_ > 0)
+      report.removed.push_back({scan.box_from.empty() ? "outside the ranges" : "outside the box", outside_,
+                                fmt::format("{}", fmt::join(why, ", "))});
     auto no_data = drop_no_data(out.cloud, report);
     if (withheld_ > 0) report.removed.push_back({"withheld", withheld_, "marked as deleted in the file"});
     return no_data;
@@ -211,11 +222,20 @@ Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const
     io::Scan scan = read_one(request.scans[file], request.settings, options, quiet);
     files.add(scan, out, report);
     const std::size_t before = out.cloud.points.size();
+    const std::map<std::uint16_t, Vec3> stations = std::exchange(scan.cloud.stations, {});
     if (file == 0) {
       out.cloud = std::move(scan.cloud);
     } else {
-      out.cloud.points.insert(out.cloud.points.end(), scan.cloud.points.begin(), scan.cloud.points.end());
+      PointCloud& to = out.cloud;
+      to.points.insert(to.points.end(), scan.cloud.points.begin(), scan.cloud.points.end());
+      if (!to.intensities.empty() || !scan.cloud.intensities.empty()) {
+        const auto none = std::numeric_limits<float>::quiet_NaN();
+        to.intensities.resize(before, none);
+        to.intensities.insert(to.intensities.end(), scan.cloud.intensities.begin(), scan.cloud.intensities.end());
+        to.intensities.resize(to.points.size(), none);
+      }
     }
+    if (request.scans.size() == 1) out.cloud.stations = stations;
     if (request.scans.size() > 1) {
       // a pass of a file is a pass of its own
       const std::vector<std::uint16_t> own = file == 0 ? std::move(out.cloud.passes) : std::move(scan.cloud.passes);
@@ -225,8 +245,14 @@ Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const
         out.cloud.passes.push_back(
             pass_number.emplace(key, static_cast<std::uint16_t>(pass_number.size())).first->second);
       }
+      for (const auto& [pass, place] : stations)
+        if (const auto known = pass_number.find({file, own.empty() ? std::uint16_t{0} : pass});
+            known != pass_number.end())
+          out.cloud.stations[known->second] = place;
     }
   }
+  // of some files alone they would pass for those of all
+  if (pass_number.size() > 1 && out.cloud.stations.size() == 1) out.cloud.stations.clear();
   files.finish(out.cloud.points.size(), out, report);
   return out;
 }

@@ -35,8 +35,24 @@ std::vector<ImportKey> listed_keys() {
                  "least x, y and z of points that are read, in the scan's frame and unit; empty: all points are",
                  at(&S::scan, &S::Scan::box_from));
   list.direction("scan.box_to", "greatest x, y and z of these", at(&S::scan, &S::Scan::box_to));
+  list.direction("scan.station",
+                 "where the scanner stood, in the scan's frame and unit; empty: what the file says (PTX, E57)",
+                 at(&S::scan, &S::Scan::station));
+  list.number("scan.nearest", kNotNegative, "least distance from the scanner of points that are read, in their unit",
+              at(&S::scan, &S::Scan::nearest));
+  list.number("scan.farthest", kNotNegative, "greatest distance of these; 0: any", at(&S::scan, &S::Scan::farthest));
+  list.number("scan.least_intensity", kNotNegative, "weakest echo of these, as the file has it; 0: any",
+              at(&S::scan, &S::Scan::least_intensity));
+  list.number(
+      "scan.register_mm", {{}, 0.0, 1000.0},
+      "how far scans (passes) may lie off each other, which are then laid on each other first; 0: they lie within "
+      "millimetres already",
+      at(&S::scan, &S::Scan::register_mm));
   list.flag("scan.pass_steps", "align the passes of the scanner to each other where they overlap",
             at(&S::scan, &S::Scan::pass_steps));
+  list.word("scan.rails", {"one", "both"},
+            "both: the two rails of a track, each to a file of its own (NAME-left, NAME-right), with gauge and cant",
+            at(&S::scan, &S::Scan::rails));
 
   list.word("placement.nominal", {}, "standard profile, profile file or none; auto: S1002 for wheels, 60E1 for rails",
             at(&S::placement, &S::Placement::nominal));
@@ -81,6 +97,9 @@ std::vector<ImportKey> listed_keys() {
   list.number("clean.edge_share", {{}, 0.0, 1.0},
               "where more of the surroundings would be outliers they are an edge and stay",
               at(&S::clean, &S::Clean::edge_share));
+  list.flag("clean.mixed_points",
+            "remove points between two surfaces, where the scanner's place is known: the laser's spot hit both",
+            at(&S::clean, &S::Clean::mixed_points));
   list.number("clean.hole_limit_mm", kNotNegative,
               "holes up to this diameter are filled, larger ones stay; 0: 10, or twice the distance of the lines",
               at(&S::clean, &S::Clean::hole_limit_mm));
@@ -101,6 +120,10 @@ std::vector<ImportKey> listed_keys() {
               at(&S::fit, &S::Fit::held_out));
   list.flag("fit.errors", "fit each half of the points, too, which tells results how well the surface is known",
             at(&S::fit, &S::Fit::errors));
+  list.flag(
+      "fit.weights",
+      "points count by the noise of their pass, of their angle to the beam and of their intensity, where it differs",
+      at(&S::fit, &S::Fit::weights));
   list.number("fit.tolerance_um", kNotNegative,
               "changes along the band below this need no slices of their own; 0: a fiftieth of the noise, 0.02 to 0.5",
               at(&S::fit, &S::Fit::tolerance_um));

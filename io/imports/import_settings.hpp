@@ -15,8 +15,11 @@ struct ImportSettings {
   struct Scan {
     std::string body = "auto";
     std::string unit = "auto";
-    std::vector<double> box_from, box_to;
+    std::vector<double> box_from, box_to, station;
+    double nearest = 0.0, farthest = 0.0, least_intensity = 0.0;
+    double register_mm = 0.0;
     bool pass_steps = true;
+    std::string rails = "one";
   } scan;
   struct Placement {
     std::string nominal = "auto";
@@ -35,6 +38,7 @@ struct ImportSettings {
     double farthest_mm = 8.0;
     double outlier_factor = 4.5;
     double edge_share = 0.2;
+    bool mixed_points = true;
     double hole_limit_mm = 0.0;
     double least_filled = 0.6;
   } clean;
@@ -45,6 +49,7 @@ struct ImportSettings {
     bool follow = true;
     double held_out = 0.02;
     bool errors = true;
+    bool weights = true;
     double tolerance_um = 0.0;
     std::string sections = "auto";
     std::string sections_along = "approximate";

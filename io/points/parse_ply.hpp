@@ -178,6 +178,7 @@ auto parse_ply(ByteBlocks& bytes, const typename S::Options& options) {
   });
   for (const std::string& comment : header.comments) sink.comment(comment);
   sink.set_content(layout.normals, layout.pass);
+  if constexpr (requires { sink.set_intensities(true); }) sink.set_intensities(layout.intensity);
   sink.expect(header.elements[layout.vertex].count, S::kFaces ? header.elements[layout.face].count : 0);
   if (lines)
     read_text_ply(*lines, header, layout, sink, column);

@@ -21,7 +21,8 @@ namespace {
 constexpr std::string_view kNames[] = {"x", "y", "z", "nx", "ny", "nz"};
 constexpr std::string_view kPassNames[] = {"pass", "pass_id", "scan_id", "scan",
                                            "point_source_id"};  // the first found counts
-constexpr int kPass = static_cast<int>(kPassValue);
+constexpr std::string_view kIntensityNames[] = {"intensity", "scalar_intensity", "reflectance"};
+constexpr int kPass = static_cast<int>(kPassValue), kIntensity = static_cast<int>(kIntensityValue);
 
 [[noreturn]] void refuse_ply(const std::string& file, const std::string& message, const std::string& advice = {}) {
   throw Error(ErrorKind::input_data, message, {file, 0, 0}, advice);
@@ -70,6 +71,11 @@ void find_values(const PlyElement& element, const std::string& file, bool faces,
           refuse_ply(file, "the vertices have the property " + name + " twice");
         layout.value[k] = value;
       }
+    if (!faces && !layout.intensity &&
+        std::find(std::begin(kIntensityNames), std::end(kIntensityNames), name) != std::end(kIntensityNames)) {
+      layout.value[k] = kIntensity;
+      layout.intensity = true;
+    }
     const auto rank = static_cast<std::size_t>(std::find(std::begin(kPassNames), std::end(kPassNames), name) -
                                                std::begin(kPassNames));
     if (!faces && rank < best_pass && is_whole_type(p.type)) {

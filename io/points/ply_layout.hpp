@@ -44,7 +44,7 @@ struct PlyLayout {
   std::size_t vertex = kNone, face = kNone;  ///< elements; the faces only where they are asked for
   std::size_t corners = kNone;               ///< property of the faces
   std::vector<int> value;                    ///< per property of the vertices: which of VertexValues it is, -1: none
-  bool normals = false, pass = false;        ///< whether the vertices have them; not looked for beside faces
+  bool normals = false, pass = false, intensity = false;  ///< whether vertices have them; not looked for beside faces
   std::string pass_name;
 };
 

@@ -21,15 +21,15 @@ inline constexpr std::uint64_t kMostElements = 1'000'000'000;
 /// Knows the place in the file and throws.
 using Fail = std::function<void(const std::string& message, const std::string& advice)>;
 
-/// Numbers of a vertex: x y z nx ny nz pass.
-inline constexpr std::size_t kPassValue = 6, kVertexValues = 7;
+/// Numbers of a vertex: x y z nx ny nz pass intensity.
+inline constexpr std::size_t kPassValue = 6, kIntensityValue = 7, kVertexValues = 8;
 using VertexValues = std::array<double, kVertexValues>;
 
 /// Takes what parse_ply, parse_stl, parse_off and parse_obj find in a file, and decides what they look for. Where
 /// kFaces, the faces are read and the file must be whole, and the sink has add_index(double) too: a corner by the
 /// number of its vertex, from 0. Else reading ends behind the last vertex. Constructed from the bytes, Options, the
-/// least number of bytes that a vertex takes, and a Fail. All errors are Error(input_data) that name the line and
-/// column, or the byte.
+/// least number of bytes that a vertex takes, and a Fail. One that has set_intensities(bool) gets them. All errors are
+/// Error(input_data) that name the line and column, or the byte.
 template <class S>
 concept Sink = requires(S sink, const LineBlocks& lines, const Field& field, const Vec3& p, const VertexValues& values,
                         std::uint64_t count, bool flag, const char* what, std::string_view text) {

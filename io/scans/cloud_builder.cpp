@@ -19,8 +19,32 @@ CloudBuilder::CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& optio
       least_bytes_(std::max<std::size_t>(least_bytes, 1)),
       fail_(std::move(fail)),
       box_(options.box),
-      batch_(options.batch) {
+      batch_(options.batch),
+      ranges_(options.ranges),
+      station_(options.station) {
   scan_.cloud.name = bytes.file();
+  if (station_) scan_.cloud.stations[0] = *station_;
+}
+
+void CloudBuilder::set_station(std::uint16_t pass, const Vec3& place) {
+  if (!station_of_file_) scan_.cloud.stations.clear();
+  station_of_file_ = true;
+  station_ = place;
+  scan_.cloud.stations[pass] = place;
+}
+
+bool CloudBuilder::is_out_of_range(const Vec3& point, float intensity) const {
+  const double away = station_ ? (point - *station_).norm() : ranges_->nearest;
+  return away < ranges_->nearest || away > ranges_->farthest ||
+         static_cast<double>(intensity) < ranges_->least_intensity;
+}
+
+void CloudBuilder::make_room(std::size_t count) {
+  PointCloud& cloud = scan_.cloud;
+  cloud.points.reserve(count);
+  if (normals_) cloud.normals.reserve(count);
+  if (passes_) cloud.passes.reserve(count);
+  if (intensities_ && !batch_) cloud.intensities.reserve(count);
 }
 
 void CloudBuilder::expect(std::uint64_t count) {
@@ -40,17 +64,14 @@ void CloudBuilder::reserve(std::uint64_t count) {
   // many small parts one after the other must not move all points each time
   const std::size_t rest = static_cast<std::size_t>(bytes_.left() / least_bytes_) + 1;
   if (have > 0) room = std::max(room, have + std::min(have / 2, rest));
-  cloud.points.reserve(room);
-  if (normals_) cloud.normals.reserve(room);
-  if (passes_) cloud.passes.reserve(room);
+  make_room(room);
 }
 
 void CloudBuilder::grow() {
   PointCloud& cloud = scan_.cloud;
   if (batch_) {
     hand_over();
-    cloud.points.reserve(ScanReadOptions::kBatch);
-    if (passes_) cloud.passes.reserve(ScanReadOptions::kBatch);
+    make_room(ScanReadOptions::kBatch);
   }
   const std::size_t have = cloud.points.size();
   if (have + handed_over_ >= most_points_)
@@ -66,10 +87,7 @@ void CloudBuilder::grow() {
     const double most = static_cast<double>(bytes_.left() / least_bytes_ + 1);
     room = std::max(room, have + to_whole<std::size_t>(std::min(rest, most)));
   }
-  room = std::min(room, most_points_);
-  cloud.points.reserve(room);
-  if (normals_) cloud.normals.reserve(room);
-  if (passes_) cloud.passes.reserve(room);
+  make_room(std::min(room, most_points_));
 }
 
 void CloudBuilder::hand_over() {
@@ -112,16 +130,27 @@ Scan CloudBuilder::finish(std::string format, std::optional<LengthUnit> unit) {
     throw Error(ErrorKind::input_data, message, {bytes_.file(), 0, 0}, advice);
   };
   if (scan_.points_in_file == 0) refuse("the file holds no points", "is it the right file?");
+  if (ranges_ && ranges_->by_distance() && !station_)
+    refuse("the file does not say where the scanner stood, from which scan.nearest and scan.farthest count",
+           "say it by scan.station");
+  if (ranges_ && ranges_->by_intensity() && !intensities_)
+    refuse("the file has no intensities, by which scan.least_intensity chooses", "leave it out");
   if (cloud.points.empty() && handed_over_ == 0)
     refuse(fmt::format("none of the {} points is finite and in use{}", scan_.points_in_file,
-                       scan_.outside > 0 ? " within the box" : ""),
-           scan_.outside > 0 ? "is the box in the frame and unit of the file?" : "was the scan exported properly?");
+                       scan_.outside > 0 ? " within the box or ranges" : ""),
+           scan_.outside > 0 ? "is the box in the frame and unit of the file, and are the ranges?"
+                             : "was the scan exported properly?");
   if (batch_) cloud.normals = {};  // which files with vertices apart from their normals have nonetheless
   const auto is_zero = [](const Eigen::Vector3f& n) { return n.isZero(0.0f); };
   if (!cloud.normals.empty() && std::all_of(cloud.normals.begin(), cloud.normals.end(), is_zero)) {
     cloud.normals = {};
     format += "; the normals are all zero and ignored";
   }
+  // the same everywhere they say nothing
+  const std::vector<float>& echoes = cloud.intensities;
+  const auto known = std::find_if(echoes.begin(), echoes.end(), [](float one) { return !std::isnan(one); });
+  if (std::all_of(known, echoes.end(), [&](float one) { return std::isnan(one) || one == *known; }))
+    cloud.intensities = {};
   if (batch_) hand_over();
   if (!passes_) scan_.several_passes = false;  // what went with batches before was none
   scan_.format = std::move(format);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,11 @@ class CloudBuilder {
     passes_ = passes;
   }
 
+  /// Whether add() gets them.
+  void set_intensities(bool intensities) { intensities_ = intensities; }
+  /// Where the scanner stood that took the points to come, in the unit of the file.
+  void set_station(std::uint16_t pass, const Vec3& place);
+
   bool has_passes() const { return passes_; }
   void drop_passes() {
     passes_ = false;
@@ -39,13 +45,14 @@ class CloudBuilder {
   void reserve(std::uint64_t count);
 
   /// The normal is made a unit vector, or zero where it says nothing.
-  void add(const Vec3& point, const Eigen::Vector3f& normal = Eigen::Vector3f::Zero(), std::uint16_t pass = 0) {
+  void add(const Vec3& point, const Eigen::Vector3f& normal = Eigen::Vector3f::Zero(), std::uint16_t pass = 0,
+           float intensity = std::numeric_limits<float>::quiet_NaN()) {
     ++scan_.points_in_file;
     if (!point.allFinite()) {
       ++scan_.not_finite;
       return;
     }
-    if (box_ && !box_->contains(point)) {
+    if ((box_ && !box_->contains(point)) || (ranges_ && is_out_of_range(point, intensity))) {
       ++scan_.outside;
       return;
     }
@@ -53,10 +60,14 @@ class CloudBuilder {
     scan_.cloud.points.push_back(point);
     if (normals_) scan_.cloud.normals.push_back(unit_or_zero(normal));
     if (passes_) scan_.cloud.passes.push_back(pass);
+    if (intensities_ && !batch_) scan_.cloud.intensities.push_back(intensity);
   }
 
   /// Whether add() would take the point.
-  bool takes(const Vec3& point) const { return point.allFinite() && (!box_ || box_->contains(point)); }
+  bool takes(const Vec3& point) const {
+    return point.allFinite() && (!box_ || box_->contains(point)) &&
+           !(ranges_ && is_out_of_range(point, std::numeric_limits<float>::quiet_NaN()));
+  }
 
   /// A place without a point: the file says that the scanner got no echo there.
   void add_lost() {
@@ -89,6 +100,8 @@ class CloudBuilder {
  private:
   void grow();
   void hand_over();
+  void make_room(std::size_t count);
+  bool is_out_of_range(const Vec3& point, float intensity) const;
   [[noreturn]] void bad_pass(double number) const;
 
   const ByteBlocks& bytes_;
@@ -98,7 +111,10 @@ class CloudBuilder {
   std::function<void(PointCloud&)> batch_;
   std::size_t handed_over_ = 0;      ///< points that went with batches
   std::uint16_t pass_of_batch_ = 0;  ///< of the last point of these
-  bool normals_ = false, passes_ = false;
+  bool normals_ = false, passes_ = false, intensities_ = false;
+  std::optional<ScanRanges> ranges_;
+  std::optional<Vec3> station_;  ///< of the points to come
+  bool station_of_file_ = false;
   Scan scan_;
 };
 

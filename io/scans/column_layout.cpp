@@ -152,9 +152,10 @@ void take_names(ColumnLayout& layout, const ColumnNames& names) {
   layout.value = names.value;
   layout.normals = names.has_normals;
   layout.pass = names.passes > 0;
+  layout.intensity = names.has_intensity;
   layout.loose_pass = names.loose_pass;
   layout.in_words = "columns";
-  constexpr std::string_view kNames[] = {"x", "y", "z", "nx", "ny", "nz", "pass"};
+  constexpr std::string_view kNames[] = {"x", "y", "z", "nx", "ny", "nz", "pass", "intensity"};
   int ignored = 0;
   for (const int v : layout.value) {
     if (v < 0)
@@ -349,7 +350,9 @@ constexpr Known kKnown[] = {{"x", 0},
                             {"line", 6, true},
                             {"lineid", 6, true},
                             {"lineno", 6, true},
-                            {"linenumber", 6, true}};
+                            {"linenumber", 6, true},
+                            {"intensity", 7},
+                            {"reflectance", 7}};
 
 }  // namespace
 
@@ -374,6 +377,9 @@ ColumnNames find_names(const std::vector<std::string>& names) {
       pass_column = static_cast<int>(k);
       result.loose_pass = known->loose;
       ++result.passes;
+    } else if (known->value == ColumnLayout::kIntensity) {
+      if (result.has_intensity) continue;
+      result.has_intensity = true;
     } else if (++count[static_cast<std::size_t>(known->value)] > 1) {
       result.twice = true;
     }

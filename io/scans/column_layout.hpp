@@ -19,10 +19,10 @@ using namespace points;
 
 /// Which column (from 0) of a list of points holds what.
 struct ColumnLayout {
-  static constexpr int kPass = 6, kValues = 7;
+  static constexpr int kPass = 6, kIntensity = 7, kValues = 8;
   FieldStyle style;
-  std::vector<int> value;  ///< per column: 0 to 6 for x y z nx ny nz pass, -1: none
-  bool normals = false, pass = false;
+  std::vector<int> value;  ///< per column: 0 to 7 for x y z nx ny nz pass intensity, -1: none
+  bool normals = false, pass = false, intensity = false;
   bool loose_pass =
       false;  ///< the column may hold something else (numbers of lines): ignored where it cannot be a pass
   bool text_first = false;   ///< lines of points begin with text: all from first_points on are such lines
@@ -39,7 +39,7 @@ struct ColumnNames {
   bool loose_pass = false;
   std::optional<LengthUnit> unit;
   bool units_differ = false;
-  bool has_xyz = false, has_normals = false, twice = false;
+  bool has_xyz = false, has_normals = false, has_intensity = false, twice = false;
 };
 ColumnNames find_names(const std::vector<std::string>& names);
 

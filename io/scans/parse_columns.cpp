@@ -63,6 +63,7 @@ Scan parse_columns(ByteBlocks& bytes, const ScanReadOptions& options) {
   CloudBuilder builder(bytes, options, kLeastLine,
                        [&](const std::string& m, const std::string& a) { lines.fail(m, 0, a); });
   builder.set_content(layout.normals, layout.pass);
+  builder.set_intensities(layout.intensity);
   const RowReader row(lines, layout);
   RowReader::Values v{};
   std::uint64_t promised = 0;
@@ -108,7 +109,7 @@ Scan parse_columns(ByteBlocks& bytes, const ScanReadOptions& options) {
       }
     }
     builder.add({v[0], v[1], v[2]}, {static_cast<float>(v[3]), static_cast<float>(v[4]), static_cast<float>(v[5])},
-                pass);
+                pass, static_cast<float>(v[ColumnLayout::kIntensity]));
   }
   if (builder.scan().points_in_file < promised)
     lines.fail(fmt::format("{} points are promised, the file ends after {}", promised, builder.scan().points_in_file),

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "treadmark/core/platform/bit_cast.hpp"
 #include "treadmark/io/points/binary_values.hpp"
@@ -17,7 +18,7 @@ namespace treadmark::io::scans {
 
 namespace {
 
-enum E57Value { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kState, kE57Values };
+enum E57Value { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kState, kIntensity, kE57Values };
 
 /// The packed values of a field, as far as packets have brought them.
 struct E57Stream {
@@ -58,8 +59,10 @@ class E57Points {
   }
 
   bool normals() const { return normals_; }
+  bool intensities() const { return intensities_; }
 
   void read(CloudBuilder& builder, std::uint16_t pass) {
+    builder.set_station(pass, pose_.origin);
     pages_.seek(scan_.file_offset);
     char head[32];
     pages_.read(head, sizeof head);
@@ -114,6 +117,10 @@ class E57Points {
     if (const auto state = find(spherical_ ? "sphericalInvalidState" : "cartesianInvalidState");
         state != streams_.end())
       state->value = kState;
+    if (const auto intensity = find("intensity"); intensity != streams_.end()) {
+      intensity->value = kIntensity;
+      intensities_ = true;
+    }
   }
 
   void find_pose() {
@@ -199,7 +206,8 @@ class E57Points {
     Vec3 p(v[kX], v[kY], v[kZ]);
     if (spherical_) p = v[0] * Vec3(std::cos(v[2]) * std::cos(v[1]), std::cos(v[2]) * std::sin(v[1]), std::sin(v[2]));
     const Vec3 normal = pose_.rotation * Vec3(v[kNormalX], v[kNormalY], v[kNormalZ]);
-    builder.add(pose_.apply(p), normal.cast<float>(), pass);
+    builder.add(pose_.apply(p), normal.cast<float>(), pass,
+                intensities_ ? static_cast<float>(v[kIntensity]) : std::numeric_limits<float>::quiet_NaN());
   }
 
   ByteBlocks& bytes_;
@@ -209,7 +217,7 @@ class E57Points {
   std::vector<E57Stream> streams_;
   Pose pose_;
   std::uint64_t left_ = 0;  ///< of the section
-  bool spherical_ = false, normals_ = false;
+  bool spherical_ = false, normals_ = false, intensities_ = false;
 };
 
 E57Layout read_layout(ByteBlocks& bytes, E57Pages& pages) {
@@ -253,6 +261,7 @@ Scan parse_e57(ByteBlocks& bytes, const ScanReadOptions& options) {
   const bool normals =
       !scans.empty() && std::all_of(scans.begin(), scans.end(), [](const E57Points& s) { return s.normals(); });
   builder.set_content(normals, true);
+  builder.set_intensities(std::any_of(scans.begin(), scans.end(), [](const E57Points& s) { return s.intensities(); }));
   for (std::size_t k = 0; k < scans.size(); ++k) scans[k].read(builder, builder.pass(static_cast<double>(k + 1)));
   std::string format = fmt::format("E57, {} scan{}", scans.size(), scans.size() == 1 ? "" : "s");
   if (normals) format += ", normals";

@@ -15,6 +15,7 @@ Scan parse_las(ByteBlocks& bytes, const ScanReadOptions& options) {
                        [&](const std::string& m, const std::string& a) { bytes.fail(m, a); });
   const std::optional<std::size_t> source_id = header.source_id();
   builder.set_content(false, source_id.has_value());
+  builder.set_intensities(true);
   builder.expect(header.count);
   const unsigned withheld = header.withheld_bit();
   for (std::uint64_t i = 0; i < header.count; ++i) {
@@ -25,7 +26,9 @@ Scan parse_las(ByteBlocks& bytes, const ScanReadOptions& options) {
       Vec3 p;
       for (std::size_t k = 0; k < 3; ++k)
         p[static_cast<Eigen::Index>(k)] = load<std::int32_t>(at + 4 * k) * header.scale[k] + header.origin[k];
-      builder.add(p, Eigen::Vector3f::Zero(), source_id ? load<std::uint16_t>(at + *source_id) : std::uint16_t{0});
+      constexpr std::size_t kIntensity = 12;
+      builder.add(p, Eigen::Vector3f::Zero(), source_id ? load<std::uint16_t>(at + *source_id) : std::uint16_t{0},
+                  static_cast<float>(load<std::uint16_t>(at + kIntensity)));
     }
     bytes.consume(header.record_length);
   }

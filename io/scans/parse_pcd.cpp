@@ -18,7 +18,7 @@ namespace {
 constexpr std::uint64_t kMostPoints = 1'000'000'000'000;
 constexpr std::size_t kLongestRecord = 1'000'000;  // bytes of a point
 
-/// What a dimension of a field holds (0 to 6: x y z nx ny nz pass), and where.
+/// What a dimension of a field holds (0 to 7: x y z nx ny nz pass intensity), and where.
 struct PcdField {
   std::string name;
   std::size_t size = 4, count = 1;
@@ -35,7 +35,7 @@ struct PcdHeader {
   std::size_t record = 0;   ///< bytes
   std::size_t columns = 0;  ///< of text
   std::uint64_t points = 0;
-  bool normals = false, pass = false, moved = false;  ///< moved: the viewpoint is not the origin
+  bool normals = false, pass = false, intensity = false, moved = false;  ///< moved: the viewpoint is not the origin
   UnitFinder unit;
 };
 
@@ -163,6 +163,7 @@ class PcdHeaderReader {
       if (field.count != 1) continue;
       field.value = found.value[k];
       header_.pass |= is_pass;
+      header_.intensity |= field.value == ColumnLayout::kIntensity;
     }
     header_.unit.add(found.unit);
   }
@@ -192,7 +193,8 @@ double pcd_value(const char* at, const PcdField& field) {
 
 void add_values(CloudBuilder& builder, const VertexValues& v) {
   builder.add({v[0], v[1], v[2]}, {static_cast<float>(v[3]), static_cast<float>(v[4]), static_cast<float>(v[5])},
-              builder.has_passes() ? builder.pass(v[kPassValue]) : std::uint16_t{0});
+              builder.has_passes() ? builder.pass(v[kPassValue]) : std::uint16_t{0},
+              static_cast<float>(v[kIntensityValue]));
 }
 
 void read_text(const PcdHeader& header, LineBlocks& lines, CloudBuilder& builder) {
@@ -283,6 +285,7 @@ Scan parse_pcd(ByteBlocks& bytes, const ScanReadOptions& options) {
                          bytes.fail(message, advice);
                        });
   builder.set_content(header.normals, header.pass);
+  builder.set_intensities(header.intensity);
   if (header.data == PcdHeader::Data::ascii)
     read_text(header, *lines, builder);
   else if (header.data == PcdHeader::Data::binary)

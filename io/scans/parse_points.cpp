@@ -35,7 +35,7 @@ class CloudSink : public CloudBuilder {
   void add_values(const VertexValues& v) {
     CloudBuilder::add({v[0], v[1], v[2]},
                       {static_cast<float>(v[3]), static_cast<float>(v[4]), static_cast<float>(v[5])},
-                      has_passes() ? pass(v[kPassValue]) : std::uint16_t{0});
+                      has_passes() ? pass(v[kPassValue]) : std::uint16_t{0}, static_cast<float>(v[kIntensityValue]));
   }
   /// Bit by bit the same point counts once.
   void add_corner(const Vec3& p) {

@@ -55,6 +55,8 @@ class PtxReader {
   }
 
   double value(std::size_t k) const { return value_[k]; }
+  /// NaN where the line has no such number.
+  double value_or_none(std::size_t k) const { return k < count_ ? value_[k] : std::nan(""); }
 
   std::uint64_t count(std::size_t k) const {
     if (!is_whole(value_[k]) || value_[k] < 0.0 || value_[k] > static_cast<double>(kMostElements))
@@ -112,6 +114,7 @@ Scan parse_ptx(ByteBlocks& bytes, const ScanReadOptions& options) {
   CloudBuilder builder(bytes, options, kLeastLine,
                        [&](const std::string& m, const std::string& a) { lines.fail(m, 0, a); });
   builder.set_content(false, true);
+  builder.set_intensities(true);
   std::size_t stations = 0;
   std::string stretched;
   while (const std::optional<Station> station = next_station(reader)) {
@@ -122,13 +125,15 @@ Scan parse_ptx(ByteBlocks& bytes, const ScanReadOptions& options) {
       stretched = fmt::format(", the matrix of station {} stretches by {:.4g} to {:.4g}", stations, by[2], by[0]);
     builder.expect(station->points);
     const std::uint16_t pass = builder.pass(static_cast<double>(stations));
+    builder.set_station(pass, station->shift);
     for (std::uint64_t i = 0; i < station->points; ++i) {
       reader.need(3, 7, "a point (x y z, intensity, red green blue)");
       const Vec3 p(reader.value(0), reader.value(1), reader.value(2));
       if (p.isZero(0.0))
         builder.add_lost();
       else
-        builder.add(station->linear * p + station->shift, Eigen::Vector3f::Zero(), pass);
+        builder.add(station->linear * p + station->shift, Eigen::Vector3f::Zero(), pass,
+                    static_cast<float>(reader.value_or_none(3)));
     }
   }
   std::string format = fmt::format("PTX, {} station{}", stations, stations == 1 ? "" : "s") + stretched;

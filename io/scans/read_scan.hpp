@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -29,17 +31,28 @@ struct Scan {
   std::size_t not_finite = 0;   ///< left out: lost points, for which scanners write NaN or infinite coordinates,
                                 ///< 0 0 0 (PTX) or a mark (E57)
   std::size_t withheld = 0;     ///< left out: points that a LAS file marks as withheld, that is deleted
-  std::size_t outside = 0;      ///< left out: points outside the box that was asked for
+  std::size_t outside = 0;      ///< left out: points outside the box or the ranges that were asked for
   bool several_passes = false;  ///< of passes that went with batches: not all are the same
+};
+
+/// Points that are read by how far they are from the scanner, in the unit of the file, and how strong their echo is.
+struct ScanRanges {
+  double nearest = 0.0, farthest = std::numeric_limits<double>::infinity();
+  double least_intensity = -std::numeric_limits<double>::infinity();
+
+  bool by_distance() const { return nearest > 0.0 || !std::isinf(farthest); }
+  bool by_intensity() const { return !std::isinf(least_intensity); }
 };
 
 struct ScanReadOptions {
   SourcePosition asked_by;                      ///< where the file was named
   std::size_t most_points = 200'000'000;        ///< a file that says it has more is refused
   std::optional<Eigen::AlignedBox3d> box = {};  ///< points outside are left out, in the unit of the file
+  std::optional<ScanRanges> ranges = {};        ///< the same
+  std::optional<Vec3> station = {};  ///< where the scanner stood, for files that do not say it, in their unit
   /// Gets the points in their order, kBatch at most at a time, and may take them; the cloud of the scan stays empty
-  /// then. Without normals; with passes wherever the file has them, see Scan::several_passes. What is read as a
-  /// whole (.stl, compressed .pcd) comes in batches, too.
+  /// then. Without normals and intensities; with passes wherever the file has them, see Scan::several_passes. What is
+  /// read as a whole (.stl, compressed .pcd) comes in batches, too.
   std::function<void(PointCloud& batch)> batch = {};
   static constexpr std::size_t kBatch = 65'536;
 };
@@ -63,6 +76,7 @@ bool is_scan_file(const std::filesystem::path& file);
 ///   .ptx  stations one after the other, each with its matrix applied; pass: the station where there are several.
 ///   .e57  1.0: scans with Cartesian or spherical coordinates, each with its pose applied; the check sum of every page
 ///         that is read is tested; unit: metre; pass: the scan where there are several. Needs Expat.
+///         Of both, the places of matrices and poses are where the scanner stood.
 ///   .xyz .xyzrgb .xyzn .pts .asc .txt .csv  columns of text. Separators: blanks, tabs, ',' or ';'; decimal commas
 ///   where something else separates
 ///         and there is no decimal point. Comments: # ! % // at the start of a line or behind the numbers, ';' before

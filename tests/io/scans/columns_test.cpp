@@ -69,6 +69,33 @@ TEST(Columns, NamesInAHeader) {
   EXPECT_EQ(all.format, "columns x y z nx ny nz pass and 1 ignored, separated by ','");
 }
 
+TEST(Columns, IntensitiesAndRanges) {
+  const std::string text = "x,y,z,Intensity\n1,0,0,20\n2,0,0,-\n3,0,0,40\n";
+  const Scan scan = columns(text);
+  EXPECT_EQ(scan.format, "columns x y z intensity, separated by ','");
+  ASSERT_EQ(scan.cloud.intensities.size(), 3u);
+  EXPECT_EQ(scan.cloud.intensities[0], 20.0f);
+  EXPECT_TRUE(std::isnan(scan.cloud.intensities[1]));
+  ScanReadOptions options;
+  options.station = Vec3(0, 0, 0);
+  options.ranges = ScanRanges{1.5, 10.0};
+  options.ranges->least_intensity = 30.0;
+  const Scan some = parse(scans::parse_columns, text, ByteBlocks::kBlock, options);
+  EXPECT_EQ(some.cloud.points.size(), 2u) << "what is not known is no reason to leave a point out";
+  EXPECT_EQ(some.outside, 1u);
+  const auto refused = [&](const std::string& bytes, const std::string& part) {
+    try {
+      parse(scans::parse_columns, bytes, ByteBlocks::kBlock, options);
+      ADD_FAILURE() << part;
+    } catch (const Error& error) {
+      EXPECT_NE(error.message().find(part), std::string::npos) << error.message();
+    }
+  };
+  refused("x,y,z\n1,0,0\n2,0,0\n", "the file has no intensities");
+  options.station.reset();
+  refused(text, "does not say where the scanner stood");
+}
+
 TEST(Columns, UnitsOfNamesAndComments) {
   EXPECT_EQ(columns("# unit: um\n1 2 3\n").unit, LengthUnit::micrometre);
   EXPECT_EQ(columns("# unit: um\nx[in] y[in] z[in]\n1 2 3\n").unit, LengthUnit::inch);

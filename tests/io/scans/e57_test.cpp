@@ -34,6 +34,9 @@ TEST(E57, ScansWithTheirPosesAndAnyNumberOfBits) {
     EXPECT_EQ(scan.unit, LengthUnit::metre);
     EXPECT_EQ(scan.reference, "");
     EXPECT_EQ(scan.format, "E57, 2 scans, pass from the scan");
+    EXPECT_EQ(scan.cloud.stations.at(1), Vec3(0, 0, 0));
+    EXPECT_EQ(scan.cloud.stations.at(2), Vec3(10, 20, 30));
+    EXPECT_TRUE(scan.cloud.intensities.empty()) << "the same everywhere they say nothing";
   }
 }
 

@@ -17,11 +17,32 @@ TEST(Ptx, StationsArePutWhereTheirMatricesSay) {
   EXPECT_EQ(scan.not_finite, 1u) << "0 0 0 is a place without a point";
   EXPECT_FALSE(scan.unit);
   EXPECT_EQ(scan.format, "PTX, 2 stations, pass from the station");
+  EXPECT_EQ(scan.cloud.intensities, (std::vector<float>{0.5f, 0.25f, 1.0f, 0.5f, 0.5f}));
+  ASSERT_EQ(scan.cloud.stations.size(), 2u);
+  EXPECT_EQ(scan.cloud.stations.at(1), Vec3(0, 0, 0));
+  EXPECT_EQ(scan.cloud.stations.at(2), Vec3(10, 20, 30));
+  EXPECT_EQ(*station_of(scan.cloud, 4), Vec3(10, 20, 30));
+}
+
+TEST(Ptx, RangesCountFromTheStation) {
+  ScanReadOptions options;
+  options.ranges = ScanRanges{2.0, 9.0};
+  const Scan scan = parse(parse_ptx, ptx(), ByteBlocks::kBlock, options);
+  // 1, 10.01 and 22.7 from the first station, 3.7 and 8.8 from the second
+  EXPECT_EQ(scan.cloud.points, (std::vector<Vec3>{kPtxPoints[3], kPtxPoints[4]}));
+  EXPECT_EQ(scan.outside, 3u);
+  EXPECT_EQ(scan.points_in_file, scan.cloud.points.size() + scan.outside + scan.not_finite);
+  options.ranges = ScanRanges{};
+  options.ranges->least_intensity = 0.5;
+  const Scan strong = parse(parse_ptx, ptx(), ByteBlocks::kBlock, options);
+  EXPECT_EQ(strong.cloud.points.size(), 4u);
+  EXPECT_EQ(strong.outside, 1u);
 }
 
 TEST(Ptx, OneStationIsOnePass) {
   const std::string one = ptx().substr(0, ptx().find("\n1\n2\n") + 1);
   const Scan scan = parse_in_all_blocks(parse_ptx, one);
+  EXPECT_EQ(*station_of(scan.cloud, 2), Vec3(0, 0, 0));
   EXPECT_EQ(scan.cloud.points.size(), 3u);
   EXPECT_TRUE(scan.cloud.passes.empty());
   EXPECT_EQ(scan.format, "PTX, 1 station");
