@@ -23,6 +23,7 @@
 #include "treadmark/scans/cleaning/pass_steps.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
 #include "treadmark/scans/line/line_doubts.hpp"
+#include "treadmark/scans/line/track_rails.hpp"
 #include "treadmark/scans/strays/stray_points.hpp"
 
 namespace treadmark::app {
@@ -308,7 +309,7 @@ class RailOnItsLine {
     try {
       const Pose start = scans::first_frame(base, how);
       std::optional<scans::RailLine> given;
-      if (is_given()) given = scans::line_through(given_points_, -start.rotation.col(2));
+      if (is_given()) given = line_without_jumps(-start.rotation.col(2));
       if (given) require_near(*given, start.origin);
       // passes are not laid on each other better than that
       const double least = long_ ? scans::kLeastDeviation : std::max(scans::kLeastDeviation, report_.pass_after);
@@ -335,7 +336,7 @@ class RailOnItsLine {
       for (const measured::Doubt& doubt : scans::line_doubts(scan_.points, scan_.keep, scan_.passes, *scan_.line)) {
         report_.warnings.push_back(fmt::format("{}: {}", doubt.name, doubt.text));
         scan_.doubts.push_back({doubt.name, doubt.text});
-        others = others || doubt.name == "several_rails";
+        others = others || doubt.name == "several_rails" || doubt.name == "switch";
       }
     // where no rail was seen as a whole it must be, once what is beside it is gone
     if (!scan_.line->bent && !others && !must) return;
@@ -397,6 +398,22 @@ class RailOnItsLine {
                      kMilli * kBeside, kMilli * scans::kLeastGap)});
   }
 
+  scans::RailLine line_without_jumps(const Vec3& up) {
+    std::vector<scans::LineJump> jumps;
+    scans::RailLine out = scans::line_through(given_points_, up, &jumps);
+    if (jumps.empty()) return out;
+    constexpr std::size_t kMostTold = 5;
+    std::string places;
+    for (std::size_t k = 0; k < std::min(kMostTold, jumps.size()); ++k)
+      places += fmt::format("{}{:.3g} m after {:.2f} m", k > 0 ? ", " : "", jumps[k].size, jumps[k].along);
+    report_.warnings.push_back(fmt::format(
+        "line_jump: the points of placement.line jump aside or back: {}{}; they were taken to go on from "
+        "there as before, which the line that is found does not depend on but across gaps",
+        places,
+        jumps.size() > kMostTold ? fmt::format(" and at {} more places", jumps.size() - kMostTold) : std::string()));
+    return out;
+  }
+
   void require_near(const scans::RailLine& given, const Vec3& rail) const {
     constexpr double kFarthest = 2.0;  // [m]
     const auto place = given.locate(rail, given.nearest(rail));
@@ -433,8 +450,8 @@ class RailOnItsLine {
 
 }  // namespace
 
-Pose frame_in_cloud(const PlacedScan& scan) {
-  const Pose& X_CS = scan.placement.X_CS;
+Pose frame_in_cloud(const PlacedScan& scan, double x) {
+  const Pose X_CS = scan.placement.X_CS * Pose{Vec3(x, 0.0, 0.0), Mat3::Identity()};
   if (!scan.straightened()) return X_CS;
   return scan.line->line.at(X_CS.origin.x()) * Pose{Vec3(0.0, X_CS.origin.y(), X_CS.origin.z()), X_CS.rotation};
 }
@@ -495,6 +512,51 @@ void fill_line(const PlacedScan& scan, const io::ImportSettings& settings, io::I
   report.line = std::move(out);
 }
 
+SeparateRails separate_rails(Clouds both, const io::ImportSettings& settings, io::ImportReport& report) {
+  scans::PlaceSettings how;
+  how.body = Body::rail;
+  how.up = direction_of(settings.placement.up);
+  how.forward = direction_of(settings.placement.forward);
+  scans::RoughPlace whole;
+  whole.elements = scans::look_for_elements(both.cloud.points);
+  std::optional<LengthUnit> unit = both.unit ? both.unit : both.usual_unit;
+  if (settings.scan.unit != "auto") unit = length_unit(settings.scan.unit);
+  std::optional<scans::RoughPlace> piece = scans::find_piece(both.cloud.points, {}, whole.elements, unit);
+  if (!piece)
+    throw Error(
+        ErrorKind::input_data, "no rail was found by whose side the other one could be looked for", {},
+        "both rails of a track must be scanned along a metre at least; cut out what is none of them (scan.box_from), "
+        "and say the unit with --unit");
+  const double factor = metres_per(find_unit(both, settings, Body::rail, *piece, report));
+  std::vector<Vec3> points = both.cloud.points;
+  for (Vec3& p : points) p *= factor;
+  scans::scale(whole, factor);
+  scans::scale(*piece, factor);
+  const scans::FoundLine found = scans::find_line(points, {}, *piece, whole.elements, how);
+  const scans::TrackRails rails = scans::separate_rails(points, found.line);
+  // what lies beside both: the other one of these is no surprise
+  std::vector<Vec3> others;
+  std::vector<std::uint16_t> passes_of_others;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (rails.of_point[i] == rails.other) continue;
+    others.push_back(points[i]);
+    if (!both.cloud.passes.empty()) passes_of_others.push_back(both.cloud.passes[i]);
+  }
+  for (const measured::Doubt& doubt : scans::line_doubts(others, {}, passes_of_others, found))
+    if (doubt.name == "several_rails" || doubt.name == "switch")
+      report.warnings.push_back(fmt::format("{}: {}", doubt.name, doubt.text));
+  SeparateRails out;
+  for (const std::size_t side : {0u, 1u}) {
+    Clouds& one = out.clouds[side];
+    one = both;
+    keep_points(one.cloud, [&](std::size_t i) {
+      return rails.of_point[i] == (side == 0 ? scans::TrackRail::left : scans::TrackRail::right);
+    });
+    out.forward[side] = side == 0 ? Vec3(-rails.forward) : rails.forward;
+  }
+  return out;
+}
+
 PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportReport& report, StepClock& clock) {
   const io::ImportSettings& settings = request.settings;
   if (settings.scan.unit == "auto" && !clouds.reference.empty())
@@ -511,6 +573,8 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
                                      : "none";
   scan.points = std::move(clouds.cloud.points);
   scan.passes = std::move(clouds.cloud.passes);
+  scan.intensities = std::move(clouds.cloud.intensities);
+  scan.stations = std::move(clouds.cloud.stations);
 
   clock.begin("stray points");
   if (settings.clean.strays)
@@ -537,6 +601,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   report.unit = symbol(unit);
   const double factor = scan.metres = metres_per(unit);
   for (Vec3& p : scan.points) p *= factor;
+  for (auto& [pass, place] : scan.stations) place *= factor;
   scans::scale(rough, factor);
   if (piece) scans::scale(*piece, factor);
   report.spacing *= factor;

@@ -35,6 +35,9 @@ constexpr double kWindow = 0.2;        // windows along a long line [m]
 constexpr double kStep = 0.25;         // of following a rail [m]
 constexpr double kFarthestGap = 20.0;  // that is crossed [m]
 constexpr double kLongest = 20e3;      // of lines [m]
+// numbers of a line must each take away this much of the loss: at once for all that stay in a straight line's, once in
+// some ten thousand scans by chance
+constexpr double kNumberPenalty = 10.0;
 
 /// Points by cubes, to find those about a place.
 class Places {
@@ -353,16 +356,13 @@ class LineSearch {
   }
 
   void choose_shape(const std::vector<LineTarget>& aims, double from, double to, const Vec3& up) {
-    // numbers must each take away this much of the loss: at once for all that stay in a straight line's, once in some
-    // ten thousand scans by chance
-    constexpr double kPenalty = 10.0;
     std::vector<LineShape> shapes{{LineShape::Kind::straight, 1}, {LineShape::Kind::even_bend, 1}};
     for (std::size_t n = 1; (to - from) / static_cast<double>(n) >= kFinest && 2 * (n + 3) < aims.size(); n *= 2)
       shapes.push_back({LineShape::Kind::splines, n});
     double least = kInfinity;
     for (const LineShape& shape : shapes) {
       check_cancelled();
-      const double cost = fit_line(aims, shape, from, to, scatter_, up).loss + kPenalty * shape.numbers();
+      const double cost = fit_line(aims, shape, from, to, scatter_, up).loss + kNumberPenalty * shape.numbers();
       if (cost < least) least = cost, shape_ = shape;
     }
   }
@@ -376,6 +376,37 @@ class LineSearch {
       most = std::max(most, off ? std::hypot(off->y(), off->z()) : kInfinity);
     }
     return most;
+  }
+
+  /// Where windows in a row lie off the line together, by more than they scatter.
+  std::vector<LineKink> kinks() const {
+    constexpr double kSpan = 0.5, kMatters = 20e-6, kLever = 30e-3;  // [m]
+    constexpr double kSure = 60.0;  // chi squared with three degrees of freedom: never by chance
+    const double window = (to_ - from_) / static_cast<double>(windows_.size());
+    const std::size_t run = to_whole<std::size_t>(std::max(2.0, std::ceil(kSpan / window)));
+    std::vector<Vec3> off;  // y, z, roll
+    for (const LineTarget& aim : aims_) {
+      const Vec3 p = line_.at(aim.along).apply_inverse(aim.position);
+      off.emplace_back(p.y(), p.z(), aim.roll - line_.roll(aim.along));
+    }
+    std::vector<LineKink> out;
+    for (std::size_t k = 0; k + run <= aims_.size(); ++k) {
+      constexpr double kMost = 1.5;  // times as long as the run would be without a gap in it
+      if (aims_[k + run - 1].along - aims_[k].along > kMost * window * static_cast<double>(run)) continue;
+      Mat3 information = Mat3::Zero();
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t i = k; i < k + run; ++i)
+        information += aims_[i].information, sum += aims_[i].information * off[i];
+      const Vec3 mean = information.ldlt().solve(sum);
+      const double size = std::hypot(mean.x(), mean.y()) + kLever * std::fabs(mean.z());
+      if (!(size > kMatters) || !(sum.dot(mean) > kSure * scatter_ * scatter_)) continue;
+      const LineKink kink{aims_[k].along - 0.5 * window, aims_[k + run - 1].along + 0.5 * window, size};
+      if (out.empty() || kink.from > out.back().to)
+        out.push_back(kink);
+      else
+        out.back() = {out.back().from, kink.to, std::max(out.back().off, size)};
+    }
+    return out;
   }
 
   FoundLine result() {
@@ -409,6 +440,7 @@ class LineSearch {
     out.bent = shape_.kind != LineShape::Kind::straight && out.deviation > least_deviation_;
     out.chosen = shape_.kind == LineShape::Kind::splines ? out.line.step() : 0.0;
     out.gaps = gaps_;
+    out.kinks = kinks();
     return out;
   }
 
@@ -459,38 +491,126 @@ std::optional<RoughPlace> find_piece(std::span<const Vec3> points, std::span<con
   return std::nullopt;
 }
 
-RailLine line_through(std::span<const Vec3> points, const Vec3& up) {
+namespace {
+
+/// Takes steps out that go aside or back where those around go on: what lies behind is shifted back.
+std::vector<LineJump> take_out_jumps(std::vector<Vec3>& points) {
+  constexpr std::size_t kFewest = 8, kAround = 3;
+  std::vector<LineJump> out;
+  if (points.size() < kFewest) return out;
+  const std::size_t count = points.size() - 1;
+  std::vector<Vec3> step(count);
+  std::vector<double> length(count), turn(count, 0.0), aside(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    step[k] = points[k + 1] - points[k];
+    length[k] = step[k].norm();
+    if (k > 0) turn[k] = (step[k] / length[k] - step[k - 1] / length[k - 1]).norm();
+  }
+  // of as many steps before as behind, so that an even bend changes nothing
+  const auto usual = [&](std::size_t k, const auto& value) {
+    const std::size_t half = std::min({kAround, k, count - 1 - k});
+    std::vector<double> values;
+    for (std::size_t j = k - half; j <= k + half; ++j) values.push_back(value(j));
+    return median_of(values);
+  };
+  std::vector<Vec3> ahead(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      ahead[k][axis] = usual(k, [&](std::size_t j) { return step[j][axis] / length[j]; });
+    ahead[k].normalize();
+    aside[k] = (step[k] - ahead[k] * ahead[k].dot(step[k])).norm();
+  }
+  constexpr double kLeast = 0.05, kSure = 6.0, kTurns = 2.0;  // [m]; standard deviations; usual turns
+  std::vector<double> sorted = aside;
+  const double least = std::max(kLeast, kSure * kMad * median_of(sorted));
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double bends = kTurns * length[k] * usual(k, [&](std::size_t j) { return turn[j]; });
+    if (aside[k] > std::max(least, bends) || ahead[k].dot(step[k]) <= 0.0) found.push_back(k);
+  }
+  constexpr std::size_t kRare = 4;  // where every fourth step jumps there is no line that goes on
+  if (kRare * found.size() > count) return out;
+  Vec3 shift = Vec3::Zero();
+  double along = 0.0;
+  auto next = found.begin();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (next != found.end() && *next == k) {
+      ++next;
+      double on = ahead[k].dot(step[k]);
+      if (on <= 0.0) on = usual(k, [&](std::size_t j) { return length[j]; });
+      const Vec3 jump = step[k] - on * ahead[k];
+      out.push_back({along, jump.norm()});
+      shift -= jump;
+      step[k] = on * ahead[k];
+    }
+    points[k + 1] += shift;
+    along += step[k].norm();
+  }
+  return out;
+}
+
+/// Standard deviation of points about a smooth line, by how their distances from their neighbours' chords differ from
+/// those of an even bend.
+double scatter_of(const std::vector<Vec3>& points, const std::vector<double>& along) {
+  constexpr double kExact = 1e-3;     // as anybody surveys [m]
+  constexpr double kMedian = 1.1774;  // of the length of two normal numbers
+  std::vector<double> sizes;
+  Vec3 before = Vec3::Zero();
+  double h_before = 0.0;
+  for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+    const double a = along[k] - along[k - 1], b = along[k + 1] - along[k], h = a * b;
+    const Vec3 off = points[k] - (b * points[k - 1] + a * points[k + 1]) / (a + b);
+    if (h_before > 0.0) {
+      const double ratio = h / h_before;
+      sizes.push_back((off - ratio * before).norm() / std::sqrt(1.5 + 1.5 * ratio * ratio + 2.0 * ratio));
+    }
+    before = off, h_before = h;
+  }
+  constexpr std::size_t kFewest = 5;
+  return sizes.size() < kFewest ? kExact : std::max(kExact, median_of(sizes) / kMedian);
+}
+
+}  // namespace
+
+RailLine line_through(std::span<const Vec3> points, const Vec3& up, std::vector<LineJump>* jumps) {
   constexpr std::size_t kFewest = 2;
   if (points.size() < kFewest) throw Error(ErrorKind::input_data, "a line needs at least two points");
   constexpr std::size_t kBetween = 8;
   constexpr double kClose = kFinest / kBetween;  // closer points say no more of splines that are not shorter
   std::vector<Vec3> kept{points.front()};
-  std::vector<double> along{0.0};
+  std::vector<std::size_t> number{1};
   for (std::size_t k = 1; k < points.size(); ++k) {
-    if (!((points[k] - points[k - 1]).squaredNorm() > 0.0))
-      throw Error(ErrorKind::input_data, fmt::format("point {} of the line is that before it", k + 1));
-    if (k > 1 && (points[k] - points[k - 1]).dot(points[k - 1] - points[k - 2]) <= 0.0)
-      throw Error(ErrorKind::input_data, fmt::format("the line turns back at its point {}", k), {},
-                  "give its points in the order in which they lie along it");
     const double apart = (points[k] - kept.back()).norm();
-    if (apart < kClose && k + 1 < points.size()) continue;
-    if (!(apart > 0.0)) continue;
+    if (!(apart > 0.0) || (apart < kClose && k + 1 < points.size())) continue;
+    // the last point is the end of the line, however near it is to the one before
+    if (apart < kClose && kept.size() > 1) kept.pop_back(), number.pop_back();
+    if (!((points[k] - kept.back()).norm() > 0.0)) continue;
     kept.push_back(points[k]);
-    along.push_back(along.back() + apart);
+    number.push_back(k + 1);
+  }
+  if (kept.size() < kFewest) throw Error(ErrorKind::input_data, "the points of the line lie at one place");
+  std::vector<LineJump> taken_out = take_out_jumps(kept);
+  if (jumps != nullptr) *jumps = std::move(taken_out);
+  std::vector<double> along{0.0};
+  for (std::size_t k = 1; k < kept.size(); ++k) {
+    if (k > 1 && (kept[k] - kept[k - 1]).dot(kept[k - 1] - kept[k - 2]) <= 0.0)
+      throw Error(ErrorKind::input_data,
+                  fmt::format("the line turns back at its point {}, after {:.2f} m", number[k - 1], along.back()), {},
+                  "give its points in the order in which they lie along it");
+    along.push_back(along.back() + (kept[k] - kept[k - 1]).norm());
   }
   points = kept;
-  if (points.size() < kFewest) throw Error(ErrorKind::input_data, "the points of the line lie at one place");
   if (!(along.back() < kLongest))
     throw Error(ErrorKind::input_data,
                 fmt::format("the line is {:.4g} km long, {:g} km are the most", 1e-3 * along.back(), 1e-3 * kLongest),
                 {}, "are its points in the scan's unit?");
-  // as many splines as points call for, through points between them too, so that none is open
   const std::size_t spans = points.size() - 1;
   const double length = along.back();
   LineShape shape{LineShape::Kind::splines, std::max<std::size_t>(1, spans)};
   while (shape.intervals > 1 && length / static_cast<double>(shape.intervals) < kFinest) shape.intervals /= 2;
   std::vector<LineTarget> targets;
-  const Mat3 information = Vec3(1e6, 1e6, 1e4).asDiagonal();
+  const double scatter = scatter_of(kept, along), known = 1.0 / (scatter * scatter);
+  const Mat3 information = Vec3(known, known, 1e-2 * known).asDiagonal();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3 before = points[k > 0 ? k - 1 : 0], behind = points[std::min(k + 1, points.size() - 1)];
     const auto target = [&](double at, const Vec3& place, const Vec3& direction) {
@@ -518,7 +638,22 @@ RailLine line_through(std::span<const Vec3> points, const Vec3& up) {
              behind - points[k]);
     }
   }
-  return fit_line(targets, shape, 0.0, length, 1.0, up).line;
+  // as many splines as the points call for, beyond what they scatter by
+  RailLine best;
+  double least = kInfinity;
+  for (int worse = 0;; shape.intervals = (shape.intervals + 1) / 2) {
+    check_cancelled();
+    RailLine line = fit_line(targets, shape, 0.0, length, 1.0, up).line;
+    double cost = kNumberPenalty * shape.numbers();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      constexpr double kFar = 6.0;
+      const Vec3 off = line.at(along[k]).apply_inverse(points[k]);
+      cost += std::min(kFar * kFar, known * (off.y() * off.y() + off.z() * off.z()));
+    }
+    worse = cost < least ? 0 : worse + 1;
+    if (worse == 0) least = cost, best = std::move(line);
+    if (shape.intervals == 1 || worse > 1) return best;
+  }
 }
 
 FoundLine find_line(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& piece,

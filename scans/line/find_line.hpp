@@ -24,6 +24,17 @@ struct LineGap {
   double from = 0.0, to = 0.0;  ///< [m]
 };
 
+/// Where the rail bends within less than its line's splines are long, so that it lies off the line.
+struct LineKink {
+  double from = 0.0, to = 0.0;  ///< [m]
+  double off = 0.0;             ///< how far, beside and above, and at the head's side by a turn [m]
+};
+
+/// A step aside or back among points that were given, which go on as before behind it: what tracks of satellites have.
+struct LineJump {
+  double along = 0.0, size = 0.0;  ///< from the first point; how far they jump [m]
+};
+
 /// The line of a scanned rail.
 struct FoundLine {
   RailLine line;
@@ -32,7 +43,8 @@ struct FoundLine {
   double scatter = 0.0;    ///< of the rail's windows about the line, over what the noise of points explains
   double chosen = 0.0;     ///< length of the line's splines, 0: a straight line, or one that bends evenly [m]
   std::vector<LineStation> stations;
-  std::vector<LineGap> gaps;  ///< longer than kLeastGap
+  std::vector<LineGap> gaps;    ///< longer than kLeastGap
+  std::vector<LineKink> kinks;  ///< of more than 20 um, beyond what windows scatter by
 };
 
 inline constexpr double kLeastGap = 0.5;         ///< along the line that is told of [m]
@@ -59,9 +71,10 @@ FoundLine find_line(std::span<const Vec3> points, std::span<const std::uint8_t> 
                     const SurfaceElements& whole, const PlaceSettings& settings, const RailLine* given = nullptr,
                     double least_deviation = kLeastDeviation);
 
-/// A smooth line through points in their order, for find_line to follow; nothing is known of its roll. up: out of the
-/// rail, roughly. Errors: Error(input_data) for fewer than two points, equal neighbours, or turns of more than a right
-/// angle, with the number of the point; for more than 20 km.
-RailLine line_through(std::span<const Vec3> points, const Vec3& up);
+/// A smooth line along points in their order, for find_line to follow; nothing is known of its roll. Points that
+/// scatter are evened out; jumps are not followed: what lies behind goes on from before it. up: out of the rail,
+/// roughly. Errors: Error(input_data) for fewer than two points, all at one place, or turns of more than a right angle,
+/// with the number of the point; for more than 20 km.
+RailLine line_through(std::span<const Vec3> points, const Vec3& up, std::vector<LineJump>* jumps = nullptr);
 
 }  // namespace treadmark::scans

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "treadmark/scans/line/line_doubts.hpp"
+#include "treadmark/scans/line/track_rails.hpp"
 #include "treadmark/tests/scans/line/known_lines.hpp"
 #include "treadmark/tests/scans/placement/cases.hpp"
 
@@ -101,6 +102,7 @@ TEST(FindLine, CurvesOfManyRadii) {
     EXPECT_LT(error.across, kAlignment) << radius;
     EXPECT_LT(error.bend, std::max(kPart / std::fabs(radius), 4.0 * error.stated)) << radius;
     EXPECT_LT(error.stated, kPart / std::fabs(radius)) << radius;
+    EXPECT_TRUE(found.kinks.empty()) << radius;
   }
 }
 
@@ -204,6 +206,94 @@ TEST(FindLine, DoubtsByPlace) {
   EXPECT_FALSE(named(line_doubts(once, {}, {}, found_in(once)), "backward_run"));
 }
 
+/// Two straights that meet at an angle: the line rounds it over the metre that its splines are long, and says so.
+TEST(FindLine, KinksAreTold) {
+  constexpr double kAngle = 4e-3, kAt = 3.0, kLength = 6.0;
+  const Frames kink = [=](double s) {
+    const double on = std::max(0.0, s - kAt);
+    return Pose{Vec3(std::min(s, kAt) + on * std::cos(kAngle), on * std::sin(kAngle), 0.0),
+                rotation_z(s < kAt ? 0.0 : kAngle)};
+  };
+  const std::vector<Vec3> points = bent(straight_rail(kLength, 30e3, false), kink);
+  const FoundLine found = found_in(points);
+  ASSERT_FALSE(found.kinks.empty());
+  bool is_there = false;
+  for (const LineKink& one : found.kinks)
+    if (one.from - found.line.from() < kAt && one.to - found.line.from() > kAt) {
+      is_there = true;
+      // no more than the rounding of the angle over a spline
+      EXPECT_GT(one.off, 20e-6);
+      EXPECT_LT(one.off, kAngle * 1.5);
+    }
+  EXPECT_TRUE(is_there);
+  const auto doubts = line_doubts(points, {}, {}, found);
+  ASSERT_FALSE(doubts.empty());
+  EXPECT_EQ(doubts.front().name, "line_kink");
+  EXPECT_THAT(doubts.front().text, HasSubstr("it bends more suddenly than"));
+}
+
+TEST(FindLine, TracksAndSwitchesByPlace) {
+  constexpr double kLength = 12.0;
+  const Frames curve = circle(1.0 / 300.0);
+  const std::vector<Vec3> own = straight_rail(kLength, 8e3, false);
+  const auto beside = [&](double at, double rate) {
+    std::vector<Vec3> out = own;
+    for (Vec3& p : out) p.y() += at + rate * p.x();
+    return out;
+  };
+  const FoundLine found = found_in(bent(own, curve));
+  const auto doubts_with = [&](const std::vector<std::vector<Vec3>>& others) {
+    std::vector<Vec3> all = own;
+    for (const std::vector<Vec3>& other : others) all.insert(all.end(), other.begin(), other.end());
+    std::string out;
+    for (const measured::Doubt& doubt : line_doubts(bent(all, curve), {}, {}, found))
+      out += doubt.name + ": " + doubt.text;
+    return out;
+  };
+  const std::string tracks = doubts_with({beside(1.5, 0.0), beside(4.0, 0.0), beside(-2.5, 0.0)});
+  for (const char* place :
+       {"1\\.(49|50|51) m to its right", "(3\\.99|4\\.00|4\\.01) m to its right", "2\\.(49|50|51) m to its left"})
+    EXPECT_THAT(tracks, ::testing::ContainsRegex(place));
+  EXPECT_THAT(tracks, ::testing::Not(HasSubstr("switch: ")));
+  const std::string turnout = doubts_with({beside(-1.3, 1.0 / kLength)});
+  EXPECT_THAT(turnout, HasSubstr("switch: "));
+  EXPECT_THAT(turnout, HasSubstr("one comes nearer"));
+  EXPECT_THAT(turnout, HasSubstr("to its left"));
+}
+
+TEST(TrackRails, AreToldApart) {
+  constexpr double kLength = 6.0, kApart = 1.507;
+  const Pose X_CL = tests::some_frame(5);
+  const Frames curve = circle(-1.0 / 300.0, 0.06);
+  std::vector<Vec3> one = straight_rail(kLength, 15e3, false, 1), other = straight_rail(kLength, 15e3, false, 2);
+  const std::vector<Vec3> alone = bent(one, curve, X_CL);
+  const FoundLine found = found_in(alone);
+  for (Vec3& p : other) p.y() += kApart;
+  std::vector<Vec3> all = one;
+  all.insert(all.end(), other.begin(), other.end());
+  Random random(3);
+  constexpr std::size_t kBallast = 40'000;
+  for (std::size_t k = 0; k < kBallast; ++k)
+    all.emplace_back(kLength * random.uniform(), 3.0 * random.uniform() - 0.8, 0.27 + 0.05 * random.uniform());
+  const TrackRails rails = separate_rails(bent(all, curve, X_CL), found.line);
+  // the line may run either way, and right is where it is then
+  const bool along = found.line.at(0.5 * (found.line.from() + found.line.to()))
+                         .rotation.col(0)
+                         .dot((X_CL * curve(0.5 * kLength)).rotation.col(0)) > 0.0;
+  const TrackRail first = along ? TrackRail::left : TrackRail::right,
+                  second = along ? TrackRail::right : TrackRail::left;
+  EXPECT_EQ(rails.other, second);
+  std::size_t wrong = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const TrackRail truth = k < one.size() ? first : k < one.size() + other.size() ? second : TrackRail::none;
+    wrong += rails.of_point[k] != truth ? 1 : 0;
+  }
+  EXPECT_EQ(wrong, 0u);
+  const auto error = tests::error_of([&] { separate_rails(alone, found.line); });
+  ASSERT_TRUE(error);
+  EXPECT_THAT(error->message(), HasSubstr("lies no other"));
+}
+
 TEST(FindLine, FollowsAGivenLineAcrossAGap) {
   const Frames truth = circle(1.0 / 300.0);
   std::vector<Vec3> points = straight_rail(20.0, 15e3, false), guide;
@@ -234,6 +324,45 @@ TEST(LineThrough, RefusesWhatIsNoLine) {
   const auto error = tests::error_of([&] { line_through(back, -Vec3::UnitZ()); });
   ASSERT_TRUE(error);
   EXPECT_THAT(error->message(), HasSubstr("turns back at its point 2"));
+}
+
+/// A track of a satellite receiver: centimetres of scatter, a step that lasts, a point that is off by itself.
+TEST(LineThrough, JumpsAreNotFollowed) {
+  constexpr double kLength = 40.0, kStep = 0.5, kScatter = 5e-3;
+  const Frames truth = circle(1.0 / 300.0);
+  Random random(11);
+  std::vector<Vec3> guide;
+  for (int k = 0; k <= static_cast<int>(kLength / kStep); ++k) {
+    const double s = kStep * k;
+    Vec3 p = truth(s).apply(kScatter * Vec3(tests::gaussian(random), tests::gaussian(random), tests::gaussian(random)));
+    if (k > 24) p += truth(s).rotation.col(1) * 0.8;
+    if (k == 44) p += Vec3(0.0, 0.0, 1.0);
+    guide.push_back(p);
+  }
+  std::vector<LineJump> jumps;
+  const RailLine line = line_through(guide, -Vec3::UnitZ(), &jumps);
+  ASSERT_EQ(jumps.size(), 3u);
+  constexpr double kPlace = 0.4, kSize = 0.1;
+  EXPECT_NEAR(jumps[0].along, 12.0, kPlace);
+  EXPECT_NEAR(jumps[0].size, 0.8, kSize);
+  EXPECT_NEAR(jumps[1].along, 21.5, kPlace);
+  EXPECT_NEAR(jumps[2].size, 1.0, kSize);
+  // as if there had been none: a circle from end to end, within what the scatter at the jumps leaves
+  constexpr double kOff = 0.08;
+  for (double s = 0.0; s <= kLength; s += 1.0) {
+    const Vec3 p = truth(s).origin;
+    const auto place = line.locate(p, line.nearest(p));
+    ASSERT_TRUE(place.has_value()) << s;
+    EXPECT_LT(std::hypot(place->y(), place->z()), kOff) << s;
+  }
+  // scatter is evened out: followed from point to point it would be some 0.06 1/m
+  for (double s = 1.0; s < kLength - 1.0; s += 0.5)
+    EXPECT_LT(std::hypot(line.turn(s).lateral, line.turn(s).vertical), 3.0 / 300.0) << s;
+  std::vector<LineJump> none;
+  std::vector<Vec3> exact;
+  for (double s = 0.0; s <= kLength; s += 5.0) exact.push_back(truth(s).origin);
+  line_through(exact, -Vec3::UnitZ(), &none);
+  EXPECT_TRUE(none.empty());
 }
 
 TEST(LineThrough, DensePointsAreThinned) {
