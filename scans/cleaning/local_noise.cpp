@@ -132,6 +132,7 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
           : std::clamp(to_whole<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
   const auto columns = static_cast<int>(points.columns);
   std::vector<float> of_cell(points.begin.size() - 1, -1.0f);
+  if (settings.residuals) out.residual.assign(points.size(), static_cast<float>(kNaN));
   std::vector<std::size_t> outliers(points.rows, 0), spared(points.rows, 0), isolated(points.rows, 0);
   parallel_for(points.rows, [&](std::size_t row) {
     Window samples;
@@ -168,7 +169,9 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
           ++isolated[row];
           continue;
         }
-        if (!(std::fabs(points.d[i] - fit.c.dot(t)) > limit * std::sqrt(1.0 - leverage))) continue;
+        const double off = std::fabs(points.d[i] - fit.c.dot(t));
+        if (settings.residuals) out.residual[i] = static_cast<float>(off / std::sqrt(1.0 - leverage));
+        if (!(off > limit * std::sqrt(1.0 - leverage))) continue;
         ++(edge ? spared : outliers)[row];
         if (!edge) points.state[i] = PointState::outlier;
       }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "treadmark/scans/cleaning/band_points.hpp"
@@ -18,6 +19,7 @@ struct NoiseSettings {
   double most_flagged = 0.2;  ///< where more of the surroundings would be outliers they are an edge or a step, and stay
   int window = 0;             ///< as LocalNoise::window; 0: by the density of the points
   double typical = 0.0;       ///< as LocalNoise::typical [m]; 0: by the points
+  bool residuals = false;     ///< fill LocalNoise::residual
 };
 
 /// Scatter of the points about smooth local surfaces, and the points that stand out of it.
@@ -28,11 +30,14 @@ struct LocalNoise {
   std::size_t outliers = 0, spared = 0;         ///< spared: left in because their surroundings are an edge
   std::size_t isolated = 0;                     ///< points with hardly any others around them: outliers too
   int window = 1;                               ///< surroundings are this many cells to each side
+  std::vector<float> residual;  ///< if asked for: of each point from its surroundings without it [m]; NaN: isolated
+  std::vector<float> factor;    ///< of each point of the cloud, times sigma (noise_factors.hpp); empty: 1
 
   static constexpr std::size_t kTileCells = 16;
   double at(std::size_t row, std::size_t column) const {
     return sigma[(row / kTileCells) * tile_columns + column / kTileCells];
   }
+  double factor_of(std::uint32_t index) const { return factor.empty() ? 1.0 : static_cast<double>(factor[index]); }
 };
 
 /// Fits a quadratic to the surroundings of every cell (iteratively reweighted: absolute values, then Tukey's biweight)

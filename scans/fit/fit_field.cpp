@@ -107,7 +107,7 @@ class FieldFit {
       auto& [used, held_out] = counts[from / kRows];
       for (std::size_t row = from; row < to; ++row)
         for (std::size_t column = 0; column < points_.columns; ++column) {
-          const double sigma = noise_.at(row, column);
+          const double of_cell = noise_.at(row, column);
           for (std::size_t i = points_.first(row, column); i < points_.begin[row * points_.columns + column + 1]; ++i) {
             if (points_.state[i] == PointState::held_out) points_.state[i] = PointState::used;
             if (points_.state[i] != PointState::used) continue;
@@ -117,6 +117,7 @@ class FieldFit {
               ++held_out;
               continue;
             }
+            const double sigma = of_cell * noise_.factor_of(points_.index[i]);
             weight_[i] = static_cast<float>(1.0 / (sigma * sigma));
             ++used;
           }
@@ -199,7 +200,7 @@ class FieldFit {
           if (points_.state[i] == PointState::used) used += square;
           if (points_.state[i] == PointState::held_out) {
             held += square;
-            variance += noise_.at(row, column) * noise_.at(row, column);
+            variance += std::pow(noise_.at(row, column) * noise_.factor_of(points_.index[i]), 2);
           }
         }
     if (out_.used > 0) out_.residual_rms = std::sqrt(used / static_cast<double>(out_.used));
